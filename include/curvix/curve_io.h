@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curves and edges to and from files; docs/output_format.md describes each.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace curvix {
+
+// Writes `curves` in the format that the extension names: .ply (line set),
+// .pcd (point cloud with curve ids), .obj (lines), .txt (readable, with the
+// supporting image ids, which is what `scene` is for). The file appears whole
+// or not at all.
+Status WriteCurves(const std::filesystem::path& path,
+                   const CurveSet& curves,
+                   const Scene& scene);
+
+// Reads a line set back: .ply with `element edge`, .obj with `l` lines, or the
+// .txt that WriteCurves writes. Support is read from .txt only, as views
+// without an edge (edge_idx 0).
+Result<CurveSet> ReadCurves(const std::filesystem::path& path,
+                            const Scene& scene);
+
+// Writes oriented 3D edges as points: .ply with tangents and support counts.
+Status WriteEdges(const std::filesystem::path& path,
+                  const std::vector<Edge3d>& edges);
+
+}  // namespace curvix

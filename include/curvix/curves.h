@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The result: curves in space.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include <curvix/edges.h>
+
+namespace curvix {
+
+struct CurveSample {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit, along the curve
+  double sigma = 0;  // standard deviation across the curve, world units
+  std::vector<EdgeRef> support;  // at most one 2D edge per view, ascending
+};
+
+// A polyline of at least two samples. If `closed`, the last sample is followed
+// by the first, which is not repeated.
+struct Curve {
+  bool closed = false;
+  std::vector<CurveSample> samples;
+};
+
+// The index of a curve is its id in every output file.
+struct CurveSet {
+  std::vector<Curve> curves;
+};
+
+// The length of the polyline, closing segment included. World units.
+inline double Length(const Curve& curve) {
+  double length = 0;
+  for (std::size_t i = 1; i < curve.samples.size(); ++i) {
+    length +=
+        (curve.samples[i].position - curve.samples[i - 1].position).norm();
+  }
+  if (curve.closed && !curve.samples.empty()) {
+    length +=
+        (curve.samples.front().position - curve.samples.back().position).norm();
+  }
+  return length;
+}
+
+}  // namespace curvix

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything public.
+#pragma once
+
+#include <curvix/curve_io.h>
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/option_table.h>
+#include <curvix/options.h>
+#include <curvix/reconstruct.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <curvix/synthetic.h>

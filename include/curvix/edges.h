@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Oriented edges, in images and in space.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+namespace curvix {
+
+// An oriented edge in the ideal (undistorted) pinhole image of a view.
+// `angle` is that of the tangent t = (cos, sin), from +x towards +y, in
+// (-pi, pi]; the image is brighter on the side of (-sin, cos), which is t
+// turned a quarter from +x towards +y. Code that has no use for the bright side
+// treats angles as equal mod pi.
+struct Edge2d {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
+  float angle = 0;                                     // radians
+  float strength = 0;  // gradient magnitude, grey levels (0..255) per pixel
+};
+
+// The neighbours of an edge along its image contour (paper, Sec. 5): `next`
+// lies in the direction of the tangent, `previous` against it. A link a.next ==
+// b need not be mutual.
+struct EdgeNeighbors {
+  std::optional<std::int32_t> previous;
+  std::optional<std::int32_t> next;
+};
+
+// All edges of one view, in detector order (row by row).
+struct EdgeMap {
+  std::vector<Edge2d> edges;
+  std::vector<EdgeNeighbors> neighbors;  // one per edge
+  double noise = 0;  // standard deviation of the image noise, grey levels
+};
+
+// Names an edge of a view. Ordered by view, then edge.
+struct EdgeRef {
+  std::int32_t view_idx = 0;
+  std::int32_t edge_idx = 0;
+
+  friend bool operator==(const EdgeRef& a, const EdgeRef& b) {
+    return a.view_idx == b.view_idx && a.edge_idx == b.edge_idx;
+  }
+  friend bool operator<(const EdgeRef& a, const EdgeRef& b) {
+    return std::tie(a.view_idx, a.edge_idx) < std::tie(b.view_idx, b.edge_idx);
+  }
+};
+
+// An oriented edge in space and the 2D edges that formed or supported it
+// (paper, Sec. 3): at most one per view, ascending.
+struct Edge3d {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit, sign-free
+  std::vector<EdgeRef> support;
+};
+
+}  // namespace curvix

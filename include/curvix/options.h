@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every parameter of the reconstruction, one struct per stage. The defaults are
+// the best that we know how to do; PaperOptions() is the method of the paper.
+// option_table.h gives each field its flag, range and help text.
+#pragma once
+
+namespace curvix {
+
+// Sec. 3, ref. [15].
+struct EdgeDetectionOptions {
+  // Standard deviation of the Gaussian derivative filters. Pixels, > 0.
+  double sigma_px = 1.0;
+  // Weakest gradient kept, grey levels per pixel; >= 0. Raised by
+  // `noise_factor` where the image is noisy.
+  double min_gradient = 1.0;
+  // Weakest gradient kept, in standard deviations of the gradient of the
+  // image's own noise; >= 0.
+  double noise_factor = 5.0;
+  // Edges nearer to the border of the image are dropped. Pixels, >= 0.
+  double border_px = 4.0;
+  // Longest step to the next edge along a contour (Sec. 5). Pixels, > 0.
+  double max_neighbor_distance_px = 3.0;
+  // Largest angle between an edge, its neighbour and the chord. Degrees, > 0.
+  double max_neighbor_angle_deg = 15.0;
+};
+
+// How hypothesis views are chosen (Sec. 3).
+enum class ViewSelection {
+  kUnusedEdges,  // paper: the pair of views with most unused edges, repeatedly
+  kEveryView,    // every view with its best partners, unexplained edges only
+};
+
+// Sec. 3, Fig. 3(a), (b).
+struct HypothesisOptions {
+  ViewSelection view_selection = ViewSelection::kEveryView;
+  // Delta gamma: how well an edge is localised. Pixels, > 0.
+  double location_tolerance_px = 0.3;
+  // Partners of each view with kEveryView; >= 1.
+  int num_partners = 4;
+  // Smallest and largest angle between the rays of a view pair. Degrees.
+  double min_ray_angle_deg = 5.0;
+  double max_ray_angle_deg = 50.0;
+  // Smallest angle between an edge and its epipolar line. Degrees, >= 0.
+  double min_epipolar_angle_deg = 5.0;
+  // P: with kUnusedEdges, stop when this share of the edges of every view is
+  // used. 0..1.
+  double used_edges_to_stop = 0.9;
+  // With kUnusedEdges, stop after so many pairs of views; >= 1.
+  int max_num_view_pairs = 50;
+};
+
+// Sec. 4, Fig. 5.
+struct ConsolidationOptions {
+  // tau_t: longest slide of an H2 edge along its tangent. Pixels, > 0.
+  double max_tangent_shift_px = 3.0;
+  // Delta theta: largest turn of an H2 edge that makes it meet the epipolar
+  // line. Degrees, >= 0.
+  double max_turn_deg = 10.0;
+  // tau_c: clusters further apart are not merged. Pixels, > 0.
+  double max_cluster_distance_px = 1.0;
+  // tau_theta: clusters that differ more in direction are not merged. Degrees.
+  double max_cluster_angle_deg = 20.0;
+  // Standard deviation of the weights of the mean direction. Pixels, > 0.
+  double angle_weight_sigma_px = 2.0;
+};
+
+// What counts as support in a view (Sec. 3, Fig. 3(c)).
+enum class SupportTest {
+  kWedges,    // paper: an edge in the intersection of both epipolar wedges
+  kDistance,  // an edge near the projected edge
+};
+
+// Sec. 3, Fig. 3(c)-(e).
+struct ValidationOptions {
+  SupportTest support_test = SupportTest::kDistance;
+  // Largest normal distance of a supporting edge, with kDistance. Pixels, > 0.
+  double max_distance_px = 1.0;
+  // Delta theta_p: largest angle of a supporting edge. Degrees, > 0.
+  double max_angle_deg = 15.0;
+  // M: fewest supporting validation views; >= 1.
+  int min_num_support_views = 4;
+  // Hypotheses of one H1 edge with fewer than this share of the best one's
+  // support are dropped. 0..1.
+  double min_rival_support = 0.6;
+};
+
+// Beyond the paper: 3D edges moved onto the 2D edges of all their views.
+struct EdgeRefinementOptions {
+  bool enabled = true;
+  // Rounds of association and adjustment; >= 0.
+  int num_rounds = 5;
+};
+
+// Sec. 5, Fig. 6.
+struct NeighborhoodOptions {
+  // lambda of the spread tests mu + lambda * sigma; > 0.
+  double max_spread = 1.0;
+  // tau_gamma: longest distance between the projections of linked edges.
+  // Pixels, > 0.
+  double max_projection_distance_px = 6.0;
+};
+
+// Sec. 5, Fig. 7.
+struct AlignmentOptions {
+  // 0 leaves the edges where they are.
+  int num_iterations = 0;
+  // Share of the mean force and torque applied in each iteration. > 0, <= 1.
+  double step_size = 0.01;
+};
+
+// Sec. 6.
+struct ConnectivityOptions {
+  // Shortest curve kept, in pixels of the view that sees it largest; >= 0.
+  double min_length_px = 10.0;
+};
+
+struct RuntimeOptions {
+  // Threads; <= 0 means one per core.
+  int num_threads = -1;
+};
+
+struct Options {
+  EdgeDetectionOptions edge_detection;
+  HypothesisOptions hypotheses;
+  ConsolidationOptions consolidation;
+  ValidationOptions validation;
+  EdgeRefinementOptions edge_refinement;
+  NeighborhoodOptions neighborhood;
+  AlignmentOptions alignment;
+  ConnectivityOptions connectivity;
+  RuntimeOptions runtime;
+};
+
+// The method and the values of the paper throughout.
+Options PaperOptions();
+
+}  // namespace curvix

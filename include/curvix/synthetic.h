@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Synthetic scenes with exact curves: for tests, for the quick start, and for
+// trying the tool. Nothing here knows how curves are reconstructed.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+enum class SyntheticSolid {
+  kBlock,     // a box with a step: straight edges only
+  kCylinder,  // an upright cylinder on a plate: circles and occluding contours
+  kCone,      // a truncated cone on a plate
+  kSphere,    // a sphere cut by a plane: one circle, and an occluding contour
+  kPart,      // a bracket with a hole, a boss and a cone: all of the above
+};
+
+struct SyntheticOptions {
+  SyntheticSolid solid = SyntheticSolid::kPart;
+  int num_views = 24;  // >= 3
+  int width = 480;     // pixels, >= 16
+  int height = 480;    // pixels, >= 16
+  double noise = 0;    // standard deviation, grey levels, >= 0
+  double texture = 0;  // contrast of surface texture, grey levels, >= 0
+  CameraModel camera_model = CameraModel::kPinhole;
+  double distortion = 0;  // first radial coefficient where the model has one
+  double pose_error_px =
+      0;             // disturbs the written poses, not the rendered ones
+  double scale = 1;  // longest side of the solid, world units, > 0
+  std::uint64_t seed = 1;
+};
+
+// 8-bit RGB, row-major.
+struct RgbImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+// One exact sample of a sharp edge.
+struct TrueSample {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
+  int curve_id = 0;
+  int num_views_seen = 0;  // views in which nothing hides it
+  int num_views_edge = 0;  // of these, where the image has contrast there
+};
+
+struct SyntheticScene {
+  Scene scene;  // poses as written, views named view_000.png ...
+  std::vector<RgbImage> images;   // one per view, rendered with the exact poses
+  std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
+};
+
+// Deterministic for equal options. kInvalidArgument if an option is out of
+// range.
+Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options);
+
+}  // namespace curvix

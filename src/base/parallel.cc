@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace curvix {
+namespace {
+
+// Keeps the exception of the smallest index.
+class FirstError {
+ public:
+  void Keep(std::size_t index, std::exception_ptr error) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (error_ == nullptr || index < index_) {
+      index_ = index;
+      error_ = std::move(error);
+    }
+  }
+  void Rethrow() const {
+    if (error_ != nullptr) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t index_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+int ResolveNumThreads(int requested) {
+  if (requested > 0) return requested;
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void ParallelFor(std::size_t n,
+                 int num_threads,
+                 const std::function<void(std::size_t)>& f) {
+  FirstError error;
+  // Handing out indices one by one balances uneven work; which thread computes
+  // a slot has no influence on what is written there.
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < n; i = next++) {
+      try {
+        f(i);
+      } catch (...) {
+        error.Keep(i, std::current_exception());
+      }
+    }
+  };
+  const std::size_t num_helpers =
+      std::min<std::size_t>(
+          n, static_cast<std::size_t>(ResolveNumThreads(num_threads))) -
+      std::min<std::size_t>(n, 1);
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 0; i < num_helpers; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  error.Rethrow();
+}
+
+}  // namespace curvix

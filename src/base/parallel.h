@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). The only door to threads.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace curvix {
+
+// `requested` if positive, else the number of cores.
+int ResolveNumThreads(int requested);
+
+// Calls f(i) for every i in [0, n), on up to num_threads threads. f may write
+// to slot i and nothing else, so results do not depend on the number of
+// threads. If calls throw, the exception of the smallest index is rethrown
+// after all calls have ended. Calls must not be nested.
+void ParallelFor(std::size_t n,
+                 int num_threads,
+                 const std::function<void(std::size_t)>& f);
+
+// The parts, one after the other.
+template <typename T>
+std::vector<T> Concatenate(std::vector<std::vector<T>> parts) {
+  std::size_t size = 0;
+  for (const std::vector<T>& part : parts) size += part.size();
+  std::vector<T> whole;
+  whole.reserve(size);
+  for (std::vector<T>& part : parts) {
+    whole.insert(whole.end(),
+                 std::make_move_iterator(part.begin()),
+                 std::make_move_iterator(part.end()));
+  }
+  return whole;
+}
+
+}  // namespace curvix

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). What the stages need to know of a view.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace curvix {
+
+// A view as an ideal pinhole: pixel ~ calibration * (rotation * X +
+// translation).
+struct PosedView {
+  Eigen::Matrix3d calibration = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // cam_from_world
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   // cam_from_world
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();        // camera, in world
+  int width = 0;                                           // pixels
+  int height = 0;                                          // pixels
+
+  Eigen::Vector3d InCamera(const Eigen::Vector3d& x) const {
+    return rotation * x + translation;
+  }
+  // Pixel of a point given in camera coordinates, z > 0.
+  Eigen::Vector2d Pixel(const Eigen::Vector3d& x_cam) const {
+    return (calibration * x_cam).hnormalized();
+  }
+  bool Contains(const Eigen::Vector2d& pixel) const {
+    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < width &&
+           pixel.y() < height;
+  }
+  // World direction, not normalised, in which `pixel` is seen.
+  Eigen::Vector3d Ray(const Eigen::Vector2d& pixel) const {
+    const Eigen::Vector3d in_camera(
+        (pixel.x() - calibration(0, 2)) / calibration(0, 0),
+        (pixel.y() - calibration(1, 2)) / calibration(1, 1),
+        1.0);
+    return rotation.transpose() * in_camera;
+  }
+};
+
+}  // namespace curvix
