@@ -2,6 +2,7 @@
 // Everything public.
 #pragma once
 
+#include <curvix/camera_model.h>
 #include <curvix/curve_io.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). COLMAP's camera models, both ways.
+// COLMAP's camera models, both ways.
 //
 // u = X/Z and v = Y/Z are ideal image coordinates. The ideal pinhole of a
 // camera has its focal lengths and principal point and no distortion: it is the
