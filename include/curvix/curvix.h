@@ -6,6 +6,7 @@
 #include <curvix/curve_io.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
+#include <curvix/file_io.h>
 #include <curvix/option_table.h>
 #include <curvix/options.h>
 #include <curvix/reconstruct.h>

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Line sets as PLY.
+#include "output/ply_lines.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "output/bytes.h"
+#include "output/curve_style.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::string_view kPlyStart =
+    "ply\n"
+    "format binary_little_endian 1.0\n"
+    "comment curvix: coordinates are those of the COLMAP model\n"
+    "element vertex ";
+constexpr std::string_view kPlyGeometry =
+    "\n"
+    "property float x\n"
+    "property float y\n"
+    "property float z\n"
+    "property float tx\n"
+    "property float ty\n"
+    "property float tz\n"
+    "property uchar red\n"
+    "property uchar green\n"
+    "property uchar blue\n";
+constexpr std::size_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
+
+Status TooManyVertices(std::size_t count) {
+  return {StatusCode::kUnsupported,
+          "A PLY file names vertices with 32 bits, too few for " +
+              std::to_string(count) + " of them; write .txt instead."};
+}
+
+void AppendVector(const Eigen::Vector3d& vector, std::string& out) {
+  for (int i = 0; i < 3; ++i) {
+    AppendLittleEndian(static_cast<float>(vector[i]), out);
+  }
+}
+
+void AppendRgb(const Rgb& rgb, std::string& out) {
+  for (const std::uint8_t channel : rgb) AppendLittleEndian(channel, out);
+}
+
+// A curve of two samples closes onto the same segment, so it stays open.
+bool HasClosingEdge(const Curve& curve) {
+  return curve.closed && curve.samples.size() > 2;
+}
+
+std::string LinesHeader(std::size_t num_vertices, std::size_t num_edges) {
+  std::string header(kPlyStart);
+  header += std::to_string(num_vertices);
+  header += kPlyGeometry;
+  header +=
+      "property float curve_id\n"
+      "property float confidence\n"
+      "property float support\n"
+      "element edge ";
+  header += std::to_string(num_edges);
+  header +=
+      "\n"
+      "property int vertex1\n"
+      "property int vertex2\n"
+      "end_header\n";
+  return header;
+}
+
+void AppendVertices(const Curve& curve, std::size_t id, std::string& out) {
+  const Rgb color = CurveColor(id);
+  for (const CurveSample& sample : curve.samples) {
+    AppendVector(sample.position, out);
+    AppendVector(sample.tangent, out);
+    AppendRgb(color, out);
+    AppendLittleEndian(static_cast<float>(id), out);
+    AppendLittleEndian(Confidence(sample.support.size()), out);
+    AppendLittleEndian(static_cast<float>(sample.support.size()), out);
+  }
+}
+
+void AppendEdge(std::size_t from, std::size_t to, std::string& out) {
+  AppendLittleEndian(static_cast<std::int32_t>(from), out);
+  AppendLittleEndian(static_cast<std::int32_t>(to), out);
+}
+
+void AppendEdges(const Curve& curve, std::size_t first, std::string& out) {
+  for (std::size_t i = 1; i < curve.samples.size(); ++i) {
+    AppendEdge(first + i - 1, first + i, out);
+  }
+  if (HasClosingEdge(curve)) {
+    AppendEdge(first + curve.samples.size() - 1, first, out);
+  }
+}
+
+}  // namespace
+
+Result<std::string> EncodePlyLines(const CurveSet& curves) {
+  std::size_t num_vertices = 0;
+  std::size_t num_edges = 0;
+  for (const Curve& curve : curves.curves) {
+    num_vertices += curve.samples.size();
+    num_edges += curve.samples.empty() ? 0 : curve.samples.size() - 1;
+    num_edges += HasClosingEdge(curve) ? 1 : 0;
+  }
+  if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
+
+  std::string out = LinesHeader(num_vertices, num_edges);
+  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
+    AppendVertices(curves.curves[id], id, out);
+  }
+  std::size_t first = 0;
+  for (const Curve& curve : curves.curves) {
+    AppendEdges(curve, first, out);
+    first += curve.samples.size();
+  }
+  return out;
+}
+
+Result<std::string> EncodePlyEdges(const std::vector<Edge3d>& edges) {
+  if (edges.size() > kMaxVertices) return TooManyVertices(edges.size());
+  std::string out(kPlyStart);
+  out += std::to_string(edges.size());
+  out += kPlyGeometry;
+  out += "property float support\nend_header\n";
+  for (const Edge3d& edge : edges) {
+    AppendVector(edge.position, out);
+    AppendVector(edge.tangent, out);
+    AppendRgb(DirectionColor(edge.tangent), out);
+    AppendLittleEndian(static_cast<float>(edge.support.size()), out);
+  }
+  return out;
+}
+
+}  // namespace curvix
