@@ -30,8 +30,13 @@ std::vector<OptionRow> OptionTable(Options& options);
 
 // The value of a row as text, and text into the row's field.
 // kInvalidArgument: "Validation.max_angle_deg is -1; it must be > 0".
+// A double is printed with the fewest digits that read back as it, a bool as 1
+// or 0 (also read: true, false, yes, no, on, off).
 std::string ValueText(const OptionRow& row);
 Status SetFromText(const OptionRow& row, const std::string& text);
+
+// What a row allows: "> 0", ">= 0 and <= 1", "0 or 1", "wedges or distance".
+std::string RangeText(const OptionRow& row);
 
 // kInvalidArgument, naming the field, its value and the range, if any is
 // outside.

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). The rows; option_text.cc reads and prints them.
+#include <curvix/option_table.h>
+
+#include <limits>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+struct Range {
+  double min;
+  double max;
+  bool min_is_excluded;
+};
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr double kMaxCount = 1e6;
+
+constexpr Range AtLeast(double min) { return {min, kNoLimit, false}; }
+constexpr Range Above(double min) { return {min, kNoLimit, true}; }
+constexpr Range Between(double min, double max) { return {min, max, false}; }
+constexpr Range AboveUpTo(double min, double max) { return {min, max, true}; }
+constexpr Range Count(double min) { return {min, kMaxCount, false}; }
+
+using Field = decltype(OptionRow::field);
+using Texts = std::vector<std::string>;
+
+// The rows of one struct of Options. A row is one call:
+// (field name, field, range, unit, symbol in the paper, help).
+class Section {
+ public:
+  Section(std::string prefix, std::vector<OptionRow>& rows)
+      : prefix_(std::move(prefix)), rows_(rows) {}
+
+  void operator()(const char* name,
+                  Field field,
+                  Range range,
+                  const char* unit,
+                  const char* symbol,
+                  const char* help) {
+    rows_.push_back({prefix_ + name,
+                     field,
+                     range.min,
+                     range.max,
+                     range.min_is_excluded,
+                     {},
+                     unit,
+                     symbol,
+                     help});
+  }
+
+  void Switch(const char* name, bool* field, const char* help) {
+    (*this)(name, field, Between(0, 1), "", "", help);
+  }
+
+  void Choice(const char* name,
+              Field field,
+              Texts choices,
+              const char* symbol,
+              const char* help) {
+    const double last = static_cast<double>(choices.size()) - 1;
+    (*this)(name, field, Between(0, last), "", symbol, help);
+    rows_.back().choices = std::move(choices);
+  }
+
+ private:
+  std::string prefix_;
+  std::vector<OptionRow>& rows_;
+};
+
+// Laid out by hand, so that it reads as a table.
+// clang-format off
+
+void AddRows(EdgeDetectionOptions& o, Section row) {
+  row("sigma_px", &o.sigma_px, Between(0.3, 10), "px", "Sec. 3, ref. [15]",
+      "standard deviation of the Gaussian derivative filters");
+  row("min_gradient", &o.min_gradient, AtLeast(0), "grey levels/px",
+      "Sec. 3, ref. [15]",
+      "weakest gradient kept");
+  row("noise_factor", &o.noise_factor, AtLeast(0), "", "",
+      "weakest gradient kept, in standard deviations of the gradient of the "
+      "image's noise");
+  row("border_px", &o.border_px, AtLeast(0), "px", "",
+      "edges nearer to the border of the image are dropped");
+  row("max_neighbor_distance_px", &o.max_neighbor_distance_px,
+      AboveUpTo(0, 100), "px", "Sec. 5",
+      "longest step to the next edge along a contour");
+  row("max_neighbor_angle_deg", &o.max_neighbor_angle_deg, AboveUpTo(0, 90),
+      "deg", "Sec. 5",
+      "largest angle between an edge, its neighbor and the chord");
+}
+
+void AddRows(HypothesisOptions& o, Section row) {
+  row.Choice("view_selection", &o.view_selection,
+      {"unused_edges", "every_view"}, "Sec. 3",
+      "pairs of views: those with most unused edges in turn, or every view "
+      "with its best partners");
+  row("location_tolerance_px", &o.location_tolerance_px, AboveUpTo(0, 100),
+      "px", "Delta gamma, Sec. 3",
+      "how well an edge is localized: opens the epipolar wedges");
+  row("num_partners", &o.num_partners, Count(1), "", "",
+      "partners of each view with every_view");
+  row("min_ray_angle_deg", &o.min_ray_angle_deg, Between(0, 180), "deg", "",
+      "smallest angle between the rays of a pair of views");
+  row("max_ray_angle_deg", &o.max_ray_angle_deg, AboveUpTo(0, 180), "deg", "",
+      "largest angle between the rays of a pair of views");
+  row("min_epipolar_angle_deg", &o.min_epipolar_angle_deg, Between(0, 90),
+      "deg", "",
+      "smallest angle between an edge and its epipolar line");
+  row("used_edges_to_stop", &o.used_edges_to_stop, Between(0, 1), "",
+      "P, Sec. 3",
+      "with unused_edges: stop when this share of the edges of every view is "
+      "used");
+  row("max_num_view_pairs", &o.max_num_view_pairs, Count(1), "", "",
+      "with unused_edges: stop after so many pairs of views");
+}
+
+void AddRows(ConsolidationOptions& o, Section row) {
+  row("max_tangent_shift_px", &o.max_tangent_shift_px, AboveUpTo(0, 100), "px",
+      "tau_t, Sec. 4",
+      "longest slide of an edge along its tangent onto the epipolar line");
+  row("max_turn_deg", &o.max_turn_deg, Between(0, 90), "deg",
+      "Delta theta, Sec. 4",
+      "largest turn that makes an edge meet the epipolar line");
+  row("max_cluster_distance_px", &o.max_cluster_distance_px, AboveUpTo(0, 100),
+      "px", "tau_c, Sec. 4",
+      "clusters further apart are not merged");
+  row("max_cluster_angle_deg", &o.max_cluster_angle_deg, AboveUpTo(0, 90),
+      "deg", "tau_theta, Sec. 4",
+      "clusters that differ more in direction are not merged");
+  row("angle_weight_sigma_px", &o.angle_weight_sigma_px, Above(0), "px",
+      "Sec. 4",
+      "standard deviation of the weights of a cluster's mean direction");
+}
+
+void AddRows(ValidationOptions& o, Section row) {
+  row.Choice("support_test", &o.support_test, {"wedges", "distance"}, "Sec. 3",
+      "what supports a hypothesis in a view: an edge in both epipolar "
+      "wedges, or one near its projection");
+  row("max_distance_px", &o.max_distance_px, AboveUpTo(0, 100), "px", "",
+      "with distance: largest normal distance of a supporting edge");
+  row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg",
+      "Delta theta_p, Sec. 3",
+      "largest angle between a supporting edge and the projection");
+  row("min_num_support_views", &o.min_num_support_views, Count(1), "",
+      "M, Sec. 3",
+      "fewest validation views that must support a hypothesis");
+  row("min_rival_support", &o.min_rival_support, Between(0, 1), "", "",
+      "hypotheses of one edge with less than this share of the best one's "
+      "support are dropped");
+}
+
+void AddRows(EdgeRefinementOptions& o, Section row) {
+  row.Switch("enabled", &o.enabled,
+      "move 3D edges onto the 2D edges of all their views");
+  row("num_rounds", &o.num_rounds, Count(0), "", "",
+      "rounds of association and adjustment");
+}
+
+void AddRows(NeighborhoodOptions& o, Section row) {
+  row("max_spread", &o.max_spread, Above(0), "", "lambda, Sec. 5",
+      "links beyond mean + max_spread * standard deviation are pruned");
+  row("max_projection_distance_px", &o.max_projection_distance_px, Above(0),
+      "px", "tau_gamma, Sec. 5",
+      "longest distance between the projections of linked edges");
+}
+
+void AddRows(AlignmentOptions& o, Section row) {
+  row("num_iterations", &o.num_iterations, Count(0), "", "Sec. 5",
+      "alignment steps; 0 leaves the edges where they are");
+  row("step_size", &o.step_size, AboveUpTo(0, 1), "", "Sec. 5",
+      "share of the mean force and torque applied in a step");
+}
+
+void AddRows(ConnectivityOptions& o, Section row) {
+  row("min_length_px", &o.min_length_px, AtLeast(0), "px", "Sec. 6",
+      "shortest curve kept, in the view that sees it largest");
+}
+
+void AddRows(RuntimeOptions& o, Section row) {
+  row("num_threads", &o.num_threads, Between(-1, 4096), "", "",
+      "threads; -1 or 0 means one per core");
+}
+
+// clang-format on
+
+}  // namespace
+
+std::vector<OptionRow> OptionTable(Options& options) {
+  std::vector<OptionRow> rows;
+  AddRows(options.edge_detection, Section("EdgeDetection.", rows));
+  AddRows(options.hypotheses, Section("Hypotheses.", rows));
+  AddRows(options.consolidation, Section("Consolidation.", rows));
+  AddRows(options.validation, Section("Validation.", rows));
+  AddRows(options.edge_refinement, Section("EdgeRefinement.", rows));
+  AddRows(options.neighborhood, Section("Neighborhood.", rows));
+  AddRows(options.alignment, Section("Alignment.", rows));
+  AddRows(options.connectivity, Section("Connectivity.", rows));
+  AddRows(options.runtime, Section("", rows));
+  return rows;
+}
+
+}  // namespace curvix

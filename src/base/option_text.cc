@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Values of the option table as text and back.
+#include <curvix/option_table.h>
+
+#include <array>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "base/check.h"
+
+namespace curvix {
+namespace {
+
+// Independent of the locale; the shortest text that reads back as `value`.
+std::string NumberText(double value) {
+  if (value == std::numeric_limits<double>::infinity()) return "infinity";
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(), text.data() + 64, value).ptr;
+  return {text.data(), end};
+}
+
+template <typename T>
+std::optional<T> ParseNumber(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  T value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (text.empty() || error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::optional<bool> ParseSwitch(const std::string& text) {
+  for (const char* yes : {"1", "true", "yes", "on"}) {
+    if (text == yes) return true;
+  }
+  for (const char* no : {"0", "false", "no", "off"}) {
+    if (text == no) return false;
+  }
+  return std::nullopt;
+}
+
+std::optional<int> ParseChoice(const OptionRow& row, const std::string& text) {
+  for (std::size_t i = 0; i < row.choices.size(); ++i) {
+    if (row.choices[i] == text) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+// The value as a number: of an enum, its index.
+double NumberOf(const OptionRow& row) {
+  return std::visit(
+      [](const auto* field) { return static_cast<double>(*field); }, row.field);
+}
+
+Status OutOfRange(const OptionRow& row, const std::string& text) {
+  return {StatusCode::kInvalidArgument,
+          row.name + " is " + text + "; it must be " + RangeText(row)};
+}
+
+// Also catches NaN.
+bool IsInRange(const OptionRow& row, double value) {
+  return value <= row.max &&
+         (row.min_is_excluded ? value > row.min : value >= row.min);
+}
+
+// Text into a field; false if the text is none of the field's values.
+struct FieldReader {
+  const OptionRow& row;
+  const std::string& text;
+
+  bool operator()(bool* field) const {
+    const std::optional<bool> value = ParseSwitch(text);
+    if (value) *field = *value;
+    return value.has_value();
+  }
+  bool operator()(int* field) const { return ReadNumber(field); }
+  bool operator()(double* field) const { return ReadNumber(field); }
+  template <typename Enum>
+  bool operator()(Enum* field) const {
+    const std::optional<int> value = ParseChoice(row, text);
+    if (value) *field = static_cast<Enum>(*value);
+    return value.has_value();
+  }
+
+ private:
+  template <typename T>
+  bool ReadNumber(T* field) const {
+    const std::optional<T> value = ParseNumber<T>(text);
+    if (!value || !IsInRange(row, static_cast<double>(*value))) return false;
+    *field = *value;
+    return true;
+  }
+};
+
+}  // namespace
+
+std::string ValueText(const OptionRow& row) {
+  if (row.choices.empty()) return NumberText(NumberOf(row));
+  const auto index = static_cast<std::size_t>(NumberOf(row));
+  CURVIX_CHECK(index < row.choices.size(), row.name << " has no name");
+  return row.choices[index];
+}
+
+std::string RangeText(const OptionRow& row) {
+  if (std::holds_alternative<bool*>(row.field)) return "0 or 1";
+  if (!row.choices.empty()) {
+    std::string text = row.choices.front();
+    for (std::size_t i = 1; i < row.choices.size(); ++i) {
+      text += (i + 1 == row.choices.size() ? " or " : ", ") + row.choices[i];
+    }
+    return text;
+  }
+  const std::string sign = row.min_is_excluded ? "> " : ">= ";
+  std::string text = sign + NumberText(row.min);
+  if (row.max < std::numeric_limits<double>::infinity()) {
+    text += " and <= " + NumberText(row.max);
+  }
+  return text;
+}
+
+Status SetFromText(const OptionRow& row, const std::string& text) {
+  const bool is_read = std::visit(FieldReader{row, text}, row.field);
+  return is_read ? Status() : OutOfRange(row, text.empty() ? "empty" : text);
+}
+
+Status Validate(const Options& options) {
+  Options copy = options;
+  for (const OptionRow& row : OptionTable(copy)) {
+    if (!IsInRange(row, NumberOf(row))) {
+      return OutOfRange(row, NumberText(NumberOf(row)));
+    }
+  }
+  if (copy.hypotheses.min_ray_angle_deg > copy.hypotheses.max_ray_angle_deg) {
+    return {StatusCode::kInvalidArgument,
+            "Hypotheses.min_ray_angle_deg is larger than "
+            "Hypotheses.max_ray_angle_deg"};
+  }
+  return {};
+}
+
+}  // namespace curvix

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <curvix/option_table.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+
+namespace curvix {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Converts to anything, so that Aggregate{Any, Any, ...} compiles as long as
+// there are no more of them than fields.
+struct Any {
+  template <typename T>
+  operator T() const;  // NOLINT: implicit
+};
+
+template <std::size_t>
+using AnyAt = Any;
+
+template <typename Aggregate, std::size_t... kIndexes>
+constexpr bool HasFields(std::index_sequence<kIndexes...>) {
+  return requires { Aggregate{AnyAt<kIndexes>{}...}; };
+}
+
+// The number of fields of a struct.
+template <typename Aggregate, std::size_t kCount = 0>
+constexpr std::size_t NumFields() {
+  if constexpr (!HasFields<Aggregate>(std::make_index_sequence<kCount + 1>())) {
+    return kCount;
+  } else {
+    return NumFields<Aggregate, kCount + 1>();
+  }
+}
+
+template <typename... Structs>
+constexpr std::size_t NumFieldsOf(const Structs&...) {
+  return (NumFields<Structs>() + ...);
+}
+
+const OptionRow& Find(const std::vector<OptionRow>& rows,
+                      const std::string& name) {
+  for (const OptionRow& row : rows) {
+    if (row.name == name) return row;
+  }
+  throw std::runtime_error("no row " + name);
+}
+
+const void* Address(const OptionRow& row) {
+  return std::visit([](const auto* field) -> const void* { return field; },
+                    row.field);
+}
+
+TEST(OptionTable, HasOneRowForEveryField) {
+  Options options;
+  const auto& [a, b, c, d, e, f, g, h, i] = options;  // every struct of Options
+  const auto rows = OptionTable(options);
+  EXPECT_EQ(rows.size(), NumFieldsOf(a, b, c, d, e, f, g, h, i))
+      << "options.h and option_table.cc do not list the same fields";
+
+  std::set<const void*> fields;
+  std::set<std::string> names;
+  for (const OptionRow& row : rows) {
+    EXPECT_TRUE(fields.insert(Address(row)).second) << row.name;
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+  }
+}
+
+TEST(OptionTable, RowsFollowTheOrderOfTheFields) {
+  Options options;
+  const void* previous = nullptr;
+  for (const OptionRow& row : OptionTable(options)) {
+    EXPECT_LT(previous, Address(row)) << row.name;
+    previous = Address(row);
+  }
+}
+
+TEST(OptionTable, EveryRowExplainsItself) {
+  Options options;
+  for (const OptionRow& row : OptionTable(options)) {
+    EXPECT_THAT(row.help, testing::SizeIs(testing::Gt(9u))) << row.name;
+    EXPECT_EQ(row.help.find('\n'), std::string::npos) << row.name;
+    EXPECT_NE(row.help.back(), '.') << row.name;
+    EXPECT_FALSE(RangeText(row).empty()) << row.name;
+    const bool is_degrees = row.name.ends_with("_deg");
+    EXPECT_EQ(is_degrees, row.unit == "deg") << row.name;
+    EXPECT_EQ(row.name.ends_with("_px"), row.unit == "px") << row.name;
+  }
+}
+
+TEST(OptionTable, DefaultsAndPaperValuesAreValid) {
+  EXPECT_EQ(Validate(Options()).message(), "");
+  EXPECT_EQ(Validate(PaperOptions()).message(), "");
+}
+
+TEST(OptionTable, TextOfAValueReadsBackAsTheValue) {
+  Options paper = PaperOptions();
+  Options options;
+  const auto from = OptionTable(paper);
+  const auto to = OptionTable(options);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    EXPECT_EQ(SetFromText(to[i], ValueText(from[i])).message(), "");
+    EXPECT_EQ(ValueText(to[i]), ValueText(from[i])) << from[i].name;
+  }
+}
+
+TEST(OptionTable, PrintsTheShortestNumberThatReadsBack) {
+  Options options;
+  options.hypotheses.location_tolerance_px = 0.1 + 0.2;
+  const auto rows = OptionTable(options);
+  const OptionRow& row = Find(rows, "Hypotheses.location_tolerance_px");
+  EXPECT_EQ(ValueText(row), "0.30000000000000004");
+  ASSERT_TRUE(SetFromText(row, "0.3").ok());
+  EXPECT_EQ(ValueText(row), "0.3");
+}
+
+TEST(OptionTable, RefusesWhatIsOutsideTheRangeAndKeepsTheValue) {
+  Options options;
+  for (const OptionRow& row : OptionTable(options)) {
+    const std::string before = ValueText(row);
+    for (const char* text :
+         {"", " ", "abc", "nan", "1e999", "-7", "99999999999999999999", "1x"}) {
+      const bool is_open_above = std::isinf(row.max);
+      if (is_open_above && std::string(text).starts_with("9999")) continue;
+      const Status status = SetFromText(row, text);
+      EXPECT_EQ(status.code(), StatusCode::kInvalidArgument)
+          << row.name << " = " << text;
+      EXPECT_THAT(status.message(), HasSubstr(row.name));
+      EXPECT_EQ(ValueText(row), before);
+    }
+  }
+}
+
+TEST(OptionTable, LimitsAreInclusiveUnlessExcluded) {
+  Options options;
+  const auto rows = OptionTable(options);
+  const OptionRow& share = Find(rows, "Hypotheses.used_edges_to_stop");
+  EXPECT_TRUE(SetFromText(share, "0").ok());
+  EXPECT_TRUE(SetFromText(share, "1").ok());
+  EXPECT_FALSE(SetFromText(share, "1.0001").ok());
+  const OptionRow& step = Find(rows, "Alignment.step_size");
+  EXPECT_FALSE(SetFromText(step, "0").ok());
+  EXPECT_TRUE(SetFromText(step, "1").ok());
+  EXPECT_EQ(RangeText(step), "> 0 and <= 1");
+}
+
+TEST(OptionTable, ErrorsNameTheFieldItsValueAndTheRange) {
+  Options options;
+  const auto rows = OptionTable(options);
+  EXPECT_THAT(
+      SetFromText(Find(rows, "Validation.max_angle_deg"), "-1").message(),
+      AllOf(HasSubstr("Validation.max_angle_deg is -1"),
+            HasSubstr("it must be > 0")));
+  EXPECT_EQ(
+      SetFromText(Find(rows, "Validation.support_test"), "wedge").message(),
+      "Validation.support_test is wedge; it must be wedges or distance");
+
+  options.validation.max_angle_deg = std::numeric_limits<double>::quiet_NaN();
+  const Status status = Validate(options);
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("Validation.max_angle_deg is nan"));
+}
+
+TEST(OptionTable, RefusesAnEmptyRangeOfRayAngles) {
+  Options options;
+  options.hypotheses.min_ray_angle_deg = 60;
+  options.hypotheses.max_ray_angle_deg = 50;
+  EXPECT_EQ(Validate(options).code(), StatusCode::kInvalidArgument);
+}
+
+TEST(OptionTable, ReadsSwitchesInEveryUsualSpelling) {
+  Options options;
+  const auto rows = OptionTable(options);
+  const OptionRow& row = Find(rows, "EdgeRefinement.enabled");
+  for (const char* no : {"0", "false", "no", "off"}) {
+    options.edge_refinement.enabled = true;
+    EXPECT_TRUE(SetFromText(row, no).ok());
+    EXPECT_FALSE(options.edge_refinement.enabled) << no;
+  }
+  for (const char* yes : {"1", "true", "yes", "on"}) {
+    options.edge_refinement.enabled = false;
+    EXPECT_TRUE(SetFromText(row, yes).ok());
+    EXPECT_TRUE(options.edge_refinement.enabled) << yes;
+  }
+}
+
+}  // namespace
+}  // namespace curvix
