@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// COLMAP's camera models, both ways.
+// COLMAP's camera models, both ways: ids 0 to 16, with COLMAP's formulas.
+// EQUIRECTANGULAR (17) has no pinhole image and is not supported.
 //
 // u = X/Z and v = Y/Z are ideal image coordinates. The ideal pinhole of a
 // camera has its focal lengths and principal point and no distortion: it is the
@@ -15,7 +16,8 @@
 
 namespace curvix {
 
-// The number of parameters of `model`.
+// The number of parameters of `model`. Here and in ModelName, `model` is one of
+// the enumerators.
 int NumParams(CameraModel model);
 
 // COLMAP's name of `model`, "SIMPLE_RADIAL" say, and back. nullopt: unknown.
@@ -24,7 +26,8 @@ std::optional<CameraModel> ModelFromName(std::string_view name);
 std::optional<CameraModel> ModelFromId(int colmap_model_id);
 
 // kInvalidArgument unless size, parameter count and values make a camera:
-// positive size, finite parameters, positive focal lengths.
+// positive size, finite parameters, positive focal lengths; FOV: |omega| < pi;
+// EUCM: 0 <= alpha <= 1 and beta > 0. The functions below need a valid camera.
 Status Validate(const Camera& camera);
 
 // The ideal pinhole's calibration matrix.
@@ -33,16 +36,21 @@ Eigen::Matrix3d PinholeCalibration(const Camera& camera);
 // Whether the model is its own ideal pinhole (PINHOLE, SIMPLE_PINHOLE).
 bool IsPinhole(const Camera& camera);
 
-// The pixel at which the direction (u, v, 1) is seen.
+// The pixel at which the direction (u, v, 1) is seen. NaN where the camera has
+// no image of it (the division models with k > 0, beyond 4 k (u^2 + v^2) = 1).
+// Far outside the image, polynomial models fold over and the pixel means
+// nothing; IdealFromImage(ImageFromIdeal(uv)) != uv tells.
 Eigen::Vector2d ImageFromIdeal(const Camera& camera, const Eigen::Vector2d& uv);
 
-// The direction (u, v, 1) seen at `pixel`: Newton's method on the distortion.
-// nullopt where it does not converge to within 1e-6 px, or where the direction
-// is more than 80 degrees off the optical axis.
+// The direction (u, v, 1) seen at `pixel`: Newton's method on the distortion,
+// started at the undistorted guess and kept where the model is one-to-one (its
+// Jacobian's determinant positive). nullopt where it does not converge to
+// within 1e-6 px, or where the direction is more than 80 degrees off the
+// optical axis.
 std::optional<Eigen::Vector2d> IdealFromImage(const Camera& camera,
                                               const Eigen::Vector2d& pixel);
 
-// d ImageFromIdeal / d(u, v).
+// d ImageFromIdeal / d(u, v), exact; [pixels per unit of (u, v)].
 Eigen::Matrix2d ImageFromIdealJacobian(const Camera& camera,
                                        const Eigen::Vector2d& uv);
 
