@@ -3,36 +3,73 @@
 #include <curvix/curve_io.h>
 #include <curvix/file_io.h>
 
+#include <string>
+
+#include "output/obj_lines.h"
+#include "output/pcl_lines.h"
 #include "output/ply_lines.h"
+#include "output/txt_curves.h"
 
 namespace curvix {
 namespace {
 
-Status UnknownExtension(const std::filesystem::path& path) {
-  return {StatusCode::kInvalidArgument,
-          path.string() +
-              " does not end in .ply, .pcd, .obj or .txt, so its "
-              "format is not known."};
+namespace fs = std::filesystem;
+
+Result<std::string> Encode(const std::string& extension,
+                           const CurveSet& curves,
+                           const Scene& scene) {
+  if (extension == ".ply") return EncodePlyLines(curves);
+  if (extension == ".pcd") return EncodePcd(ToPointCloud(curves));
+  if (extension == ".obj") return EncodeObjLines(curves);
+  if (extension == ".txt") return EncodeTxtCurves(curves, scene);
+  return Status(StatusCode::kInvalidArgument,
+                "curves are written as .ply, .pcd, .obj or .txt, not as \"" +
+                    extension + "\"");
 }
 
-Status Write(const std::filesystem::path& path,
-             const Result<std::string>& bytes) {
-  return bytes.ok() ? WriteFileAtomically(path, *bytes) : bytes.status();
+Result<CurveSet> Decode(const std::string& extension,
+                        const std::string& bytes,
+                        const Scene& scene) {
+  if (extension == ".ply") return DecodePlyLines(bytes);
+  if (extension == ".obj") return DecodeObjLines(bytes);
+  if (extension == ".txt") return DecodeTxtCurves(bytes, scene);
+  return Status(StatusCode::kInvalidArgument,
+                "curves are read from .ply, .obj or .txt, not from \"" +
+                    extension + "\"");
+}
+
+// The same status with the file that it is about.
+Status About(const fs::path& path, const Status& status) {
+  return {status.code(), path.string() + ": " + status.message() + "."};
+}
+
+Status Write(const fs::path& path, const Result<std::string>& bytes) {
+  if (!bytes.ok()) return About(path, bytes.status());
+  return WriteFileAtomically(path, *bytes);
 }
 
 }  // namespace
 
-Status WriteCurves(const std::filesystem::path& path,
+Status WriteCurves(const fs::path& path,
                    const CurveSet& curves,
-                   const Scene&) {
-  if (path.extension() == ".ply") return Write(path, EncodePlyLines(curves));
-  return UnknownExtension(path);
+                   const Scene& scene) {
+  return Write(path, Encode(path.extension().string(), curves, scene));
 }
 
-Status WriteEdges(const std::filesystem::path& path,
-                  const std::vector<Edge3d>& edges) {
-  if (path.extension() == ".ply") return Write(path, EncodePlyEdges(edges));
-  return UnknownExtension(path);
+Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
+  const Result<std::string> bytes = ReadFile(path);
+  if (!bytes.ok()) return bytes.status();
+  Result<CurveSet> curves = Decode(path.extension().string(), *bytes, scene);
+  if (!curves.ok()) return About(path, curves.status());
+  return curves;
+}
+
+Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
+  if (path.extension() != ".ply") {
+    return About(path,
+                 {StatusCode::kInvalidArgument, "edges are written as .ply"});
+  }
+  return Write(path, EncodePlyEdges(edges));
 }
 
 }  // namespace curvix

@@ -32,7 +32,7 @@ constexpr std::size_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
 Status TooManyVertices(std::size_t count) {
   return {StatusCode::kUnsupported,
           "A PLY file names vertices with 32 bits, too few for " +
-              std::to_string(count) + " of them; write .txt instead."};
+              std::to_string(count) + " of them; write .txt instead"};
 }
 
 void AppendVector(const Eigen::Vector3d& vector, std::string& out) {
