@@ -55,6 +55,9 @@ struct Edge3d {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit, sign-free
   std::vector<EdgeRef> support;
+  double sigma = 0;     // standard deviation across the tangent, world units;
+                        // 0: not estimated
+  double evidence = 0;  // how strongly the views support it; larger is stronger
 };
 
 }  // namespace curvix

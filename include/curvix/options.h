@@ -39,7 +39,7 @@ struct HypothesisOptions {
   int num_partners = 4;
   // Smallest and largest angle between the rays of a view pair. Degrees.
   double min_ray_angle_deg = 5.0;
-  double max_ray_angle_deg = 50.0;
+  double max_ray_angle_deg = 60.0;
   // Smallest angle between an edge and its epipolar line. Degrees, >= 0.
   double min_epipolar_angle_deg = 5.0;
   // P: with kUnusedEdges, stop when this share of the edges of every view is
@@ -79,16 +79,12 @@ struct ValidationOptions {
   double max_angle_deg = 15.0;
   // M: fewest supporting validation views; >= 1.
   int min_num_support_views = 4;
+  // With kDistance: least evidence, see docs/paper_map.md; natural logarithm
+  // units, >= 0.
+  double min_evidence = 10.0;
   // Hypotheses of one H1 edge with fewer than this share of the best one's
   // support are dropped. 0..1.
   double min_rival_support = 0.6;
-};
-
-// Beyond the paper: 3D edges moved onto the 2D edges of all their views.
-struct EdgeRefinementOptions {
-  bool enabled = true;
-  // Rounds of association and adjustment; >= 0.
-  int num_rounds = 5;
 };
 
 // Sec. 5, Fig. 6.
@@ -98,6 +94,9 @@ struct NeighborhoodOptions {
   // tau_gamma: longest distance between the projections of linked edges.
   // Pixels, > 0.
   double max_projection_distance_px = 6.0;
+  // Links that one edge may ask for, the heaviest first; >= 1. Bounds memory;
+  // the paper has no limit.
+  int max_num_links = 100;
 };
 
 // Sec. 5, Fig. 7.
@@ -106,12 +105,36 @@ struct AlignmentOptions {
   int num_iterations = 0;
   // Share of the mean force and torque applied in each iteration. > 0, <= 1.
   double step_size = 0.01;
+  // Pull towards the line with the mean direction of both edges, which leaves
+  // circles alone; the neighbour's own line (paper) lets them grow.
+  bool use_mean_direction = true;
 };
 
-// Sec. 6.
+// Sec. 6. Lengths in pixels are those of the view that sees the place largest.
 struct ConnectivityOptions {
+  // Edges nearer together along a curve are made one. Pixels, >= 0; 0 (paper)
+  // keeps all.
+  double sample_spacing_px = 1.0;
+  // Largest distance across the own tangent of edges made one or connected.
+  // Pixels, > 0.
+  double max_normal_distance_px = 1.5;
+  // Longest step along the own tangent to the next edge. Pixels, > 0.
+  double max_step_px = 4.0;
+  // Largest angle between connected edges. Degrees, > 0, <= 90.
+  double max_angle_deg = 30.0;
+  // Longest gap closed between ends that continue each other. Pixels, >= 0; 0
+  // (paper) closes none.
+  double max_gap_px = 10.0;
+  // A piece of a curve nearer to a longer one is drawn once. Pixels, >= 0; 0
+  // (paper) keeps all.
+  double max_repeat_distance_px = 1.0;
   // Shortest curve kept, in pixels of the view that sees it largest; >= 0.
   double min_length_px = 10.0;
+};
+
+// Beyond the paper: curves moved onto the 2D edges of all their views.
+struct CurveRefinementOptions {
+  bool enabled = true;
 };
 
 struct RuntimeOptions {
@@ -124,10 +147,10 @@ struct Options {
   HypothesisOptions hypotheses;
   ConsolidationOptions consolidation;
   ValidationOptions validation;
-  EdgeRefinementOptions edge_refinement;
   NeighborhoodOptions neighborhood;
   AlignmentOptions alignment;
   ConnectivityOptions connectivity;
+  CurveRefinementOptions curve_refinement;
   RuntimeOptions runtime;
 };
 

@@ -146,16 +146,11 @@ void AddRows(ValidationOptions& o, Section row) {
   row("min_num_support_views", &o.min_num_support_views, Count(1), "",
       "M, Sec. 3",
       "fewest validation views that must support a hypothesis");
+  row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
+      "with distance: least evidence of the views for a 3D edge, log units");
   row("min_rival_support", &o.min_rival_support, Between(0, 1), "", "",
       "hypotheses of one edge with less than this share of the best one's "
       "support are dropped");
-}
-
-void AddRows(EdgeRefinementOptions& o, Section row) {
-  row.Switch("enabled", &o.enabled,
-      "move 3D edges onto the 2D edges of all their views");
-  row("num_rounds", &o.num_rounds, Count(0), "", "",
-      "rounds of association and adjustment");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {
@@ -178,6 +173,11 @@ void AddRows(ConnectivityOptions& o, Section row) {
       "shortest curve kept, in the view that sees it largest");
 }
 
+void AddRows(CurveRefinementOptions& o, Section row) {
+  row.Switch("enabled", &o.enabled,
+      "move curves onto the 2D edges of all their views");
+}
+
 void AddRows(RuntimeOptions& o, Section row) {
   row("num_threads", &o.num_threads, Between(-1, 4096), "", "",
       "threads; -1 or 0 means one per core");
@@ -193,10 +193,10 @@ std::vector<OptionRow> OptionTable(Options& options) {
   AddRows(options.hypotheses, Section("Hypotheses.", rows));
   AddRows(options.consolidation, Section("Consolidation.", rows));
   AddRows(options.validation, Section("Validation.", rows));
-  AddRows(options.edge_refinement, Section("EdgeRefinement.", rows));
   AddRows(options.neighborhood, Section("Neighborhood.", rows));
   AddRows(options.alignment, Section("Alignment.", rows));
   AddRows(options.connectivity, Section("Connectivity.", rows));
+  AddRows(options.curve_refinement, Section("CurveRefinement.", rows));
   AddRows(options.runtime, Section("", rows));
   return rows;
 }

@@ -179,16 +179,16 @@ TEST(OptionTable, RefusesAnEmptyRangeOfRayAngles) {
 TEST(OptionTable, ReadsSwitchesInEveryUsualSpelling) {
   Options options;
   const auto rows = OptionTable(options);
-  const OptionRow& row = Find(rows, "EdgeRefinement.enabled");
+  const OptionRow& row = Find(rows, "CurveRefinement.enabled");
   for (const char* no : {"0", "false", "no", "off"}) {
-    options.edge_refinement.enabled = true;
+    options.curve_refinement.enabled = true;
     EXPECT_TRUE(SetFromText(row, no).ok());
-    EXPECT_FALSE(options.edge_refinement.enabled) << no;
+    EXPECT_FALSE(options.curve_refinement.enabled) << no;
   }
   for (const char* yes : {"1", "true", "yes", "on"}) {
-    options.edge_refinement.enabled = false;
+    options.curve_refinement.enabled = false;
     EXPECT_TRUE(SetFromText(row, yes).ok());
-    EXPECT_TRUE(options.edge_refinement.enabled) << yes;
+    EXPECT_TRUE(options.curve_refinement.enabled) << yes;
   }
 }
 

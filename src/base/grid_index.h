@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Finds edges near a place in an image.
+#pragma once
+
+#include <curvix/edges.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+// An edge as the index keeps it: everything that a look-up compares.
+struct IndexedEdge {
+  Eigen::Vector2f position;  // pixels
+  Eigen::Vector2f tangent;   // unit
+  std::int32_t edge_idx = 0;
+};
+
+// Edges of one image in square buckets, each bucket in edge order. Building
+// takes O(edges + buckets); a visit touches only the buckets that meet its
+// square.
+class GridIndex {
+ public:
+  GridIndex() = default;
+  // cell_size_px > 0. The grid spans the bounding box of the edges.
+  GridIndex(const std::vector<Edge2d>& edges, double cell_size_px);
+
+  // Calls f(edge) for each edge in buckets that meet the axis-aligned square of
+  // half-width `radius_px` around `center`: all edges inside the square and
+  // some around it; bucket by bucket in row order, always the same order.
+  template <typename F>
+  void VisitAround(const Eigen::Vector2d& center,
+                   double radius_px,
+                   const F& f) const {
+    if (edges_.empty()) return;
+    const int column_begin =
+        Cell(center.x() - radius_px - origin_.x(), columns_);
+    const int column_end = Cell(center.x() + radius_px - origin_.x(), columns_);
+    const int row_begin = Cell(center.y() - radius_px - origin_.y(), rows_);
+    const int row_end = Cell(center.y() + radius_px - origin_.y(), rows_);
+    for (int row = row_begin; row <= row_end; ++row) {
+      const std::int32_t* begins = &begins_[Bucket(column_begin, row)];
+      const int num_columns = column_end - column_begin + 1;
+      for (std::int32_t i = begins[0]; i < begins[num_columns]; ++i) {
+        f(edges_[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+
+  std::size_t size() const { return edges_.size(); }
+
+ private:
+  // The bucket of an offset from the origin, clamped into the grid.
+  int Cell(double offset, int count) const {
+    const double cell = offset / cell_size_px_;
+    if (!(cell > 0)) return 0;
+    return cell >= count ? count - 1 : static_cast<int>(cell);
+  }
+  std::size_t Bucket(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  double cell_size_px_ = 1;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::int32_t> begins_;  // first edge of each bucket, and the end
+  std::vector<IndexedEdge> edges_;
+};
+
+}  // namespace curvix

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "geometry/adjust_edge.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace curvix {
+namespace {
+
+constexpr int kNumIterations = 3;
+
+// Signed pixel distance of x from the measured edge, and its gradient.
+struct Residual {
+  double value = 0;
+  Eigen::Vector3d gradient;
+};
+Residual Evaluate(const PlaneMeasurement& m, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d offset = x - m.center;
+  const double depth = m.axis.dot(offset);
+  const double value = m.plane.dot(offset) / depth;
+  return {value, (m.plane - value * m.axis) / depth};
+}
+
+double CauchyWeight(double residual, double sigma_px) {
+  const double r = residual / sigma_px;
+  return 1 / (1 + r * r);
+}
+
+struct NormalEquations {
+  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d vector = Eigen::Vector2d::Zero();
+  double weighted_squares = 0;
+  double weights = 0;
+};
+
+NormalEquations Linearise(const EdgeEstimate& estimate,
+                          const std::vector<PlaneMeasurement>& measurements,
+                          double sigma_px) {
+  NormalEquations sum;
+  for (const PlaneMeasurement& m : measurements) {
+    const Residual residual = Evaluate(m, estimate.edge.position);
+    const double weight = CauchyWeight(residual.value, sigma_px);
+    const Eigen::Vector2d gradient(residual.gradient.dot(estimate.across1),
+                                   residual.gradient.dot(estimate.across2));
+    sum.matrix += weight * gradient * gradient.transpose();
+    sum.vector += weight * residual.value * gradient;
+    sum.weighted_squares += weight * residual.value * residual.value;
+    sum.weights += weight;
+  }
+  // Keeps the system regular: a prior as weak as a thousandth of a measurement.
+  const double prior =
+      1e-3 * sum.matrix.trace() / static_cast<double>(measurements.size());
+  sum.matrix += prior * Eigen::Matrix2d::Identity();
+  return sum;
+}
+
+// The direction most orthogonal to the planes' normals, on the side of `start`.
+Eigen::Vector3d FitTangent(const EdgeEstimate& estimate,
+                           const std::vector<PlaneMeasurement>& measurements,
+                           double sigma_px) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const PlaneMeasurement& m : measurements) {
+    const Eigen::Vector3d normal = m.plane.normalized();
+    const double weight =
+        CauchyWeight(Evaluate(m, estimate.edge.position).value, sigma_px);
+    scatter += weight * normal * normal.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(scatter);
+  const Eigen::Vector3d eigenvalues = solver.eigenvalues();
+  // Planes that all but coincide leave the tangent open.
+  if (!(eigenvalues(1) > 1e-4 * eigenvalues(2))) return estimate.edge.tangent;
+  const Eigen::Vector3d tangent = solver.eigenvectors().col(0).normalized();
+  return tangent.dot(estimate.edge.tangent) < 0 ? -tangent : tangent;
+}
+
+void SetAxes(EdgeEstimate& estimate) {
+  estimate.across1 = estimate.edge.tangent.unitOrthogonal();
+  estimate.across2 = estimate.edge.tangent.cross(estimate.across1);
+}
+
+}  // namespace
+
+PlaneMeasurement MeasurePlane(const PosedView& view, const ImageEdge& edge) {
+  return {EdgePlane(view, edge), view.center, view.rotation.row(2).transpose()};
+}
+
+EdgeEstimate AdjustEdge(const SpaceEdge& start,
+                        const std::vector<PlaneMeasurement>& measurements,
+                        double sigma_px) {
+  EdgeEstimate estimate;
+  estimate.edge = start;
+  SetAxes(estimate);
+  for (int i = 0; i < kNumIterations; ++i) {
+    const NormalEquations sum = Linearise(estimate, measurements, sigma_px);
+    const Eigen::Vector2d step = -(sum.matrix.inverse() * sum.vector);
+    estimate.edge.position +=
+        step.x() * estimate.across1 + step.y() * estimate.across2;
+  }
+  estimate.edge.tangent = FitTangent(estimate, measurements, sigma_px);
+  SetAxes(estimate);
+  const NormalEquations sum = Linearise(estimate, measurements, sigma_px);
+  const double spread2 = sum.weighted_squares / std::max(sum.weights, 1e-12);
+  estimate.covariance =
+      std::max(sigma_px * sigma_px, spread2) * sum.matrix.inverse();
+  return estimate;
+}
+
+double PredictedSigmaPx(const EdgeEstimate& estimate,
+                        const PosedView& view,
+                        const ImageEdge& projected) {
+  const Residual residual =
+      Evaluate(MeasurePlane(view, projected), estimate.edge.position);
+  const Eigen::Vector2d gradient(residual.gradient.dot(estimate.across1),
+                                 residual.gradient.dot(estimate.across2));
+  return std::sqrt(gradient.dot(estimate.covariance * gradient));
+}
+
+}  // namespace curvix

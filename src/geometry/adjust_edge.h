@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Multi-view triangulation of an oriented edge.
+//
+// A 2D edge says on which plane through its camera's centre the 3D edge lies,
+// and nothing about the place along the edge. So the position moves only across
+// the tangent: two unknowns, one equation per view.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/edge_geometry.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// What one 2D edge says about a 3D edge.
+struct PlaneMeasurement {
+  Eigen::Vector3d plane;   // of EdgePlane()
+  Eigen::Vector3d center;  // of the camera, world
+  Eigen::Vector3d axis;    // depth(X) = axis . (X - center)
+};
+PlaneMeasurement MeasurePlane(const PosedView& view, const ImageEdge& edge);
+
+// An estimate and how well it is known: `covariance` of the position across the
+// tangent, on the axes `across1`, `across2`, world units squared.
+struct EdgeEstimate {
+  SpaceEdge edge;
+  Eigen::Vector3d across1, across2;  // unit, orthogonal to the tangent
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+
+// Gauss-Newton from `start` on the signed pixel distances to the measurements,
+// with weights 1 / (1 + (r / sigma_px)^2) (Cauchy), then the tangent as the
+// direction most orthogonal to the planes' normals, with the same weights. The
+// covariance takes sigma_px for the measurements' standard deviation, or the
+// residuals' spread where that is larger. Needs two measurements whose planes
+// differ; where they hardly do, the covariance is large in that direction and
+// the estimate stays near `start`.
+EdgeEstimate AdjustEdge(const SpaceEdge& start,
+                        const std::vector<PlaneMeasurement>& measurements,
+                        double sigma_px);
+
+// Standard deviation, in pixels, of the normal distance at which `estimate`
+// appears in `view`. `projected` is ProjectEdge(view, estimate.edge).
+double PredictedSigmaPx(const EdgeEstimate& estimate,
+                        const PosedView& view,
+                        const ImageEdge& projected);
+
+}  // namespace curvix

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3. Oriented edges from two views to space and from space to a
+// view.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// Where an oriented edge lies in an image. `tangent` is unit and sign-free.
+struct ImageEdge {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
+  Eigen::Vector2d tangent = Eigen::Vector2d::UnitX();
+};
+
+// An oriented edge in space. `tangent` is unit and sign-free.
+struct SpaceEdge {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();
+};
+
+// The plane through the camera centre and an edge's tangent line, as the vector
+// w for which w . (X - center) / depth(X) is the signed distance, in pixels, of
+// the projection of X from the tangent line; the sign is that of the side to
+// which
+// (-tangent.y, tangent.x) points.
+Eigen::Vector3d EdgePlane(const PosedView& view, const ImageEdge& edge);
+
+// The edge in space whose projections are edge1 and edge2. The position lies on
+// the ray of edge1, nearest to that of edge2. nullopt when a ray has negative
+// depth, when the rays are less than min_ray_angle_rad apart, or when the two
+// edge planes are less than min_plane_angle_rad apart: both edges run along the
+// epipolar line and have no tangent in space.
+std::optional<SpaceEdge> TriangulateEdge(const PosedView& view1,
+                                         const ImageEdge& edge1,
+                                         const PosedView& view2,
+                                         const ImageEdge& edge2,
+                                         double min_ray_angle_rad,
+                                         double min_plane_angle_rad);
+
+// nullopt behind the camera or when the tangent points at the camera.
+std::optional<ImageEdge> ProjectEdge(const PosedView& view,
+                                     const SpaceEdge& edge);
+
+}  // namespace curvix

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(a).
+#include "geometry/epipolar.h"
+
+#include <cmath>
+
+namespace curvix {
+namespace {
+
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace
+
+std::optional<EpipolarPencil> EpipolarPencil::Make(const PosedView& view1,
+                                                   const PosedView& view2) {
+  const Eigen::Vector3d baseline = view2.center - view1.center;
+  const double length = baseline.norm();
+  if (!(length > 1e-12 * (view1.center.norm() + view2.center.norm()))) {
+    return std::nullopt;
+  }
+  EpipolarPencil pencil;
+  pencil.baseline_ = baseline / length;
+  pencil.u_ = pencil.baseline_.unitOrthogonal();
+  pencil.v_ = pencil.baseline_.cross(pencil.u_);
+  return pencil;
+}
+
+std::optional<EpipolarAngle> EpipolarPencil::AngleOf(
+    const PosedView& view, const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector3d ray = view.Ray(pixel);
+  const double x = ray.dot(u_);
+  const double y = ray.dot(v_);
+  const double radius2 = x * x + y * y;
+  constexpr double kMinSine = 0.0087;  // of half a degree
+  if (radius2 < kMinSine * kMinSine * ray.squaredNorm()) return std::nullopt;
+  // d angle = (x dy - y dx) / radius^2, with ray a linear function of the
+  // pixel.
+  const Eigen::Vector3d d_angle = (x * v_ - y * u_) / radius2;
+  const Eigen::Vector3d in_camera = view.rotation * d_angle;
+  return EpipolarAngle{std::atan2(y, x),
+                       std::hypot(in_camera.x() / view.calibration(0, 0),
+                                  in_camera.y() / view.calibration(1, 1))};
+}
+
+Eigen::Matrix3d FundamentalMatrix(const PosedView& view1,
+                                  const PosedView& view2) {
+  const Eigen::Matrix3d rotation = view2.rotation * view1.rotation.transpose();
+  const Eigen::Vector3d translation =
+      view2.translation - rotation * view1.translation;
+  return view2.calibration.inverse().transpose() * CrossMatrix(translation) *
+         rotation * view1.calibration.inverse();
+}
+
+Line2 EpipolarLine(const Eigen::Matrix3d& fundamental,
+                   const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d line = fundamental * pixel.homogeneous();
+  const double length = line.head<2>().norm();
+  return {line.head<2>() / length, line.z() / length};
+}
+
+}  // namespace curvix

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(a). Epipolar geometry as a pencil of planes.
+//
+// All epipolar planes of two views contain the baseline. A plane's half on one
+// side of it has an angle around the baseline, and a point in space has the
+// same angle in both views: X - C1 and X - C2 differ by a multiple of the
+// baseline. So the epipolar constraint compares two numbers, an epipolar wedge
+// is an interval of angles, and epipoles inside the image or at infinity are no
+// special cases.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// An angle around the baseline and how far it moves per pixel.
+struct EpipolarAngle {
+  double angle = 0;       // radians, (-pi, pi]
+  double rad_per_px = 0;  // gradient magnitude with respect to the pixel
+};
+
+class EpipolarPencil {
+ public:
+  // nullopt when the two centres coincide: no baseline, no depth.
+  static std::optional<EpipolarPencil> Make(const PosedView& view1,
+                                            const PosedView& view2);
+
+  // The angle of the epipolar plane through `pixel` of `view`, which is one of
+  // the two views of the pencil. nullopt within half a degree of the baseline,
+  // where a ray has no depth.
+  std::optional<EpipolarAngle> AngleOf(const PosedView& view,
+                                       const Eigen::Vector2d& pixel) const;
+
+  // Unit, from view1 to view2, world.
+  const Eigen::Vector3d& baseline() const { return baseline_; }
+
+ private:
+  Eigen::Vector3d baseline_, u_, v_;  // right-handed, orthonormal
+};
+
+// F with x2^T F x1 = 0 for pixels x1, x2 of the two views.
+Eigen::Matrix3d FundamentalMatrix(const PosedView& view1,
+                                  const PosedView& view2);
+
+// The epipolar line of `pixel` of view 1 in view 2: n . x + c = 0 with unit n.
+struct Line2 {
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // unit
+  double offset = 0;                                  // pixels
+
+  double SignedDistance(const Eigen::Vector2d& x) const {
+    return normal.dot(x) + offset;
+  }
+  Eigen::Vector2d Direction() const { return {-normal.y(), normal.x()}; }
+};
+Line2 EpipolarLine(const Eigen::Matrix3d& fundamental,
+                   const Eigen::Vector2d& pixel);
+
+}  // namespace curvix

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5.
+#include "pipeline/hypothesise.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/angles.h"
+#include "consolidation/cluster_edges.h"
+#include "consolidation/slide_to_line.h"
+#include "geometry/image_edge.h"
+
+namespace curvix {
+
+std::optional<HypothesisViews> HypothesisViews::Make(
+    const PosedView& h1,
+    const PosedView& h2,
+    const std::vector<Edge2d>& edges2,
+    const Options& options) {
+  const auto pencil = EpipolarPencil::Make(h1, h2);
+  if (!pencil) return std::nullopt;
+  return HypothesisViews(*pencil, h1, h2, edges2, options);
+}
+
+HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
+                                 const PosedView& h1,
+                                 const PosedView& h2,
+                                 const std::vector<Edge2d>& edges2,
+                                 const Options& options)
+    : h1_(&h1),
+      h2_(&h2),
+      edges2_(&edges2),
+      options_(&options),
+      pencil_(pencil),
+      fundamental_(FundamentalMatrix(h1, h2)),
+      sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {}
+
+std::vector<Hypothesis> HypothesisViews::Hypothesise(
+    const Edge2d& edge1) const {
+  std::vector<Hypothesis> hypotheses;
+  const double tolerance_px = options_->hypotheses.location_tolerance_px;
+  const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
+  if (!wedge) return hypotheses;
+  const Line2 line = EpipolarLine(fundamental_, edge1.position);
+
+  std::vector<LineEdge> on_line;
+  for (const std::int32_t idx : sorted2_.Meeting(*wedge)) {
+    const auto moved =
+        SlideToLine(ToImageEdge((*edges2_)[static_cast<std::size_t>(idx)]),
+                    line,
+                    tolerance_px,
+                    options_->consolidation);
+    if (moved) on_line.push_back({*moved, idx});
+  }
+  const ImageEdge image_edge1 = ToImageEdge(edge1);
+  const double min_angle =
+      DegToRad(options_->hypotheses.min_epipolar_angle_deg);
+  for (VirtualEdge& virtual_edge :
+       ClusterEdges(std::move(on_line), line, options_->consolidation)) {
+    if (std::abs(line.normal.dot(virtual_edge.edge.tangent)) <
+        std::sin(min_angle)) {
+      continue;
+    }
+    const auto edge =
+        TriangulateEdge(*h1_,
+                        image_edge1,
+                        *h2_,
+                        virtual_edge.edge,
+                        DegToRad(options_->hypotheses.min_ray_angle_deg) / 2,
+                        DegToRad(1));
+    if (!edge) continue;
+    hypotheses.push_back({*edge,
+                          image_edge1,
+                          virtual_edge.edge,
+                          std::move(virtual_edge.members)});
+  }
+  return hypotheses;
+}
+
+}  // namespace curvix

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Secs. 3 and 4. Deviation: every view is H1 once, with its best
+// partners, for the edges that nothing explains yet; see docs/paper_map.md.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/parallel.h"
+#include "hypotheses/select_views.h"
+#include "pipeline/hypothesise.h"
+#include "pipeline/sketch_internal.h"
+#include "validation/track_support.h"
+
+namespace curvix {
+namespace {
+
+// Views further apart in direction have no vote on each other.
+constexpr double kNeighborAngleDeg = 25;
+constexpr std::size_t kMaxNumNeighbors = 4;
+constexpr double kGridCellPx = 4;
+
+std::vector<ViewIndex> IndexViews(const SketchInput& input) {
+  std::vector<ViewIndex> indices(input.views.size());
+  ParallelFor(
+      indices.size(), input.options.runtime.num_threads, [&](std::size_t i) {
+        const PosedView& view = input.views[i];
+        const EdgeMap& map = input.edge_maps[i];
+        indices[i] = {&view,
+                      &map,
+                      GridIndex(map.edges, kGridCellPx),
+                      EdgeDensity(map.edges, view.width, view.height)};
+      });
+  return indices;
+}
+
+// The nearest views in direction, with their weights.
+std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
+    const std::vector<std::vector<ViewOverlap>>& overlaps) {
+  std::vector<std::vector<ViewNeighbor>> neighbors(overlaps.size());
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    std::vector<ViewOverlap> nearest = overlaps[i];
+    std::sort(nearest.begin(),
+              nearest.end(),
+              [](const ViewOverlap& a, const ViewOverlap& b) {
+                return std::pair(a.ray_angle_rad, a.other) <
+                       std::pair(b.ray_angle_rad, b.other);
+              });
+    nearest.resize(std::min(nearest.size(), kMaxNumNeighbors));
+    for (const ViewOverlap& overlap : nearest) {
+      const double r = RadToDeg(overlap.ray_angle_rad) / kNeighborAngleDeg;
+      neighbors[i].push_back({overlap.other, std::exp(-0.5 * r * r)});
+    }
+  }
+  return neighbors;
+}
+
+// What one H1 edge led to.
+struct H1Result {
+  std::vector<TrackedEdge> tracked;
+  std::int64_t hypotheses = 0;
+  std::int64_t unsupported = 0;
+  std::int64_t rivals = 0;
+};
+
+class ViewSketcher {
+ public:
+  explicit ViewSketcher(const SketchInput& input)
+      : input_(input),
+        indices_(IndexViews(input)),
+        neighbors_(NeighborsInDirection(input.overlaps)),
+        sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {}
+
+  // The partners of view h1, ready for pairing.
+  std::vector<HypothesisViews> Partners(int h1) const {
+    std::vector<HypothesisViews> partners;
+    const auto i = static_cast<std::size_t>(h1);
+    for (const int h2 :
+         SelectPartners(input_.overlaps[i], input_.options.hypotheses)) {
+      const auto j = static_cast<std::size_t>(h2);
+      auto pair = HypothesisViews::Make(input_.views[i],
+                                        input_.views[j],
+                                        input_.edge_maps[j].edges,
+                                        input_.options);
+      if (pair) partners.push_back(*std::move(pair));
+    }
+    return partners;
+  }
+
+  H1Result Sketch(const Edge2d& edge1,
+                  const std::vector<HypothesisViews>& partners) const {
+    H1Result result;
+    for (const HypothesisViews& pair : partners) {
+      for (const Hypothesis& hypothesis : pair.Hypothesise(edge1)) {
+        ++result.hypotheses;
+        auto tracked = Track(hypothesis, pair);
+        if (!tracked) {
+          ++result.unsupported;
+        } else if (!IsKnown(*tracked, result.tracked)) {
+          result.tracked.push_back(*std::move(tracked));
+        }
+      }
+    }
+    DropRivals(result);
+    return result;
+  }
+
+ private:
+  std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
+                                   const HypothesisViews& pair) const {
+    const EdgeEstimate start =
+        AdjustEdge(hypothesis.edge,
+                   {MeasurePlane(pair.h1(), hypothesis.edge1),
+                    MeasurePlane(pair.h2(), hypothesis.edge2)},
+                   sigma_px_);
+    return TrackSupport(
+        start, indices_, neighbors_, sigma_px_, input_.options.validation);
+  }
+
+  // Hypotheses from several partners end at the same 3D edge.
+  static bool IsKnown(const TrackedEdge& edge,
+                      const std::vector<TrackedEdge>& known) {
+    return std::any_of(
+        known.begin(), known.end(), [&](const TrackedEdge& other) {
+          std::vector<EdgeRef> shared;
+          std::set_intersection(edge.support.begin(),
+                                edge.support.end(),
+                                other.support.begin(),
+                                other.support.end(),
+                                std::back_inserter(shared));
+          return 2 * shared.size() >= edge.support.size();
+        });
+  }
+
+  void DropRivals(H1Result& result) const {
+    double best = 0;
+    for (const TrackedEdge& edge : result.tracked) {
+      best = std::max(best, edge.evidence);
+    }
+    const double least = input_.options.validation.min_rival_support * best;
+    result.rivals += static_cast<std::int64_t>(std::erase_if(
+        result.tracked,
+        [&](const TrackedEdge& edge) { return edge.evidence < least; }));
+  }
+
+  const SketchInput& input_;
+  std::vector<ViewIndex> indices_;
+  std::vector<std::vector<ViewNeighbor>> neighbors_;
+  double sigma_px_;
+};
+
+// The edge itself and its neighbours along the contour: a 3D edge takes one 2D
+// edge per view, although contours are sampled at different steps.
+void MarkSupport(const std::vector<EdgeRef>& support,
+                 const std::vector<EdgeMap>& edge_maps,
+                 UsedEdges& used) {
+  for (const EdgeRef& ref : support) {
+    used.Mark(ref);
+    const EdgeNeighbors& neighbors =
+        edge_maps[static_cast<std::size_t>(ref.view_idx)]
+            .neighbors[static_cast<std::size_t>(ref.edge_idx)];
+    if (neighbors.previous) used.Mark({ref.view_idx, *neighbors.previous});
+    if (neighbors.next) used.Mark({ref.view_idx, *neighbors.next});
+  }
+}
+
+Edge3d ToEdge3d(TrackedEdge tracked) {
+  Edge3d edge;
+  edge.position = tracked.estimate.edge.position;
+  edge.tangent = tracked.estimate.edge.tangent;
+  edge.sigma = std::sqrt(tracked.estimate.covariance.trace() / 2);
+  edge.evidence = tracked.evidence;
+  edge.support = std::move(tracked.support);
+  return edge;
+}
+
+// The view with most unused edges among those not done; ties: smaller index.
+std::optional<int> NextView(const std::vector<int>& num_unused,
+                            const std::vector<bool>& done) {
+  std::optional<int> best;
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    if (done[i]) continue;
+    if (!best || num_unused[i] > num_unused[static_cast<std::size_t>(*best)]) {
+      best = static_cast<int>(i);
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
+  const ViewSketcher sketcher(input);
+  UsedEdges used(input.edge_maps);
+  EdgeSketch sketch;
+  std::vector<bool> done(input.views.size(), false);
+  const int total = static_cast<int>(input.views.size());
+  for (int step = 0; step_done(step, total); ++step) {
+    const auto h1 = NextView(used.num_unused(), done);
+    if (!h1) break;
+    const auto h1_idx = static_cast<std::size_t>(*h1);
+    done[h1_idx] = true;
+    const auto partners = sketcher.Partners(*h1);
+    sketch.counts.view_pairs += static_cast<std::int64_t>(partners.size());
+
+    const std::vector<Edge2d>& edges = input.edge_maps[h1_idx].edges;
+    std::vector<H1Result> results(edges.size());
+    ParallelFor(
+        edges.size(), input.options.runtime.num_threads, [&](std::size_t i) {
+          if (used.Contains({*h1, static_cast<std::int32_t>(i)})) return;
+          results[i] = sketcher.Sketch(edges[i], partners);
+        });
+    sketch.counts.h1_edges += used.num_unused()[h1_idx];
+    for (H1Result& result : results) {
+      sketch.counts.hypotheses += result.hypotheses;
+      sketch.counts.unsupported += result.unsupported;
+      sketch.counts.rivals += result.rivals;
+      for (TrackedEdge& tracked : result.tracked) {
+        MarkSupport(tracked.support, input.edge_maps, used);
+        sketch.edges.push_back(ToEdge3d(std::move(tracked)));
+      }
+    }
+  }
+  sketch.counts.used_edges = used.total();
+  return sketch;
+}
+
+}  // namespace curvix

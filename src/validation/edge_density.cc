@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "validation/edge_density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/angles.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kCellPx = 16;
+constexpr int kNumBins = 6;
+constexpr double kEdgeSpacingPx = 0.5;  // of edges along a contour
+
+int Clamp(double value, int count) {
+  if (!(value > 0)) return 0;
+  return value >= count ? count - 1 : static_cast<int>(value);
+}
+
+int BinOf(double angle_rad) {
+  const double turn = (WrapUndirected(angle_rad) + kPi / 2) / kPi;  // (0, 1]
+  return Clamp(turn * kNumBins, kNumBins);
+}
+
+}  // namespace
+
+EdgeDensity::EdgeDensity(const std::vector<Edge2d>& edges,
+                         int width,
+                         int height)
+    : columns_(static_cast<int>(width / kCellPx) + 1),
+      rows_(static_cast<int>(height / kCellPx) + 1) {
+  counts_.assign(static_cast<std::size_t>(columns_) *
+                     static_cast<std::size_t>(rows_) * kNumBins,
+                 0);
+  for (const Edge2d& edge : edges) {
+    const int column = Clamp(edge.position.x() / kCellPx, columns_);
+    const int row = Clamp(edge.position.y() / kCellPx, rows_);
+    std::uint16_t& count = counts_[static_cast<std::size_t>(
+        (row * columns_ + column) * kNumBins +
+        BinOf(static_cast<double>(edge.angle)))];
+    if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
+  }
+}
+
+double EdgeDensity::ChanceOfSupport(const Eigen::Vector2d& pixel,
+                                    double angle_rad,
+                                    double gate_px) const {
+  const int column = Clamp(pixel.x() / kCellPx, columns_);
+  const int row = Clamp(pixel.y() / kCellPx, rows_);
+  const int bin = BinOf(angle_rad);
+  double num_edges = 0;
+  int num_cells = 0;
+  for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1);
+         c <= std::min(columns_ - 1, column + 1);
+         ++c) {
+      num_edges += counts_[static_cast<std::size_t>(
+          (r * columns_ + c) * kNumBins + bin)];
+      ++num_cells;
+    }
+  }
+  const double contour_px = num_edges * kEdgeSpacingPx;
+  const double covered =
+      contour_px * 2 * gate_px / (num_cells * kCellPx * kCellPx);
+  return std::clamp(1 - std::exp(-covered), 0.005, 0.95);
+}
+
+}  // namespace curvix

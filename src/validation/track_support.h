@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(c). Deviation: support is judged by the distance of an
+// edge from the projected one, against what is known of the hypothesis so far,
+// and each support improves the hypothesis; see docs/paper_map.md.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+
+#include <optional>
+#include <vector>
+
+#include "geometry/adjust_edge.h"
+#include "validation/evidence.h"
+#include "validation/view_index.h"
+
+namespace curvix {
+
+// A hypothesis that found its support.
+struct TrackedEdge {
+  EdgeEstimate estimate;
+  std::vector<EdgeRef> support;  // at most one per view, ascending
+  double evidence = 0;
+};
+
+// Looks for the support of `start` in all views. Two rays fix a 3D edge to a
+// few tenths of a pixel in their own views and to several pixels in a view at a
+// right angle; so each round asks the views in which the estimate's predicted
+// standard deviation is below a bound, takes the nearest edge within the gate,
+// and adjusts the estimate to all support found. nullopt as soon as fewer than
+// two views besides the hypothesis views, in the end fewer than
+// options.min_num_support_views, support it, or the evidence is below
+// options.min_evidence. `sigma_px`: standard deviation of an edge's location.
+std::optional<TrackedEdge> TrackSupport(
+    const EdgeEstimate& start,
+    const std::vector<ViewIndex>& views,
+    const std::vector<std::vector<ViewNeighbor>>& neighbors,
+    double sigma_px,
+    const ValidationOptions& options);
+
+}  // namespace curvix
