@@ -159,6 +159,8 @@ void AddRows(NeighborhoodOptions& o, Section row) {
   row("max_projection_distance_px", &o.max_projection_distance_px, Above(0),
       "px", "tau_gamma, Sec. 5",
       "longest distance between the projections of linked edges");
+  row("max_num_links", &o.max_num_links, Count(1), "", "",
+      "links that one edge may ask for, the heaviest first; bounds memory");
 }
 
 void AddRows(AlignmentOptions& o, Section row) {
@@ -166,9 +168,38 @@ void AddRows(AlignmentOptions& o, Section row) {
       "alignment steps; 0 leaves the edges where they are");
   row("step_size", &o.step_size, AboveUpTo(0, 1), "", "Sec. 5",
       "share of the mean force and torque applied in a step");
+  row.Switch("use_mean_direction", &o.use_mean_direction,
+      "pull towards the line with the mean direction of both edges, which "
+      "leaves circles alone; 0: the neighbor's own line");
 }
 
 void AddRows(ConnectivityOptions& o, Section row) {
+  row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
+      "edges nearer together along a curve are made one; 0 keeps all");
+  row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
+      "largest distance across the tangent of connected edges");
+  row("max_step_px", &o.max_step_px, Above(0), "px", "",
+      "longest step along the tangent to the next edge");
+  row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
+      "largest angle between connected edges");
+  row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
+      "longest gap closed between ends of curves; 0 closes none");
+  row("max_repeat_distance_px", &o.max_repeat_distance_px, AtLeast(0), "px",
+      "", "pieces nearer to a longer curve are dropped; 0 keeps all");
+  row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
+      "edges nearer together along a curve are made one; 0 keeps all");
+  row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
+      "largest distance across the tangent of edges made one or connected");
+  row("max_step_px", &o.max_step_px, Above(0), "px", "Sec. 6",
+      "longest step along the tangent to the next edge");
+  row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
+      "largest angle between connected edges");
+  row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
+      "longest gap closed between ends that continue each other; 0 closes "
+      "none");
+  row("max_repeat_distance_px", &o.max_repeat_distance_px, AtLeast(0), "px",
+      "",
+      "a piece of a curve nearer to a longer one is drawn once; 0 keeps all");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "Sec. 6",
       "shortest curve kept, in the view that sees it largest");
 }
