@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, ref. [15]. Gaussian derivative filters.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "edge_detection/gray_image.h"
+
+namespace curvix {
+
+// The Gaussian of standard deviation `sigma` and its first three derivatives
+// at x.
+std::array<double, 4> GaussianDerivatives(double x, double sigma);
+
+// How far filters reach: beyond it the Gaussian is below 4e-6 of its peak.
+int GaussianRadius(double sigma);
+
+// The standard deviation of each component of the gradient that white noise of
+// standard deviation 1 causes. With the filter G'(x) G(y) it is the root of
+// (integral of G'^2) (integral of G^2) = 1 / (4 sqrt(pi) sigma^3) *
+// 1 / (2 sqrt(pi) sigma), that is 1 / (sqrt(8 pi) sigma^2).
+double GradientNoiseGain(double sigma_px);
+
+// Derivatives of a smoothed image at single points.
+class ImageDerivatives {
+ public:
+  // `image` must outlive this object and is not empty; sigma > 0.
+  ImageDerivatives(const GrayImage& image, double sigma_px);
+
+  // Element (a, b) is d^(a + b) I / dy^a dx^b, up to a + b = 3, of the image
+  // smoothed by the Gaussian at `position` (pixels, first centre at
+  // (0.5, 0.5)). Computed at the 4 x 4 points of the half-pixel grid around the
+  // position and interpolated between them by cubic convolution (Keys 1981,
+  // a = -0.5), all in one pair of separable filters. Beyond its border the
+  // image continues with its border values.
+  Eigen::Matrix4d At(const Eigen::Vector2d& position) const;
+
+ private:
+  // Row i: the weights of pixel first_pixel + i in derivatives of order 0 to 3.
+  struct Filter {
+    int first_pixel;
+    Eigen::Matrix<double, Eigen::Dynamic, 4> weights;
+  };
+  Filter FilterAt(double position) const;
+
+  const GrayImage& image_;
+  int radius_;
+  // Gaussian derivatives at x = (row - 2 * radius_ - 1) / 2 pixels.
+  Eigen::Matrix<double, Eigen::Dynamic, 4> table_;
+};
+
+}  // namespace curvix

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Image files to grey levels.
+#pragma once
+
+#include <curvix/status.h>
+
+#include <filesystem>
+
+#include "edge_detection/gray_image.h"
+
+namespace curvix {
+
+// The image in the file, as stored: an EXIF rotation is ignored, as COLMAP
+// does. Grey, colour (0.299 R + 0.587 G + 0.114 B) and either with alpha, 8 or
+// 16 bits per channel; 16 bits are scaled to 0..255. Fractions are kept: a
+// rounded grey level is worth up to 0.02 px at weak edges. Alpha is straight
+// and the background black, composited before anything else.
+//
+// kNotFound: no such file. kDataLoss: the file is empty, broken or cut short.
+// kUnsupported: another pixel format. The message names the file.
+Result<GrayImage> LoadGrayImage(const std::filesystem::path& path);
+
+}  // namespace curvix
