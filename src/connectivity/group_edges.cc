@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 6.
+#include "connectivity/group_edges.h"
+
+#include <utility>
+
+#include "connectivity/connect_edges.h"
+#include "connectivity/drop_repeats.h"
+#include "connectivity/join_curves.h"
+#include "connectivity/thin_edges.h"
+#include "connectivity/trace_curves.h"
+
+namespace curvix {
+
+std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
+                              const NeighborhoodGraph& graph,
+                              const std::vector<PosedView>& views,
+                              const ConnectivityOptions& options,
+                              int num_threads) {
+  const ThinnedEdges thinned =
+      ThinEdges(edges, graph, views, options, num_threads);
+  const ConnectivityGraph connectivity =
+      ConnectEdges(thinned.edges, thinned.graph, views, options, num_threads);
+  std::vector<Curve> curves = TraceCurves(thinned.edges, connectivity);
+  curves = DropRepeats(std::move(curves), views, options);
+  curves = JoinCurves(std::move(curves), views, options);
+  return DropShortCurves(std::move(curves), views, options.min_length_px);
+}
+
+}  // namespace curvix

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "connectivity/pixel_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "base/check.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position) {
+  const double depth = view.InCamera(position).z();
+  const double focal =
+      std::sqrt(view.calibration(0, 0) * view.calibration(1, 1));
+  return depth > 0 ? depth / focal : kNone;
+}
+
+}  // namespace
+
+double PixelSize(const Eigen::Vector3d& position,
+                 const std::vector<EdgeRef>& support,
+                 const std::vector<PosedView>& views) {
+  double smallest = kNone;
+  for (const EdgeRef& ref : support) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    CURVIX_CHECK(view_idx < views.size(), "there is no view " << ref.view_idx);
+    smallest = std::min(smallest, PixelSizeIn(views[view_idx], position));
+  }
+  if (smallest < kNone) return smallest;
+  for (const PosedView& view : views) {
+    smallest = std::min(smallest, PixelSizeIn(view, position));
+  }
+  return smallest < kNone ? smallest : 0;
+}
+
+std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
+                               const std::vector<PosedView>& views) {
+  std::vector<double> sizes;
+  sizes.reserve(edges.size());
+  for (const Edge3d& edge : edges) {
+    sizes.push_back(PixelSize(edge.position, edge.support, views));
+  }
+  return sizes;
+}
+
+}  // namespace curvix

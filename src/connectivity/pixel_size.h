@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). The local unit of length of Sec. 6.
+#pragma once
+
+#include <curvix/edges.h>
+
+#include <vector>
+
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// The length in space, world units, that fills one pixel at `position` in the
+// view that sees it largest, if it lies parallel to the image: the smallest
+// depth / focal length over the views of `support`, or over all views if none
+// of these has it in front. 0 if no view has it in front.
+//
+// Limits in multiples of it do not depend on the scale of the scene, and suit
+// near and far places alike.
+double PixelSize(const Eigen::Vector3d& position,
+                 const std::vector<EdgeRef>& support,
+                 const std::vector<PosedView>& views);
+
+// The pixel size of each edge.
+std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
+                               const std::vector<PosedView>& views);
+
+}  // namespace curvix

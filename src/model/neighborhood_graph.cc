@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 5, Fig. 6.
+#include "model/neighborhood_graph.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "base/parallel.h"
+
+namespace curvix {
+namespace {
+
+using Row = std::vector<NeighborLink>;
+
+void CheckRow(const Row& row, std::size_t edge_idx, std::size_t num_edges) {
+  std::int64_t last = -1;
+  for (const NeighborLink& link : row) {
+    const std::int64_t other = link.edge_idx;
+    CURVIX_CHECK(other > last, "row " << edge_idx << " is not ascending");
+    CURVIX_CHECK(other < static_cast<std::int64_t>(num_edges) &&
+                     other != static_cast<std::int64_t>(edge_idx),
+                 "link from " << edge_idx << " to " << other);
+    last = other;
+  }
+}
+
+// rows[j] of the result lists the links that other rows have to j.
+std::vector<Row> Transposed(const std::vector<Row>& rows) {
+  std::vector<std::size_t> sizes(rows.size(), 0);
+  for (const Row& row : rows) {
+    for (const NeighborLink& link : row) {
+      ++sizes[static_cast<std::size_t>(link.edge_idx)];
+    }
+  }
+  std::vector<Row> transposed(rows.size());
+  for (std::size_t j = 0; j < rows.size(); ++j) transposed[j].reserve(sizes[j]);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (NeighborLink link : rows[i]) {
+      Row& row = transposed[static_cast<std::size_t>(link.edge_idx)];
+      link.edge_idx = static_cast<std::int32_t>(i);
+      row.push_back(link);
+    }
+  }
+  return transposed;
+}
+
+// Appends the links of `a` and `b`, both ascending, to `out`; links in both are
+// combined.
+template <typename Combine>
+void MergeRows(std::span<const NeighborLink> a,
+               std::span<const NeighborLink> b,
+               const Combine& combine,
+               Row& out) {
+  auto x = a.begin();
+  auto y = b.begin();
+  while (x != a.end() || y != b.end()) {
+    if (y == b.end() || (x != a.end() && x->edge_idx < y->edge_idx)) {
+      out.push_back(*x++);
+    } else if (x == a.end() || y->edge_idx < x->edge_idx) {
+      out.push_back(*y++);
+    } else {
+      out.push_back(combine(*x++, *y++));
+    }
+  }
+}
+
+NeighborLink LargerCounts(const NeighborLink& a, const NeighborLink& b) {
+  return {a.edge_idx,
+          std::max(a.num_shared, b.num_shared),
+          std::max(a.num_tangential, b.num_tangential)};
+}
+
+NeighborLink AddedCounts(const NeighborLink& a, const NeighborLink& b) {
+  return {a.edge_idx,
+          a.num_shared + b.num_shared,
+          a.num_tangential + b.num_tangential};
+}
+
+// Brings `row` into ascending order, counts of repeats added.
+void SortAndAdd(Row& row) {
+  std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) {
+    return a.edge_idx < b.edge_idx;
+  });
+  std::size_t size = 0;
+  for (const NeighborLink& link : row) {
+    if (size > 0 && row[size - 1].edge_idx == link.edge_idx) {
+      row[size - 1] = AddedCounts(row[size - 1], link);
+    } else {
+      row[size++] = link;
+    }
+  }
+  row.resize(size);
+}
+
+}  // namespace
+
+NeighborhoodGraph NeighborhoodGraph::FromRows(const std::vector<Row>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    CheckRow(rows[i], i, rows.size());
+  }
+  const std::vector<Row> transposed = Transposed(rows);
+  NeighborhoodGraph graph;
+  graph.offsets_.reserve(rows.size() + 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    MergeRows(rows[i], transposed[i], LargerCounts, graph.links_);
+    graph.offsets_.push_back(graph.links_.size());
+  }
+  return graph;
+}
+
+NeighborhoodGraph NeighborhoodGraph::Filter(
+    const std::function<bool(std::size_t, const NeighborLink&)>& keep,
+    int num_threads) const {
+  std::vector<Row> rows(NumEdges());
+  ParallelFor(NumEdges(), num_threads, [&](std::size_t i) {
+    for (const NeighborLink& link : Neighbors(i)) {
+      if (static_cast<std::size_t>(link.edge_idx) > i && keep(i, link)) {
+        rows[i].push_back(link);
+      }
+    }
+  });
+  return FromRows(rows);
+}
+
+NeighborhoodGraph UnionOf(const NeighborhoodGraph& a,
+                          const NeighborhoodGraph& b) {
+  CURVIX_CHECK(a.NumEdges() == b.NumEdges(),
+               a.NumEdges() << " and " << b.NumEdges() << " edges");
+  std::vector<Row> rows(a.NumEdges());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    MergeRows(a.Neighbors(i), b.Neighbors(i), AddedCounts, rows[i]);
+  }
+  return NeighborhoodGraph::FromRows(rows);
+}
+
+NeighborhoodGraph Contract(const NeighborhoodGraph& graph,
+                           const std::vector<std::int32_t>& group_of,
+                           std::size_t num_groups) {
+  CURVIX_CHECK(group_of.size() == graph.NumEdges(),
+               group_of.size()
+                   << " groups for " << graph.NumEdges() << " edges");
+  std::vector<Row> rows(num_groups);
+  for (std::size_t i = 0; i < group_of.size(); ++i) {
+    const auto group = static_cast<std::size_t>(group_of[i]);
+    CURVIX_CHECK(group < num_groups, "group " << group_of[i]);
+    for (NeighborLink link : graph.Neighbors(i)) {
+      link.edge_idx = group_of[static_cast<std::size_t>(link.edge_idx)];
+      if (link.edge_idx != group_of[i]) rows[group].push_back(link);
+    }
+  }
+  for (Row& row : rows) SortAndAdd(row);
+  return NeighborhoodGraph::FromRows(rows);
+}
+
+}  // namespace curvix
