@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "plugin/commands.h"
+#include "plugin/progress.h"
+
+int main(int argc, char** argv) {
+  google::InitGoogleLogging(argv[0]);
+  curvix::CatchInterrupts();
+  try {
+    return curvix::RunProgram({argv + std::min(argc, 1), argv + argc});
+  } catch (const std::bad_alloc&) {
+    std::cerr << "ERROR: There is not enough memory for this scene.\n";
+  } catch (const std::exception& error) {
+    std::cerr << "ERROR: Something is wrong in colmap_curvix itself: "
+              << error.what() << "\nPlease report it with this sentence.\n";
+  }
+  return curvix::kExitInternal;
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+constexpr double kSecondsBetweenDraws = 0.1;
+constexpr int kBarWidth = 24;
+constexpr char kEraseLine[] = "\r\033[K";
+
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void OnInterrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+double SteadySeconds() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+std::string Format(const char* format, int a, int b) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), format, a, b);
+  return text.data();
+}
+
+// "detect_edges" as "Detect edges".
+std::string Title(std::string stage) {
+  std::replace(stage.begin(), stage.end(), '_', ' ');
+  if (!stage.empty()) {
+    stage[0] = static_cast<char>(
+        std::toupper(static_cast<unsigned char>(stage.front())));
+  }
+  return stage;
+}
+
+}  // namespace
+
+std::string GroupDigits(long long number) {
+  std::string text = std::to_string(number);
+  const int first = number < 0 ? 1 : 0;
+  for (int i = static_cast<int>(text.size()) - 3; i > first; i -= 3) {
+    text.insert(static_cast<std::size_t>(i), " ");
+  }
+  return text;
+}
+
+std::string DurationText(double seconds) {
+  if (seconds < 59.95) {
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "%.1f s", std::max(seconds, 0.0));
+    return text.data();
+  }
+  const int whole = static_cast<int>(std::min(std::round(seconds), 1e9));
+  if (whole < 3600) return Format("%d min %02d s", whole / 60, whole % 60);
+  return Format("%d h %02d min", whole / 3600, whole / 60 % 60);
+}
+
+void CatchInterrupts() {
+  std::signal(SIGINT, OnInterrupt);
+  std::signal(SIGTERM, OnInterrupt);
+}
+
+bool IsInterrupted() { return interrupted != 0; }
+
+ProgressPrinter::ProgressPrinter(std::ostream& stream, bool is_terminal)
+    : ProgressPrinter(stream, is_terminal, SteadySeconds) {}
+
+ProgressPrinter::ProgressPrinter(std::ostream& stream,
+                                 bool is_terminal,
+                                 Clock clock)
+    : stream_(stream), is_terminal_(is_terminal), clock_(std::move(clock)) {}
+
+ProgressPrinter::~ProgressPrinter() {
+  if (!stage_.empty()) stream_ << std::endl;
+}
+
+bool ProgressPrinter::Update(const std::string& stage, int done, int total) {
+  if (stage != stage_) {
+    Finish();
+    stage_ = stage;
+    start_ = clock_();
+    last_draw_ = start_ - 1;
+    if (!is_terminal_) stream_ << Title(stage) << " ... " << std::flush;
+  }
+  if (is_terminal_ && clock_() - last_draw_ >= kSecondsBetweenDraws) {
+    Draw(done, total);
+  }
+  return !IsInterrupted();
+}
+
+void ProgressPrinter::Finish(const std::string& detail) {
+  if (stage_.empty()) return;
+  if (is_terminal_) stream_ << kEraseLine << Title(stage_) << " ... ";
+  stream_ << detail << (detail.empty() ? "" : ", ")
+          << DurationText(clock_() - start_) << std::endl;
+  stage_.clear();
+}
+
+void ProgressPrinter::Note(const std::string& line) {
+  if (!stage_.empty()) stream_ << (is_terminal_ ? kEraseLine : "\n");
+  stream_ << line << std::endl;
+  last_draw_ -= 1;
+}
+
+void ProgressPrinter::Draw(int done, int total) {
+  last_draw_ = clock_();
+  stream_ << kEraseLine << Title(stage_) << " ";
+  if (total > 0) {
+    const double share = std::clamp(static_cast<double>(done) / total, 0., 1.);
+    const int filled = static_cast<int>(share * kBarWidth);
+    stream_ << "[" << std::string(static_cast<std::size_t>(filled), '=')
+            << std::string(static_cast<std::size_t>(kBarWidth - filled), ' ')
+            << "] " << done << "/" << total;
+    const double elapsed = last_draw_ - start_;
+    if (share > 0 && elapsed > 0.5) {
+      stream_ << ", " << DurationText(elapsed * (1 - share) / share) << " left";
+    }
+  }
+  stream_ << std::flush;
+}
+
+}  // namespace curvix

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a person sees while the program works, and how to stop it.
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+
+namespace curvix {
+
+// "171204" as "171 204".
+std::string GroupDigits(long long number);
+
+// "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
+std::string DurationText(double seconds);
+
+// From now on SIGINT (Ctrl-C) and SIGTERM ask the program to stop; a second
+// one ends it at once.
+void CatchInterrupts();
+bool IsInterrupted();
+
+// One line a stage. On a terminal the line is a bar with the remaining time
+// until the stage ends; elsewhere the name at the start and the rest at the
+// end, without control characters.
+class ProgressPrinter {
+ public:
+  // Seconds since any fixed moment.
+  using Clock = std::function<double()>;
+
+  ProgressPrinter(std::ostream& stream, bool is_terminal);
+  ProgressPrinter(std::ostream& stream, bool is_terminal, Clock clock);
+  ~ProgressPrinter();  // ends an open line
+  ProgressPrinter(const ProgressPrinter&) = delete;
+  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+
+  // For curvix::Progress. A new `stage` ends the previous one. The bar is
+  // redrawn at most ten times a second. False once IsInterrupted().
+  bool Update(const std::string& stage, int done, int total);
+
+  // Ends the current stage, if any: "Detect edges ... 50 views, 3.1 s".
+  void Finish(const std::string& detail = "");
+
+  // Prints a line of its own, above the bar.
+  void Note(const std::string& line);
+
+ private:
+  void Draw(int done, int total);
+
+  std::ostream& stream_;
+  const bool is_terminal_;
+  const Clock clock_;
+  std::string stage_;  // "": none
+  double start_ = 0;
+  double last_draw_ = 0;
+};
+
+}  // namespace curvix

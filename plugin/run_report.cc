@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run_report.h"
+
+#include <curvix/option_table.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "plugin/progress.h"
+
+namespace curvix {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A row's value with its own type.
+struct ToJson {
+  const OptionRow& row;
+
+  Json operator()(const bool* field) const { return *field; }
+  Json operator()(const int* field) const { return *field; }
+  Json operator()(const double* field) const { return *field; }
+  template <typename Enum>
+  Json operator()(const Enum*) const {
+    return ValueText(row);
+  }
+};
+
+// {"EdgeDetection": {"sigma_px": 1.0, ...}, ...}, without the runtime options.
+Json OptionsJson(Options options) {
+  Json json = Json::object();
+  for (const OptionRow& row : OptionTable(options)) {
+    const std::size_t dot = row.name.find('.');
+    if (dot == std::string::npos) continue;
+    json[row.name.substr(0, dot)][row.name.substr(dot + 1)] =
+        std::visit(ToJson{row}, row.field);
+  }
+  return json;
+}
+
+// COLMAP's names may hold any bytes; JSON holds UTF-8 only.
+std::string Printable(const std::string& text) {
+  const std::string json =
+      Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json::parse(json).get<std::string>();
+}
+
+Json InputJson(const InputSummary& input) {
+  Json json;
+  json["model_path"] = Printable(input.model_path.string());
+  json["image_path"] = Printable(input.image_path.string());
+  json["camera_models"] = input.camera_models;
+  json["num_views"] = input.num_views;
+  json["num_points"] = input.num_points;
+  json["missing_images"] = Json::array();
+  for (const std::string& name : input.missing_images) {
+    json["missing_images"].push_back(Printable(name));
+  }
+  return json;
+}
+
+Json CountsJson(const std::vector<StageReport>& stages) {
+  Json json = Json::array();
+  for (const StageReport& stage : stages) {
+    Json counts = Json::object();
+    for (const auto& [name, count] : stage.counts) counts[name] = count;
+    json.push_back({{"name", stage.name}, {"counts", counts}});
+  }
+  return json;
+}
+
+Json ResultJson(const ResultSummary& result) {
+  Json json;
+  json["num_curves"] = result.num_curves;
+  json["num_closed_curves"] = result.num_closed;
+  json["num_samples"] = result.num_samples;
+  json["total_length"] = result.total_length;
+  json["num_edges_3d"] = result.num_edges_3d;
+  json["num_edges_2d"] = result.num_edges_2d;
+  json["files"] = result.files;
+  json["why_empty"] = result.why_empty;
+  return json;
+}
+
+double Milli(double value) { return std::round(value * 1000) / 1000; }
+
+Json CostJson(const StageReport& stage) {
+  return {{"name", stage.name},
+          {"wall_seconds", Milli(stage.wall_seconds)},
+          {"cpu_seconds", Milli(stage.cpu_seconds)},
+          {"peak_memory_mb", Milli(stage.peak_memory_mb)}};
+}
+
+Json RunJson(const RunRecord& record) {
+  Json json = CostJson(record.total);
+  json.erase("name");
+  json["num_threads"] = record.settings.options.runtime.num_threads;
+  json["stages"] = Json::array();
+  for (const StageReport& stage : record.stages) {
+    json["stages"].push_back(CostJson(stage));
+  }
+  return json;
+}
+
+std::string FewDigits(double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+std::string Plural(std::int64_t count, const std::string& noun) {
+  return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+// "  read model      24 views, 0 points"
+std::string StageLine(const StageReport& stage) {
+  std::string line = "  " + stage.name;
+  line.resize(std::max<std::size_t>(line.size() + 2, 24), ' ');
+  std::string counts;
+  for (const auto& [name, count] : stage.counts) {
+    counts += (counts.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
+  }
+  return line + counts + "\n";
+}
+
+const char* OpenedBy(const std::string& file) {
+  if (file == "curves.ply") return "lines: MeshLab, Blender, Open3D, COLMAP";
+  if (file == "curves.obj") return "lines: CloudCompare, Rhino, ParaView";
+  if (file == "curves.pcd") return "points with tangents: PCL";
+  if (file == "curves.txt") return "text, like COLMAP's points3D.txt";
+  if (file == "edges.ply") return "3D edges before grouping, as points";
+  if (file == "report.json") return "counts, seconds and memory by stage";
+  if (file == "project.ini") return "the options: --project_path repeats them";
+  return "";
+}
+
+std::string FilesText(const ResultSummary& result) {
+  std::string text = "Written to " + result.output_path.string() + "\n";
+  for (const std::string& file : result.files) {
+    std::string line = "  " + file;
+    line.resize(std::max<std::size_t>(line.size() + 2, 16), ' ');
+    text += line + OpenedBy(file) + "\n";
+  }
+  return text;
+}
+
+std::string EmptyText(const RunRecord& record) {
+  std::string text =
+      "No curves: " + record.result.why_empty + "\n\nWhat each stage counted\n";
+  for (const StageReport& stage : record.stages) text += StageLine(stage);
+  return text + "\n" + FilesText(record.result);
+}
+
+}  // namespace
+
+std::string_view ProgramVersion() { return CURVIX_VERSION; }
+
+ResultSummary SummarizeCurves(const CurveSet& curves) {
+  ResultSummary result;
+  for (const Curve& curve : curves.curves) {
+    ++result.num_curves;
+    if (curve.closed) ++result.num_closed;
+    result.num_samples += static_cast<std::int64_t>(curve.samples.size());
+    result.total_length += Length(curve);
+  }
+  return result;
+}
+
+std::string ReportJson(const RunRecord& record) {
+  Json json;
+  json["program"] = {{"name", "colmap_curvix"},
+                     {"version", std::string(ProgramVersion())}};
+  json["preset"] = record.settings.preset;
+  json["options"] = OptionsJson(record.settings.options);
+  json["input"] = InputJson(record.input);
+  json["stages"] = CountsJson(record.stages);
+  json["result"] = ResultJson(record.result);
+  json["run"] = RunJson(record);
+  return json.dump(2) + "\n";
+}
+
+std::string ProjectFile(const RunSettings& settings) {
+  std::string text = "# colmap_curvix " + std::string(ProgramVersion()) + "\n";
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) text += std::string(name) + "=" + value + "\n";
+  };
+  add("workspace_path", settings.workspace_path.string());
+  add("input_path", settings.input_path.string());
+  add("image_path", settings.image_path.string());
+  add("output_path", settings.output_path.string());
+  add("preset", settings.preset);
+  Options options = settings.options;
+  add("num_threads", std::to_string(options.runtime.num_threads));
+  std::string section;
+  for (const OptionRow& row : OptionTable(options)) {
+    const std::size_t dot = row.name.find('.');
+    if (dot == std::string::npos) continue;
+    if (row.name.substr(0, dot) != section) {
+      section = row.name.substr(0, dot);
+      text += "[" + section + "]\n";
+    }
+    add(row.name.c_str() + dot + 1, ValueText(row));
+  }
+  return text;
+}
+
+std::string SummaryText(const RunRecord& record) {
+  const ResultSummary& result = record.result;
+  if (result.num_curves == 0) return EmptyText(record);
+  std::string text = Plural(result.num_curves, "curve");
+  if (result.num_closed > 0) {
+    text += " (" + GroupDigits(result.num_closed) + " closed)";
+  }
+  text += ", total length " + FewDigits(result.total_length) +
+          " in the units of the model\n";
+  text += "  from " + Plural(record.input.num_views, "view") + ", " +
+          Plural(result.num_edges_2d, "edge") + " and " +
+          Plural(result.num_edges_3d, "3D edge") + " in " +
+          DurationText(record.total.wall_seconds) + " (CPU " +
+          DurationText(record.total.cpu_seconds) + ", " +
+          GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n\n";
+  return text + FilesText(result);
+}
+
+}  // namespace curvix

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run_workspace.h"
+
+#include <curvix/camera_model.h>
+#include <curvix/curve_io.h>
+#include <curvix/file_io.h>
+#include <curvix/reconstruct.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plugin/staged_output.h"
+#include "plugin/stopwatch.h"
+#include "plugin/workspace.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+Status Cancelled() {
+  return {StatusCode::kCancelled, "interrupted; nothing was written"};
+}
+
+// An output folder in which results would lie among the inputs, project.ini
+// over COLMAP's.
+Status CheckOutputPath(const Workspace& workspace) {
+  const fs::path output = fs::weakly_canonical(workspace.output_path);
+  for (const fs::path& input : {workspace.model_path, workspace.image_path}) {
+    if (output == fs::weakly_canonical(input)) {
+      return {StatusCode::kInvalidArgument,
+              "the results would be written among the inputs in " +
+                  output.string() +
+                  "; choose another folder with --output_path"};
+    }
+  }
+  return {};
+}
+
+InputSummary SummarizeInput(const Workspace& workspace,
+                            const WorkspaceScene& input) {
+  InputSummary summary;
+  summary.model_path = workspace.model_path;
+  summary.image_path = workspace.image_path;
+  for (const Camera& camera : input.scene.cameras) {
+    summary.camera_models.emplace_back(ModelName(camera.model));
+  }
+  summary.num_views = static_cast<std::int64_t>(input.scene.views.size());
+  summary.num_points = static_cast<std::int64_t>(input.scene.points.size());
+  summary.missing_images = input.missing_images;
+  return summary;
+}
+
+std::int64_t NumEdges(const std::vector<EdgeMap>& edge_maps) {
+  std::int64_t num_edges = 0;
+  for (const EdgeMap& map : edge_maps) {
+    num_edges += static_cast<std::int64_t>(map.edges.size());
+  }
+  return num_edges;
+}
+
+// One run, from the first file read to the last one written.
+class Job {
+ public:
+  Job(const RunSettings& settings, ProgressPrinter& progress)
+      : progress_(progress) {
+    record_.settings = settings;
+  }
+
+  Result<RunRecord> Run();
+
+ private:
+  Result<WorkspaceScene> Read();
+  Result<std::vector<EdgeMap>> Detect(const Scene& scene);
+  Result<Reconstruction> Reconstruct(const Scene& scene,
+                                     const std::vector<EdgeMap>& edge_maps);
+  Status Write(const Scene& scene, const Reconstruction& reconstruction);
+  Status WriteResults(const Scene& scene, const Reconstruction& reconstruction);
+  Status WriteReport();
+
+  Progress Callback() {
+    return [this](const std::string& stage, int done, int total) {
+      return progress_.Update(stage, done, total);
+    };
+  }
+  void Note(const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) progress_.Note(note);
+  }
+
+  ProgressPrinter& progress_;
+  Stopwatch since_start_;
+  Workspace workspace_;
+  fs::path staging_;
+  RunRecord record_;
+};
+
+Result<RunRecord> Job::Run() {
+  Result<WorkspaceScene> input = Read();
+  if (!input.ok()) return input.status();
+  // Now, so that an unwritable folder is not found out after all the work.
+  Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
+  if (!output.ok()) return output.status();
+  staging_ = output->folder();
+
+  const Scene& scene = input->scene;
+  const Result<std::vector<EdgeMap>> edge_maps = Detect(scene);
+  if (!edge_maps.ok()) return edge_maps.status();
+  const Result<Reconstruction> reconstruction = Reconstruct(scene, *edge_maps);
+  if (!reconstruction.ok()) return reconstruction.status();
+
+  const Status written = Write(scene, *reconstruction);
+  if (!written.ok()) return written;
+  if (IsInterrupted()) return Cancelled();
+  const Status published = output->Publish();
+  if (!published.ok()) return published;
+  return std::move(record_);
+}
+
+Result<WorkspaceScene> Job::Read() {
+  const Stopwatch stopwatch;
+  progress_.Update("read_model", 0, 0);
+  RunSettings& settings = record_.settings;
+  Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
+                                               settings.input_path,
+                                               settings.image_path,
+                                               settings.output_path});
+  if (!workspace.ok()) return workspace.status();
+  workspace_ = *workspace;
+  const Status usable = CheckOutputPath(workspace_);
+  if (!usable.ok()) return usable;
+  Result<WorkspaceScene> input = LoadWorkspaceScene(workspace_);
+  if (!input.ok()) return input.status();
+
+  settings.workspace_path = fs::absolute(settings.workspace_path);
+  settings.input_path = fs::absolute(workspace_.model_path);
+  settings.image_path = fs::absolute(workspace_.image_path);
+  settings.output_path = fs::absolute(workspace_.output_path);
+  record_.input = SummarizeInput(workspace_, *input);
+  record_.stages.push_back(stopwatch.Read("read_model"));
+  record_.stages.back().counts = {
+      {"views", record_.input.num_views},
+      {"missing images",
+       static_cast<std::int64_t>(record_.input.missing_images.size())},
+      {"points", record_.input.num_points}};
+  progress_.Finish(GroupDigits(record_.input.num_views) + " views, " +
+                   GroupDigits(record_.input.num_points) + " points");
+  Note(workspace_.notes);
+  Note(input->notes);
+  return input;
+}
+
+Result<std::vector<EdgeMap>> Job::Detect(const Scene& scene) {
+  const Stopwatch stopwatch;
+  Result<std::vector<EdgeMap>> edge_maps =
+      DetectEdges(scene, record_.settings.options, Callback());
+  if (!edge_maps.ok()) return edge_maps.status();
+  record_.result.num_edges_2d = NumEdges(*edge_maps);
+  record_.stages.push_back(stopwatch.Read("detect_edges"));
+  record_.stages.back().counts = {{"views", record_.input.num_views},
+                                  {"edges", record_.result.num_edges_2d}};
+  progress_.Finish(GroupDigits(record_.input.num_views) + " views, " +
+                   GroupDigits(record_.result.num_edges_2d) + " edges");
+  return edge_maps;
+}
+
+Result<Reconstruction> Job::Reconstruct(const Scene& scene,
+                                        const std::vector<EdgeMap>& edge_maps) {
+  Result<Reconstruction> reconstruction =
+      ReconstructCurves(scene, edge_maps, record_.settings.options, Callback());
+  if (!reconstruction.ok()) return reconstruction.status();
+  progress_.Finish();
+  for (const StageReport& stage : reconstruction->report.stages) {
+    record_.stages.push_back(stage);
+  }
+  const std::int64_t num_edges_2d = record_.result.num_edges_2d;
+  record_.result = SummarizeCurves(reconstruction->curves);
+  record_.result.output_path = workspace_.output_path;
+  record_.result.num_edges_2d = num_edges_2d;
+  record_.result.num_edges_3d =
+      static_cast<std::int64_t>(reconstruction->edges.size());
+  record_.result.why_empty = reconstruction->report.why_empty;
+  return reconstruction;
+}
+
+Status Job::Write(const Scene& scene, const Reconstruction& reconstruction) {
+  if (record_.result.num_curves > 0) {
+    const Status status = WriteResults(scene, reconstruction);
+    if (!status.ok()) return status;
+  }
+  return WriteReport();
+}
+
+Status Job::WriteResults(const Scene& scene,
+                         const Reconstruction& reconstruction) {
+  const Stopwatch stopwatch;
+  std::vector<std::string>& files = record_.result.files;
+  for (const char* name :
+       {"curves.ply", "curves.obj", "curves.pcd", "curves.txt"}) {
+    progress_.Update("write_files", static_cast<int>(files.size()), 6);
+    const Status status =
+        WriteCurves(staging_ / name, reconstruction.curves, scene);
+    if (!status.ok()) return status;
+    files.push_back(name);
+  }
+  const Status status =
+      WriteEdges(staging_ / "edges.ply", reconstruction.edges);
+  if (!status.ok()) return status;
+  files.push_back("edges.ply");
+  record_.stages.push_back(stopwatch.Read("write_files"));
+  files.push_back("project.ini");
+  return WriteFileAtomically(staging_ / "project.ini",
+                             ProjectFile(record_.settings));
+}
+
+Status Job::WriteReport() {
+  record_.result.files.push_back("report.json");
+  record_.total = since_start_.Read("total");
+  progress_.Finish();
+  return WriteFileAtomically(staging_ / "report.json", ReportJson(record_));
+}
+
+}  // namespace
+
+Result<RunRecord> RunWorkspace(const RunSettings& settings,
+                               ProgressPrinter& progress) {
+  try {
+    return Job(settings, progress).Run();
+  } catch (const fs::filesystem_error& error) {
+    return Status(StatusCode::kNotFound, error.what());
+  }
+}
+
+}  // namespace curvix

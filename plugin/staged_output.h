@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All files of a run appear together, or none does.
+#pragma once
+
+#include <curvix/status.h>
+
+#include <filesystem>
+#include <vector>
+
+namespace curvix {
+
+// A temporary folder inside the output folder. Files are written there and
+// moved into place by Publish(); without it the destructor leaves everything
+// as it was, created folders included.
+class StagedOutput {
+ public:
+  // kInvalidArgument if the output folder cannot be made or written to.
+  static Result<StagedOutput> Create(const std::filesystem::path& output_path);
+
+  StagedOutput(StagedOutput&& other) noexcept;
+  StagedOutput& operator=(StagedOutput&& other) = delete;
+  ~StagedOutput();
+
+  // Where to write, under the final file names.
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // Moves every file into the output folder, over older ones of the same name.
+  // If one cannot be moved, the older ones come back.
+  Status Publish();
+
+ private:
+  StagedOutput(std::filesystem::path output_path,
+               std::filesystem::path folder,
+               std::filesystem::path first_created);
+
+  std::filesystem::path output_path_;
+  std::filesystem::path folder_;         // empty: moved from
+  std::filesystem::path first_created_;  // empty: the output folder was there
+};
+
+}  // namespace curvix

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/command_line.h"
+
+#include <sstream>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/help_text.h"
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A program with every kind of flag.
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    sections_.push_back(
+        {"Paths",
+         {Required(PathFlag("workspace_path", &workspace_path_, "folder")),
+          PathFlag("project_path", &project_path_, "file"),
+          ChoiceFlag("color", {"red", "blue"}, &color_, "what color"),
+          Switch("json", &json_, "machine-readable")}});
+    for (FlagSection& section : OptionSections(options_)) {
+      sections_.push_back(std::move(section));
+    }
+  }
+
+  Result<Request> Parse(std::vector<std::string> arguments) {
+    return ParseFlags(arguments, sections_);
+  }
+  std::string Error(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"--workspace_path", "w"});
+    const Result<Request> request = Parse(arguments);
+    EXPECT_EQ(request.status().code(), StatusCode::kInvalidArgument);
+    return request.status().message();
+  }
+  std::string ProjectFile(const std::string& text) {
+    return folder_.Write("project.ini", text).string();
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path workspace_path_;
+  std::filesystem::path project_path_;
+  std::string color_ = "red";
+  bool json_ = false;
+  Options options_;
+  std::vector<FlagSection> sections_;
+};
+
+TEST_F(CommandLine, SetsFlagsOfEveryKind) {
+  const auto request = Parse({"--workspace_path=a b",
+                              "--color",
+                              "blue",
+                              "--json",
+                              "--num_threads",
+                              "-1",
+                              "--CurveRefinement.enabled",
+                              "0",
+                              "--Validation.support_test",
+                              "wedges",
+                              "--Hypotheses.location_tolerance_px",
+                              "0.4"});
+  ASSERT_TRUE(request.ok()) << request.status().message();
+  EXPECT_EQ(*request, Request::kRun);
+  EXPECT_EQ(workspace_path_, "a b");
+  EXPECT_EQ(color_, "blue");
+  EXPECT_TRUE(json_);
+  EXPECT_EQ(options_.runtime.num_threads, -1);
+  EXPECT_FALSE(options_.curve_refinement.enabled);
+  EXPECT_EQ(options_.validation.support_test, SupportTest::kWedges);
+  EXPECT_EQ(options_.hypotheses.location_tolerance_px, 0.4);
+}
+
+TEST_F(CommandLine, ReadsAProjectFileWithSections) {
+  const std::string path = ProjectFile(
+      "# comment\nworkspace_path = w x\r\ncolor=blue\n\n"
+      "[Validation]\nmax_angle_deg=7\n[EdgeDetection]\nsigma_px=2\n");
+  const auto request = Parse({"--project_path", path});
+  ASSERT_TRUE(request.ok()) << request.status().message();
+  EXPECT_EQ(workspace_path_, "w x");
+  EXPECT_EQ(color_, "blue");
+  EXPECT_EQ(options_.validation.max_angle_deg, 7);
+  EXPECT_EQ(options_.edge_detection.sigma_px, 2);
+}
+
+TEST_F(CommandLine, ArgumentsWinOverTheProjectFile) {
+  const std::string path = ProjectFile(
+      "workspace_path=from_file\n[Validation]\nmax_angle_deg=7\n"
+      "min_num_support_views=6\n");
+  for (const bool is_first : {true, false}) {
+    options_ = Options();
+    std::vector<std::string> arguments = {"--Validation.max_angle_deg", "9"};
+    arguments.insert(is_first ? arguments.begin() : arguments.end(),
+                     {"--project_path", path});
+    ASSERT_TRUE(Parse(arguments).ok());
+    EXPECT_EQ(options_.validation.max_angle_deg, 9);
+    EXPECT_EQ(options_.validation.min_num_support_views, 6);
+    EXPECT_EQ(workspace_path_, "from_file");
+  }
+}
+
+TEST_F(CommandLine, ErrorsInTheProjectFileNameIt) {
+  const std::string unknown = ProjectFile("[Validation]\nmax_angel_deg=7\n");
+  EXPECT_THAT(Error({"--project_path", unknown}),
+              AllOf(HasSubstr("max_angle_deg"), HasSubstr("project.ini")));
+  const std::string broken = ProjectFile("no equals sign\n");
+  EXPECT_THAT(Error({"--project_path", broken}), HasSubstr("project.ini"));
+  const auto missing = Parse({"--project_path", "/no/such/file.ini"});
+  EXPECT_EQ(missing.status().code(), StatusCode::kNotFound);
+  EXPECT_THAT(missing.status().message(), HasSubstr("/no/such/file.ini"));
+}
+
+TEST_F(CommandLine, SuggestsTheNearestName) {
+  EXPECT_THAT(Error({"--workspce_path", "x"}),
+              AllOf(HasSubstr("'--workspce_path'"),
+                    HasSubstr("did you mean '--workspace_path'?")));
+  EXPECT_THAT(Error({"--sigma_px=1"}),
+              HasSubstr("did you mean '--EdgeDetection.sigma_px'?"));
+  EXPECT_THAT(Error({"--validation.Max_Angle_deg", "3"}),
+              HasSubstr("did you mean '--Validation.max_angle_deg'?"));
+  EXPECT_THAT(Error({"--completely_different_thing", "3"}),
+              AllOf(HasSubstr("--completely_different_thing"),
+                    Not(HasSubstr("did you mean"))));
+}
+
+TEST_F(CommandLine, DoesNotGuessAbbreviations) {
+  EXPECT_THAT(Error({"--num_thread", "2"}), HasSubstr("'--num_threads'"));
+  EXPECT_THAT(Error({"-w", "2"}), HasSubstr("'-w'"));
+}
+
+TEST_F(CommandLine, NamesTheMissingOption) {
+  const auto request = Parse({"--num_threads", "2"});
+  EXPECT_EQ(request.status().message(),
+            "The option '--workspace_path' is required but missing");
+}
+
+TEST_F(CommandLine, RefusesValuesOutsideTheRange) {
+  EXPECT_THAT(Error({"--Validation.max_angle_deg", "-1"}),
+              HasSubstr("Validation.max_angle_deg is -1; it must be > 0"));
+  EXPECT_THAT(Error({"--color", "green"}),
+              HasSubstr("color is green; it must be one of red, blue"));
+  EXPECT_THAT(Error({"--num_threads", "two"}), HasSubstr("num_threads is two"));
+}
+
+TEST_F(CommandLine, RefusesTwiceNothingAndStrayWords) {
+  EXPECT_THAT(Error({"--color", "red", "--color", "blue"}),
+              HasSubstr("'--color' is given twice"));
+  EXPECT_THAT(Error({"--color"}), HasSubstr("--color"));
+  EXPECT_THAT(Error({"stray"}), HasSubstr("'stray' is not expected"));
+}
+
+TEST_F(CommandLine, HelpNeedsNothingElse) {
+  for (const char* help : {"-h", "--help"}) {
+    const auto request = Parse({"--num_threads", "nonsense", help});
+    ASSERT_TRUE(request.ok());
+    EXPECT_EQ(*request, Request::kHelp);
+  }
+}
+
+TEST_F(CommandLine, HelpMentionsEveryOptionWithDefaultAndRange) {
+  const std::string help = HelpText("program [options]", "Does it.", sections_);
+  for (const FlagSection& section : sections_) {
+    EXPECT_THAT(help, HasSubstr("\n" + section.title + "\n"));
+  }
+  for (const OptionRow& row : OptionTable(options_)) {
+    EXPECT_THAT(help, HasSubstr("--" + row.name + " arg (=" + ValueText(row)));
+    EXPECT_THAT(help, HasSubstr(RangeText(row)));
+  }
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 80u) << line;
+    EXPECT_TRUE(line.empty() || line.back() != ' ') << line;
+  }
+}
+
+TEST(NearestName, PrefersTheNearestAndIsSilentWhenNoneIsNear) {
+  const std::vector<std::string> names = {"A.min_length_px", "A.max_length_px"};
+  EXPECT_EQ(NearestName("max_lenght_px", names), "A.max_length_px");
+  EXPECT_EQ(NearestName("B.min_length_px", names), "A.min_length_px");
+  EXPECT_EQ(NearestName("min_length", names), "A.min_length_px");
+  EXPECT_EQ(NearestName("zzz", names), "");
+  EXPECT_EQ(NearestName("", names), "");
+  EXPECT_EQ(NearestName("x", {}), "");
+}
+
+}  // namespace
+}  // namespace curvix
