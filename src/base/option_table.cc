@@ -177,18 +177,6 @@ void AddRows(ConnectivityOptions& o, Section row) {
   row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
       "edges nearer together along a curve are made one; 0 keeps all");
   row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
-      "largest distance across the tangent of connected edges");
-  row("max_step_px", &o.max_step_px, Above(0), "px", "",
-      "longest step along the tangent to the next edge");
-  row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
-      "largest angle between connected edges");
-  row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
-      "longest gap closed between ends of curves; 0 closes none");
-  row("max_repeat_distance_px", &o.max_repeat_distance_px, AtLeast(0), "px",
-      "", "pieces nearer to a longer curve are dropped; 0 keeps all");
-  row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
-      "edges nearer together along a curve are made one; 0 keeps all");
-  row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
       "largest distance across the tangent of edges made one or connected");
   row("max_step_px", &o.max_step_px, Above(0), "px", "Sec. 6",
       "longest step along the tangent to the next edge");
