@@ -33,6 +33,7 @@ struct SyntheticOptions {
       0;             // disturbs the written poses, not the rendered ones
   double scale = 1;  // longest side of the solid, world units, > 0
   std::uint64_t seed = 1;
+  int num_threads = 0;  // 0: all cores; the result does not depend on it
 };
 
 // 8-bit RGB, row-major.

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "synthetic/crease_curves.h"
+
+#include "base/angles.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector3d;
+
+// A face of a primitive and its surface in the world.
+struct Face {
+  const Primitive* primitive;
+  int face_idx;
+  bool is_plane;
+  Vector3d point;  // on the plane; base of the frustum; centre of the sphere
+  Vector3d axis;   // unit: normal of the plane, axis of the frustum
+};
+
+Face MakeFace(const Primitive& primitive, int face_idx) {
+  const Rigid3& pose = primitive.world_from_own;
+  Face face{&primitive, face_idx, true, pose.translation, Vector3d::UnitZ()};
+  Vector3d own_axis = Vector3d::UnitZ();
+  Vector3d own_point = Vector3d::Zero();
+  if (primitive.shape == PrimitiveShape::kBox) {
+    own_axis = (face_idx % 2 == 0 ? -1 : 1) * Vector3d::Unit(face_idx / 2);
+    own_point = primitive.size.cwiseProduct(own_axis);
+  } else {
+    face.is_plane = face_idx > 0;
+    if (face_idx == 2) own_point.z() = primitive.size.z();
+  }
+  face.point = pose * own_point;
+  face.axis = pose.rotation * own_axis;
+  return face;
+}
+
+std::optional<CreaseCurve> Circle(const Vector3d& centre,
+                                  const Vector3d& normal,
+                                  double radius,
+                                  double tolerance) {
+  if (!(radius > tolerance)) return std::nullopt;
+  CreaseCurve circle;
+  circle.origin = centre;
+  circle.along = normal.unitOrthogonal();
+  circle.across = normal.cross(circle.along);
+  circle.radius = radius;
+  circle.length = 2 * kPi * radius;
+  circle.is_closed = true;
+  return circle;
+}
+
+// The whole line, as far as it runs within `reach` of the origin.
+std::optional<CreaseCurve> PlanePlane(const Face& a,
+                                      const Face& b,
+                                      double reach) {
+  const Vector3d along = a.axis.cross(b.axis);
+  if (along.norm() < 1e-6) return std::nullopt;
+  const double cosine = a.axis.dot(b.axis);
+  const double to_a = a.axis.dot(a.point);
+  const double to_b = b.axis.dot(b.point);
+  CreaseCurve line;
+  line.along = along.normalized();
+  const Vector3d nearest =
+      ((to_a - to_b * cosine) * a.axis + (to_b - to_a * cosine) * b.axis) /
+      (1 - cosine * cosine);
+  line.origin = nearest - reach * line.along;
+  line.length = 2 * reach;
+  return line;
+}
+
+std::optional<CreaseCurve> PlaneRound(const Face& plane,
+                                      const Face& round,
+                                      double reach) {
+  const Vector3d& size = round.primitive->size;
+  const double height = plane.axis.dot(plane.point - round.point);
+  const double tolerance = 1e-6 * reach;
+  if (round.primitive->shape == PrimitiveShape::kSphere) {
+    const double squared = size.x() * size.x() - height * height;
+    return Circle(round.point + height * plane.axis,
+                  plane.axis,
+                  std::sqrt(std::max(0.0, squared)),
+                  tolerance);
+  }
+  const double cosine = plane.axis.dot(round.axis);
+  if (std::abs(cosine) < 1 - 1e-9) return std::nullopt;
+  const double z = height * cosine;
+  return Circle(round.point + z * round.axis,
+                plane.axis,
+                size.x() + (size.y() - size.x()) * z / size.z(),
+                tolerance);
+}
+
+std::optional<CreaseCurve> Candidate(const Face& a,
+                                     const Face& b,
+                                     double reach) {
+  if (a.is_plane && b.is_plane) return PlanePlane(a, b, reach);
+  if (a.is_plane) return PlaneRound(a, b, reach);
+  if (b.is_plane) return PlaneRound(b, a, reach);
+  return std::nullopt;
+}
+
+bool IsOn(const Primitive& primitive, const Vector3d& x, double tolerance) {
+  for (int face = 0; face < NumFaces(primitive.shape); ++face) {
+    if (FaceValue(primitive, face, x) > tolerance) return false;
+  }
+  return true;
+}
+
+// Whether the solid, cut across `tangent` close to x, fills neither none, half
+// nor all of a small disc.
+bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
+  constexpr int kNumProbes = 32;
+  const double probe_radius = 1e-5 * solid.radius();
+  const Vector3d u = tangent.unitOrthogonal();
+  const Vector3d v = tangent.cross(u);
+  int num_inside = 0;
+  for (int i = 0; i < kNumProbes; ++i) {
+    const double angle = 2 * kPi * (i + 0.37) / kNumProbes;
+    num_inside += solid.Contains(
+        x + probe_radius * (std::cos(angle) * u + std::sin(angle) * v));
+  }
+  return num_inside > 0 && num_inside < kNumProbes &&
+         std::abs(num_inside - kNumProbes / 2) > 1;
+}
+
+// The stretches of [0, length] on which `is_crease` holds.
+template <typename Predicate>
+std::vector<std::pair<double, double>> Stretches(double length,
+                                                 double step,
+                                                 const Predicate& is_crease) {
+  const auto boundary = [&](double in, double out) {
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (in + out) / 2;
+      (is_crease(middle) ? in : out) = middle;
+    }
+    return in;
+  };
+  std::vector<std::pair<double, double>> stretches;
+  const int num_steps = std::max(8, static_cast<int>(length / step));
+  bool was_crease = is_crease(0);
+  if (was_crease) stretches.push_back({0, length});
+  for (int i = 1; i <= num_steps; ++i) {
+    const double s = length * i / num_steps;
+    const double previous = length * (i - 1) / num_steps;
+    const bool crease = is_crease(s);
+    if (crease && !was_crease)
+      stretches.push_back({boundary(s, previous), length});
+    if (!crease && was_crease) stretches.back().second = boundary(previous, s);
+    was_crease = crease;
+  }
+  return stretches;
+}
+
+CreaseCurve Part(const CreaseCurve& whole, double begin, double end) {
+  CreaseCurve part = whole;
+  part.length = end - begin;
+  part.is_closed = false;
+  if (whole.radius == 0) {
+    part.origin = whole.Position(begin);
+  } else {
+    part.along = (whole.Position(begin) - whole.origin).normalized();
+    part.across = whole.Tangent(begin);
+  }
+  return part;
+}
+
+// The parts of `whole` that are creases between the two faces.
+void AppendCreases(const Solid& solid,
+                   const Face& a,
+                   const Face& b,
+                   const CreaseCurve& whole,
+                   std::vector<CreaseCurve>& curves) {
+  const double tolerance = 1e-9 * solid.radius();
+  const auto is_crease = [&](double s) {
+    const Vector3d x = whole.Position(s);
+    return IsOn(*a.primitive, x, tolerance) &&
+           IsOn(*b.primitive, x, tolerance) &&
+           IsCrease(solid, x, whole.Tangent(s));
+  };
+  auto stretches = Stretches(whole.length, solid.radius() / 200, is_crease);
+  if (whole.is_closed && !stretches.empty()) {
+    const bool is_whole = stretches.front() == std::pair(0.0, whole.length);
+    if (is_whole) {
+      curves.push_back(whole);
+      return;
+    }
+    if (stretches.front().first == 0 &&
+        stretches.back().second == whole.length) {
+      stretches.back().second += stretches.front().second;
+      stretches.erase(stretches.begin());
+    }
+  }
+  for (const auto& [begin, end] : stretches) {
+    if (end - begin < 1e-3 * solid.radius()) continue;
+    curves.push_back(Part(whole, begin, end));
+  }
+}
+
+// Whether every one of a few points of `a` lies on `b`.
+bool IsPartOf(const CreaseCurve& a, const CreaseCurve& b, double tolerance) {
+  if ((a.radius == 0) != (b.radius == 0)) return false;
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Vector3d x = a.Position(share * a.length);
+    const Vector3d d = x - b.origin;
+    double s = d.dot(b.along);
+    if (b.radius > 0) {
+      const double angle = std::atan2(d.dot(b.across), d.dot(b.along));
+      s = b.radius * (angle < 0 ? angle + 2 * kPi : angle);
+    }
+    s = std::clamp(s, 0.0, b.length);
+    const double distance =
+        std::min((x - b.Position(s)).norm(), (x - b.Position(0)).norm());
+    if (distance > tolerance) return false;
+  }
+  return true;
+}
+
+// Without the curves that lie on another; of equal ones the first stays.
+std::vector<CreaseCurve> WithoutRepeats(const std::vector<CreaseCurve>& curves,
+                                        double tolerance) {
+  std::vector<CreaseCurve> kept;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    bool is_repeat = false;
+    for (std::size_t j = 0; j < curves.size() && !is_repeat; ++j) {
+      if (i == j || !IsPartOf(curves[i], curves[j], tolerance)) continue;
+      is_repeat = j < i || !IsPartOf(curves[j], curves[i], tolerance);
+    }
+    if (!is_repeat) kept.push_back(curves[i]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+Vector3d CreaseCurve::Position(double s) const {
+  if (radius == 0) return origin + s * along;
+  const double angle = s / radius;
+  return origin + radius * (std::cos(angle) * along + std::sin(angle) * across);
+}
+
+Vector3d CreaseCurve::Tangent(double s) const {
+  if (radius == 0) return along;
+  const double angle = s / radius;
+  return std::cos(angle) * across - std::sin(angle) * along;
+}
+
+std::vector<CreaseCurve> CreaseCurves(const Solid& solid) {
+  std::vector<Face> faces;
+  for (const Primitive& primitive : solid.primitives()) {
+    for (int face = 0; face < NumFaces(primitive.shape); ++face) {
+      faces.push_back(MakeFace(primitive, face));
+    }
+  }
+  std::vector<CreaseCurve> curves;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = i + 1; j < faces.size(); ++j) {
+      const auto whole = Candidate(faces[i], faces[j], 1.01 * solid.radius());
+      if (whole) AppendCreases(solid, faces[i], faces[j], *whole, curves);
+    }
+  }
+  return WithoutRepeats(curves, 1e-6 * solid.radius());
+}
+
+}  // namespace curvix

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Pictures of a solid, with exact pixel areas.
+#pragma once
+
+#include "synthetic/solid.h"
+#include "synthetic/surface_texture.h"
+
+#include <curvix/camera_model.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace curvix {
+
+// Grey levels before noise and rounding, row-major.
+struct RenderedImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> grey;
+
+  // Between pixel centres, bilinear; at the border the nearest pixels.
+  double At(const Eigen::Vector2d& pixel) const;
+};
+
+// The mean of the scene's brightness over each square pixel (a box filter; no
+// blur besides). Where faces meet inside a pixel, the shares of both are
+// measured to about 1/100 of its area; a camera with distortion bends the
+// picture itself, not a resampled one. Directions that the camera model cannot
+// invert show the background.
+//
+// Faces are lit by fixed lights that cast no shadows, so that all brightness
+// edges are edges of the solid, of its outline, or of the texture.
+RenderedImage Render(const Solid& solid,
+                     const SurfaceTexture& texture,
+                     const Camera& camera,
+                     const Rigid3& cam_from_world);
+
+}  // namespace curvix

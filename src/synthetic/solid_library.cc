@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "synthetic/solid_library.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// What is taken away reaches beyond what it is taken from, so that no two faces
+// coincide by rounding.
+constexpr double kBeyond = 0.05;
+constexpr double kHoleAlbedo = 0.8;  // as if less light came in
+
+Primitive Box(const Vector3d& low, const Vector3d& high) {
+  Primitive box;
+  box.shape = PrimitiveShape::kBox;
+  box.size = (high - low) / 2;
+  box.world_from_own.translation = (low + high) / 2;
+  return box;
+}
+
+// From the centre of the base along `axis`.
+Primitive Frustum(const Vector3d& base,
+                  const Vector3d& axis,
+                  double base_radius,
+                  double top_radius) {
+  Primitive frustum;
+  frustum.shape = PrimitiveShape::kFrustum;
+  frustum.size = {base_radius, top_radius, axis.norm()};
+  frustum.world_from_own = {
+      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis), base};
+  return frustum;
+}
+
+Primitive Cylinder(const Vector3d& base, const Vector3d& axis, double radius) {
+  return Frustum(base, axis, radius, radius);
+}
+
+Primitive Sphere(const Vector3d& centre, double radius) {
+  Primitive sphere;
+  sphere.shape = PrimitiveShape::kSphere;
+  sphere.size = Vector3d::Constant(radius);
+  sphere.world_from_own.translation = centre;
+  return sphere;
+}
+
+Primitive Without(Primitive primitive, double albedo = 1) {
+  primitive.is_added = false;
+  primitive.albedo = albedo;
+  return primitive;
+}
+
+// A hole through a wall between `from` and `to`.
+Primitive Hole(const Vector3d& from, const Vector3d& to, double radius) {
+  const Vector3d beyond = kBeyond * (to - from).normalized();
+  return Without(Cylinder(from - beyond, to - from + 2 * beyond, radius),
+                 kHoleAlbedo);
+}
+
+std::vector<Primitive> Block() {
+  return {Box({0, 0, 0}, {1, 0.7, 0.55}),
+          Without(Box({0.55, -kBeyond, 0.25}, {1 + kBeyond, 0.8, 0.8}))};
+}
+
+std::vector<Primitive> UprightCylinder() {
+  return {Box({-0.5, -0.5, 0}, {0.5, 0.5, 0.14}),
+          Cylinder({0, 0, 0.07}, {0, 0, 0.63}, 0.28)};
+}
+
+std::vector<Primitive> Cone() {
+  return {Box({-0.5, -0.4, 0}, {0.5, 0.4, 0.14}),
+          Frustum({0, 0, 0.14}, {0, 0, 0.55}, 0.33, 0.14)};
+}
+
+std::vector<Primitive> CutSphere() {
+  const Vector3d up = Vector3d(-0.35, -0.3, 0.9).normalized();
+  Primitive cut = Box({-1, -1, 0}, {1, 1, 1});
+  cut.world_from_own.rotation =
+      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up);
+  cut.world_from_own.translation = (0.22 + 0.5) * up;
+  return {Sphere({0, 0, 0}, 0.5), Without(cut)};
+}
+
+// A bracket: base and wall, a hole through the wall, and on the base a boss
+// with a bore, a cone and a round dimple.
+std::vector<Primitive> Part() {
+  const double top = 0.14;  // of the base
+  return {Box({0, 0, 0}, {1, 0.7, top}),
+          Box({0, 0, 0}, {0.14, 0.7, 0.6}),
+          Cylinder({0.4, 0.24, top / 2}, {0, 0, 0.22}, 0.15),
+          Frustum({0.76, 0.48, top}, {0, 0, 0.24}, 0.14, 0.07),
+          Hole({0, 0.35, 0.38}, {0.14, 0.35, 0.38}, 0.13),
+          Hole({0.4, 0.24, 0}, {0.4, 0.24, 0.29}, 0.08),
+          Without(Sphere({0.78, 0.18, top + 0.06}, 0.12), kHoleAlbedo)};
+}
+
+std::vector<Primitive> Primitives(SyntheticSolid solid) {
+  switch (solid) {
+    case SyntheticSolid::kBlock:
+      return Block();
+    case SyntheticSolid::kCylinder:
+      return UprightCylinder();
+    case SyntheticSolid::kCone:
+      return Cone();
+    case SyntheticSolid::kSphere:
+      return CutSphere();
+    case SyntheticSolid::kPart:
+      break;
+  }
+  return Part();
+}
+
+}  // namespace
+
+Solid MakeSolid(SyntheticSolid solid, double scale) {
+  return Solid(Normalized(Primitives(solid), scale));
+}
+
+}  // namespace curvix

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "base/parallel.h"
+#include "synthetic/camera_rig.h"
+#include "synthetic/counter_random.h"
+#include "synthetic/render.h"
+#include "synthetic/solid_library.h"
+#include "synthetic/synthetic_truth.h"
+
+#include <curvix/synthetic.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace curvix {
+namespace {
+
+// Independent streams of random numbers out of one seed.
+enum Stream : std::uint64_t { kPoses, kTexture, kNoise, kPoseError };
+
+// "noise is -1; it must be >= 0" unless min <= value <= max.
+Status CheckRange(const char* name, double value, double min, double max) {
+  if (value >= min && value <= max) return {};
+  std::ostringstream text;
+  text << name << " is " << value << "; it must be between " << min << " and "
+       << max;
+  return {StatusCode::kInvalidArgument, text.str()};
+}
+
+Status Check(const SyntheticOptions& options) {
+  constexpr int kMaxSide = 8192;      // pixels
+  constexpr double kMaxPixels = 1e9;  // of all images
+  const double num_pixels =
+      1.0 * options.num_views * options.width * options.height;
+  for (const Status& status :
+       {CheckRange("num_views", options.num_views, 3, 999),
+        CheckRange("width", options.width, 16, kMaxSide),
+        CheckRange("height", options.height, 16, kMaxSide),
+        CheckRange("noise", options.noise, 0, 255),
+        CheckRange("texture", options.texture, 0, 255),
+        CheckRange("pose_error_px", options.pose_error_px, 0, 100),
+        CheckRange("scale", options.scale, 1e-6, 1e6),
+        CheckRange("num_views * width * height", num_pixels, 0, kMaxPixels)}) {
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+std::string ViewName(std::size_t i) {
+  std::string number = std::to_string(i);
+  number.insert(0, 3 - std::min<std::size_t>(3, number.size()), '0');
+  return "view_" + number + ".png";
+}
+
+RgbImage WithNoise(const RenderedImage& rendered,
+                   double sigma,
+                   std::uint64_t seed) {
+  RgbImage image{rendered.width, rendered.height, {}};
+  image.pixels.reserve(3 * rendered.grey.size());
+  for (std::size_t i = 0; i < rendered.grey.size(); ++i) {
+    double grey = static_cast<double>(rendered.grey[i]);
+    if (sigma > 0) grey += sigma * Gaussian(seed, i);
+    const auto level =
+        static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0, 255.0)));
+    image.pixels.insert(image.pixels.end(), 3, level);
+  }
+  return image;
+}
+
+// A few points all over the solid, to measure disturbances on.
+std::vector<Eigen::Vector3d> EveryFiftieth(
+    const std::vector<TrueSample>& samples) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < samples.size(); i += 50) {
+    points.push_back(samples[i].position);
+  }
+  return points;
+}
+
+}  // namespace
+
+Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
+  if (Status status = Check(options); !status.ok()) return status;
+  Result<Camera> camera = MakeCamera(options);
+  if (!camera.ok()) return camera.status();
+
+  const Solid solid = MakeSolid(options.solid, options.scale);
+  const SurfaceTexture texture(
+      options.texture, options.scale / 14, Mix(options.seed, kTexture));
+  const std::vector<Rigid3> poses =
+      MakePoses(options.num_views, solid.radius(), Mix(options.seed, kPoses));
+
+  SyntheticScene scene;
+  scene.scene.cameras = {*camera};
+  scene.truth = SampleCurves(CreaseCurves(solid), options.scale / 500);
+  const auto points = EveryFiftieth(scene.truth);
+  scene.scene.views.resize(poses.size());
+  scene.images.resize(poses.size());
+  std::vector<std::vector<SampleInView>> looks(poses.size());
+  ParallelFor(poses.size(), options.num_threads, [&](std::size_t i) {
+    const RenderedImage image = Render(solid, texture, *camera, poses[i]);
+    looks[i] = LookAtSamples(scene.truth, solid, *camera, poses[i], image);
+    scene.images[i] =
+        WithNoise(image, options.noise, Mix(Mix(options.seed, kNoise), i));
+    View& view = scene.scene.views[i];
+    view.name = ViewName(i);
+    view.image_id = static_cast<std::uint32_t>(i + 1);
+    view.cam_from_world = Disturbed(poses[i],
+                                    *camera,
+                                    points,
+                                    options.pose_error_px,
+                                    Mix(Mix(options.seed, kPoseError), i));
+  });
+  for (const std::vector<SampleInView>& view_looks : looks) {
+    for (std::size_t i = 0; i < view_looks.size(); ++i) {
+      scene.truth[i].num_views_seen += view_looks[i].is_seen;
+      scene.truth[i].num_views_edge += view_looks[i].is_edge;
+    }
+  }
+  return scene;
+}
+
+}  // namespace curvix

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Samples of the exact edges, and who sees them.
+#pragma once
+
+#include "synthetic/crease_curves.h"
+#include "synthetic/render.h"
+#include "synthetic/solid.h"
+
+#include <curvix/synthetic.h>
+
+#include <vector>
+
+namespace curvix {
+
+// Samples at equal steps of about `step` along each curve, both ends included;
+// curve_id counts the curves from 0. The view counts are left at 0.
+std::vector<TrueSample> SampleCurves(const std::vector<CreaseCurve>& curves,
+                                     double step);
+
+// What one view shows of a sample.
+struct SampleInView {
+  bool is_seen = false;  // in the image, and nothing hides it
+  bool is_edge = false;  // seen, and its two sides differ in the image
+};
+
+// One entry for each sample. `image` is the view's picture without noise: sides
+// differ if their grey values 1.5 px from the edge do by at least 8.
+std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
+                                        const Solid& solid,
+                                        const Camera& camera,
+                                        const Rigid3& cam_from_world,
+                                        const RenderedImage& image);
+
+}  // namespace curvix
