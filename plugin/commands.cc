@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/commands.h"
 
-#include <glog/logging.h>
-#include <unistd.h>
-
 #include <array>
 #include <iostream>
-#include <optional>
-#include <utility>
 
-#include "plugin/command_line.h"
+#include "plugin/command_parts.h"
 #include "plugin/help_text.h"
-#include "plugin/progress.h"
-#include "plugin/run_workspace.h"
+#include "plugin/run_report.h"
 
 namespace curvix {
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-struct Command {
-  const char* name;
-  const char* help;  // one line, without a full stop
-  ExitCode (*run)(const Arguments& arguments);
-};
-
-ExitCode Reconstruct(const Arguments& arguments);
 ExitCode Help(const Arguments& arguments);
 ExitCode Version(const Arguments& arguments);
 
@@ -33,144 +18,14 @@ ExitCode Version(const Arguments& arguments);
 constexpr std::array kCommands = {
     Command{"reconstruct",
             "Photographs and poses in, curves out: the whole job",
-            Reconstruct},
-    Command{"help", "This overview; help <command> explains one", Help},
+            RunReconstruct},
+    Command{"synthesize",
+            "Write a small workspace with known curves, to try things",
+            RunSynthesize},
+    Command{"evaluate", "Compare curves with known ones", RunEvaluate},
+    Command{"help", "This overview; 'help <command>' explains one", Help},
     Command{"version", "The version of the program", Version},
 };
-
-const Command* FindCommand(const std::string& name) {
-  for (const Command& command : kCommands) {
-    if (name == command.name) return &command;
-  }
-  return nullptr;
-}
-
-ExitCode Fail(const Status& status, ExitCode code) {
-  std::string message = status.message();
-  if (message.empty() || (message.back() != '.' && message.back() != '?')) {
-    message += '.';
-  }
-  std::cerr << "ERROR: " << message << std::endl;
-  return code;
-}
-
-// Flags that every word has.
-class CommonFlags {
- public:
-  FlagSection Section() {
-    OptionRow level;
-    level.name = "log_level";
-    level.field = &log_level_;
-    level.max = 4;
-    level.help = "how much libraries log";
-    OptionRow to_stderr;
-    to_stderr.name = "log_to_stderr";
-    to_stderr.field = &log_to_stderr_;
-    to_stderr.max = 1;
-    to_stderr.help = "log to stderr instead of files in the temporary folder";
-    return {"General",
-            {PathFlag("project_path",
-                      &project_path_,
-                      "file with name=value lines and [Section] headings; the "
-                      "command line wins"),
-             RowFlag(to_stderr),
-             RowFlag(level)}};
-  }
-  void Apply() const {
-    FLAGS_logtostderr = log_to_stderr_;
-    FLAGS_v = log_level_;
-  }
-
- private:
-  std::filesystem::path project_path_;
-  bool log_to_stderr_ = true;
-  int log_level_ = 0;
-};
-
-// Parses the flags of a command; they come before the common ones. An exit
-// code if that is all there is to do: help was asked for, or a flag is wrong.
-std::optional<ExitCode> Parse(const std::string& command,
-                              const Arguments& arguments,
-                              std::vector<FlagSection> sections) {
-  CommonFlags common;
-  sections.push_back(common.Section());
-  const Result<Request> request = ParseFlags(arguments, sections);
-  if (!request.ok()) {
-    const ExitCode code = Fail(request.status(), kExitCommandLine);
-    std::cerr << "See 'colmap_curvix " << command << " --help'." << std::endl;
-    return code;
-  }
-  if (*request == Request::kHelp) {
-    std::cout << HelpText("colmap_curvix " + command + " [options]",
-                          FindCommand(command)->help + std::string("."),
-                          sections);
-    return kExitSuccess;
-  }
-  common.Apply();
-  return std::nullopt;
-}
-
-// Replaces the options, threads apart: comes before the flags of the table.
-Flag PresetFlag(RunSettings* settings) {
-  Flag flag = ChoiceFlag("preset",
-                         {"default", "paper"},
-                         &settings->preset,
-                         "values that the options below start from: the best "
-                         "known, or the method of the paper throughout");
-  flag.set = [settings, choose = flag.set](const std::string& text) {
-    Status status = choose(text);
-    if (!status.ok()) return status;
-    const RuntimeOptions runtime = settings->options.runtime;
-    settings->options = text == "paper" ? PaperOptions() : Options();
-    settings->options.runtime = runtime;
-    return status;
-  };
-  return flag;
-}
-
-std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
-  std::vector<FlagSection> sections = {
-      {"Paths",
-       {Required(PathFlag("workspace_path",
-                          &settings->workspace_path,
-                          "folder with sparse/ and images/, or dense/")),
-        PathFlag("input_path",
-                 &settings->input_path,
-                 "folder of the model, when it is not sparse/0, sparse or "
-                 "dense/0/sparse"),
-        PathFlag("image_path",
-                 &settings->image_path,
-                 "folder of the images, when it is not images/ beside the "
-                 "model"),
-        PathFlag("output_path",
-                 &settings->output_path,
-                 "folder of the results, when it is not to be curvix/0 beside "
-                 "sparse/0")}},
-      {"Method", {PresetFlag(settings)}}};
-  for (FlagSection& section : OptionSections(settings->options)) {
-    sections.push_back(std::move(section));
-  }
-  return sections;
-}
-
-ExitCode Reconstruct(const Arguments& arguments) {
-  RunSettings settings;
-  const std::optional<ExitCode> code =
-      Parse("reconstruct", arguments, ReconstructSections(&settings));
-  if (code) return *code;
-  const Status valid = Validate(settings.options);
-  if (!valid.ok()) return Fail(valid, kExitCommandLine);
-
-  Result<RunRecord> record = Status();
-  {
-    ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-    record = RunWorkspace(settings, progress);
-  }
-  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
-  const bool is_empty = record->result.num_curves == 0;
-  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
-  return is_empty ? kExitNoCurves : kExitSuccess;
-}
 
 constexpr char kExamples[] =
     "Examples\n"
@@ -188,13 +43,13 @@ ExitCode Help(const Arguments& arguments) {
     return RunProgram({arguments.front(), "--help"});
   }
   bool markdown = false;
-  const std::optional<ExitCode> code =
-      Parse("help",
-            arguments,
-            {{"Output",
-              {Switch("markdown",
-                      &markdown,
-                      "print docs/options.md, every option in a table")}}});
+  const std::optional<ExitCode> code = ParseCommand(
+      "help",
+      arguments,
+      {{"Output",
+        {Switch("markdown",
+                &markdown,
+                "print docs/options.md, every option in a table")}}});
   if (code) return *code;
   if (markdown) {
     std::cout << OptionsMarkdown();
@@ -206,7 +61,7 @@ ExitCode Help(const Arguments& arguments) {
   for (const Command& command : kCommands) {
     std::string name = command.name;
     name.resize(13, ' ');
-    std::cout << "  " << name << command.help << "\n";
+    std::cout << "  " << name << command.summary << "\n";
   }
   std::cout << "\n" << kExamples;
   return kExitSuccess;
@@ -235,6 +90,13 @@ ExitCode UnknownCommand(const std::string& name) {
 
 }  // namespace
 
+const Command* FindCommand(const std::string& name) {
+  for (const Command& command : kCommands) {
+    if (name == command.name) return &command;
+  }
+  return nullptr;
+}
+
 ExitCode ExitCodeOf(const Status& status) {
   switch (status.code()) {
     case StatusCode::kOk:
@@ -258,7 +120,7 @@ ExitCode RunProgram(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return Help({});
   const std::string& first = arguments.front();
   if (first == "--version") return Version({});
-  if (first.starts_with("-")) return Reconstruct(arguments);
+  if (first.starts_with("-")) return RunReconstruct(arguments);
   const Command* const command = FindCommand(first);
   if (command == nullptr) return UnknownCommand(first);
   return command->run({arguments.begin() + 1, arguments.end()});

@@ -51,7 +51,7 @@ std::string GroupDigits(long long number) {
   std::string text = std::to_string(number);
   const int first = number < 0 ? 1 : 0;
   for (int i = static_cast<int>(text.size()) - 3; i > first; i -= 3) {
-    text.insert(static_cast<std::size_t>(i), " ");
+    text.insert(static_cast<std::size_t>(i), 1, ' ');
   }
   return text;
 }

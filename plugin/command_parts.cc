@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/command_parts.h"
+
+#include <glog/logging.h>
+
+#include <iostream>
+
+#include "plugin/help_text.h"
+
+namespace curvix {
+namespace {
+
+struct CommonSettings {
+  std::filesystem::path project_path;
+  bool log_to_stderr = true;
+  int log_level = 0;
+};
+
+FlagSection CommonSection(CommonSettings* settings) {
+  return {"General",
+          {PathFlag("project_path",
+                    &settings->project_path,
+                    "file with name=value lines and [Section] headings; the "
+                    "command line wins"),
+           RowFlag({.name = "log_to_stderr",
+                    .field = &settings->log_to_stderr,
+                    .max = 1,
+                    .help = "what libraries log goes to stderr; 0: to files in "
+                            "the temporary folder"}),
+           RowFlag({.name = "log_level",
+                    .field = &settings->log_level,
+                    .max = 4,
+                    .help = "how much libraries log"})}};
+}
+
+}  // namespace
+
+ExitCode Fail(const Status& status, ExitCode code) {
+  std::string message = status.message();
+  if (message.empty() || (message.back() != '.' && message.back() != '?')) {
+    message += '.';
+  }
+  std::cerr << "ERROR: " << message << std::endl;
+  return code;
+}
+
+std::optional<ExitCode> ParseCommand(const std::string& name,
+                                     const Arguments& arguments,
+                                     std::vector<FlagSection> sections) {
+  CommonSettings settings;
+  sections.push_back(CommonSection(&settings));
+  const Result<Request> request = ParseFlags(arguments, sections);
+  if (!request.ok()) {
+    const bool is_file = request.status().code() == StatusCode::kNotFound;
+    const ExitCode code =
+        Fail(request.status(), is_file ? kExitInput : kExitCommandLine);
+    std::cerr << "See 'colmap_curvix " << name << " --help'." << std::endl;
+    return code;
+  }
+  if (*request == Request::kHelp) {
+    std::cout << HelpText("colmap_curvix " + name + " [options]",
+                          FindCommand(name)->summary + std::string("."),
+                          sections);
+    return kExitSuccess;
+  }
+  FLAGS_logtostderr = settings.log_to_stderr;
+  FLAGS_v = settings.log_level;
+  return std::nullopt;
+}
+
+}  // namespace curvix

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the words of the program share, and the words themselves.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/command_line.h"
+#include "plugin/commands.h"
+
+namespace curvix {
+
+using Arguments = std::vector<std::string>;
+
+// A word; `summary` is one line without a full stop.
+struct Command {
+  const char* name;
+  const char* summary;
+  ExitCode (*run)(const Arguments& arguments);
+};
+
+ExitCode RunReconstruct(const Arguments& arguments);
+ExitCode RunSynthesize(const Arguments& arguments);
+ExitCode RunEvaluate(const Arguments& arguments);
+
+// nullptr: there is no such word.
+const Command* FindCommand(const std::string& name);
+
+// Prints "ERROR: <message>." to stderr and returns `code`.
+ExitCode Fail(const Status& status, ExitCode code);
+
+// Parses the flags of a word, to which those are added that every word has
+// (project file, logging), and applies the latter. An exit code if that is all
+// there is to do: help was asked for, or a flag is wrong.
+std::optional<ExitCode> ParseCommand(const std::string& name,
+                                     const Arguments& arguments,
+                                     std::vector<FlagSection> sections);
+
+}  // namespace curvix

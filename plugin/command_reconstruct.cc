@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <iostream>
+#include <utility>
+
+#include "plugin/command_parts.h"
+#include "plugin/progress.h"
+#include "plugin/run_workspace.h"
+
+namespace curvix {
+namespace {
+
+// Replaces the options, threads apart: comes before the flags of the table.
+Flag PresetFlag(RunSettings* settings) {
+  Flag flag = ChoiceFlag("preset",
+                         {"default", "paper"},
+                         &settings->preset,
+                         "values that the options below start from: the best "
+                         "known, or the method of the paper throughout");
+  flag.set = [settings, choose = flag.set](const std::string& text) {
+    Status status = choose(text);
+    if (!status.ok()) return status;
+    const RuntimeOptions runtime = settings->options.runtime;
+    settings->options = text == "paper" ? PaperOptions() : Options();
+    settings->options.runtime = runtime;
+    return status;
+  };
+  return flag;
+}
+
+std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
+  std::vector<FlagSection> sections = {
+      {"Paths",
+       {Required(PathFlag("workspace_path",
+                          &settings->workspace_path,
+                          "folder with sparse/ and images/, or dense/")),
+        PathFlag("input_path",
+                 &settings->input_path,
+                 "folder of the model, when it is not sparse/0, sparse or "
+                 "dense/0/sparse"),
+        PathFlag("image_path",
+                 &settings->image_path,
+                 "folder of the images, when it is not images/ beside the "
+                 "model"),
+        PathFlag("output_path",
+                 &settings->output_path,
+                 "folder of the results, when it is not to be curvix/0 beside "
+                 "sparse/0")}},
+      {"Method", {PresetFlag(settings)}}};
+  for (FlagSection& section : OptionSections(settings->options)) {
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+}  // namespace
+
+ExitCode RunReconstruct(const Arguments& arguments) {
+  RunSettings settings;
+  const std::optional<ExitCode> code =
+      ParseCommand("reconstruct", arguments, ReconstructSections(&settings));
+  if (code) return *code;
+  const Status valid = Validate(settings.options);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
+
+  Result<RunRecord> record = Status();
+  {
+    ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
+    record = RunWorkspace(settings, progress);
+  }
+  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
+  const bool is_empty = record->result.num_curves == 0;
+  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
+  return is_empty ? kExitNoCurves : kExitSuccess;
+}
+
+}  // namespace curvix
