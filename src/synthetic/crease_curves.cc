@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -19,7 +18,6 @@ using Eigen::Vector3d;
 // A face of a primitive and its surface in the world.
 struct Face {
   const Primitive* primitive;
-  int face_idx;
   bool is_plane;
   Vector3d point;  // on the plane; base of the frustum; centre of the sphere
   Vector3d axis;   // unit: normal of the plane, axis of the frustum
@@ -27,7 +25,7 @@ struct Face {
 
 Face MakeFace(const Primitive& primitive, int face_idx) {
   const Rigid3& pose = primitive.world_from_own;
-  Face face{&primitive, face_idx, true, pose.translation, Vector3d::UnitZ()};
+  Face face{&primitive, true, pose.translation, Vector3d::UnitZ()};
   Vector3d own_axis = Vector3d::UnitZ();
   Vector3d own_point = Vector3d::Zero();
   if (primitive.shape == PrimitiveShape::kBox) {
@@ -107,13 +105,6 @@ std::optional<CreaseCurve> Candidate(const Face& a,
   return std::nullopt;
 }
 
-bool IsOn(const Primitive& primitive, const Vector3d& x, double tolerance) {
-  for (int face = 0; face < NumFaces(primitive.shape); ++face) {
-    if (FaceValue(primitive, face, x) > tolerance) return false;
-  }
-  return true;
-}
-
 // Whether the solid, cut across `tangent` close to x, fills neither none, half
 // nor all of a small disc.
 bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
@@ -172,23 +163,17 @@ CreaseCurve Part(const CreaseCurve& whole, double begin, double end) {
   return part;
 }
 
-// The parts of `whole` that are creases between the two faces.
+// The parts of `whole` that are creases.
 void AppendCreases(const Solid& solid,
-                   const Face& a,
-                   const Face& b,
                    const CreaseCurve& whole,
                    std::vector<CreaseCurve>& curves) {
-  const double tolerance = 1e-9 * solid.radius();
   const auto is_crease = [&](double s) {
-    const Vector3d x = whole.Position(s);
-    return IsOn(*a.primitive, x, tolerance) &&
-           IsOn(*b.primitive, x, tolerance) &&
-           IsCrease(solid, x, whole.Tangent(s));
+    return IsCrease(solid, whole.Position(s), whole.Tangent(s));
   };
   auto stretches = Stretches(whole.length, solid.radius() / 200, is_crease);
-  if (whole.is_closed && !stretches.empty()) {
-    const bool is_whole = stretches.front() == std::pair(0.0, whole.length);
-    if (is_whole) {
+  if (stretches.empty()) return;
+  if (whole.is_closed) {
+    if (stretches.front() == std::pair(0.0, whole.length)) {
       curves.push_back(whole);
       return;
     }
@@ -199,43 +184,52 @@ void AppendCreases(const Solid& solid,
     }
   }
   for (const auto& [begin, end] : stretches) {
-    if (end - begin < 1e-3 * solid.radius()) continue;
+    if (end - begin < 1e-2 * solid.radius()) continue;
     curves.push_back(Part(whole, begin, end));
   }
 }
 
-// Whether every one of a few points of `a` lies on `b`.
-bool IsPartOf(const CreaseCurve& a, const CreaseCurve& b, double tolerance) {
-  if ((a.radius == 0) != (b.radius == 0)) return false;
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const Vector3d x = a.Position(share * a.length);
-    const Vector3d d = x - b.origin;
-    double s = d.dot(b.along);
-    if (b.radius > 0) {
-      const double angle = std::atan2(d.dot(b.across), d.dot(b.along));
-      s = b.radius * (angle < 0 ? angle + 2 * kPi : angle);
-    }
-    s = std::clamp(s, 0.0, b.length);
-    const double distance =
-        std::min((x - b.Position(s)).norm(), (x - b.Position(0)).norm());
-    if (distance > tolerance) return false;
-  }
-  return true;
+// Whether x is on the whole line or circle that `curve` belongs to.
+bool IsOnCarrier(const Vector3d& x,
+                 const CreaseCurve& curve,
+                 double tolerance) {
+  const Vector3d d = x - curve.origin;
+  if (curve.radius == 0) return d.cross(curve.along).norm() < tolerance;
+  const Vector3d radial =
+      d.dot(curve.along) * curve.along + d.dot(curve.across) * curve.across;
+  return (d - radial).norm() < tolerance &&
+         std::abs(radial.norm() - curve.radius) < tolerance;
 }
 
-// Without the curves that lie on another; of equal ones the first stays.
-std::vector<CreaseCurve> WithoutRepeats(const std::vector<CreaseCurve>& curves,
-                                        double tolerance) {
-  std::vector<CreaseCurve> kept;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    bool is_repeat = false;
-    for (std::size_t j = 0; j < curves.size() && !is_repeat; ++j) {
-      if (i == j || !IsPartOf(curves[i], curves[j], tolerance)) continue;
-      is_repeat = j < i || !IsPartOf(curves[j], curves[i], tolerance);
+bool IsSame(const CreaseCurve& a, const CreaseCurve& b, double tolerance) {
+  if ((a.radius == 0) != (b.radius == 0)) return false;
+  return IsOnCarrier(a.Position(0), b, tolerance) &&
+         IsOnCarrier(a.Position(a.length / 3), b, tolerance) &&
+         IsOnCarrier(a.Position(2 * a.length / 3), b, tolerance);
+}
+
+// The different lines and circles in which faces of the solid may meet.
+std::vector<CreaseCurve> Candidates(const Solid& solid) {
+  std::vector<Face> faces;
+  for (const Primitive& primitive : solid.primitives()) {
+    for (int face = 0; face < NumFaces(primitive.shape); ++face) {
+      faces.push_back(MakeFace(primitive, face));
     }
-    if (!is_repeat) kept.push_back(curves[i]);
   }
-  return kept;
+  std::vector<CreaseCurve> candidates;
+  const auto is_new = [&](const CreaseCurve& curve) {
+    return std::none_of(
+        candidates.begin(), candidates.end(), [&](const CreaseCurve& other) {
+          return IsSame(curve, other, 1e-6 * solid.radius());
+        });
+  };
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = i + 1; j < faces.size(); ++j) {
+      const auto curve = Candidate(faces[i], faces[j], 1.01 * solid.radius());
+      if (curve && is_new(*curve)) candidates.push_back(*curve);
+    }
+  }
+  return candidates;
 }
 
 }  // namespace
@@ -253,20 +247,11 @@ Vector3d CreaseCurve::Tangent(double s) const {
 }
 
 std::vector<CreaseCurve> CreaseCurves(const Solid& solid) {
-  std::vector<Face> faces;
-  for (const Primitive& primitive : solid.primitives()) {
-    for (int face = 0; face < NumFaces(primitive.shape); ++face) {
-      faces.push_back(MakeFace(primitive, face));
-    }
-  }
   std::vector<CreaseCurve> curves;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    for (std::size_t j = i + 1; j < faces.size(); ++j) {
-      const auto whole = Candidate(faces[i], faces[j], 1.01 * solid.radius());
-      if (whole) AppendCreases(solid, faces[i], faces[j], *whole, curves);
-    }
+  for (const CreaseCurve& whole : Candidates(solid)) {
+    AppendCreases(solid, whole, curves);
   }
-  return WithoutRepeats(curves, 1e-6 * solid.radius());
+  return curves;
 }
 
 }  // namespace curvix

@@ -28,8 +28,8 @@ struct CreaseCurve {
 // about 25 degrees, each once, whole: an edge that others touch stays one
 // curve. Faces that continue each other smoothly make no edge. Candidates are
 // plane with plane, plane with frustum at right angles to its axis, and plane
-// with sphere; other pairs are not looked at. Edges shorter than a thousandth
-// of the solid's radius are left out.
+// with sphere; other pairs are not looked at. Edges shorter than a hundredth of
+// the solid's radius are left out.
 std::vector<CreaseCurve> CreaseCurves(const Solid& solid);
 
 }  // namespace curvix

@@ -88,7 +88,7 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
 
   const Solid solid = MakeSolid(options.solid, options.scale);
   const SurfaceTexture texture(
-      options.texture, options.scale / 14, Mix(options.seed, kTexture));
+      options.texture, options.scale / 18, Mix(options.seed, kTexture));
   const std::vector<Rigid3> poses =
       MakePoses(options.num_views, solid.radius(), Mix(options.seed, kPoses));
 
