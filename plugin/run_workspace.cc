@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/run_workspace.h"
 
+#include <curvix/stopwatch.h>
 #include <curvix/camera_model.h>
 #include <curvix/curve_io.h>
 #include <curvix/file_io.h>
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include "plugin/staged_output.h"
-#include "plugin/stopwatch.h"
 #include "plugin/workspace.h"
 
 namespace curvix {

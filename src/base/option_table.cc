@@ -15,13 +15,11 @@ struct Range {
 };
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr double kMaxCount = 1e6;
 
 constexpr Range AtLeast(double min) { return {min, kNoLimit, false}; }
 constexpr Range Above(double min) { return {min, kNoLimit, true}; }
 constexpr Range Between(double min, double max) { return {min, max, false}; }
 constexpr Range AboveUpTo(double min, double max) { return {min, max, true}; }
-constexpr Range Count(double min) { return {min, kMaxCount, false}; }
 
 using Field = decltype(OptionRow::field);
 using Texts = std::vector<std::string>;
@@ -99,7 +97,7 @@ void AddRows(HypothesisOptions& o, Section row) {
   row("location_tolerance_px", &o.location_tolerance_px, AboveUpTo(0, 100),
       "px", "Delta gamma, Sec. 3",
       "how well an edge is localized: opens the epipolar wedges");
-  row("num_partners", &o.num_partners, Count(1), "", "",
+  row("num_partners", &o.num_partners, AtLeast(1), "", "",
       "partners of each view with every_view");
   row("min_ray_angle_deg", &o.min_ray_angle_deg, Between(0, 180), "deg", "",
       "smallest angle between the rays of a pair of views");
@@ -112,7 +110,7 @@ void AddRows(HypothesisOptions& o, Section row) {
       "P, Sec. 3",
       "with unused_edges: stop when this share of the edges of every view is "
       "used");
-  row("max_num_view_pairs", &o.max_num_view_pairs, Count(1), "", "",
+  row("max_num_view_pairs", &o.max_num_view_pairs, AtLeast(1), "", "",
       "with unused_edges: stop after so many pairs of views");
 }
 
@@ -143,7 +141,7 @@ void AddRows(ValidationOptions& o, Section row) {
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg",
       "Delta theta_p, Sec. 3",
       "largest angle between a supporting edge and the projection");
-  row("min_num_support_views", &o.min_num_support_views, Count(1), "",
+  row("min_num_support_views", &o.min_num_support_views, AtLeast(1), "",
       "M, Sec. 3",
       "fewest validation views that must support a hypothesis");
   row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
@@ -159,12 +157,12 @@ void AddRows(NeighborhoodOptions& o, Section row) {
   row("max_projection_distance_px", &o.max_projection_distance_px, Above(0),
       "px", "tau_gamma, Sec. 5",
       "longest distance between the projections of linked edges");
-  row("max_num_links", &o.max_num_links, Count(1), "", "",
+  row("max_num_links", &o.max_num_links, AtLeast(1), "", "",
       "links that one edge may ask for, the heaviest first; bounds memory");
 }
 
 void AddRows(AlignmentOptions& o, Section row) {
-  row("num_iterations", &o.num_iterations, Count(0), "", "Sec. 5",
+  row("num_iterations", &o.num_iterations, AtLeast(0), "", "Sec. 5",
       "alignment steps; 0 leaves the edges where they are");
   row("step_size", &o.step_size, AboveUpTo(0, 1), "", "Sec. 5",
       "share of the mean force and torque applied in a step");

@@ -15,9 +15,9 @@ namespace {
 
 // Independent of the locale; the shortest text that reads back as `value`.
 std::string NumberText(double value) {
-  if (value == std::numeric_limits<double>::infinity()) return "infinity";
   std::array<char, 64> text;
-  const auto end = std::to_chars(text.data(), text.data() + 64, value).ptr;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return {text.data(), end};
 }
 
@@ -97,6 +97,9 @@ struct FieldReader {
 }  // namespace
 
 std::string ValueText(const OptionRow& row) {
+  if (const auto* field = std::get_if<int*>(&row.field)) {
+    return std::to_string(**field);
+  }
   if (row.choices.empty()) return NumberText(NumberOf(row));
   const auto index = static_cast<std::size_t>(NumberOf(row));
   CURVIX_CHECK(index < row.choices.size(), row.name << " has no name");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/stopwatch.h"
+// Paper: none (engineering).
+#include <curvix/stopwatch.h>
 
 #include <sys/resource.h>
 

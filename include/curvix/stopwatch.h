@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// What a stage of a run cost.
 #pragma once
 
 #include <curvix/reconstruct.h>
