@@ -138,8 +138,7 @@ std::vector<Curve> Pieces(Curve curve,
       pieces.emplace_back();
     }
   }
-  std::erase_if(pieces,
-                [](const auto& piece) { return piece.samples.size() < 2; });
+  if (pieces.back().samples.empty()) pieces.pop_back();
   return pieces;
 }
 

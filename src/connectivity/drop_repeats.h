@@ -15,8 +15,8 @@ namespace curvix {
 // length in pixels (ties: smaller index), samples in order; one goes if a
 // sample that stays, of an earlier curve or further back on its own, is at most
 // options.max_repeat_distance_px across it, sample_spacing_px along it and
-// max_angle_deg off in direction. Curves fall apart where samples go; pieces of
-// two and more samples stay, in the order of the curves that they come from.
+// max_angle_deg off in direction. Curves fall apart where samples go; the
+// pieces come in the order of the curves that they come from.
 //
 // Deviation: the paper draws every track. Edges of the same place that no 2D
 // edge links, since different views formed them, come out as curves side by

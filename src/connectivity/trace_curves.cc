@@ -61,7 +61,7 @@ std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
       curve.samples.push_back(
           SampleOf(edges[edge_idx], graph.flipped[edge_idx]));
     }
-    if (walk.size() >= 2) curves.push_back(std::move(curve));
+    curves.push_back(std::move(curve));
   }
   return curves;
 }
@@ -84,7 +84,8 @@ std::vector<Curve> DropShortCurves(std::vector<Curve> curves,
                                    const std::vector<PosedView>& views,
                                    double min_length_px) {
   std::erase_if(curves, [&](const Curve& curve) {
-    return LengthInPixels(curve, views) < min_length_px;
+    return curve.samples.size() < 2 ||
+           LengthInPixels(curve, views) < min_length_px;
   });
   return curves;
 }

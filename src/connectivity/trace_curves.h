@@ -13,10 +13,11 @@
 namespace curvix {
 
 // Walks from the smallest untraced edge forwards to the end, then backwards,
-// until every edge has been visited. Returns the walks of two and more edges in
-// the order of their smallest edges; samples in walking order, tangents along
-// the curve, support carried over. A walk that returns to its start is a closed
-// curve. Every edge is in at most one curve, once.
+// until every edge has been visited. Returns the walks in the order of their
+// smallest edges; samples in walking order, tangents along the curve, support
+// carried over. A walk that returns to its start is a closed curve. Every edge
+// is in exactly one curve, once; an edge without neighbours is a curve of one
+// sample, for JoinCurves to take up or DropShortCurves to drop.
 std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
                                const ConnectivityGraph& graph);
 
@@ -24,7 +25,8 @@ std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
 // sees it largest (pixel_size.h), whatever the angle at which it sees it.
 double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views);
 
-// The curves that are at least `min_length_px` long, in the same order.
+// The curves of at least two samples that are at least `min_length_px` long, in
+// the same order.
 std::vector<Curve> DropShortCurves(std::vector<Curve> curves,
                                    const std::vector<PosedView>& views,
                                    double min_length_px);

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/support/synthetic_edges.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+
+namespace curvix {
+namespace {
+
+constexpr double kTwoPi = 6.28318530717958647692;
+
+// The standard library's distributions differ between implementations.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  double Uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double Normal() {
+    const double radius = std::sqrt(-2 * std::log(1 - Uniform()));
+    return radius * std::cos(kTwoPi * Uniform());
+  }
+  Eigen::Vector3d Across(const Eigen::Vector3d& tangent) {
+    const Eigen::Vector3d offset(Normal(), Normal(), Normal());
+    return offset - offset.dot(tangent) * tangent;
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+PosedView LookAtOrigin(const Eigen::Vector3d& center) {
+  PosedView view;
+  view.width = view.height = 800;
+  view.calibration << 800, 0, 400, 0, 800, 400, 0, 0, 1;
+  const Eigen::Vector3d z = -center.normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  view.rotation.row(0) = x;
+  view.rotation.row(1) = z.cross(x);
+  view.rotation.row(2) = z;
+  view.translation = -view.rotation * center;
+  view.center = center;
+  return view;
+}
+
+// The 2D edges of one curve in one view.
+struct Contour {
+  std::vector<double> arc_lengths;  // in space, ascending
+  std::int32_t first_edge_idx = 0;
+};
+
+// Appends the 2D edges of `curve` to `map`, half a pixel apart, starting at the
+// share `phase` of a step.
+Contour AppendContour(const TestCurve& curve,
+                      const PosedView& view,
+                      double phase,
+                      EdgeMap& map) {
+  Contour contour;
+  contour.first_edge_idx = static_cast<std::int32_t>(map.edges.size());
+  const auto pixel = [&](double s) {
+    return view.Pixel(view.InCamera(curve.position(s)));
+  };
+  double left_px = 0.5 * phase;
+  const double step = 0.0005;
+  for (double s = 0; s + step <= curve.length; s += step) {
+    const Eigen::Vector2d move = pixel(s + step) - pixel(s);
+    left_px -= move.norm();
+    if (left_px > 0) continue;
+    left_px += 0.5;
+    Edge2d edge;
+    edge.position = pixel(s);
+    edge.angle = static_cast<float>(std::atan2(move.y(), move.x()));
+    contour.arc_lengths.push_back(s);
+    map.edges.push_back(edge);
+  }
+  const auto size = static_cast<std::int32_t>(contour.arc_lengths.size());
+  for (std::int32_t k = 0; k < size; ++k) {
+    EdgeNeighbors neighbors;
+    if (k > 0 || curve.closed) {
+      neighbors.previous = contour.first_edge_idx + (k + size - 1) % size;
+    }
+    if (k + 1 < size || curve.closed) {
+      neighbors.next = contour.first_edge_idx + (k + 1) % size;
+    }
+    map.neighbors.push_back(neighbors);
+  }
+  return contour;
+}
+
+std::int32_t NearestEdge(const Contour& contour, double s) {
+  const std::vector<double>& all = contour.arc_lengths;
+  auto next = std::lower_bound(all.begin(), all.end(), s);
+  if (next == all.end()) --next;
+  if (next != all.begin() && s - *(next - 1) < *next - s) --next;
+  return contour.first_edge_idx + static_cast<std::int32_t>(next - all.begin());
+}
+
+Edge3d NoisyEdge(const TestCurve& curve,
+                 double s,
+                 const Eigen::Vector3d& track_offset,
+                 const SyntheticEdgeOptions& options,
+                 Random& random) {
+  const Eigen::Vector3d tangent = curve.tangent(s);
+  Edge3d edge;
+  edge.position = curve.position(s) + track_offset -
+                  track_offset.dot(tangent) * tangent +
+                  options.lateral_sigma * random.Across(tangent);
+  edge.tangent =
+      (tangent + options.tangent_sigma * random.Across(tangent)).normalized();
+  if (random.Uniform() < 0.5) edge.tangent = -edge.tangent;
+  return edge;
+}
+
+}  // namespace
+
+TestCurve LineCurve(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d direction = (to - from).normalized();
+  return {(to - from).norm(),
+          false,
+          [=](double s) -> Eigen::Vector3d { return from + s * direction; },
+          [=](double) { return direction; }};
+}
+
+TestCurve CircleCurve(const Eigen::Vector3d& center, double radius) {
+  return {kTwoPi * radius,
+          true,
+          [=](double s) -> Eigen::Vector3d {
+            const double a = s / radius;
+            return center +
+                   radius * Eigen::Vector3d(std::cos(a), std::sin(a), 0);
+          },
+          [=](double s) {
+            const double a = s / radius;
+            return Eigen::Vector3d(-std::sin(a), std::cos(a), 0);
+          }};
+}
+
+TestCurve HelixCurve(double radius, double pitch, double num_turns) {
+  const double rise = pitch / kTwoPi;
+  const double speed = std::hypot(radius, rise);
+  return {num_turns * kTwoPi * speed,
+          false,
+          [=](double s) {
+            const double a = s / speed;
+            return Eigen::Vector3d(
+                radius * std::cos(a), radius * std::sin(a), rise * a);
+          },
+          [=](double s) -> Eigen::Vector3d {
+            const double a = s / speed;
+            return Eigen::Vector3d(
+                       -radius * std::sin(a), radius * std::cos(a), rise) /
+                   speed;
+          }};
+}
+
+std::vector<TestCurve> CubeCurves() {
+  std::vector<TestCurve> curves;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double u : {-1.0, 1.0}) {
+      for (const double v : {-1.0, 1.0}) {
+        Eigen::Vector3d from;
+        from[axis] = -1;
+        from[(axis + 1) % 3] = u;
+        from[(axis + 2) % 3] = v;
+        Eigen::Vector3d to = from;
+        to[axis] = 1;
+        curves.push_back(LineCurve(from, to));
+      }
+    }
+  }
+  return curves;
+}
+
+std::vector<PosedView> RingOfViews(int num_views) {
+  std::vector<PosedView> views;
+  for (int v = 0; v < num_views; ++v) {
+    const double a = kTwoPi * v / num_views;
+    views.push_back(LookAtOrigin({6 * std::cos(a), 6 * std::sin(a), 2.5}));
+  }
+  return views;
+}
+
+SyntheticEdges MakeSyntheticEdges(const std::vector<TestCurve>& curves,
+                                  const SyntheticEdgeOptions& options) {
+  Random random(options.seed);
+  SyntheticEdges made;
+  made.views = RingOfViews(options.num_views);
+  made.edge_maps.resize(made.views.size());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    std::vector<Contour> contours;
+    for (std::size_t v = 0; v < made.views.size(); ++v) {
+      contours.push_back(AppendContour(
+          curves[c], made.views[v], random.Uniform(), made.edge_maps[v]));
+    }
+    for (int track = 0; track < options.num_tracks; ++track) {
+      const Eigen::Vector3d track_offset =
+          options.track_sigma *
+          Eigen::Vector3d(random.Normal(), random.Normal(), random.Normal());
+      for (double s = options.spacing * random.Uniform(); s < curves[c].length;
+           s += options.spacing) {
+        Edge3d edge = NoisyEdge(curves[c], s, track_offset, options, random);
+        for (std::size_t v = 0; v < contours.size(); ++v) {
+          if (random.Uniform() >= options.support_share) continue;
+          edge.support.push_back(
+              {static_cast<std::int32_t>(v), NearestEdge(contours[v], s)});
+        }
+        made.edges.push_back(std::move(edge));
+        made.curve_of.push_back(static_cast<int>(c));
+      }
+    }
+  }
+  return made;
+}
+
+}  // namespace curvix
