@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: Sec. 7 (accuracy, completeness, precision, recall, F-score, IoU); the
 // other measures are ours.
-#include "evaluate.h"
+#include "plugin/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "point_index.h"
-#include "resample_curves.h"
-#include "smooth_groups.h"
+#include "plugin/point_index.h"
+#include "plugin/resample_curves.h"
+#include "plugin/smooth_groups.h"
 
 namespace curvix {
 namespace {

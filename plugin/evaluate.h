@@ -16,7 +16,7 @@
 #include <iosfwd>
 #include <optional>
 
-#include "ground_truth.h"
+#include "plugin/ground_truth.h"
 
 namespace curvix {
 

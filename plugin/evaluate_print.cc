@@ -8,7 +8,7 @@
 #include <ostream>
 #include <string>
 
-#include "evaluate.h"
+#include "plugin/evaluate.h"
 
 namespace curvix {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Ground-truth curves as text.
-#include "ground_truth.h"
+#include "plugin/ground_truth.h"
 
 #include <curvix/file_io.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Nearest neighbours among points in space.
-#include "point_index.h"
+#include "plugin/point_index.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "resample_curves.h"
+#include "plugin/resample_curves.h"
 
 #include <cmath>
 

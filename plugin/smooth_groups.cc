@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "smooth_groups.h"
+#include "plugin/smooth_groups.h"
 
 #include <algorithm>
 #include <cmath>

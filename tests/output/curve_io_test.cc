@@ -6,6 +6,7 @@
 
 #include "output/curve_style.h"
 #include "tests/output/test_curves.h"
+#include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(CurveIo, ExtensionChoosesTheFormat) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const CurveSet curves = MakeTestCurves();
   const Scene scene = MakeTestScene();
   for (const char* name : {"a.ply", "a.obj", "a.txt"}) {
@@ -30,7 +31,7 @@ TEST(CurveIo, ExtensionChoosesTheFormat) {
 }
 
 TEST(CurveIo, OtherExtensionsAreRefused) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder.path() / "a.stl";
   EXPECT_EQ(WriteCurves(path, {}, {}).code(), StatusCode::kInvalidArgument);
   EXPECT_EQ(WriteEdges(path, {}).code(), StatusCode::kInvalidArgument);
@@ -40,7 +41,7 @@ TEST(CurveIo, OtherExtensionsAreRefused) {
 }
 
 TEST(CurveIo, MessagesNameTheFile) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder.path() / "broken.ply";
   EXPECT_EQ(ReadCurves(path, {}).status().code(), StatusCode::kNotFound);
   ASSERT_TRUE(WriteFileAtomically(path, "ply\nformat ascii 1.0\n").ok());

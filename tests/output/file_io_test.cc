@@ -8,7 +8,7 @@
 #include <csignal>
 #include <string>
 
-#include "tests/output/test_curves.h"
+#include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -28,7 +28,7 @@ class FileIo : public ::testing::Test {
   }
   fs::path Target() const { return folder_.path() / "target.bin"; }
 
-  const TestFolder folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(FileIo, WritesAndReplacesWholeFiles) {

@@ -7,6 +7,7 @@
 #include <pcl/io/pcd_io.h>
 
 #include "tests/output/test_curves.h"
+#include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 TEST(PclLines, PclReadsThePcdBackWithTheSameFields) {
   const CurveSet curves = MakeTestCurves();
   const pcl::PointCloud<CurvePoint> cloud = ToPointCloud(curves);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::string path = (folder.path() / "curves.pcd").string();
   ASSERT_TRUE(WriteFileAtomically(path, EncodePcd(cloud)).ok());
 
@@ -45,7 +46,7 @@ TEST(PclLines, PclReadsThePcdBackWithTheSameFields) {
 // pcl::PCDWriter is what the bytes must agree with.
 TEST(PclLines, BytesAreThoseOfPclsOwnWriter) {
   const pcl::PointCloud<CurvePoint> cloud = ToPointCloud(MakeTestCurves());
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::string path = (folder.path() / "pcl.pcd").string();
   ASSERT_EQ(pcl::PCDWriter().writeBinary(path, cloud), 0);
   EXPECT_EQ(*ReadFile(path), EncodePcd(cloud));

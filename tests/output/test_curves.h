@@ -5,12 +5,8 @@
 #include <curvix/curves.h>
 #include <curvix/scene.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <stdexcept>
-#include <string>
 
 namespace curvix {
 
@@ -75,26 +71,5 @@ inline void ExpectSameGeometry(const CurveSet& actual,
     }
   }
 }
-
-// A new empty folder, removed at the end of its life.
-class TestFolder {
- public:
-  TestFolder() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "curvix_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("mkdtemp");
-    path_ = name;
-  }
-  ~TestFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace curvix
