@@ -74,15 +74,16 @@ std::string FindPython() {
 
 TEST(OutputFormatPage, ShowsWhatTheWritersWrite) {
   const std::string page = Documentation();
+  const CurveSet example = Example();
   EXPECT_THAT(page,
-              HasSubstr(HeaderOf(*EncodePlyLines(Example()), "end_header\n")));
-  const std::string pcd = EncodePcd(ToPointCloud(Example()));
+              HasSubstr(HeaderOf(*EncodePlyLines(example), "end_header\n")));
+  const std::string pcd = EncodePcd(ToPointCloud(example));
   const std::size_t fields = pcd.find("FIELDS");
   EXPECT_THAT(page, HasSubstr(pcd.substr(fields, pcd.find("TYPE") - fields)));
-  EXPECT_THAT(page, HasSubstr(EncodeObjLines(Example())));
-  EXPECT_THAT(page, HasSubstr(EncodeTxtCurves(Example(), ExampleScene())));
+  EXPECT_THAT(page, HasSubstr(EncodeObjLines(example)));
+  EXPECT_THAT(page, HasSubstr(EncodeTxtCurves(example, ExampleScene())));
   std::vector<Edge3d> edges;
-  for (const CurveSample& sample : Example().curves[0].samples) {
+  for (const CurveSample& sample : example.curves[0].samples) {
     edges.push_back({sample.position, sample.tangent, sample.support});
   }
   EXPECT_THAT(page,
