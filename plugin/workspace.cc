@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/workspace.h"
+
+#include <curvix/file_io.h>
+#include <algorithm>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool IsModel(const fs::path& folder) { return FindColmapFormat(folder).ok(); }
+
+// Absolute, without ".", ".." and trailing slashes. Links are kept: results
+// belong beside the link that the user made.
+fs::path Normalized(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+bool IsNumber(const std::string& name) {
+  return !name.empty() && name.size() <= 9 &&
+         name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// The sub-folders of `folder` that are named by numbers, in numerical order.
+std::vector<fs::path> NumberedFolders(const fs::path& folder) {
+  std::vector<std::pair<int, fs::path>> found;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (IsNumber(name) && IsFolder(entry->path())) {
+      found.emplace_back(std::stoi(name), entry->path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<fs::path> folders;
+  for (auto& [number, path] : found) folders.push_back(std::move(path));
+  return folders;
+}
+
+// " Tried: a, b."
+std::string Tried(const std::vector<fs::path>& places) {
+  std::string text = " Tried: ";
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    text += (i > 0 ? ", " : "") + places[i].string();
+  }
+  return text + ".";
+}
+
+Status NotFound(const std::string& sentence) {
+  return {StatusCode::kNotFound, sentence};
+}
+
+// The folder beside whose sparse/ the model lies: what holds sparse/<k> or
+// sparse; empty if the model lies in neither.
+fs::path RootOfModel(const fs::path& model) {
+  if (model.filename() == "sparse") return model.parent_path();
+  const fs::path parent = model.parent_path();
+  if (IsNumber(model.filename().string()) && parent.filename() == "sparse") {
+    return parent.parent_path();
+  }
+  return {};
+}
+
+bool IsInside(const fs::path& path, const fs::path& folder) {
+  const auto ends =
+      std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return ends.first == folder.end();
+}
+
+// Normalised paths from which images and results are found.
+struct ModelPlace {
+  fs::path workspace;
+  fs::path model;
+  fs::path root;  // RootOfModel
+  bool inside;    // the model lies in the workspace, or is it
+
+  ModelPlace(const fs::path& workspace_path, const fs::path& model_path)
+      : workspace(Normalized(workspace_path)),
+        model(Normalized(model_path)),
+        root(RootOfModel(model)),
+        inside(IsInside(model, workspace)) {}
+};
+
+std::vector<fs::path> ModelCandidates(const fs::path& workspace) {
+  std::vector<fs::path> places = NumberedFolders(workspace / "sparse");
+  if (places.empty()) places.push_back(workspace / "sparse" / "0");
+  places.push_back(workspace / "sparse");
+  std::vector<fs::path> dense = NumberedFolders(workspace / "dense");
+  if (dense.empty()) dense.push_back(workspace / "dense" / "0");
+  for (const fs::path& folder : dense) places.push_back(folder / "sparse");
+  places.push_back(workspace);
+  return places;
+}
+
+// Names the numbered siblings of `model` that hold models too; empty: none.
+std::string OtherModelsNote(const fs::path& model) {
+  std::string names;
+  for (const fs::path& other : NumberedFolders(model.parent_path())) {
+    if (other == model || !IsModel(other)) continue;
+    names += (names.empty() ? "" : ", ") + other.filename().string();
+  }
+  if (names.empty()) return "";
+  return "Using the model " + model.string() +
+         "; there are others beside it (" + names +
+         "), which --input_path chooses.";
+}
+
+Status FindModel(const WorkspacePaths& paths, Workspace* found) {
+  if (!paths.input_path.empty()) {
+    const Result<ColmapFormat> format = FindColmapFormat(paths.input_path);
+    found->model_path = paths.input_path;
+    return format.status();
+  }
+  const std::vector<fs::path> places = ModelCandidates(paths.workspace_path);
+  const auto place = std::find_if(places.begin(), places.end(), IsModel);
+  if (place == places.end()) {
+    return NotFound(
+        "No COLMAP model (cameras and images, as .bin or .txt) in " +
+        paths.workspace_path.string() + "." + Tried(places) +
+        " Name its folder with --input_path.");
+  }
+  found->model_path = *place;
+  if (IsNumber(place->filename().string())) {
+    const std::string note = OtherModelsNote(*place);
+    if (!note.empty()) found->notes.push_back(note);
+  }
+  return {};
+}
+
+std::string Trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+// The value of image_path in the model's project.ini; empty if there is none.
+fs::path ImagePathOfProject(const fs::path& model) {
+  const Result<std::string> text = ReadFile(model / "project.ini");
+  if (!text.ok()) return {};
+  std::istringstream lines(*text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) continue;
+    if (Trimmed(line.substr(0, equals)) != "image_path") continue;
+    return Trimmed(line.substr(equals + 1));
+  }
+  return {};
+}
+
+std::vector<fs::path> ImageCandidates(const ModelPlace& place) {
+  std::vector<fs::path> places;
+  const fs::path common = place.workspace / "images";
+  const bool below = place.inside && !place.root.empty() &&
+                     IsInside(place.root, place.workspace) &&
+                     place.root != place.workspace;
+  if (!below) places.push_back(common);
+  if (!place.root.empty()) places.push_back(place.root / "images");
+  const fs::path project = ImagePathOfProject(place.model);
+  if (!project.empty()) {
+    places.push_back(fs::absolute(project));
+    places.push_back(place.workspace / project);
+  }
+  std::vector<fs::path> unique;
+  for (const fs::path& path : places) {
+    if (std::find(unique.begin(), unique.end(), path) == unique.end()) {
+      unique.push_back(path);
+    }
+  }
+  return unique;
+}
+
+Status FindImages(const WorkspacePaths& paths, Workspace* found) {
+  if (!paths.image_path.empty()) {
+    found->image_path = paths.image_path;
+    if (IsFolder(paths.image_path)) return {};
+    return NotFound("--image_path " + paths.image_path.string() +
+                    " is not a folder; name the folder of the images.");
+  }
+  const std::vector<fs::path> places =
+      ImageCandidates(ModelPlace(paths.workspace_path, found->model_path));
+  const auto place = std::find_if(places.begin(), places.end(), IsFolder);
+  if (place == places.end()) {
+    return NotFound("No folder of images for the model " +
+                    found->model_path.string() + "." + Tried(places) +
+                    " Name it with --image_path.");
+  }
+  found->image_path = *place;
+  return {};
+}
+
+fs::path OutputPath(const WorkspacePaths& paths, const fs::path& model) {
+  if (!paths.output_path.empty()) return paths.output_path;
+  const ModelPlace place(paths.workspace_path, model);
+  const bool is_sparse = place.model.filename() == "sparse";
+  const bool beside =
+      !place.root.empty() && (place.inside || paths.input_path.empty());
+  if (beside && is_sparse) return place.root / "curvix";
+  if (beside) return place.root / "curvix" / place.model.filename();
+  if (place.model == place.workspace) return place.workspace / "curvix";
+  return place.workspace / "curvix" / place.model.filename();
+}
+
+// "a, b, c, d, e, ..." with at most five names.
+std::string FirstFive(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 5); ++i) {
+    text += (i > 0 ? ", " : "") + names[i];
+  }
+  return names.size() > 5 ? text + ", ..." : text;
+}
+
+// The names of the images that are not in `folder`, sorted.
+std::vector<std::string> MissingImages(const ColmapModel& model,
+                                       const fs::path& folder) {
+  std::vector<std::string> missing;
+  for (const ColmapImage& image : model.images) {
+    std::error_code error;
+    if (fs::is_regular_file(folder / image.name, error)) continue;
+    missing.push_back(image.name);
+  }
+  std::sort(missing.begin(), missing.end());
+  return missing;
+}
+
+constexpr std::size_t kMinViews = 3;
+
+Status TooFewViews(const Workspace& workspace,
+                   std::size_t num_views,
+                   const std::vector<std::string>& missing) {
+  if (missing.empty()) {
+    return {StatusCode::kInvalidArgument,
+            "The model " + workspace.model_path.string() + " has " +
+                std::to_string(num_views) +
+                " images, and curves need at least three; register more "
+                "images."};
+  }
+  return NotFound("Only " + std::to_string(num_views) + " of the " +
+                  std::to_string(num_views + missing.size()) +
+                  " images of the model " + workspace.model_path.string() +
+                  " are in " + workspace.image_path.string() +
+                  " (missing: " + FirstFive(missing) +
+                  "), and curves need at least three. Name the right folder "
+                  "with --image_path.");
+}
+
+}  // namespace
+
+Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
+  if (paths.workspace_path.empty()) {
+    return Status(StatusCode::kInvalidArgument,
+                  "The option --workspace_path is required but missing.");
+  }
+  if (!IsFolder(paths.workspace_path)) {
+    return NotFound("--workspace_path " + paths.workspace_path.string() +
+                    " is not a folder; name the folder that holds sparse/ and "
+                    "images/.");
+  }
+  Workspace found;
+  Status status = FindModel(paths, &found);
+  if (status.ok()) status = FindImages(paths, &found);
+  if (!status.ok()) return status;
+  found.output_path = OutputPath(paths, found.model_path);
+  return found;
+}
+
+Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
+  Result<ColmapModel> model = ReadColmapModel(workspace.model_path);
+  if (!model.ok()) return model.status();
+  WorkspaceScene result;
+  result.model = std::move(model).value();
+  result.missing_images = MissingImages(result.model, workspace.image_path);
+  result.scene = SceneFromColmapModel(
+      result.model, workspace.image_path, result.missing_images);
+  if (result.scene.views.size() < kMinViews) {
+    return TooFewViews(
+        workspace, result.scene.views.size(), result.missing_images);
+  }
+  if (!result.missing_images.empty()) {
+    result.notes.push_back(
+        std::to_string(result.missing_images.size()) + " of " +
+        std::to_string(result.model.images.size()) + " images are not in " +
+        workspace.image_path.string() +
+        " and are skipped: " + FirstFive(result.missing_images) + ".");
+  }
+  return result;
+}
+
+}  // namespace curvix

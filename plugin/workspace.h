@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+// Where things are in a COLMAP workspace, and its scene.
+//
+//   <workspace>/images/                 photographs
+//   <workspace>/sparse/<k>/  sparse/    models           -> curvix/<k>/ curvix/
+//   <workspace>/dense/<k>/              a workspace of its own, undistorted:
+//                                       images/, sparse/ -> curvix/
+#pragma once
+
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "plugin/colmap_model.h"
+
+namespace curvix {
+
+// The paths of the command line; an empty one is not given.
+struct WorkspacePaths {
+  std::filesystem::path workspace_path;  // must be given
+  std::filesystem::path input_path;      // the folder of the model
+  std::filesystem::path image_path;      // the folder of the images
+  std::filesystem::path output_path;     // the folder of the results
+};
+
+struct Workspace {
+  std::filesystem::path model_path;
+  std::filesystem::path image_path;
+  std::filesystem::path output_path;  // may not exist yet
+  std::vector<std::string> notes;     // sentences worth telling the user
+};
+
+// Finds the folders; `paths` wins over what is found. Folders named by numbers
+// count in numerical order.
+//  * Model: the first of <workspace>/sparse/<k>, <workspace>/sparse,
+//    <workspace>/dense/<k>/sparse, <workspace> that holds one. A note names
+//    further models sparse/<k>.
+//  * Images: the first that exists of <workspace>/images, images/ beside the
+//    model's sparse/, and the image_path in the model's project.ini, which is
+//    relative to the current folder or, failing that, to the workspace. A model
+//    of a dense/<k> does not take <workspace>/images, which are not
+//    undistorted.
+//  * Results: for a model in the workspace, curvix/<k> beside sparse/<k> and
+//    curvix beside sparse. Else <workspace>/curvix if the workspace is the
+//    model, and <workspace>/curvix/<name of the model's folder> if it is not.
+// kInvalidArgument if the workspace is not given; kNotFound, with the places
+// that were tried, if a folder is not there.
+Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
+
+struct WorkspaceScene {
+  ColmapModel model;                        // all of it
+  Scene scene;                              // the views whose images are there
+  std::vector<std::string> missing_images;  // names, sorted
+  std::vector<std::string> notes;
+};
+
+// Reads the model and leaves out the views whose images are not on disk, with a
+// note that names the first five. Images are not opened. Fails if the model
+// cannot be read, or if fewer than three views remain.
+Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace);
+
+}  // namespace curvix
