@@ -25,20 +25,17 @@ ExitCode RunEvaluate(const Arguments& arguments) {
        {"Measure",
         {RowFlag({.name = "unit_mm",
                   .field = &options.unit_mm,
-                  .max = 1e9,
                   .min_is_excluded = true,
                   .unit = "mm",
                   .help = "length of a world unit; thresholds are 5, 10 and "
                           "20 mm"}),
          RowFlag({.name = "step",
                   .field = &options.step,
-                  .max = 1e9,
                   .min_is_excluded = true,
                   .unit = "world units",
                   .help = "distance of the samples compared"}),
          RowFlag({.name = "min_num_views",
                   .field = &options.min_num_views,
-                  .max = 1e6,
                   .help = "true samples count as visible if so many views "
                           "show an edge there"})}}});
   if (code) return *code;

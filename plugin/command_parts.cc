@@ -25,8 +25,8 @@ FlagSection CommonSection(CommonSettings* settings) {
            RowFlag({.name = "log_to_stderr",
                     .field = &settings->log_to_stderr,
                     .max = 1,
-                    .help = "what libraries log goes to stderr; 0: to files in "
-                            "the temporary folder"}),
+                    .help = "1: libraries log to stderr; 0: to files in the "
+                            "temporary folder"}),
            RowFlag({.name = "log_level",
                     .field = &settings->log_level,
                     .max = 4,
@@ -48,7 +48,7 @@ std::optional<ExitCode> ParseCommand(const std::string& name,
                                      const Arguments& arguments,
                                      std::vector<FlagSection> sections) {
   CommonSettings settings;
-  sections.push_back(CommonSection(&settings));
+  sections.insert(sections.begin() + 1, CommonSection(&settings));
   const Result<Request> request = ParseFlags(arguments, sections);
   if (!request.ok()) {
     const bool is_file = request.status().code() == StatusCode::kNotFound;

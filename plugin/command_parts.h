@@ -30,9 +30,9 @@ const Command* FindCommand(const std::string& name);
 // Prints "ERROR: <message>." to stderr and returns `code`.
 ExitCode Fail(const Status& status, ExitCode code);
 
-// Parses the flags of a word, to which those are added that every word has
-// (project file, logging), and applies the latter. An exit code if that is all
-// there is to do: help was asked for, or a flag is wrong.
+// Parses the flags of a word, in at least one section, to which those are added
+// that every word has (project file, logging), and applies the latter. An exit
+// code if that is all there is to do: help was asked for, or a flag is wrong.
 std::optional<ExitCode> ParseCommand(const std::string& name,
                                      const Arguments& arguments,
                                      std::vector<FlagSection> sections);

@@ -34,7 +34,7 @@ constexpr char kExamples[] =
     "  colmap_curvix --workspace_path proj --preset paper\n"
     "      the method of the paper, word by word\n"
     "  colmap_curvix --workspace_path proj --Validation.max_angle_deg 10\n"
-    "      one option of one stage; --help lists all\n"
+    "      one option of one stage\n"
     "  colmap_curvix --project_path proj/curvix/0/project.ini\n"
     "      repeats an earlier run\n";
 
@@ -63,7 +63,10 @@ ExitCode Help(const Arguments& arguments) {
     name.resize(13, ' ');
     std::cout << "  " << name << command.summary << "\n";
   }
-  std::cout << "\n" << kExamples;
+  std::cout << "\n"
+            << kExamples
+            << "\n'colmap_curvix --help' lists every option with its default "
+               "and range.\n";
   return kExitSuccess;
 }
 

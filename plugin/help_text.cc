@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/help_text.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace curvix {
 namespace {
 
 constexpr std::size_t kColumns = 80;
+constexpr std::size_t kRangeColumn = 52;
+
+constexpr char kNoBreak = '\x01';  // a space at which Wrap() does not break
 
 // `text` broken between words, every line after `indent` spaces.
 std::string Wrap(const std::string& text, std::size_t indent) {
@@ -20,36 +24,42 @@ std::string Wrap(const std::string& text, std::size_t indent) {
     }
     line += (line.empty() ? "" : " ") + word;
   }
-  return wrapped + std::string(indent, ' ') + line + "\n";
+  wrapped += std::string(indent, ' ') + line + "\n";
+  std::replace(wrapped.begin(), wrapped.end(), kNoBreak, ' ');
+  return wrapped;
 }
 
-std::string Allowed(const Flag& flag) {
-  if (flag.range.empty() || flag.unit.empty()) return flag.range;
-  return flag.range + " " + flag.unit;
+// "  --EdgeDetection.sigma_px arg (=1)"
+std::string FlagHead(const Flag& flag) {
+  std::string head = "  --" + flag.name;
+  if (flag.is_switch) return head;
+  head += " arg";
+  if (flag.is_required) return head + " (required)";
+  if (flag.default_value.empty()) return head;
+  return head + " (=" + flag.default_value + ")";
+}
+
+// `allowed` in a column of its own, or wherever there is room for it.
+std::string WithRange(std::string head, const std::string& allowed) {
+  head += "  ";
+  if (head.size() + allowed.size() > kColumns) {
+    head.resize(head.size() - 2);
+    return head + "\n" + std::string(kRangeColumn, ' ') + allowed + "\n";
+  }
+  head.resize(std::max(head.size(), kRangeColumn), ' ');
+  return head + allowed + "\n";
 }
 
 std::string FlagHelp(const Flag& flag) {
-  std::string head = "  --" + flag.name;
-  if (!flag.is_switch) head += " arg";
-  if (flag.is_required) head += " (required)";
-  if (!flag.default_value.empty() && !flag.is_switch) {
-    head += " (=" + flag.default_value + ")";
-  }
-  const std::string allowed = flag.is_switch ? "" : Allowed(flag);
-  constexpr std::size_t kRangeColumn = 52;
-  if (!allowed.empty() && head.size() + 2 <= kRangeColumn &&
-      kRangeColumn + allowed.size() <= kColumns) {
-    head.resize(kRangeColumn, ' ');
-    head += allowed;
-  } else if (!allowed.empty()) {
-    head += "\n" + std::string(kRangeColumn, ' ');
-    head = kRangeColumn + allowed.size() <= kColumns
-               ? head + allowed
-               : head.substr(0, head.find('\n')) + "\n      " + allowed;
-  }
-  std::string help = flag.help;
-  if (!flag.symbol.empty()) help += " (" + flag.symbol + ")";
-  return head + "\n" + Wrap(help, 6);
+  std::string allowed = flag.is_switch ? "" : flag.range;
+  if (!allowed.empty() && !flag.unit.empty()) allowed += " " + flag.unit;
+  const bool is_list = allowed.size() > kColumns - kRangeColumn;
+  std::string text = FlagHead(flag);
+  text = allowed.empty() || is_list ? text + "\n" : WithRange(text, allowed);
+  std::string symbol = flag.symbol.empty() ? "" : "(" + flag.symbol + ")";
+  std::replace(symbol.begin(), symbol.end(), ' ', kNoBreak);
+  text += Wrap(flag.help + " " + symbol, 6);
+  return is_list ? text + Wrap("one of: " + allowed, 6) : text;
 }
 
 std::string MarkdownRow(const OptionRow& row, const OptionRow& paper) {

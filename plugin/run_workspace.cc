@@ -41,8 +41,8 @@ Status CheckOutputPath(const Workspace& workspace) {
 InputSummary SummarizeInput(const Workspace& workspace,
                             const WorkspaceScene& input) {
   InputSummary summary;
-  summary.model_path = workspace.model_path;
-  summary.image_path = workspace.image_path;
+  summary.model_path = fs::absolute(workspace.model_path);
+  summary.image_path = fs::absolute(workspace.image_path);
   for (const Camera& camera : input.scene.cameras) {
     summary.camera_models.emplace_back(ModelName(camera.model));
   }

@@ -122,6 +122,13 @@ TEST(OptionTable, PrintsTheShortestNumberThatReadsBack) {
   EXPECT_EQ(ValueText(row), "0.3");
 }
 
+TEST(OptionTable, PrintsIntegersInFull) {
+  Options options;
+  options.hypotheses.num_partners = 1000000;
+  const auto rows = OptionTable(options);
+  EXPECT_EQ(ValueText(Find(rows, "Hypotheses.num_partners")), "1000000");
+}
+
 TEST(OptionTable, RefusesWhatIsOutsideTheRangeAndKeepsTheValue) {
   Options options;
   for (const OptionRow& row : OptionTable(options)) {
