@@ -14,19 +14,25 @@ namespace curvix {
 
 // Writes `curves` in the format that the extension names: .ply (line set),
 // .pcd (point cloud with curve ids), .obj (lines), .txt (readable, with the
-// supporting image ids, which is what `scene` is for). The file appears whole
-// or not at all.
+// supporting image ids, which is what `scene` is for: it must hold every view
+// that a sample names). The file appears whole or not at all.
+// kInvalidArgument for another extension or a path that cannot be written.
 Status WriteCurves(const std::filesystem::path& path,
                    const CurveSet& curves,
                    const Scene& scene);
 
 // Reads a line set back: .ply with `element edge`, .obj with `l` lines, or the
-// .txt that WriteCurves writes. Support is read from .txt only, as views
-// without an edge (edge_idx 0).
+// .txt that WriteCurves writes. Lines of other programs are joined where two of
+// them share a vertex and end where three or more do. Support is read from .txt
+// only, as views without an edge (edge_idx 0); ids of images that `scene` does
+// not have are left out, so an empty scene reads the geometry alone.
+// kNotFound, kDataLoss (broken or truncated; no memory is taken on the word of
+// a count), kUnsupported (no lines in it) or kInvalidArgument (extension).
 Result<CurveSet> ReadCurves(const std::filesystem::path& path,
                             const Scene& scene);
 
 // Writes oriented 3D edges as points: .ply with tangents and support counts.
+// Errors as WriteCurves.
 Status WriteEdges(const std::filesystem::path& path,
                   const std::vector<Edge3d>& edges);
 
