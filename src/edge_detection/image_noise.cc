@@ -3,82 +3,109 @@
 #include "edge_detection/image_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace curvix {
 namespace {
 
-constexpr float kBlack = 0.5f;
-constexpr float kWhite = 254.5f;
+using Mask = std::array<float, 5>;
+constexpr Mask kSmooth = {1 / 16.f, 4 / 16.f, 6 / 16.f, 4 / 16.f, 1 / 16.f};
+constexpr Mask kFirst = {-1 / 8.f, -2 / 8.f, 0, 2 / 8.f, 1 / 8.f};
+constexpr Mask kSecond = {1 / 4.f, 0, -2 / 4.f, 0, 1 / 4.f};
+// Standard deviation of the Laplacian in white noise of standard deviation 1:
+// the root of the sum of the squares of its 25 weights,
+// 2 |second|^2 |smooth|^2 + 2 (second . smooth)^2 = 65 / 256.
+const double kLaplacianGain = std::sqrt(65.0 / 256);
 // Of |x| for a normal x of standard deviation 1.
 constexpr double kMedianOfAbsNormal = 0.6744897501960817;
-// Root of the sum of the squares of the mask's weights.
-constexpr double kMaskGain = 6;
+constexpr float kBlack = 0.5f;
+constexpr float kWhite = 254.5f;
+constexpr std::size_t kStride = 2;  // every second pixel of every second row
 
 struct Sample {
-  float steepness;  // squared Sobel gradient
-  float response;   // |mask|
+  float steepness;  // squared gradient
+  float laplacian;  // its size
 };
 
-// Three pixels side by side in three rows.
-Sample SampleAt(const float* above, const float* middle, const float* below) {
-  const float left = above[0] + 2 * middle[0] + below[0];
-  const float right = above[2] + 2 * middle[2] + below[2];
-  const float top = above[0] + 2 * above[1] + above[2];
-  const float bottom = below[0] + 2 * below[1] + below[2];
-  const float response = above[0] - 2 * above[1] + above[2] -
-                         2 * (middle[0] - 2 * middle[1] + middle[2]) +
-                         below[0] - 2 * below[1] + below[2];
-  const float gx = right - left;
-  const float gy = bottom - top;
-  return {gx * gx + gy * gy, std::abs(response)};
-}
+// Five rows of an image, each column reduced to what samples need of it.
+struct Columns {
+  std::vector<float> smooth, first, second, low, high;
+};
 
-bool IsClipped(const float* three) {
-  const auto [low, high] = std::minmax({three[0], three[1], three[2]});
-  return low < kBlack || high > kWhite;
-}
-
-std::vector<Sample> CollectSamples(const GrayImage& image) {
-  std::vector<Sample> samples;
-  const auto width = static_cast<std::size_t>(image.width);
-  for (int y = 1; y + 1 < image.height; ++y) {
-    const float* middle =
-        image.pixels.data() + static_cast<std::size_t>(y) * width;
-    for (std::size_t x = 0; x + 2 < width; ++x) {
-      const float* m = middle + x;
-      const float* a = m - width;
-      const float* b = m + width;
-      if (IsClipped(a) || IsClipped(m) || IsClipped(b)) continue;
-      samples.push_back(SampleAt(a, m, b));
+void Reduce(const float* rows, std::size_t width, Columns& columns) {
+  columns.smooth.assign(width, 0);
+  columns.first.assign(width, 0);
+  columns.second.assign(width, 0);
+  columns.low.assign(rows, rows + width);
+  columns.high.assign(rows, rows + width);
+  for (std::size_t j = 0; j < kSmooth.size(); ++j) {
+    const float* row = rows + j * width;
+    for (std::size_t x = 0; x < width; ++x) {
+      columns.smooth[x] += kSmooth[j] * row[x];
+      columns.first[x] += kFirst[j] * row[x];
+      columns.second[x] += kSecond[j] * row[x];
+      columns.low[x] = std::min(columns.low[x], row[x]);
+      columns.high[x] = std::max(columns.high[x], row[x]);
     }
   }
-  return samples;
+}
+
+float Apply(const Mask& mask, const float* values) {
+  float sum = 0;
+  for (std::size_t i = 0; i < mask.size(); ++i) sum += mask[i] * values[i];
+  return sum;
+}
+
+void AppendSamples(const Columns& columns, std::vector<Sample>& samples) {
+  constexpr std::size_t kSize = kSmooth.size();
+  for (std::size_t x = 0; x + kSize <= columns.low.size(); x += kStride) {
+    const float* low = &columns.low[x];
+    const float* high = &columns.high[x];
+    if (*std::min_element(low, low + kSize) < kBlack) continue;
+    if (*std::max_element(high, high + kSize) > kWhite) continue;
+    const float gx = Apply(kFirst, &columns.smooth[x]);
+    const float gy = Apply(kSmooth, &columns.first[x]);
+    const float laplacian =
+        Apply(kSecond, &columns.smooth[x]) + Apply(kSmooth, &columns.second[x]);
+    samples.push_back({gx * gx + gy * gy, std::abs(laplacian)});
+  }
+}
+
+float MedianLaplacianOfFlatterHalf(std::vector<Sample> samples) {
+  const auto half = static_cast<std::ptrdiff_t>((samples.size() + 1) / 2);
+  const auto flat_end = samples.begin() + half;
+  std::nth_element(samples.begin(),
+                   flat_end - 1,
+                   samples.end(),
+                   [](const Sample& a, const Sample& b) {
+                     return a.steepness < b.steepness;
+                   });
+  const auto median = samples.begin() + half / 2;
+  std::nth_element(
+      samples.begin(), median, flat_end, [](const Sample& a, const Sample& b) {
+        return a.laplacian < b.laplacian;
+      });
+  return median->laplacian;
 }
 
 }  // namespace
 
 double EstimateNoise(const GrayImage& image) {
-  if (image.width < 3 || image.height < 3) return 0;
-  std::vector<Sample> samples = CollectSamples(image);
+  const auto width = static_cast<std::size_t>(image.width);
+  const auto height = static_cast<std::size_t>(image.height);
+  std::vector<Sample> samples;
+  Columns columns;
+  for (std::size_t y = 0; y + kSmooth.size() <= height; y += kStride) {
+    Reduce(&image.pixels[y * width], width, columns);
+    AppendSamples(columns, samples);
+  }
   if (samples.empty()) return 0;
-  const auto quarter =
-      samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 4);
-  std::nth_element(samples.begin(),
-                   quarter,
-                   samples.end(),
-                   [](const Sample& a, const Sample& b) {
-                     return a.steepness < b.steepness;
-                   });
-  const auto flat_end = quarter + 1;
-  const auto median = samples.begin() + (flat_end - samples.begin()) / 2;
-  std::nth_element(
-      samples.begin(), median, flat_end, [](const Sample& a, const Sample& b) {
-        return a.response < b.response;
-      });
-  const double sigma = median->response / (kMaskGain * kMedianOfAbsNormal);
+  const double sigma = MedianLaplacianOfFlatterHalf(std::move(samples)) /
+                       (kLaplacianGain * kMedianOfAbsNormal);
   return std::sqrt(std::max(0.0, sigma * sigma - 1.0 / 12));
 }
 

@@ -6,14 +6,20 @@
 
 namespace curvix {
 
-// The standard deviation of the image noise, in grey levels; 0 where there is
-// none, or where it cannot be told: images below 3 x 3 pixels or clipped (black
-// or white) everywhere. A robust form of Immerkaer (1996): the median size of
-// the response to the mask (1 -2 1)^T (1 -2 1), which ignores planes of grey,
-// over the flattest quarter of the pixels that are not clipped. Flatness is
-// judged by Sobel's gradient, which in white noise is independent of that mask,
-// so that the choice does not bias the estimate. The noise of 8-bit rounding,
-// 1 / 12 of a squared grey level, is taken off.
+// The standard deviation of the image noise in grey levels, as far as it
+// reaches the edge filters; 0 where there is none or where it cannot be told:
+// images below 5 x 5 pixels, or clipped (black or white) everywhere.
+//
+// A robust form of Immerkaer's (1996) method at the scale of the edge filters:
+// the median size of the Laplacian of the image smoothed by about 1 px, over
+// the flatter half of the pixels that are not clipped. Finer masks would not
+// do, since JPEG removes the finest noise and leaves what edges are made of.
+// Flatness is judged by the gradient of the same smoothed image, which in
+// stationary noise is independent of the Laplacian at the same place, so that
+// the choice does not bias the estimate. Smooth shading has no Laplacian;
+// texture finer than a few pixels counts as noise where it covers most of the
+// image. The noise of 8-bit rounding, 1/12 of a squared grey level, is taken
+// off.
 double EstimateNoise(const GrayImage& image);
 
 }  // namespace curvix

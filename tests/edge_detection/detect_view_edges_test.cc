@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_detection/detect_view_edges.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "edge_detection/gaussian_derivatives.h"
+#include "tests/edge_detection/rendered_images.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// A view of an image file that lives as long as the object.
+class ImageFile {
+ public:
+  explicit ImageFile(const GrayImage& image)
+      : path_(fs::path(::testing::TempDir()) /
+              (std::string(::testing::UnitTest::GetInstance()
+                               ->current_test_info()
+                               ->name()) +
+               "_view.png")) {
+    cv::Mat pixels(image.height, image.width, CV_8UC1);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        pixels.at<unsigned char>(y, x) =
+            cv::saturate_cast<unsigned char>(image.at(x, y));
+      }
+    }
+    EXPECT_TRUE(cv::imwrite(path_.string(), pixels));
+  }
+  ~ImageFile() { fs::remove(path_); }
+  ImageFile(const ImageFile&) = delete;
+  ImageFile& operator=(const ImageFile&) = delete;
+
+  View view() const {
+    View view;
+    view.name = path_.filename().string();
+    view.image_path = path_;
+    return view;
+  }
+
+ private:
+  fs::path path_;
+};
+
+Camera PinholeOfSize(int width, int height) {
+  return {CameraModel::kSimplePinhole,
+          width,
+          height,
+          {100, width / 2.0, height / 2.0}};
+}
+
+TEST(DetectViewEdges, FindsAndLinksTheEdgesOfAFile) {
+  const Eigen::Vector2d center(50.4, 49.1);
+  const ImageFile file(RenderDisc(100, center, 30));
+  const Result<EdgeMap> map =
+      DetectViewEdges(file.view(), PinholeOfSize(100, 100), {});
+  ASSERT_TRUE(map.ok()) << map.status().message();
+  ASSERT_GT(map->edges.size(), 300u);
+  ASSERT_EQ(map->neighbors.size(), map->edges.size());
+  EXPECT_LT(map->noise, 0.5);
+  for (std::size_t i = 0; i < map->edges.size(); ++i) {
+    const double r = (map->edges[i].position - center).norm();
+    EXPECT_NEAR(r, 30, 0.05) << "grey levels are rounded in the file";
+    EXPECT_TRUE(map->neighbors[i].next && map->neighbors[i].previous);
+  }
+}
+
+TEST(DetectViewEdges, KeepsNoiseOut) {
+  GrayImage noise{200, 200, std::vector<float>(40000, 128)};
+  AddNoise(8, 11, noise);
+  const ImageFile file(noise);
+  const Result<EdgeMap> map =
+      DetectViewEdges(file.view(), PinholeOfSize(200, 200), {});
+  ASSERT_TRUE(map.ok());
+  EXPECT_NEAR(map->noise, 8, 0.8);
+  EXPECT_LT(map->edges.size(), 20u);
+}
+
+TEST(DetectViewEdges, NamesBothSizesWhereTheyDiffer) {
+  const ImageFile file(RenderDisc(100, {50, 50}, 30));
+  const Result<EdgeMap> map =
+      DetectViewEdges(file.view(), PinholeOfSize(200, 150), {});
+  EXPECT_EQ(map.status().code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(map.status().message(), HasSubstr("100 x 100"));
+  EXPECT_THAT(map.status().message(), HasSubstr("200 x 150"));
+}
+
+TEST(DetectViewEdges, PassesOnThatTheImageIsMissing) {
+  View view;
+  view.image_path = fs::path(::testing::TempDir()) / "no_such_view.png";
+  EXPECT_EQ(DetectViewEdges(view, PinholeOfSize(9, 9), {}).status().code(),
+            StatusCode::kNotFound);
+}
+
+TEST(GradientThreshold, IsTheLargerOfTheTwo) {
+  EdgeDetectionOptions options;
+  options.min_gradient = 2;
+  options.noise_factor = 5;
+  EXPECT_EQ(GradientThreshold(options, 0), 2);
+  EXPECT_DOUBLE_EQ(GradientThreshold(options, 10),
+                   50 * GradientNoiseGain(options.sigma_px));
+}
+
+}  // namespace
+}  // namespace curvix

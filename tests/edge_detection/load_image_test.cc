@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_detection/load_image.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Bytes = std::vector<char>;
+
+class LoadGrayImageTest : public ::testing::Test {
+ protected:
+  LoadGrayImageTest()
+      : folder_(
+            fs::path(::testing::TempDir()) /
+            (std::string("load_image_") +
+             ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~LoadGrayImageTest() override { fs::remove_all(folder_); }
+
+  fs::path Written(const std::string& name, const cv::Mat& image) const {
+    const fs::path path = folder_ / name;
+    EXPECT_TRUE(cv::imwrite(path.string(), image));
+    return path;
+  }
+  fs::path Written(const std::string& name, const Bytes& bytes) const {
+    const fs::path path = folder_ / name;
+    std::ofstream(path, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return path;
+  }
+
+  fs::path folder_;
+};
+
+Bytes Contents(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Noisy, so that compressed files are long.
+cv::Mat Texture(int type) {
+  cv::Mat image(60, 80, type);
+  cv::RNG generator(5);
+  generator.fill(image, cv::RNG::UNIFORM, 0, 255);
+  return image;
+}
+
+StatusCode CodeOf(const fs::path& path) {
+  const Result<GrayImage> image = LoadGrayImage(path);
+  EXPECT_THAT(image.status().message(), HasSubstr(path.filename().string()));
+  return image.status().code();
+}
+
+TEST_F(LoadGrayImageTest, KeepsGrey) {
+  cv::Mat image(2, 3, CV_8UC1);
+  for (int i = 0; i < 6; ++i)
+    image.at<std::uint8_t>(i / 3, i % 3) = static_cast<std::uint8_t>(40 * i);
+  const Result<GrayImage> gray = LoadGrayImage(Written("a b.png", image));
+  ASSERT_TRUE(gray.ok()) << gray.status().message();
+  EXPECT_EQ(gray->width, 3);
+  EXPECT_EQ(gray->height, 2);
+  EXPECT_EQ(gray->pixels, (std::vector<float>{0, 40, 80, 120, 160, 200}));
+}
+
+TEST_F(LoadGrayImageTest, WeighsColoursAndKeepsFractions) {
+  cv::Mat image(1, 3, CV_8UC3);
+  image.at<cv::Vec3b>(0, 0) = {0, 0, 101};
+  image.at<cv::Vec3b>(0, 1) = {0, 101, 0};
+  image.at<cv::Vec3b>(0, 2) = {101, 0, 0};
+  const Result<GrayImage> gray = LoadGrayImage(Written("rgb.png", image));
+  ASSERT_TRUE(gray.ok());
+  EXPECT_NEAR(gray->at(0, 0), 0.299 * 101, 1e-4);
+  EXPECT_NEAR(gray->at(1, 0), 0.587 * 101, 1e-4);
+  EXPECT_NEAR(gray->at(2, 0), 0.114 * 101, 1e-4);
+}
+
+TEST_F(LoadGrayImageTest, CompositesAlphaOverBlack) {
+  cv::Mat image(1, 3, CV_8UC4);
+  image.at<cv::Vec4b>(0, 0) = {200, 200, 200, 255};
+  image.at<cv::Vec4b>(0, 1) = {200, 200, 200, 51};
+  image.at<cv::Vec4b>(0, 2) = {200, 200, 200, 0};
+  const Result<GrayImage> gray = LoadGrayImage(Written("rgba.png", image));
+  ASSERT_TRUE(gray.ok());
+  EXPECT_NEAR(gray->at(0, 0), 200, 1e-4);
+  EXPECT_NEAR(gray->at(1, 0), 40, 1e-4);
+  EXPECT_EQ(gray->at(2, 0), 0);
+}
+
+TEST_F(LoadGrayImageTest, ScalesSixteenBits) {
+  cv::Mat gray16(1, 2, CV_16UC1);
+  gray16.at<std::uint16_t>(0, 0) = 65535;
+  gray16.at<std::uint16_t>(0, 1) = 1000;
+  cv::Mat rgba16(1, 1, CV_16UC4);
+  rgba16.at<cv::Vec4w>(0, 0) = {1000, 1000, 1000, 13107};
+  const Result<GrayImage> gray = LoadGrayImage(Written("g.png", gray16));
+  const Result<GrayImage> rgba = LoadGrayImage(Written("c.png", rgba16));
+  ASSERT_TRUE(gray.ok() && rgba.ok());
+  EXPECT_NEAR(gray->at(0, 0), 255, 1e-4);
+  EXPECT_NEAR(gray->at(1, 0), 1000 / 257.0, 1e-4);
+  EXPECT_NEAR(rgba->at(0, 0), 1000 / 257.0 / 5, 1e-4);
+}
+
+TEST_F(LoadGrayImageTest, IgnoresTheExifRotation) {
+  const Bytes plain = Contents(Written("plain.jpg", Texture(CV_8UC1)));
+  // APP1: "Exif", little-endian TIFF, one entry: orientation (0x112) = 6.
+  const unsigned char exif[] = {0xFF, 0xE1, 0,    34, 'E', 'x', 'i', 'f', 0,
+                                0,    'I',  'I',  42, 0,   8,   0,   0,   0,
+                                1,    0,    0x12, 1,  3,   0,   1,   0,   0,
+                                0,    6,    0,    0,  0,   0,   0,   0,   0};
+  Bytes rotated(plain.begin(), plain.begin() + 2);
+  for (const unsigned char byte : exif) {
+    rotated.push_back(static_cast<char>(byte));
+  }
+  rotated.insert(rotated.end(), plain.begin() + 2, plain.end());
+  const fs::path path = Written("rotated.jpg", rotated);
+  ASSERT_EQ(cv::imread(path.string()).cols, 60) << "OpenCV sees a rotation";
+  const Result<GrayImage> gray = LoadGrayImage(path);
+  ASSERT_TRUE(gray.ok());
+  EXPECT_EQ(gray->width, 80);
+  EXPECT_EQ(gray->height, 60);
+}
+
+TEST_F(LoadGrayImageTest, ExplainsWhatIsMissing) {
+  EXPECT_EQ(CodeOf(folder_ / "nowhere.png"), StatusCode::kNotFound);
+  EXPECT_EQ(CodeOf(folder_), StatusCode::kNotFound) << "a folder";
+  EXPECT_EQ(CodeOf(Written("empty.png", Bytes())), StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(Written("text.png", Bytes{'h', 'e', 'l', 'l', 'o'})),
+            StatusCode::kDataLoss);
+}
+
+TEST_F(LoadGrayImageTest, NoticesTruncatedFiles) {
+  for (const char* name : {"whole.png", "whole.jpg"}) {
+    const Bytes whole = Contents(Written(name, Texture(CV_8UC3)));
+    ASSERT_TRUE(LoadGrayImage(folder_ / name).ok());
+    for (const std::size_t tenths : {1u, 5u, 9u}) {
+      const auto size = static_cast<std::ptrdiff_t>(whole.size() * tenths / 10);
+      EXPECT_EQ(CodeOf(Written(std::string("cut_") + name,
+                               Bytes(whole.begin(), whole.begin() + size))),
+                StatusCode::kDataLoss)
+          << name << ", " << tenths << " tenths";
+    }
+  }
+}
+
+TEST_F(LoadGrayImageTest, RefusesOtherPixelFormats) {
+  EXPECT_EQ(CodeOf(Written("float.tiff", cv::Mat(4, 4, CV_32FC1, 0.5))),
+            StatusCode::kUnsupported);
+}
+
+}  // namespace
+}  // namespace curvix

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_detection/third_order_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/angles.h"
+#include "tests/edge_detection/rendered_images.h"
+
+namespace curvix {
+namespace {
+
+// Away from the border, where the continued image is not the true one.
+std::vector<Edge2d> Detect(const GrayImage& image, double min_gradient = 1) {
+  EdgeDetectionOptions options;
+  options.border_px = 8;
+  return DetectThirdOrderEdges(image, options, min_gradient);
+}
+
+Eigen::Vector2d BrightSide(const Edge2d& edge) {
+  return {-std::sin(edge.angle), std::cos(edge.angle)};
+}
+
+TEST(DetectThirdOrderEdges, LandsOnTheLineAndKeepsItsTangent) {
+  for (int degrees = -180; degrees < 180; degrees += 7) {
+    for (const double shift : {0.0, 0.13, 0.25, 0.5, 0.77}) {
+      const double angle = DegToRad(degrees);
+      const Eigen::Vector2d point(32 + shift, 32 - 0.3 * shift);
+      const std::vector<Edge2d> edges = Detect(RenderLine(64, point, angle));
+      ASSERT_GT(edges.size(), 80u) << degrees << " deg";
+      const Eigen::Vector2d normal(-std::sin(angle), std::cos(angle));
+      for (const Edge2d& edge : edges) {
+        EXPECT_LT(std::abs(normal.dot(edge.position - point)), 0.02)
+            << degrees << " deg, shift " << shift;
+        EXPECT_LT(RadToDeg(std::abs(WrapDirected(edge.angle - angle))), 0.1)
+            << degrees << " deg, shift " << shift;
+      }
+    }
+  }
+}
+
+TEST(DetectThirdOrderEdges, MeasuresTheGradient) {
+  const double angle = DegToRad(20);
+  const double blur = std::hypot(1.0, kRenderedBlurPx);
+  const double expected = (kBright - kDark) / (std::sqrt(2 * kPi) * blur);
+  for (const Edge2d& edge : Detect(RenderLine(64, {31.9, 32.2}, angle))) {
+    EXPECT_NEAR(edge.strength, expected, 0.01 * expected);
+  }
+}
+
+TEST(DetectThirdOrderEdges, FollowsACircleAllTheWayRound) {
+  const Eigen::Vector2d center(64.3, 63.8);
+  const double radius = 45;
+  const std::vector<Edge2d> edges = Detect(RenderDisc(128, center, radius));
+  std::vector<double> bearings;
+  // Blur moves the steepest place of a curved edge inwards by
+  // blur^2 / (2 radius).
+  const double inwards = (1 + kRenderedBlurPx * kRenderedBlurPx) / (2 * radius);
+  for (const Edge2d& edge : edges) {
+    const Eigen::Vector2d ray = edge.position - center;
+    EXPECT_NEAR(ray.norm(), radius - inwards, 0.03);
+    const double sine = ray.normalized().dot(BrightSide(edge));
+    EXPECT_LT(sine, 0) << "the disc is bright inside";
+    EXPECT_LT(RadToDeg(std::acos(std::min(1.0, -sine))), 0.1);
+    bearings.push_back(std::atan2(ray.y(), ray.x()));
+  }
+  std::sort(bearings.begin(), bearings.end());
+  ASSERT_GT(bearings.size(), 500u);
+  for (std::size_t i = 1; i < bearings.size(); ++i) {
+    EXPECT_LT((bearings[i] - bearings[i - 1]) * radius, 1.0) << "a gap";
+  }
+}
+
+// 90 degrees from +x towards +y.
+GrayImage Rotated(const GrayImage& image) {
+  GrayImage rotated{image.height, image.width, {}};
+  for (int y = 0; y < rotated.height; ++y) {
+    for (int x = 0; x < rotated.width; ++x) {
+      rotated.pixels.push_back(image.at(y, image.height - 1 - x));
+    }
+  }
+  return rotated;
+}
+
+TEST(DetectThirdOrderEdges, RotatesWithTheImage) {
+  GrayImage image = RenderDisc(60, {33.2, 28.7}, 14.6);
+  AddNoise(5, 1, image);
+  const std::vector<Edge2d> edges = Detect(image, 3);
+  const std::vector<Edge2d> rotated = Detect(Rotated(image), 3);
+  ASSERT_GT(edges.size(), 100u);
+  ASSERT_EQ(edges.size(), rotated.size());
+  for (const Edge2d& edge : edges) {
+    const Eigen::Vector2d expected(image.height - edge.position.y(),
+                                   edge.position.x());
+    const auto match =
+        std::find_if(rotated.begin(), rotated.end(), [&](const Edge2d& other) {
+          return (other.position - expected).norm() < 1e-4;
+        });
+    ASSERT_NE(match, rotated.end());
+    EXPECT_NEAR(WrapDirected(match->angle - edge.angle - kPi / 2), 0, 1e-3);
+    EXPECT_NEAR(match->strength, edge.strength, 1e-3);
+  }
+}
+
+TEST(DetectThirdOrderEdges, GoesRowByRowAndStaysOffTheBorder) {
+  EdgeDetectionOptions options;
+  options.border_px = 7;
+  const std::vector<Edge2d> edges =
+      DetectThirdOrderEdges(RenderLine(64, {32, 32}, 1.0), options, 1);
+  ASSERT_FALSE(edges.empty());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    EXPECT_GE(edges[i].position.minCoeff(), 7);
+    EXPECT_LE(edges[i].position.maxCoeff(), 57);
+    if (i > 0) {
+      // Positions move by at most sqrt(2) half pixels from their grid row.
+      EXPECT_GT(edges[i].position.y(), edges[i - 1].position.y() - 1.5);
+    }
+  }
+}
+
+TEST(DetectThirdOrderEdges, ThresholdsTheGradient) {
+  const GrayImage image = RenderLine(64, {32, 32}, 0.3);
+  EXPECT_FALSE(Detect(image, 25).empty());
+  EXPECT_TRUE(Detect(image, 35).empty());
+}
+
+TEST(DetectThirdOrderEdges, FindsNothingInBlankImages) {
+  for (const float grey : {0.0f, 77.3f, 255.0f}) {
+    const GrayImage blank{40, 30, std::vector<float>(1200, grey)};
+    EdgeDetectionOptions options;
+    options.border_px = 0;
+    EXPECT_TRUE(DetectThirdOrderEdges(blank, options, 0.001).empty());
+  }
+}
+
+TEST(DetectThirdOrderEdges, SurvivesTinyImages) {
+  EdgeDetectionOptions options;
+  options.border_px = 0;
+  for (int width = 0; width <= 4; ++width) {
+    for (int height = 0; height <= 4; ++height) {
+      GrayImage image{width, height, {}};
+      for (int i = 0; i < width * height; ++i) {
+        image.pixels.push_back(static_cast<float>(50 * (i % 3)));
+      }
+      const std::vector<Edge2d> edges =
+          DetectThirdOrderEdges(image, options, 1);
+      if (width < 2 || height < 2) {
+        EXPECT_TRUE(edges.empty());
+      }
+      for (const Edge2d& edge : edges) EXPECT_TRUE(edge.position.allFinite());
+    }
+  }
+}
+
+TEST(DetectThirdOrderEdges, TurnsAtACornerWithoutLosingIt) {
+  const GrayImage corner =
+      RenderStep(64, 64, [](const Eigen::Vector2d& p) -> double {
+        return std::min(p.x() - 30.2, p.y() - 33.4);
+      });
+  const std::vector<Edge2d> edges = Detect(corner);
+  int along_x = 0, along_y = 0;
+  for (const Edge2d& edge : edges) {
+    EXPECT_TRUE(std::isfinite(edge.angle));
+    if ((edge.position - Eigen::Vector2d(30.2, 33.4)).norm() < 4) continue;
+    const bool horizontal = edge.position.x() > 33;
+    const double across =
+        horizontal ? edge.position.y() - 33.4 : edge.position.x() - 30.2;
+    EXPECT_LT(std::abs(across), 0.02);
+    ++(horizontal ? along_x : along_y);
+  }
+  EXPECT_GT(along_x, 30);
+  EXPECT_GT(along_y, 30);
+}
+
+TEST(DetectThirdOrderEdges, WidensWithSigma) {
+  EdgeDetectionOptions options;
+  options.sigma_px = 2;
+  const double angle = DegToRad(33);
+  const Eigen::Vector2d normal(-std::sin(angle), std::cos(angle));
+  const auto edges =
+      DetectThirdOrderEdges(RenderLine(80, {40, 40}, angle), options, 1);
+  ASSERT_GT(edges.size(), 80u);
+  for (const Edge2d& edge : edges) {
+    EXPECT_LT(std::abs(normal.dot(edge.position - Eigen::Vector2d(40, 40))),
+              0.02);
+  }
+}
+
+}  // namespace
+}  // namespace curvix

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_detection/undistort_edges.h"
+
+#include <curvix/camera_model.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/angles.h"
+
+namespace curvix {
+namespace {
+
+const Camera kSimpleRadial{
+    CameraModel::kSimpleRadial, 640, 480, {600, 320, 240, -0.15}};
+const Camera kOpenCV{CameraModel::kOpenCV,
+                     640,
+                     480,
+                     {600, 620, 325, 236, -0.12, 0.03, 0.001, -0.002}};
+
+// Ideal pixel to image pixel.
+Eigen::Vector2d Distort(const Camera& camera, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d direction =
+      PinholeCalibration(camera).inverse() * pixel.homogeneous();
+  return ImageFromIdeal(camera, direction.hnormalized());
+}
+
+std::vector<Edge2d> IdealEdges() {
+  std::vector<Edge2d> edges;
+  for (int i = 0; i < 60; ++i) {
+    Edge2d edge;
+    edge.position = {40.0 + 9.3 * i, 30.0 + (i * 37) % 400};
+    edge.angle = static_cast<float>(WrapDirected(0.7 * i));
+    edge.strength = static_cast<float>(i + 1);
+    edges.push_back(edge);
+  }
+  return edges;
+}
+
+TEST(UndistortEdges, UndoesTheDistortionOfPlaceAndDirectedTangent) {
+  for (const Camera& camera : {kSimpleRadial, kOpenCV}) {
+    const std::vector<Edge2d> ideal = IdealEdges();
+    EdgeMap distorted;
+    distorted.noise = 1.5;
+    for (const Edge2d& edge : ideal) {
+      const double h = 1e-4;
+      const Eigen::Vector2d tangent(std::cos(edge.angle), std::sin(edge.angle));
+      const Eigen::Vector2d step =
+          Distort(camera, edge.position + h * tangent) -
+          Distort(camera, edge.position - h * tangent);
+      Edge2d seen = edge;
+      seen.position = Distort(camera, edge.position);
+      seen.angle = static_cast<float>(std::atan2(step.y(), step.x()));
+      distorted.edges.push_back(seen);
+    }
+    distorted.neighbors.resize(ideal.size());
+    const EdgeMap undistorted = UndistortEdges(distorted, camera);
+    EXPECT_EQ(undistorted.noise, 1.5);
+    ASSERT_EQ(undistorted.edges.size(), ideal.size());
+    double largest_move = 0;
+    for (std::size_t i = 0; i < ideal.size(); ++i) {
+      const Edge2d& edge = undistorted.edges[i];
+      EXPECT_LT((edge.position - ideal[i].position).norm(), 1e-5);
+      EXPECT_NEAR(WrapDirected(edge.angle - ideal[i].angle), 0, 1e-5);
+      EXPECT_EQ(edge.strength, ideal[i].strength);
+      largest_move =
+          std::max(largest_move,
+                   (distorted.edges[i].position - ideal[i].position).norm());
+    }
+    EXPECT_GT(largest_move, 5) << "a distortion worth the name";
+  }
+}
+
+TEST(UndistortEdges, LeavesPinholesAlone) {
+  const Camera pinhole{CameraModel::kPinhole, 640, 480, {600, 610, 320, 240}};
+  EdgeMap map;
+  map.edges = IdealEdges();
+  map.neighbors.resize(map.edges.size());
+  map.neighbors[3].next = 4;
+  const EdgeMap result = UndistortEdges(map, pinhole);
+  ASSERT_EQ(result.edges.size(), map.edges.size());
+  for (std::size_t i = 0; i < map.edges.size(); ++i) {
+    EXPECT_EQ(result.edges[i].position, map.edges[i].position);
+    EXPECT_EQ(result.edges[i].angle, map.edges[i].angle);
+  }
+  EXPECT_EQ(result.neighbors[3].next, 4);
+}
+
+TEST(UndistortEdges, DropsWhatHasNoIdealPlaceAndRenumbersLinks) {
+  // r - 0.5 r^3 never exceeds 0.544: edges further out are not invertible.
+  const Camera strong{
+      CameraModel::kSimpleRadial, 640, 480, {300, 320, 240, -0.5}};
+  EdgeMap map;
+  for (const double x : {325.0, 5.0, 330.0, 335.0}) {
+    Edge2d edge;
+    edge.position = {x, 240.0};
+    map.edges.push_back(edge);
+  }
+  map.neighbors = {{std::nullopt, 1}, {0, 2}, {1, 3}, {2, std::nullopt}};
+  const EdgeMap result = UndistortEdges(map, strong);
+  ASSERT_EQ(result.edges.size(), 3u);
+  ASSERT_EQ(result.neighbors.size(), 3u);
+  EXPECT_EQ(result.neighbors[0].next, std::nullopt);
+  EXPECT_EQ(result.neighbors[1].previous, std::nullopt);
+  EXPECT_EQ(result.neighbors[1].next, 2);
+  EXPECT_EQ(result.neighbors[2].previous, 1);
+}
+
+}  // namespace
+}  // namespace curvix
