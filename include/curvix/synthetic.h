@@ -22,16 +22,20 @@ enum class SyntheticSolid {
 
 struct SyntheticOptions {
   SyntheticSolid solid = SyntheticSolid::kPart;
-  int num_views = 24;  // >= 3
-  int width = 480;     // pixels, >= 16
-  int height = 480;    // pixels, >= 16
-  double noise = 0;    // standard deviation, grey levels, >= 0
-  double texture = 0;  // contrast of surface texture, grey levels, >= 0
+  int num_views = 24;  // 3 to 999
+  int width = 480;     // pixels, 16 to 8192
+  int height = 480;    // pixels, 16 to 8192
+  double noise = 0;    // standard deviation, grey levels, 0 to 255
+  double texture = 0;  // contrast of surface texture, grey levels, 0 to 255:
+                       // spots, whose outlines are not part of the truth
   CameraModel camera_model = CameraModel::kPinhole;
-  double distortion = 0;  // first radial coefficient where the model has one
-  double pose_error_px =
-      0;             // disturbs the written poses, not the rendered ones
-  double scale = 1;  // longest side of the solid, world units, > 0
+  // The first radial coefficient, -0.5 to 0.5; FOV's omega and EUCM's alpha, 0
+  // to 0.9; 0 for models that have none.
+  double distortion = 0;
+  // Root mean square by which the projections of the truth move when the
+  // written poses replace those that the images were rendered with, 0 to 100.
+  double pose_error_px = 0;
+  double scale = 1;  // longest side of the solid, world units, 1e-6 to 1e6
   std::uint64_t seed = 1;
   int num_threads = 0;  // 0: all cores; the result does not depend on it
 };
@@ -49,7 +53,8 @@ struct TrueSample {
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
   int curve_id = 0;
   int num_views_seen = 0;  // views in which nothing hides it
-  int num_views_edge = 0;  // of these, where the image has contrast there
+  int num_views_edge = 0;  // of these, with a difference of 8 grey levels
+                           // across (1.5 px to both sides, without noise)
 };
 
 struct SyntheticScene {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). The convex bodies that solids are made of.
+#pragma once
+
+#include <curvix/scene.h>
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+namespace curvix {
+
+enum class PrimitiveShape {
+  kBox,      // |x| <= size.x, |y| <= size.y, |z| <= size.z
+  kFrustum,  // 0 <= z <= size.z, radius from size.x (z = 0) to size.y (top)
+  kSphere,   // radius size.x
+};
+
+// A convex body in its own frame, added to or taken out of the solid.
+struct Primitive {
+  PrimitiveShape shape = PrimitiveShape::kBox;
+  bool is_added = true;
+  double albedo = 1;      // factor on the grey values of its faces
+  Eigen::Vector3d size;   // world units, see PrimitiveShape
+  Rigid3 world_from_own;  // its pose
+};
+
+struct Ray {
+  Eigen::Vector3d origin;     // world
+  Eigen::Vector3d direction;  // world, any length > 0
+};
+
+// Faces of a shape. Box: -x, +x, -y, +y, -z, +z. Frustum: side, bottom, top.
+// Sphere: one.
+int NumFaces(PrimitiveShape shape);
+
+// Negative inside, zero on the face, positive outside; world units near the
+// face (exact for planes, spheres and cylinders).
+double FaceValue(const Primitive& primitive,
+                 int face_idx,
+                 const Eigen::Vector3d& world);
+
+// The unit normal of the face out of the primitive, near a point of the face.
+// Primitive frame.
+Eigen::Vector3d OwnNormal(const Primitive& primitive,
+                          int face_idx,
+                          const Eigen::Vector3d& own);
+
+// Negative inside, as FaceValue, for a point in the primitive's frame.
+double OwnFaceValue(const Primitive& primitive,
+                    int face_idx,
+                    const Eigen::Vector3d& own);
+
+// The part of a ray's line inside a body, and the faces at both ends.
+struct Interval {
+  double enter = -std::numeric_limits<double>::infinity();
+  double exit = std::numeric_limits<double>::infinity();
+  int enter_face = 0;
+  int exit_face = 0;
+  bool IsEmpty() const { return !(enter < exit); }
+};
+
+// For a ray in the primitive's frame; empty where it misses.
+Interval Intersect(const Primitive& primitive, const Ray& own_ray);
+
+// The largest distance of the primitive from the world's origin.
+double FarthestDistance(const Primitive& primitive);
+
+// The same bodies, moved and scaled so that the bounding box of the added ones
+// is centred on the origin and its longest side is `longest_side`.
+std::vector<Primitive> Normalized(std::vector<Primitive> primitives,
+                                  double longest_side);
+
+}  // namespace curvix
