@@ -75,7 +75,9 @@ std::vector<Camera> RealisticCameras() {
 
 std::string Describe(const Camera& camera) {
   std::string text(ModelName(camera.model));
-  for (const double p : camera.params) text += " " + std::to_string(p);
+  for (const double p : camera.params) {
+    text.append(" ").append(std::to_string(p));
+  }
   return text;
 }
 
@@ -137,11 +139,11 @@ TEST(CameraModel, EveryDirectionInTheFieldOfViewReturnsFromItsPixel) {
 TEST(CameraModel, JacobianIsTheLimitOfDifferences) {
   constexpr double kStep = 1e-6;
   for (const Camera& camera : RealisticCameras()) {
-    for (const Eigen::Vector2d uv : {Eigen::Vector2d(0, 0),
-                                     Eigen::Vector2d(2e-3, 1e-3),
-                                     Eigen::Vector2d(1e-2, 0),
-                                     Eigen::Vector2d(0.3, -0.2),
-                                     Eigen::Vector2d(-0.55, 0.4)}) {
+    for (const Eigen::Vector2d& uv : {Eigen::Vector2d(0, 0),
+                                      Eigen::Vector2d(2e-3, 1e-3),
+                                      Eigen::Vector2d(1e-2, 0),
+                                      Eigen::Vector2d(0.3, -0.2),
+                                      Eigen::Vector2d(-0.55, 0.4)}) {
       const Eigen::Matrix2d exact = ImageFromIdealJacobian(camera, uv);
       for (int axis = 0; axis < 2; ++axis) {
         const Eigen::Vector2d h = kStep * Eigen::Vector2d::Unit(axis);
@@ -293,27 +295,22 @@ TEST(CameraModel, DirectionsBeyondEightyDegreesAreRefused) {
 TEST(CameraModel, ValidateSaysWhatIsWrong) {
   const double inf = std::numeric_limits<double>::infinity();
   using M = CameraModel;
-  const struct {
-    Camera camera;
-    std::string sentence;
-  } cases[] = {
-      {{static_cast<M>(17), 9, 9, {9, 9}}, "id 17 is not known"},
-      {{M::kPinhole, 0, 9, {9, 9, 4, 4}}, "size 0 x 9"},
-      {{M::kPinhole, 9, -1, {9, 9, 4, 4}}, "size 9 x -1"},
-      {{M::kPinhole, 9, 9, {9, 4, 4}}, "with 3 parameters: the model has 4"},
-      {{M::kPinhole, 9, 9, {}}, "with 0 parameters"},
-      {{M::kOpenCV, 9, 9, {9, 9, 4, 4, inf, 0, 0, 0}}, "not a finite number"},
-      {{M::kPinhole, 9, 9, {9, 0, 4, 4}}, "focal length is not positive"},
-      {{M::kSimplePinhole, 9, 9, {-9, 4, 4}}, "focal length is not positive"},
-      {{M::kFov, 9, 9, {9, 9, 4, 4, 3.2}}, "omega"},
-      {{M::kEucm, 9, 9, {9, 9, 4, 4, 1.5, 1}}, "alpha"},
-      {{M::kEucm, 9, 9, {9, 9, 4, 4, 0.5, 0}}, "beta"},
-  };
-  for (const auto& [camera, sentence] : cases) {
+  const auto expect = [](const Camera& camera, const std::string& sentence) {
     const Status status = Validate(camera);
     EXPECT_EQ(status.code(), StatusCode::kInvalidArgument) << sentence;
     EXPECT_THAT(status.message(), HasSubstr(sentence));
-  }
+  };
+  expect({static_cast<M>(17), 9, 9, {9, 9}}, "id 17 is not known");
+  expect({M::kPinhole, 0, 9, {9, 9, 4, 4}}, "size 0 x 9");
+  expect({M::kPinhole, 9, -1, {9, 9, 4, 4}}, "size 9 x -1");
+  expect({M::kPinhole, 9, 9, {9, 4, 4}}, "with 3 parameters: the model has 4");
+  expect({M::kPinhole, 9, 9, {}}, "with 0 parameters");
+  expect({M::kOpenCV, 9, 9, {9, 9, 4, 4, inf, 0, 0, 0}}, "not a finite number");
+  expect({M::kPinhole, 9, 9, {9, 0, 4, 4}}, "focal length is not positive");
+  expect({M::kSimplePinhole, 9, 9, {-9, 4, 4}}, "focal length is not positive");
+  expect({M::kFov, 9, 9, {9, 9, 4, 4, 3.2}}, "omega");
+  expect({M::kEucm, 9, 9, {9, 9, 4, 4, 1.5, 1}}, "alpha");
+  expect({M::kEucm, 9, 9, {9, 9, 4, 4, 0.5, 0}}, "beta");
 }
 
 }  // namespace
