@@ -128,6 +128,9 @@ struct ConnectivityOptions {
   // A piece of a curve nearer to a longer one is drawn once. Pixels, >= 0; 0
   // (paper) keeps all.
   double max_repeat_distance_px = 1.0;
+  // Curves are cut where they turn by more in one place. Degrees, > 0, <= 180;
+  // 180 (paper) cuts none.
+  double max_corner_deg = 30.0;
   // Shortest curve kept, in pixels of the view that sees it largest; >= 0.
   double min_length_px = 10.0;
 };

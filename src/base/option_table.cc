@@ -186,6 +186,8 @@ void AddRows(ConnectivityOptions& o, Section row) {
   row("max_repeat_distance_px", &o.max_repeat_distance_px, AtLeast(0), "px",
       "",
       "a piece of a curve nearer to a longer one is drawn once; 0 keeps all");
+  row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
+      "curves are cut where they turn by more in one place; 180 cuts none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "Sec. 6",
       "shortest curve kept, in the view that sees it largest");
 }

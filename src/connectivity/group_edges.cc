@@ -7,6 +7,7 @@
 #include "connectivity/connect_edges.h"
 #include "connectivity/drop_repeats.h"
 #include "connectivity/join_curves.h"
+#include "connectivity/split_corners.h"
 #include "connectivity/thin_edges.h"
 #include "connectivity/trace_curves.h"
 
@@ -24,6 +25,7 @@ std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
   std::vector<Curve> curves = TraceCurves(thinned.edges, connectivity);
   curves = DropRepeats(std::move(curves), views, options);
   curves = JoinCurves(std::move(curves), views, options);
+  curves = SplitCorners(curves, views, options);
   return DropShortCurves(std::move(curves), views, options.min_length_px);
 }
 

@@ -14,7 +14,8 @@
 namespace curvix {
 
 // Ordered curves from aligned edges and their neighborhood graph: thinned,
-// connected, traced, drawn once, joined, the short ones dropped.
+// connected, traced, drawn once, joined, cut at corners, the short ones
+// dropped.
 std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
                               const NeighborhoodGraph& graph,
                               const std::vector<PosedView>& views,

@@ -62,7 +62,7 @@ Contour AppendContour(const TestCurve& curve,
     return view.Pixel(view.InCamera(curve.position(s)));
   };
   double left_px = 0.5 * phase;
-  const double step = 0.0005;
+  const double step = 0.001;
   for (double s = 0; s + step <= curve.length; s += step) {
     const Eigen::Vector2d move = pixel(s + step) - pixel(s);
     left_px -= move.norm();
