@@ -2,32 +2,13 @@
 #include "plugin/help_text.h"
 
 #include <algorithm>
-#include <sstream>
+
+#include "plugin/text.h"
 
 namespace curvix {
 namespace {
 
-constexpr std::size_t kColumns = 80;
 constexpr std::size_t kRangeColumn = 52;
-
-constexpr char kNoBreak = '\x01';  // a space at which Wrap() does not break
-
-// `text` broken between words, every line after `indent` spaces.
-std::string Wrap(const std::string& text, std::size_t indent) {
-  std::istringstream words(text);
-  std::string wrapped;
-  std::string line;
-  for (std::string word; words >> word;) {
-    if (!line.empty() && indent + line.size() + 1 + word.size() > kColumns) {
-      wrapped += std::string(indent, ' ') + line + "\n";
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-  }
-  wrapped += std::string(indent, ' ') + line + "\n";
-  std::replace(wrapped.begin(), wrapped.end(), kNoBreak, ' ');
-  return wrapped;
-}
 
 // "  --EdgeDetection.sigma_px arg (=1)"
 std::string FlagHead(const Flag& flag) {
@@ -58,8 +39,8 @@ std::string FlagHelp(const Flag& flag) {
   text = allowed.empty() || is_list ? text + "\n" : WithRange(text, allowed);
   std::string symbol = flag.symbol.empty() ? "" : "(" + flag.symbol + ")";
   std::replace(symbol.begin(), symbol.end(), ' ', kNoBreak);
-  text += Wrap(flag.help + " " + symbol, 6);
-  return is_list ? text + Wrap("one of: " + allowed, 6) : text;
+  text += WrapText(flag.help + " " + symbol, 6);
+  return is_list ? text + WrapText("one of: " + allowed, 6) : text;
 }
 
 std::string MarkdownRow(const OptionRow& row, const OptionRow& paper) {
@@ -103,7 +84,7 @@ constexpr char kMarkdownTable[] =
 std::string HelpText(const std::string& usage,
                      const std::string& summary,
                      const std::vector<FlagSection>& sections) {
-  std::string text = "Usage: " + usage + "\n\n" + Wrap(summary, 0);
+  std::string text = "Usage: " + usage + "\n\n" + WrapText(summary, 0);
   for (const FlagSection& section : sections) {
     text += "\n" + section.title + "\n";
     for (const Flag& flag : section.flags) text += FlagHelp(flag);

@@ -2,13 +2,12 @@
 #include "plugin/progress.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <chrono>
-#include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <utility>
+
+#include "plugin/text.h"
 
 namespace curvix {
 namespace {
@@ -29,12 +28,6 @@ double SteadySeconds() {
   return std::chrono::duration<double>(now).count();
 }
 
-std::string Format(const char* format, int a, int b) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), format, a, b);
-  return text.data();
-}
-
 // "detect_edges" as "Detect edges".
 std::string Title(std::string stage) {
   std::replace(stage.begin(), stage.end(), '_', ' ');
@@ -46,26 +39,6 @@ std::string Title(std::string stage) {
 }
 
 }  // namespace
-
-std::string GroupDigits(long long number) {
-  std::string text = std::to_string(number);
-  const int first = number < 0 ? 1 : 0;
-  for (int i = static_cast<int>(text.size()) - 3; i > first; i -= 3) {
-    text.insert(static_cast<std::size_t>(i), 1, ' ');
-  }
-  return text;
-}
-
-std::string DurationText(double seconds) {
-  if (seconds < 59.95) {
-    std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), "%.1f s", std::max(seconds, 0.0));
-    return text.data();
-  }
-  const int whole = static_cast<int>(std::min(std::round(seconds), 1e9));
-  if (whole < 3600) return Format("%d min %02d s", whole / 60, whole % 60);
-  return Format("%d h %02d min", whole / 3600, whole / 60 % 60);
-}
 
 void CatchInterrupts() {
   std::signal(SIGINT, OnInterrupt);

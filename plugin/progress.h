@@ -8,12 +8,6 @@
 
 namespace curvix {
 
-// "171204" as "171 204".
-std::string GroupDigits(long long number);
-
-// "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
-std::string DurationText(double seconds);
-
 // From now on SIGINT (Ctrl-C) and SIGTERM ask the program to stop; a second
 // one ends it at once.
 void CatchInterrupts();

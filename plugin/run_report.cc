@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "plugin/progress.h"
+#include "plugin/text.h"
 
 namespace curvix {
 namespace {
@@ -115,20 +115,27 @@ std::string Plural(std::int64_t count, const std::string& noun) {
   return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-// "  read model      24 views, 0 points"
+// "  detect_edges  24 views, 81 234 edges"
 std::string StageLine(const StageReport& stage) {
-  std::string line = "  " + stage.name;
-  line.resize(std::max<std::size_t>(line.size() + 2, 24), ' ');
+  constexpr std::size_t kCountsColumn = 18;
   std::string counts;
   for (const auto& [name, count] : stage.counts) {
-    counts += (counts.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
+    counts += counts.empty() ? "" : ", ";
+    std::string item = GroupDigits(count) + " " + name;
+    std::replace(item.begin(), item.end(), ' ', kNoBreak);
+    counts += item;
   }
-  return line + counts + "\n";
+  std::string line = WrapText(counts, kCountsColumn);
+  if (stage.name.size() + 3 > kCountsColumn) {
+    return "  " + stage.name + "\n" + line;
+  }
+  return line.replace(2, stage.name.size(), stage.name);
 }
 
 const char* OpenedBy(const std::string& file) {
-  if (file == "curves.ply") return "lines: MeshLab, Blender, Open3D, COLMAP";
-  if (file == "curves.obj") return "lines: CloudCompare, Rhino, ParaView";
+  if (file == "curves.ply")
+    return "lines: MeshLab, Blender, Open3D; points: COLMAP";
+  if (file == "curves.obj") return "lines: CloudCompare, MeshLab, Blender";
   if (file == "curves.pcd") return "points with tangents: PCL";
   if (file == "curves.txt") return "text, like COLMAP's points3D.txt";
   if (file == "edges.ply") return "3D edges before grouping, as points";
@@ -148,9 +155,11 @@ std::string FilesText(const ResultSummary& result) {
 }
 
 std::string EmptyText(const RunRecord& record) {
-  std::string text =
-      "No curves: " + record.result.why_empty + "\n\nWhat each stage counted\n";
-  for (const StageReport& stage : record.stages) text += StageLine(stage);
+  std::string text = WrapText("No curves: " + record.result.why_empty, 0) +
+                     "\nWhat each stage counted\n";
+  for (const StageReport& stage : record.stages) {
+    if (!stage.counts.empty()) text += StageLine(stage);
+  }
   return text + "\n" + FilesText(record.result);
 }
 

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/run_workspace.h"
 
-#include <curvix/stopwatch.h>
 #include <curvix/camera_model.h>
 #include <curvix/curve_io.h>
 #include <curvix/file_io.h>
 #include <curvix/reconstruct.h>
+#include <curvix/stopwatch.h>
 
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "plugin/staged_output.h"
+#include "plugin/text.h"
 #include "plugin/workspace.h"
 
 namespace curvix {
@@ -76,7 +77,7 @@ class Job {
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
   Status Write(const Scene& scene, const Reconstruction& reconstruction);
-  Status WriteResults(const Scene& scene, const Reconstruction& reconstruction);
+  Status WriteCurveFiles(const Scene& scene, const CurveSet& curves);
   Status WriteReport();
 
   Progress Callback() {
@@ -184,30 +185,29 @@ Result<Reconstruction> Job::Reconstruct(const Scene& scene,
 }
 
 Status Job::Write(const Scene& scene, const Reconstruction& reconstruction) {
-  if (record_.result.num_curves > 0) {
-    const Status status = WriteResults(scene, reconstruction);
-    if (!status.ok()) return status;
+  const Stopwatch stopwatch;
+  Status status;
+  if (!reconstruction.curves.curves.empty()) {
+    status = WriteCurveFiles(scene, reconstruction.curves);
   }
+  if (status.ok() && !reconstruction.edges.empty()) {
+    record_.result.files.push_back("edges.ply");
+    status = WriteEdges(staging_ / "edges.ply", reconstruction.edges);
+  }
+  if (!status.ok()) return status;
+  record_.stages.push_back(stopwatch.Read("write_files"));
   return WriteReport();
 }
 
-Status Job::WriteResults(const Scene& scene,
-                         const Reconstruction& reconstruction) {
-  const Stopwatch stopwatch;
+Status Job::WriteCurveFiles(const Scene& scene, const CurveSet& curves) {
   std::vector<std::string>& files = record_.result.files;
   for (const char* name :
        {"curves.ply", "curves.obj", "curves.pcd", "curves.txt"}) {
-    progress_.Update("write_files", static_cast<int>(files.size()), 6);
-    const Status status =
-        WriteCurves(staging_ / name, reconstruction.curves, scene);
+    progress_.Update("write_files", static_cast<int>(files.size()), 4);
+    const Status status = WriteCurves(staging_ / name, curves, scene);
     if (!status.ok()) return status;
     files.push_back(name);
   }
-  const Status status =
-      WriteEdges(staging_ / "edges.ply", reconstruction.edges);
-  if (!status.ok()) return status;
-  files.push_back("edges.ply");
-  record_.stages.push_back(stopwatch.Read("write_files"));
   files.push_back("project.ini");
   return WriteFileAtomically(staging_ / "project.ini",
                              ProjectFile(record_.settings));

@@ -15,7 +15,8 @@ namespace curvix {
 // or none does. The inputs are read only.
 //
 // Without any curve this succeeds too, with num_curves = 0 and why_empty, and
-// writes report.json only; files of an earlier run stay.
+// writes report.json only, and edges.ply if there are 3D edges; other files of
+// an earlier run stay.
 //
 // kInvalidArgument and kNotFound: the workspace, or an output folder that
 // cannot be used; kDataLoss and kUnsupported: broken or foreign files;

@@ -14,25 +14,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(GroupDigits, PutsASpaceEveryThreeDigits) {
-  EXPECT_EQ(GroupDigits(0), "0");
-  EXPECT_EQ(GroupDigits(999), "999");
-  EXPECT_EQ(GroupDigits(1000), "1 000");
-  EXPECT_EQ(GroupDigits(171204), "171 204");
-  EXPECT_EQ(GroupDigits(-1234567), "-1 234 567");
-  EXPECT_EQ(GroupDigits(-123), "-123");
-}
-
-TEST(DurationText, ChoosesTheUnitsThatMatter) {
-  EXPECT_EQ(DurationText(0), "0.0 s");
-  EXPECT_EQ(DurationText(-1), "0.0 s");
-  EXPECT_EQ(DurationText(3.14), "3.1 s");
-  EXPECT_EQ(DurationText(59.96), "1 min 00 s");
-  EXPECT_EQ(DurationText(125), "2 min 05 s");
-  EXPECT_EQ(DurationText(3599.6), "1 h 00 min");
-  EXPECT_EQ(DurationText(3720), "1 h 02 min");
-}
-
 // A printer with a clock in the test's hand.
 class Progress : public testing::Test {
  protected:

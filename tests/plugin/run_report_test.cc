@@ -139,12 +139,14 @@ TEST(SummaryText, ExplainsAnEmptyResult) {
   RunRecord record = Example();
   record.result.num_curves = 0;
   record.result.why_empty = "No view shows an edge.";
+  record.stages.push_back({"write_files", 0.1, 0.1, 130, {}});
   record.result.files = {"report.json"};
   EXPECT_THAT(SummaryText(record),
               AllOf(HasSubstr("No curves: No view shows an edge."),
                     HasSubstr("171 204 edges"),
                     HasSubstr("7 short"),
                     HasSubstr("report.json"),
+                    Not(HasSubstr("write_files")),
                     Not(HasSubstr("curves.ply"))));
 }
 

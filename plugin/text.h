@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Text for people.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace curvix {
+
+inline constexpr std::size_t kColumns = 80;
+
+// A space at which WrapText() does not break.
+inline constexpr char kNoBreak = '\x01';
+
+// `text` broken between words into lines of at most kColumns, each after
+// `indent` spaces and with a line end.
+std::string WrapText(const std::string& text, std::size_t indent);
+
+// "171204" as "171 204".
+std::string GroupDigits(long long number);
+
+// "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
+std::string DurationText(double seconds);
+
+}  // namespace curvix

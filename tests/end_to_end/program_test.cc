@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The built program, as a person calls it, on synthetic workspaces.
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/synthesize.h"
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::UnorderedElementsAre;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // stdout and stderr
+};
+
+// Runs the program; `arguments` as in a shell.
+Outcome RunProgram(const std::string& arguments) {
+  const std::string command =
+      std::string("'") + CURVIX_PROGRAM + "' " + arguments + " 2>&1";
+  Outcome outcome;
+  FILE* const pipe = popen(command.c_str(), "r");
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
+    outcome.output += static_cast<char>(c);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  return outcome;
+}
+
+std::string Read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Every file below `folder` and what is in it.
+std::map<std::string, std::string> Contents(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    contents[entry.path().lexically_relative(folder).string()] =
+        entry.is_regular_file() ? Read(entry.path()) : "folder";
+  }
+  return contents;
+}
+
+std::vector<std::string> Names(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
+
+// A block, seen by a dozen small photographs.
+class ProgramRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    SyntheticOptions options;
+    options.solid = SyntheticSolid::kBlock;
+    options.num_views = 12;
+    options.width = 200;
+    options.height = 200;
+    const Status status = Synthesize(options, workspace_);
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+
+  Outcome RunWorkspace(const std::string& more = "") {
+    return RunProgram("--workspace_path '" + workspace_.string() + "' " + more);
+  }
+  void OverwriteImages(const std::string& bytes) {
+    for (const auto& image : fs::directory_iterator(workspace_ / "images")) {
+      std::ofstream(image.path(), std::ios::binary) << bytes;
+    }
+  }
+
+  TemporaryFolder folder_;
+  fs::path workspace_ = folder_.path() / "my proj";
+  fs::path results_ = workspace_ / "curvix/0";
+};
+
+// A white 200 x 200 PGM; the decoder looks at the content, not at the name.
+std::string BlankImage() {
+  return "P5\n200 200\n255\n" + std::string(200 * 200, '\xff');
+}
+
+TEST_F(ProgramRun, WritesEveryFileAndLeavesTheInputsAlone) {
+  const auto before = Contents(workspace_);
+  const Outcome outcome = RunWorkspace();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("Detect edges ... 12 views, "),
+                    HasSubstr(" curves"),
+                    HasSubstr(results_.string()),
+                    HasSubstr("MeshLab")));
+  EXPECT_EQ(outcome.output.find('\033'), std::string::npos);
+  EXPECT_THAT(Names(results_),
+              UnorderedElementsAre("curves.ply",
+                                   "curves.obj",
+                                   "curves.pcd",
+                                   "curves.txt",
+                                   "edges.ply",
+                                   "report.json",
+                                   "project.ini"));
+  const json report = json::parse(Read(results_ / "report.json"));
+  EXPECT_GT(report["result"]["num_curves"], 0);
+  EXPECT_EQ(report["input"]["num_views"], 12);
+  EXPECT_EQ(report["result"]["why_empty"], "");
+
+  fs::remove_all(workspace_ / "curvix");
+  EXPECT_EQ(Contents(workspace_), before);
+}
+
+TEST_F(ProgramRun, FindsTheEdgesOfTheBlock) {
+  ASSERT_EQ(RunWorkspace().exit_code, 0);
+  const Outcome outcome = RunProgram(
+      "evaluate --json --curves_path '" + (results_ / "curves.ply").string() +
+      "' --truth_path '" + (workspace_ / "gt.txt").string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json scores = json::parse(outcome.output);
+  EXPECT_GT(scores["P10"], 90) << outcome.output;
+  EXPECT_GT(scores["Rv10"], 80) << outcome.output;
+}
+
+TEST_F(ProgramRun, GivesTheSameBytesForAnyNumberOfThreads) {
+  std::vector<std::map<std::string, std::string>> results;
+  for (const std::string threads : {"1", "2", "3"}) {
+    const fs::path output = folder_.path() / ("threads " + threads);
+    const Outcome outcome =
+        RunWorkspace("--num_threads " + threads + " --output_path '" +
+                     output.string() + "'");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    auto contents = Contents(output);
+    json report = json::parse(contents["report.json"]);
+    report.erase("run");
+    contents["report.json"] = report.dump();
+    contents.erase("project.ini");  // names the folder and the threads
+    results.push_back(std::move(contents));
+  }
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(results[0], results[2]);
+}
+
+TEST_F(ProgramRun, TheProjectFileRepeatsTheRun) {
+  ASSERT_EQ(RunWorkspace("--Validation.max_angle_deg 12").exit_code, 0);
+  const auto first = Contents(results_);
+  const fs::path project = folder_.path() / "saved.ini";
+  fs::copy_file(results_ / "project.ini", project);
+  fs::remove_all(workspace_ / "curvix");
+  const Outcome outcome =
+      RunProgram("--project_path '" + project.string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const auto& [name, bytes] : Contents(results_)) {
+    if (name == "report.json") continue;  // holds the seconds
+    EXPECT_EQ(bytes, first.at(name)) << name;
+  }
+}
+
+TEST_F(ProgramRun, ExplainsWhyBlankImagesGiveNoCurves) {
+  OverwriteImages(BlankImage());
+  const Outcome outcome = RunWorkspace();
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("No curves: "), HasSubstr("0 edges")));
+  EXPECT_THAT(Names(results_), UnorderedElementsAre("report.json"));
+  const json report = json::parse(Read(results_ / "report.json"));
+  EXPECT_EQ(report["result"]["num_curves"], 0);
+  EXPECT_NE(report["result"]["why_empty"], "");
+}
+
+TEST_F(ProgramRun, AFailureKeepsEarlierResults) {
+  ASSERT_EQ(RunWorkspace().exit_code, 0);
+  const auto before = Contents(workspace_ / "curvix");
+  OverwriteImages("no image");
+  const Outcome outcome = RunWorkspace();
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("view_0"));
+  EXPECT_EQ(Contents(workspace_ / "curvix"), before);
+}
+
+TEST_F(ProgramRun, RefusesBrokenInputWithoutATrace) {
+  fs::resize_file(workspace_ / "sparse/0/images.bin", 100);
+  const auto before = Contents(workspace_);
+  const Outcome outcome = RunWorkspace();
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("ERROR"), HasSubstr("images.bin")));
+  EXPECT_EQ(Contents(workspace_), before);
+}
+
+TEST_F(ProgramRun, DoesNotWriteAmongTheInputs) {
+  const auto before = Contents(workspace_);
+  for (const char* input : {"sparse/0", "images"}) {
+    const std::string path = (workspace_ / input).string();
+    const Outcome outcome = RunWorkspace("--output_path '" + path + "/'");
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.output, HasSubstr("--output_path"));
+  }
+  EXPECT_EQ(Contents(workspace_), before);
+}
+
+TEST_F(ProgramRun, LeavesNothingWhenInterrupted) {
+  const auto before = Contents(workspace_);
+  const std::string path = workspace_.string();
+  const std::vector<const char*> arguments = {
+      CURVIX_PROGRAM, "--workspace_path", path.c_str(), nullptr};
+  pid_t child = 0;
+  ASSERT_EQ(posix_spawn(&child,
+                        CURVIX_PROGRAM,
+                        nullptr,
+                        nullptr,
+                        const_cast<char* const*>(arguments.data()),
+                        environ),
+            0);
+  // The folder appears when the work begins.
+  for (int i = 0; i < 10000 && !fs::exists(workspace_ / "curvix"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(Contents(workspace_), before);
+}
+
+TEST(ProgramAlone, HelpAndVersionSucceed) {
+  for (const char* words : {"",
+                            "help",
+                            "help --markdown",
+                            "--help",
+                            "-h",
+                            "reconstruct -h",
+                            "synthesize --help",
+                            "help evaluate",
+                            "version",
+                            "--version"}) {
+    const Outcome outcome = RunProgram(words);
+    EXPECT_EQ(outcome.exit_code, 0) << words;
+    EXPECT_THAT(outcome.output, HasSubstr("colmap_curvix")) << words;
+  }
+}
+
+TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
+  const std::map<std::string, std::string> cases = {
+      {"recontruct", "did you mean 'reconstruct'?"},
+      {"--workspce_path x", "did you mean '--workspace_path'?"},
+      {"--num_threads 2", "'--workspace_path' is required"},
+      {"--workspace_path . --preset papr", "one of default, paper"},
+      {"--workspace_path . --Hypotheses.min_ray_angle_deg 90",
+       "Hypotheses.min_ray_angle_deg"},
+      {"evaluate --json", "'--curves_path' is required"},
+      {"synthesize --workspace_path x --num_views 2", "num_views is 2"}};
+  for (const auto& [words, hint] : cases) {
+    const Outcome outcome = RunProgram(words);
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("ERROR: "), HasSubstr(hint)));
+  }
+}
+
+TEST(ProgramAlone, AMissingWorkspaceIsBadInput) {
+  const Outcome outcome = RunProgram("--workspace_path /no/such/folder");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("/no/such/folder"));
+}
+
+}  // namespace
+}  // namespace curvix
