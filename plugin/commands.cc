@@ -32,7 +32,7 @@ constexpr char kExamples[] =
     "  colmap_curvix --workspace_path proj\n"
     "      reads proj/sparse/0 and proj/images, writes proj/curvix/0\n"
     "  colmap_curvix --workspace_path proj --preset paper\n"
-    "      the method of the paper, word by word\n"
+    "      the method and the values of the paper throughout\n"
     "  colmap_curvix --workspace_path proj --Validation.max_angle_deg 10\n"
     "      one option of one stage\n"
     "  colmap_curvix --project_path proj/curvix/0/project.ini\n"
