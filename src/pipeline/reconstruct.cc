@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Secs. 3 to 6 on one page.
+#include <curvix/option_table.h>
+#include <curvix/reconstruct.h>
+
+#include <string>
+#include <utility>
+
+#include "alignment/align_edges.h"
+#include "connectivity/group_edges.h"
+#include "edge_detection/detect_view_edges.h"
+#include "geometry/posed_views.h"
+#include "neighborhood/link_edges.h"
+#include "pipeline/check_input.h"
+#include "pipeline/run_recorder.h"
+#include "pipeline/sketch_edges.h"
+#include "pipeline/why_empty.h"
+
+namespace curvix {
+namespace {
+
+Reconstruction Reconstruct(const Scene& scene,
+                           const std::vector<EdgeMap>& edge_maps,
+                           const Options& options,
+                           RunRecorder& run) {
+  const int num_threads = options.runtime.num_threads;
+  const std::vector<PosedView> views = MakePosedViews(scene);
+  Reconstruction result;
+
+  // Sec. 3 (hypothesise, validate) and Sec. 4 (consolidate).
+  run.Begin("sketch_edges");
+  EdgeSketch sketch =
+      SketchEdges(views, edge_maps, scene.points, options, run.Steps());
+  run.End(CountsOf(sketch));
+
+  // Sec. 5, Fig. 6.
+  run.Begin("link_edges");
+  const NeighborhoodGraph graph = LinkEdges(
+      sketch.edges, edge_maps, views, options.neighborhood, num_threads);
+  run.End({{"links", graph.NumLinks()}});
+
+  // Sec. 5, Fig. 7.
+  run.Begin("align_edges");
+  result.edges =
+      AlignEdges(sketch.edges, graph, options.alignment, num_threads);
+  run.End({{"edges", result.edges.size()}});
+
+  // Sec. 6.
+  run.Begin("connect_edges");
+  result.curves.curves =
+      GroupEdges(result.edges, graph, views, options.connectivity, num_threads);
+  run.End(CountsOf(result.curves));
+
+  result.report = run.TakeReport();
+  if (result.curves.curves.empty()) {
+    result.report.why_empty = WhyEmpty(edge_maps, sketch, options);
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
+                                         const Options& options,
+                                         const Progress& progress) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  if (Status status = Validate(options); !status.ok()) return status;
+  RunRecorder run(progress);
+  run.Begin("detect_edges");
+  std::vector<EdgeMap> edge_maps(scene.views.size());
+  const Status status = run.ForEach(
+      edge_maps.size(), options.runtime.num_threads, [&](std::size_t i) {
+        const View& view = scene.views[i];
+        auto detected = DetectViewEdges(
+            view,
+            scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+            options.edge_detection);
+        if (detected.ok()) edge_maps[i] = *std::move(detected);
+        return detected.status();
+      });
+  if (!status.ok()) return status;
+  return edge_maps;
+}
+
+Result<Reconstruction> ReconstructCurves(const Scene& scene,
+                                         const std::vector<EdgeMap>& edge_maps,
+                                         const Options& options,
+                                         const Progress& progress) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+    return status;
+  }
+  if (Status status = Validate(options); !status.ok()) return status;
+  RunRecorder run(progress);
+  Reconstruction result = Reconstruct(scene, edge_maps, options, run);
+  if (run.cancelled()) return run.CancelledStatus();
+  return result;
+}
+
+Result<Reconstruction> ReconstructCurves(const Scene& scene,
+                                         const Options& options,
+                                         const Progress& progress) {
+  auto edge_maps = DetectEdges(scene, options, progress);
+  if (!edge_maps.ok()) return edge_maps.status();
+  return ReconstructCurves(scene, *edge_maps, options, progress);
+}
+
+}  // namespace curvix

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "pipeline/run_recorder.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace curvix {
+
+Counts CountsOf(const EdgeSketch& sketch) {
+  const SketchCounts& c = sketch.counts;
+  return {{"view pairs", c.view_pairs},
+          {"edges asked", c.h1_edges},
+          {"hypotheses", c.hypotheses},
+          {"hypotheses without support", c.unsupported},
+          {"weaker rivals", c.rivals},
+          {"3D edges", static_cast<std::int64_t>(sketch.edges.size())},
+          {"2D edges used", c.used_edges}};
+}
+
+Counts CountsOf(const CurveSet& curves) {
+  std::int64_t num_samples = 0;
+  for (const Curve& curve : curves.curves) {
+    num_samples += static_cast<std::int64_t>(curve.samples.size());
+  }
+  return {{"curves", static_cast<std::int64_t>(curves.curves.size())},
+          {"samples", num_samples}};
+}
+
+void RunRecorder::Begin(const std::string& stage) {
+  stage_ = stage;
+  stopwatch_ = Stopwatch();
+  Tell(0, 0);
+}
+
+void RunRecorder::End(Counts counts) {
+  report_.stages.push_back(stopwatch_.Read(stage_));
+  report_.stages.back().counts = std::move(counts);
+}
+
+bool RunRecorder::Tell(int done, int total) {
+  if (!cancelled_ && progress_ && !progress_(stage_, done, total)) {
+    cancelled_ = true;
+  }
+  return !cancelled_;
+}
+
+StepDone RunRecorder::Steps() {
+  return [this](int done, int total) { return Tell(done, total); };
+}
+
+Status RunRecorder::ForEach(std::size_t n,
+                            int num_threads,
+                            const std::function<Status(std::size_t)>& f) {
+  // In batches, so that progress is told from this thread only.
+  const std::size_t batch =
+      static_cast<std::size_t>(ResolveNumThreads(num_threads)) * 2;
+  std::vector<Status> statuses(n);
+  for (std::size_t begin = 0; begin < n; begin += batch) {
+    const std::size_t end = std::min(n, begin + batch);
+    ParallelFor(end - begin, num_threads, [&](std::size_t i) {
+      statuses[begin + i] = f(begin + i);
+    });
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!statuses[i].ok()) return statuses[i];
+    }
+    if (!Tell(static_cast<int>(end), static_cast<int>(n))) {
+      return CancelledStatus();
+    }
+  }
+  return {};
+}
+
+Status RunRecorder::CancelledStatus() const {
+  return {StatusCode::kCancelled, "interrupted; nothing was written"};
+}
+
+}  // namespace curvix

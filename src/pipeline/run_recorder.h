@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Clock, counters and progress around the stages.
+#pragma once
+
+#include <curvix/reconstruct.h>
+#include <curvix/stopwatch.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/sketch_edges.h"
+
+namespace curvix {
+
+using Counts = std::vector<std::pair<std::string, std::int64_t>>;
+
+Counts CountsOf(const EdgeSketch& sketch);
+Counts CountsOf(const CurveSet& curves);
+
+// Records one stage after the other. Once the progress callback returns false
+// the run is cancelled, and the stages still to come find that out by
+// themselves.
+class RunRecorder {
+ public:
+  explicit RunRecorder(const Progress& progress) : progress_(progress) {}
+
+  void Begin(const std::string& stage);
+  void End(Counts counts);
+
+  // A callback for a stage that counts its own steps.
+  StepDone Steps();
+
+  // Calls f(i) for all i, reports progress in between, and returns the failure
+  // of the smallest index, or kCancelled.
+  Status ForEach(std::size_t n,
+                 int num_threads,
+                 const std::function<Status(std::size_t)>& f);
+
+  bool cancelled() const { return cancelled_; }
+  Status CancelledStatus() const;
+  Report TakeReport() { return std::move(report_); }
+
+ private:
+  bool Tell(int done, int total);
+
+  const Progress& progress_;
+  Report report_;
+  std::string stage_;
+  Stopwatch stopwatch_;
+  bool cancelled_ = false;
+};
+
+}  // namespace curvix

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "pipeline/why_empty.h"
+
+#include <cstddef>
+#include <sstream>
+
+namespace curvix {
+
+std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
+                     const EdgeSketch& sketch,
+                     const Options& options) {
+  std::size_t num_edges = 0;
+  for (const EdgeMap& map : edge_maps) num_edges += map.edges.size();
+  const SketchCounts& counts = sketch.counts;
+  std::ostringstream text;
+  if (num_edges == 0) {
+    text << "No edges were found in the " << edge_maps.size()
+         << " images. Are they blank or very dark? A lower "
+            "--EdgeDetection.min_gradient (now "
+         << options.edge_detection.min_gradient << ") finds weaker edges.";
+  } else if (counts.view_pairs == 0) {
+    text << "No two views overlap with rays between "
+         << options.hypotheses.min_ray_angle_deg << " and "
+         << options.hypotheses.max_ray_angle_deg
+         << " degrees apart, so nothing has depth. Was the camera only "
+            "turned? Photographs from more places help.";
+  } else if (counts.hypotheses == 0) {
+    text << "None of " << counts.h1_edges
+         << " edges has a counterpart on its epipolar line in another view: "
+            "the poses may be wrong, or all edges run along the epipolar lines "
+            "(photographs from above and below help).";
+  } else if (sketch.edges.empty()) {
+    text << "None of " << counts.hypotheses
+         << " edge pairs is confirmed by enough other views. Are the poses "
+            "right to about a pixel, and do at least "
+         << options.validation.min_num_support_views + 2
+         << " views see each part of the scene?";
+  } else {
+    text << sketch.edges.size()
+         << " 3D edges were found, but no run of them is "
+         << options.connectivity.min_length_px
+         << " pixels long; see edges.ply, or lower "
+            "--Connectivity.min_length_px.";
+  }
+  return text.str();
+}
+
+}  // namespace curvix
