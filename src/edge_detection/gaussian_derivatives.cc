@@ -33,17 +33,22 @@ int GaussianRadius(double sigma) {
   return static_cast<int>(std::ceil(5 * sigma));
 }
 
+int PixelFilterRadius(double sigma) {
+  return static_cast<int>(std::ceil(4 * sigma));
+}
+
 double GradientNoiseGain(double sigma_px) {
   return 1 / (std::sqrt(8 * kPi) * sigma_px * sigma_px);
 }
 
 ImageDerivatives::ImageDerivatives(const GrayImage& image, double sigma_px)
-    : image_(image), radius_(GaussianRadius(sigma_px)) {
+    : image_(image),
+      radius_(GaussianRadius(sigma_px)),
+      pixel_radius_(PixelFilterRadius(sigma_px)) {
   const int reach = 2 * radius_ + 1;
-  table_.resize(2 * reach + 1, 4);
-  for (int row = 0; row < table_.rows(); ++row) {
-    const auto g = GaussianDerivatives((row - reach) / 2.0, sigma_px);
-    table_.row(row) << g[0], g[1], g[2], g[3];
+  for (int half_pixels = -reach; half_pixels <= reach; ++half_pixels) {
+    const auto g = GaussianDerivatives(half_pixels / 2.0, sigma_px);
+    table_.emplace_back(g[0], g[1], g[2], g[3]);
   }
 }
 
@@ -55,13 +60,20 @@ ImageDerivatives::Filter ImageDerivatives::FilterAt(double position) const {
   const int reach = 2 * radius_ + 1;
   const int size = 2 * radius_ + 3;
   const int first = (cell + 1) / 2 - radius_ - 1;
-  Filter filter{first, decltype(Filter::weights)::Zero(size, 4)};
+  Filter filter{first, decltype(Filter::weights)::Zero(size, 12)};
   for (int i = 0; i < size; ++i) {
+    auto row = filter.weights.row(i);
     for (int k = 0; k < 4; ++k) {
       const int half_pixels = cell - 1 + k - 2 * (first + i);
       if (std::abs(half_pixels) > reach) continue;
-      filter.weights.row(i) +=
-          cubic[static_cast<std::size_t>(k)] * table_.row(half_pixels + reach);
+      const Orders weights =
+          cubic[static_cast<std::size_t>(k)] *
+          table_[static_cast<std::size_t>(half_pixels + reach)];
+      const bool on_pixel = half_pixels % 2 == 0;
+      row.segment<4>(on_pixel ? 4 : 0) += weights;
+      if (on_pixel && std::abs(half_pixels) <= 2 * pixel_radius_) {
+        row.tail<4>() += weights;
+      }
     }
   }
   return filter;
@@ -73,12 +85,20 @@ Eigen::Matrix4d ImageDerivatives::At(const Eigen::Vector2d& position) const {
   Eigen::Matrix4d derivatives = Eigen::Matrix4d::Zero();
   for (int j = 0; j < y.weights.rows(); ++j) {
     const int row = std::clamp(y.first_pixel + j, 0, image_.height - 1);
-    Eigen::RowVector4d along_row = Eigen::RowVector4d::Zero();
+    Eigen::Matrix<double, 1, 12> along_row =
+        Eigen::Matrix<double, 1, 12>::Zero();
     for (int i = 0; i < x.weights.rows(); ++i) {
       const int column = std::clamp(x.first_pixel + i, 0, image_.width - 1);
       along_row += image_.at(column, row) * x.weights.row(i);
     }
-    derivatives += y.weights.row(j).transpose() * along_row;
+    // Grid points that are pixel centres, on a pixel along both axes, have the
+    // shorter filters.
+    const Orders between_x = along_row.head<4>();
+    const Orders on_pixel_x = along_row.segment<4>(4);
+    const auto across = y.weights.row(j);
+    derivatives += across.head<4>().transpose() * (between_x + on_pixel_x) +
+                   across.segment<4>(4).transpose() * between_x +
+                   across.tail<4>().transpose() * along_row.tail<4>();
   }
   return derivatives;
 }
