@@ -7,6 +7,12 @@
 #include "base/check.h"
 
 namespace curvix {
+namespace {
+
+constexpr double kFreeBuckets = 1 << 16;
+constexpr double kBucketsPerEdge = 16;
+
+}  // namespace
 
 GridIndex::GridIndex(const std::vector<Edge2d>& edges, double cell_size_px)
     : cell_size_px_(cell_size_px) {
@@ -18,8 +24,13 @@ GridIndex::GridIndex(const std::vector<Edge2d>& edges, double cell_size_px)
     origin_ = origin_.cwiseMin(edge.position);
     end = end.cwiseMax(edge.position);
   }
-  columns_ = static_cast<int>((end.x() - origin_.x()) / cell_size_px_) + 1;
-  rows_ = static_cast<int>((end.y() - origin_.y()) / cell_size_px_) + 1;
+  const Eigen::Vector2d extent = end - origin_;
+  const double most =
+      kFreeBuckets + kBucketsPerEdge * static_cast<double>(edges.size());
+  const auto count = [&](double length) { return length / cell_size_px_ + 1; };
+  while (count(extent.x()) * count(extent.y()) > most) cell_size_px_ *= 2;
+  columns_ = static_cast<int>(count(extent.x()));
+  rows_ = static_cast<int>(count(extent.y()));
 
   // Counting sort by bucket keeps the edge order inside each bucket.
   const auto bucket_of = [&](const Edge2d& edge) {

@@ -23,7 +23,8 @@ struct IndexedEdge {
 class GridIndex {
  public:
   GridIndex() = default;
-  // cell_size_px > 0. The grid spans the bounding box of the edges.
+  // cell_size_px > 0. The grid spans the bounding box of the edges; where few
+  // edges lie so far apart that this takes too many buckets, cells are larger.
   GridIndex(const std::vector<Edge2d>& edges, double cell_size_px);
 
   // Calls f(edge) for each edge in buckets that meet the axis-aligned square of

@@ -12,6 +12,10 @@
 namespace curvix {
 namespace {
 
+// Of an edge from the corner of its image. No camera sees further, and indices
+// of places stay small numbers.
+constexpr double kFarthestPx = 1e6;
+
 Status Invalid(const std::string& message) {
   return {StatusCode::kInvalidArgument, message};
 }
@@ -40,7 +44,10 @@ bool IsIn(const std::optional<std::int32_t>& idx, std::size_t size) {
 bool IsSound(const EdgeMap& map) {
   if (map.neighbors.size() != map.edges.size()) return false;
   for (const Edge2d& edge : map.edges) {
-    if (!edge.position.allFinite() || !std::isfinite(edge.angle)) return false;
+    const bool is_near = edge.position.cwiseAbs().maxCoeff() <= kFarthestPx;
+    if (!edge.position.allFinite() || !is_near || !std::isfinite(edge.angle)) {
+      return false;
+    }
   }
   for (const EdgeNeighbors& neighbors : map.neighbors) {
     if (!IsIn(neighbors.previous, map.edges.size()) ||
@@ -86,7 +93,8 @@ Status CheckEdgeMaps(const Scene& scene,
     if (IsSound(edge_maps[i])) continue;
     return Invalid("the edges of view " + scene.views[i].name +
                    " are not sound: one entry of neighbors per edge, "
-                   "neighbors among the edges, and finite numbers are needed");
+                   "neighbors among the edges, finite numbers, and "
+                   "positions within a million pixels are needed");
   }
   return {};
 }

@@ -15,7 +15,8 @@ namespace curvix {
 Status CheckScene(const Scene& scene);
 
 // kInvalidArgument: not one map per view, not one entry of neighbours per edge,
-// neighbours that are not there, positions or angles that are not finite.
+// neighbours that are not there, positions or angles that are not finite,
+// positions beyond a million pixels.
 Status CheckEdgeMaps(const Scene& scene, const std::vector<EdgeMap>& edge_maps);
 
 }  // namespace curvix
