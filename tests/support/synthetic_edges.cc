@@ -5,44 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <random>
+
+#include "tests/support/random.h"
+#include "tests/support/test_views.h"
 
 namespace curvix {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
-
-// The standard library's distributions differ between implementations.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-  double Uniform() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
-  double Normal() {
-    const double radius = std::sqrt(-2 * std::log(1 - Uniform()));
-    return radius * std::cos(kTwoPi * Uniform());
-  }
-  Eigen::Vector3d Across(const Eigen::Vector3d& tangent) {
-    const Eigen::Vector3d offset(Normal(), Normal(), Normal());
-    return offset - offset.dot(tangent) * tangent;
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
-
-PosedView LookAtOrigin(const Eigen::Vector3d& center) {
-  PosedView view;
-  view.width = view.height = 800;
-  view.calibration << 800, 0, 400, 0, 800, 400, 0, 0, 1;
-  const Eigen::Vector3d z = -center.normalized();
-  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  view.rotation.row(0) = x;
-  view.rotation.row(1) = z.cross(x);
-  view.rotation.row(2) = z;
-  view.translation = -view.rotation * center;
-  view.center = center;
-  return view;
-}
 
 // The 2D edges of one curve in one view.
 struct Contour {
@@ -176,9 +146,22 @@ std::vector<PosedView> RingOfViews(int num_views) {
   std::vector<PosedView> views;
   for (int v = 0; v < num_views; ++v) {
     const double a = kTwoPi * v / num_views;
-    views.push_back(LookAtOrigin({6 * std::cos(a), 6 * std::sin(a), 2.5}));
+    views.push_back(LookAt({6 * std::cos(a), 6 * std::sin(a), 2.5}, {0, 0, 0}));
   }
   return views;
+}
+
+std::vector<EdgeMap> ExactEdgeMaps(const std::vector<TestCurve>& curves,
+                                   const std::vector<PosedView>& views,
+                                   std::uint64_t seed) {
+  Random random(seed);
+  std::vector<EdgeMap> edge_maps(views.size());
+  for (const TestCurve& curve : curves) {
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      AppendContour(curve, views[v], random.Uniform(), edge_maps[v]);
+    }
+  }
+  return edge_maps;
 }
 
 SyntheticEdges MakeSyntheticEdges(const std::vector<TestCurve>& curves,

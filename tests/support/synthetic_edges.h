@@ -33,6 +33,13 @@ std::vector<TestCurve> CubeCurves();
 // is about 1/125 at the origin.
 std::vector<PosedView> RingOfViews(int num_views);
 
+// The 2D edges of the curves in each view, exact and half a pixel apart, in the
+// order of the curves; where on the curve the first lies is random. Every curve
+// is taken as visible in all views, and must be in front of them.
+std::vector<EdgeMap> ExactEdgeMaps(const std::vector<TestCurve>& curves,
+                                   const std::vector<PosedView>& views,
+                                   std::uint64_t seed);
+
 struct SyntheticEdgeOptions {
   int num_views = 12;
   double spacing = 0.008;      // between edges of a track, world units
