@@ -23,6 +23,7 @@ Flag PresetFlag(RunSettings* settings) {
     if (!status.ok()) return status;
     const RuntimeOptions runtime = settings->options.runtime;
     settings->options = text == "paper" ? PaperOptions() : Options();
+    settings->poses.refiner = text == "paper" ? "none" : "colmap";
     settings->options.runtime = runtime;
     return status;
   };
@@ -47,7 +48,8 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
                  &settings->output_path,
                  "folder of the results, when it is not to be curvix/0 beside "
                  "sparse/0")}},
-      {"Method", {PresetFlag(settings)}}};
+      {"Method", {PresetFlag(settings)}},
+      PoseRefinementFlags(&settings->poses)};
   for (FlagSection& section : OptionSections(settings->options)) {
     sections.push_back(std::move(section));
   }

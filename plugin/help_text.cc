@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plugin/pose_refinement.h"
 #include "plugin/text.h"
 
 namespace curvix {
@@ -55,6 +56,23 @@ std::string MarkdownRow(const OptionRow& row, const OptionRow& paper) {
          or_dash(row.symbol) + " | " + row.help + " |\n";
 }
 
+// A table of flags that the option table does not have.
+std::string MarkdownTable(const FlagSection& section) {
+  std::string text = "\n## " + section.title +
+                     "\n\n"
+                     "| option | default | range | unit | meaning |\n"
+                     "|---|---|---|---|---|\n";
+  for (const Flag& flag : section.flags) {
+    text += "| `--" + flag.name + "` |";
+    for (const std::string& cell :
+         {flag.default_value, flag.range, flag.unit, flag.help}) {
+      text += " " + (cell.empty() ? std::string("–") : cell) + " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 constexpr char kMarkdownHead[] =
     "# Options\n"
     "\n"
@@ -97,7 +115,8 @@ std::string OptionsMarkdown() {
   Options paper = PaperOptions();
   const std::vector<OptionRow> rows = OptionTable(options);
   const std::vector<OptionRow> paper_rows = OptionTable(paper);
-  std::string text = kMarkdownHead;
+  PoseRefinementSettings poses;
+  std::string text = kMarkdownHead + MarkdownTable(PoseRefinementFlags(&poses));
   std::string previous = "-";
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t dot = rows[i].name.find('.');

@@ -62,6 +62,42 @@ Json InputJson(const InputSummary& input) {
   return json;
 }
 
+Json ErrorsJson(const ErrorSummary& errors) {
+  return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
+}
+
+Json JudgementJson(const PoseJudgement& judgement) {
+  Json json;
+  json["num_held_out_points"] = judgement.num_check_points;
+  json["num_held_out_observations"] = judgement.num_check_observations;
+  json["error_before"] = ErrorsJson(judgement.before);
+  json["error_after"] = ErrorsJson(judgement.after);
+  json["error_explained_px"] = judgement.explained_px;
+  json["median_shift_px"] = judgement.median_shift_px;
+  json["max_shift_px"] = judgement.max_shift_px;
+  json["max_turn_deg"] = judgement.max_turn_deg;
+  json["max_move"] = judgement.max_move;
+  return json;
+}
+
+Json PosesJson(const PoseRefinementRecord& poses) {
+  Json json;
+  json["refiner"] = poses.refiner;
+  json["accepted"] = poses.accepted;
+  json["reason"] = Printable(poses.reason);
+  json["num_views"] = poses.num_views;
+  json["num_points"] = poses.num_points;
+  if (poses.refiner == "colmap") {
+    json["colmap_path"] = Printable(poses.colmap_path);
+    json["colmap_version"] = Printable(poses.colmap_version);
+  }
+  if (!poses.judgement) return json;
+  json["scale_removed"] = poses.scale_removed;
+  json.update(JudgementJson(*poses.judgement));
+  json["max_shift_image"] = Printable(poses.largest_shift_image);
+  return json;
+}
+
 Json CountsJson(const std::vector<StageReport>& stages) {
   Json json = Json::array();
   for (const StageReport& stage : stages) {
@@ -139,6 +175,8 @@ const char* OpenedBy(const std::string& file) {
   if (file == "curves.pcd") return "points with tangents: PCL";
   if (file == "curves.txt") return "text, like COLMAP's points3D.txt";
   if (file == "edges.ply") return "3D edges before grouping, as points";
+  if (file == "sparse/") return "model with the refined poses: COLMAP";
+  if (file == "bundle_adjuster.log") return "what COLMAP said";
   if (file == "report.json") return "counts, seconds and memory by stage";
   if (file == "project.ini") return "the options: --project_path repeats them";
   return "";
@@ -185,6 +223,7 @@ std::string ReportJson(const RunRecord& record) {
   json["preset"] = record.settings.preset;
   json["options"] = OptionsJson(record.settings.options);
   json["input"] = InputJson(record.input);
+  json["pose_refinement"] = PosesJson(record.poses);
   json["stages"] = CountsJson(record.stages);
   json["result"] = ResultJson(record.result);
   json["run"] = RunJson(record);
@@ -201,6 +240,10 @@ std::string ProjectFile(const RunSettings& settings) {
   add("image_path", settings.image_path.string());
   add("output_path", settings.output_path.string());
   add("preset", settings.preset);
+  PoseRefinementSettings poses = settings.poses;
+  for (const Flag& flag : PoseRefinementFlags(&poses).flags) {
+    add(flag.name.c_str(), flag.default_value);
+  }
   Options options = settings.options;
   add("num_threads", std::to_string(options.runtime.num_threads));
   std::string section;

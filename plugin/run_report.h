@@ -14,6 +14,8 @@
 #include <string_view>
 #include <vector>
 
+#include "plugin/pose_refinement.h"
+
 namespace curvix {
 
 // "0.1.0".
@@ -26,6 +28,7 @@ struct RunSettings {
   std::filesystem::path image_path;
   std::filesystem::path output_path;
   std::string preset = "default";
+  PoseRefinementSettings poses;
   Options options;
 };
 
@@ -53,6 +56,7 @@ struct ResultSummary {
 struct RunRecord {
   RunSettings settings;
   InputSummary input;
+  PoseRefinementRecord poses;
   std::vector<StageReport> stages;  // in the order in which they ran
   ResultSummary result;
   StageReport total;  // of the whole run

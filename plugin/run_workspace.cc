@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/colmap_model.h"
+#include "plugin/pose_refinement.h"
 #include "plugin/staged_output.h"
 #include "plugin/text.h"
 #include "plugin/workspace.h"
@@ -73,6 +75,7 @@ class Job {
 
  private:
   Result<WorkspaceScene> Read();
+  Result<Scene> RefinePoses(const WorkspaceScene& input);
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
@@ -104,16 +107,18 @@ Result<RunRecord> Job::Run() {
   if (!output.ok()) return output.status();
   staging_ = output->folder();
 
-  const Scene& scene = input->scene;
-  const Result<std::vector<EdgeMap>> edge_maps = Detect(scene);
+  const Result<Scene> scene = RefinePoses(*input);
+  if (!scene.ok()) return scene.status();
+  const Result<std::vector<EdgeMap>> edge_maps = Detect(*scene);
   if (!edge_maps.ok()) return edge_maps.status();
-  const Result<Reconstruction> reconstruction = Reconstruct(scene, *edge_maps);
+  const Result<Reconstruction> reconstruction = Reconstruct(*scene, *edge_maps);
   if (!reconstruction.ok()) return reconstruction.status();
 
-  const Status written = Write(scene, *reconstruction);
+  const Status written = Write(*scene, *reconstruction);
   if (!written.ok()) return written;
   if (IsInterrupted()) return Cancelled();
-  const Status published = output->Publish();
+  // Those of an earlier run would tell of other poses.
+  const Status published = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!published.ok()) return published;
   return std::move(record_);
 }
@@ -151,6 +156,34 @@ Result<WorkspaceScene> Job::Read() {
   return input;
 }
 
+// The scene with the refined poses, which are written to sparse/ too, or as it
+// was.
+Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
+  const Stopwatch stopwatch;
+  Result<PoseRefinement> refined =
+      curvix::RefinePoses(input.model,
+                          record_.settings.poses,
+                          staging_ / "bundle_adjuster.log",
+                          Callback());
+  if (!refined.ok()) return refined.status();
+  record_.poses = refined->record;
+  if (record_.settings.poses.refiner != "none") {
+    record_.stages.push_back(stopwatch.Read("refine_poses"));
+    progress_.Finish(PoseRefinementText(record_.poses));
+  }
+  Note(refined->notes);
+  if (fs::exists(staging_ / "bundle_adjuster.log")) {
+    record_.result.files.push_back("bundle_adjuster.log");
+  }
+  if (!refined->model) return input.scene;
+  const Status written = WriteColmapModel(
+      *refined->model, staging_ / "sparse", ColmapFormat::kBinary);
+  if (!written.ok()) return written;
+  record_.result.files.push_back("sparse/");
+  return SceneFromColmapModel(
+      *refined->model, workspace_.image_path, input.missing_images);
+}
+
 Result<std::vector<EdgeMap>> Job::Detect(const Scene& scene) {
   const Stopwatch stopwatch;
   Result<std::vector<EdgeMap>> edge_maps =
@@ -175,7 +208,9 @@ Result<Reconstruction> Job::Reconstruct(const Scene& scene,
     record_.stages.push_back(stage);
   }
   const std::int64_t num_edges_2d = record_.result.num_edges_2d;
+  std::vector<std::string> files = std::move(record_.result.files);
   record_.result = SummarizeCurves(reconstruction->curves);
+  record_.result.files = std::move(files);
   record_.result.output_path = workspace_.output_path;
   record_.result.num_edges_2d = num_edges_2d;
   record_.result.num_edges_3d =
@@ -201,9 +236,10 @@ Status Job::Write(const Scene& scene, const Reconstruction& reconstruction) {
 
 Status Job::WriteCurveFiles(const Scene& scene, const CurveSet& curves) {
   std::vector<std::string>& files = record_.result.files;
+  int num_written = 0;
   for (const char* name :
        {"curves.ply", "curves.obj", "curves.pcd", "curves.txt"}) {
-    progress_.Update("write_files", static_cast<int>(files.size()), 4);
+    progress_.Update("write_files", num_written++, 4);
     const Status status = WriteCurves(staging_ / name, curves, scene);
     if (!status.ok()) return status;
     files.push_back(name);

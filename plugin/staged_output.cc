@@ -41,20 +41,21 @@ Status CannotWrite(const fs::path& path, const std::string& reason) {
               "); choose another folder with --output_path"};
 }
 
-std::vector<fs::path> FileNames(const fs::path& folder) {
+std::vector<fs::path> EntryNames(const fs::path& folder) {
   std::vector<fs::path> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file()) names.push_back(entry.path().filename());
+    names.push_back(entry.path().filename());
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-// Moves the named files; those moved so far are added to `moved`.
-std::error_code MoveFiles(const std::vector<fs::path>& names,
-                          const fs::path& from,
-                          const fs::path& to,
-                          std::vector<fs::path>& moved) {
+// Moves the named files and folders that are there; those moved so far are
+// added to `moved`.
+std::error_code MoveEntries(const std::vector<fs::path>& names,
+                            const fs::path& from,
+                            const fs::path& to,
+                            std::vector<fs::path>& moved) {
   std::error_code error;
   for (const fs::path& name : names) {
     if (!fs::exists(from / name, error)) continue;
@@ -102,20 +103,22 @@ StagedOutput::~StagedOutput() {
   RemoveEmptyFolders(output_path_, first_created_);
 }
 
-Status StagedOutput::Publish() {
+Status StagedOutput::Publish(const std::vector<fs::path>& obsolete) {
+  const std::vector<fs::path> names = EntryNames(folder_);
+  std::vector<fs::path> replaced = names;
+  replaced.insert(replaced.end(), obsolete.begin(), obsolete.end());
   const fs::path older = folder_ / "older";
   std::error_code error;
   fs::create_directory(older, error);
   if (error) return CannotWrite(output_path_, error.message());
-  const std::vector<fs::path> names = FileNames(folder_);
   std::vector<fs::path> saved;
   std::vector<fs::path> published;
-  error = MoveFiles(names, output_path_, older, saved);
-  if (!error) error = MoveFiles(names, folder_, output_path_, published);
+  error = MoveEntries(replaced, output_path_, older, saved);
+  if (!error) error = MoveEntries(names, folder_, output_path_, published);
   if (!error) return {};
   std::vector<fs::path> undone;
-  MoveFiles(published, output_path_, folder_, undone);
-  MoveFiles(saved, older, output_path_, undone);
+  MoveEntries(published, output_path_, folder_, undone);
+  MoveEntries(saved, older, output_path_, undone);
   return CannotWrite(output_path_, error.message());
 }
 

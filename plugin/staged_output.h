@@ -24,9 +24,10 @@ class StagedOutput {
   // Where to write, under the final file names.
   const std::filesystem::path& folder() const { return folder_; }
 
-  // Moves every file into the output folder, over older ones of the same name.
-  // If one cannot be moved, the older ones come back.
-  Status Publish();
+  // Moves every file and folder into the output folder, in place of older ones
+  // of the same name and of the `obsolete` ones, which go. If one cannot be
+  // moved, the older ones come back.
+  Status Publish(const std::vector<std::filesystem::path>& obsolete = {});
 
  private:
   StagedOutput(std::filesystem::path output_path,
