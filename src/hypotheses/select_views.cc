@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/angles.h"
 
@@ -18,10 +19,18 @@ bool IsSound(const ViewOverlap& overlap, const HypothesisOptions& options) {
          angle_deg <= options.max_ray_angle_deg;
 }
 
-bool Contains(const std::vector<ViewPair>& pairs, int a, int b) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const ViewPair& pair) {
-    return std::minmax(pair.h1, pair.h2) == std::minmax(a, b);
+bool Contains(const std::vector<ViewPair>& pairs, const ViewPair& pair) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const ViewPair& other) {
+    return std::minmax(other.h1, other.h2) == std::minmax(pair.h1, pair.h2);
   });
+}
+
+// H1 is the view with more unused edges; ties: the smaller index.
+ViewPair InOrder(int a, int b, const std::vector<int>& num_unused_edges) {
+  const int unused_a = num_unused_edges[static_cast<std::size_t>(a)];
+  const int unused_b = num_unused_edges[static_cast<std::size_t>(b)];
+  const bool a_first = unused_a != unused_b ? unused_a > unused_b : a < b;
+  return a_first ? ViewPair{a, b} : ViewPair{b, a};
 }
 
 // Depth improves with the sine of the ray angle, what both views see shrinks
@@ -40,20 +49,18 @@ std::optional<ViewPair> NextViewPair(
     const std::vector<ViewPair>& done,
     const HypothesisOptions& options) {
   std::optional<ViewPair> best;
-  int most_unused = 0;
+  std::tuple<int, int, int> best_rank;
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
     for (const ViewOverlap& overlap : overlaps[i]) {
-      const int a = static_cast<int>(i), b = overlap.other;
-      const int unused =
-          num_unused_edges[i] + num_unused_edges[static_cast<std::size_t>(b)];
-      if (unused <= most_unused || !IsSound(overlap, options) ||
-          Contains(done, a, b)) {
-        continue;
-      }
-      most_unused = unused;
-      const bool first_has_more =
-          num_unused_edges[i] >= num_unused_edges[static_cast<std::size_t>(b)];
-      best = first_has_more ? ViewPair{a, b} : ViewPair{b, a};
+      const auto j = static_cast<std::size_t>(overlap.other);
+      const int unused = num_unused_edges[i] + num_unused_edges[j];
+      if (unused == 0 || !IsSound(overlap, options)) continue;
+      const ViewPair pair =
+          InOrder(static_cast<int>(i), overlap.other, num_unused_edges);
+      const std::tuple rank(-unused, pair.h1, pair.h2);
+      if ((best && !(rank < best_rank)) || Contains(done, pair)) continue;
+      best = pair;
+      best_rank = rank;
     }
   }
   return best;

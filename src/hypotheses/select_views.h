@@ -19,7 +19,8 @@ struct ViewPair {
 // The paper's choice: of the pairs whose overlap and ray angle are sound and
 // that are not in `done`, the one with most unused edges in both views
 // together; ties: smaller h1, then smaller h2. H1 is the view with more unused
-// edges. nullopt when no pair is left.
+// edges; ties: the smaller index. nullopt when no pair with an unused edge is
+// left.
 std::optional<ViewPair> NextViewPair(
     const std::vector<std::vector<ViewOverlap>>& overlaps,
     const std::vector<int>& num_unused_edges,

@@ -7,11 +7,15 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/epipolar.h"
+
 namespace curvix {
 namespace {
 
 constexpr std::size_t kMinNumPoints = 8;
 constexpr std::size_t kMaxNumPlaces = 64;
+// Shares of the baseline below this have no direction.
+constexpr double kMinAcross = 1e-6;
 
 double Median(std::vector<double> values) {
   const auto middle =
@@ -22,6 +26,10 @@ double Median(std::vector<double> values) {
 
 Eigen::Vector3d OpticalAxis(const PosedView& view) {
   return view.rotation.row(2).transpose();
+}
+
+bool ShareCenter(const PosedView& a, const PosedView& b) {
+  return !EpipolarPencil::Make(a, b);
 }
 
 // The depth at which the optical axis of `view` passes nearest to that of
@@ -41,7 +49,7 @@ std::optional<double> DepthNearestTo(const PosedView& view,
 double WorkingDepth(const std::vector<PosedView>& views, std::size_t view_idx) {
   std::vector<double> depths, distances;
   for (std::size_t j = 0; j < views.size(); ++j) {
-    if (j == view_idx) continue;
+    if (j == view_idx || ShareCenter(views[view_idx], views[j])) continue;
     if (const auto depth = DepthNearestTo(views[view_idx], views[j])) {
       depths.push_back(*depth);
     }
@@ -93,6 +101,7 @@ std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
 std::optional<ViewOverlap> Overlap(const PosedView& view,
                                    const std::vector<Eigen::Vector3d>& places,
                                    const PosedView& other) {
+  if (ShareCenter(view, other)) return std::nullopt;
   std::vector<double> angles;
   for (const Eigen::Vector3d& place : places) {
     const Eigen::Vector3d x = other.InCamera(place);
@@ -101,15 +110,15 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
     const Eigen::Vector3d ray2 = place - other.center;
     angles.push_back(std::atan2(ray1.cross(ray2).norm(), ray1.dot(ray2)));
   }
-  const Eigen::Vector3d baseline = other.center - view.center;
+  if (angles.empty()) return std::nullopt;
+  const Eigen::Vector3d baseline = (other.center - view.center).normalized();
   const Eigen::Vector3d axis = OpticalAxis(view);
   const Eigen::Vector3d across = baseline - axis * axis.dot(baseline);
-  if (angles.empty() || !(across.norm() > 0)) return std::nullopt;
   ViewOverlap overlap;
   overlap.share =
       static_cast<double>(angles.size()) / static_cast<double>(places.size());
   overlap.ray_angle_rad = Median(std::move(angles));
-  overlap.baseline_across = across.normalized();
+  if (across.norm() > kMinAcross) overlap.baseline_across = across.normalized();
   return overlap;
 }
 

@@ -18,8 +18,8 @@ struct ViewOverlap {
   double share = 0;          // of the places of the view, 0..1
   double ray_angle_rad = 0;  // median angle between the rays to these places
   // From the view's centre to the other's, across the view's line of sight.
-  // Unit.
-  Eigen::Vector3d baseline_across = Eigen::Vector3d::UnitX();
+  // Unit, or zero where the other view lies on the line of sight.
+  Eigen::Vector3d baseline_across = Eigen::Vector3d::Zero();
 };
 
 // For each view the views that overlap it, by view_idx. The places that a view
