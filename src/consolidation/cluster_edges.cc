@@ -121,9 +121,10 @@ std::vector<VirtualEdge> ClusterEdges(std::vector<LineEdge> edges,
                         e.edge_idx};
     clusters.push_back(MakeCluster({member}, sigma_px));
   }
-  std::stable_sort(
+  std::sort(
       clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) {
-        return a.center < b.center;
+        return std::pair(a.center, a.members.front().edge_idx) <
+               std::pair(b.center, b.members.front().edge_idx);
       });
   while (const auto pair = NearestPair(clusters, options)) {
     Merge(clusters, pair->first, pair->second, sigma_px);

@@ -25,12 +25,13 @@ struct VirtualEdge {
 };
 
 // Agglomerates edges that lie on `line`: the two clusters with the nearest
-// centroids merge first (ties: those first along the line), as long as they are
-// at most max_cluster_distance_px apart and their mean directions differ by at
-// most max_cluster_angle_deg; a pair that differs more is passed over.
-// Directions are averaged mod 180 degrees. The result is in order along the
-// line. O(n log n) plus O(k) per merge, k the clusters within
-// max_cluster_distance_px.
+// centroids merge first (ties: those first along the line, there the smaller
+// edge index), as long as they are at most max_cluster_distance_px apart and
+// their mean directions differ by at most max_cluster_angle_deg; a pair that
+// differs more is passed over. Directions are averaged mod 180 degrees. The
+// result is in order along the line; the order of the input makes no
+// difference. O(n log n) plus O(n k) per merge, k the clusters within
+// max_cluster_distance_px of one.
 std::vector<VirtualEdge> ClusterEdges(std::vector<LineEdge> edges,
                                       const Line2& line,
                                       const ConsolidationOptions& options);

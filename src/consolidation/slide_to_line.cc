@@ -33,8 +33,9 @@ Eigen::Vector2d TurnTowardsNormal(const Eigen::Vector2d& tangent,
   const double cosine = line.Direction().dot(tangent);
   const double angle = std::atan2(std::abs(sine), std::abs(cosine));
   const double turn = std::min(max_turn_rad, kPi / 2 - angle);
-  // Positive turns go from the line's direction towards its normal.
-  const double sign = (sine < 0) == (cosine < 0) ? -1.0 : 1.0;
+  // Positive turns go from the line's direction away from its normal. Edges
+  // parallel to the line turn the same way whatever the signs of both.
+  const double sign = sine * cosine > 0 ? -1.0 : 1.0;
   return Eigen::Rotation2Dd(sign * turn) * tangent;
 }
 
