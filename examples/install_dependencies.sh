@@ -12,7 +12,7 @@ packages=(
   cmake g++ git ninja-build
   libboost-program-options-dev libceres-dev libeigen3-dev
   libgoogle-glog-dev libnanoflann-dev libopencv-dev libpcl-dev
-  nlohmann-json3-dev
+  libzip-dev nlohmann-json3-dev
 )
 case "${1:-}" in
   "") ;;

@@ -12,4 +12,5 @@
 #include <curvix/reconstruct.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
+#include <curvix/stopwatch.h>
 #include <curvix/synthetic.h>

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who may include whom: the table of docs/architecture.md, held against every
+// #include of src/, plugin/, include/ and examples/.
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gtest/gtest.h"
+#include "tests/repository/source_tree.h"
+
+namespace curvix {
+namespace {
+
+using Names = std::set<std::string>;
+
+// What the files of one folder may include besides <curvix/...>, the standard
+// library, Eigen and their own folder.
+struct Rule {
+  Names folders;    // of src/
+  Names libraries;  // first part of <library/...>, or all of <library.hpp>
+};
+
+Rule Stage(Names libraries = {}) {
+  return {{"base", "geometry", "model"}, std::move(libraries)};
+}
+
+// The folders of src/, by name; the others by their path.
+const std::map<std::string, Rule>& Rules() {
+  static const std::map<std::string, Rule> rules = {
+      {"include/curvix", {}},
+      {"base", {}},
+      {"model", {{"base"}, {}}},
+      {"geometry", {{"base", "model"}, {}}},
+      {"edge_detection", Stage({"opencv2"})},
+      {"hypotheses", Stage()},
+      {"consolidation", Stage()},
+      {"validation", Stage()},
+      {"neighborhood", Stage()},
+      {"alignment", Stage()},
+      {"connectivity", Stage()},
+      {"refinement", Stage({"ceres"})},
+      {"output", Stage({"pcl"})},
+      {"synthetic", Stage()},
+      {"pipeline",
+       {{"base",
+         "geometry",
+         "model",
+         "edge_detection",
+         "hypotheses",
+         "consolidation",
+         "validation",
+         "neighborhood",
+         "alignment",
+         "connectivity",
+         "refinement"},
+        {}}},
+      {"plugin",
+       {{},
+        {"boost",
+         "ceres",
+         "glog",
+         "nanoflann.hpp",
+         "nlohmann",
+         "opencv2",
+         "zip.h"}}},
+      {"examples", {}}};
+  return rules;
+}
+
+// "src/base/check.h" is in "base", "plugin/text.h" in "plugin".
+std::string FolderOf(const std::string& file) {
+  const std::string folder = file.substr(0, file.rfind('/'));
+  return folder.rfind("src/", 0) == 0 ? folder.substr(4) : folder;
+}
+
+std::string FirstPart(const std::string& path) {
+  return path.substr(0, path.find('/'));
+}
+
+// <vector>, and the headers of POSIX.
+bool IsSystemHeader(const std::string& path) {
+  static const Names posix = {
+      "fcntl.h", "poll.h", "signal.h", "spawn.h", "stdlib.h", "unistd.h"};
+  return path.find_first_of("/.") == std::string::npos ||
+         posix.contains(path) || FirstPart(path) == "sys";
+}
+
+bool IsThreadHeader(const std::string& path) {
+  static const Names headers = {"thread",
+                                "mutex",
+                                "shared_mutex",
+                                "atomic",
+                                "future",
+                                "condition_variable",
+                                "omp.h",
+                                "execution"};
+  return headers.contains(path);
+}
+
+bool MayUseThreads(const std::string& file) {
+  return file == "src/base/parallel.cc" || file.rfind("src/", 0) != 0;
+}
+
+std::optional<std::string> WhyNotAngled(const std::string& file,
+                                        const std::string& path,
+                                        const Rule& rule) {
+  if (IsThreadHeader(path) && !MayUseThreads(file)) {
+    return "threads belong to src/base/parallel.cc";
+  }
+  if (path.rfind("curvix/", 0) == 0) {
+    if (ExistsInTree("include/" + path)) return std::nullopt;
+    return "there is no such public header";
+  }
+  if (IsSystemHeader(path) || FirstPart(path) == "Eigen" ||
+      rule.libraries.contains(FirstPart(path))) {
+    return std::nullopt;
+  }
+  return "this folder does not own that library";
+}
+
+std::optional<std::string> WhyNotQuoted(const std::string& file,
+                                        const std::string& path,
+                                        const Rule& rule) {
+  const std::string own = FolderOf(file);
+  const bool in_src = file.rfind("src/", 0) == 0;
+  if (own != "plugin" && !in_src) return "only public headers may be used here";
+  if (!ExistsInTree((in_src ? "src/" : "") + path)) {
+    return "includes name the file from " +
+           std::string(in_src ? "src/" : "the root");
+  }
+  const std::string other = path.substr(0, path.rfind('/'));
+  if (other == own || rule.folders.contains(other)) return std::nullopt;
+  return own + " may not use " + other;
+}
+
+// `include` is what follows #include: "<vector>" or "\"base/check.h\"".
+// nullopt: allowed.
+std::optional<std::string> WhyNot(const std::string& file,
+                                  const std::string& include) {
+  const auto rule = Rules().find(FolderOf(file));
+  if (rule == Rules().end()) {
+    return FolderOf(file) + " is in no layer; add it to the table";
+  }
+  const std::string path = include.substr(1, include.size() - 2);
+  return include[0] == '<' ? WhyNotAngled(file, path, rule->second)
+                           : WhyNotQuoted(file, path, rule->second);
+}
+
+std::vector<std::string> IncludesOf(const std::string& file) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*([<"][^>"]+[>"]).*)");
+  std::vector<std::string> includes;
+  std::smatch match;
+  for (const std::string& line : Lines(ReadSource(file))) {
+    if (std::regex_match(line, match, pattern)) includes.push_back(match[1]);
+  }
+  return includes;
+}
+
+TEST(Layering, EveryIncludeIsAllowed) {
+  const auto files = FilesBelow({"src", "plugin", "include", "examples"},
+                                {".h", ".cc", ".hpp", ".cpp"});
+  int num_includes = 0;
+  for (const std::string& file : files) {
+    for (const std::string& include : IncludesOf(file)) {
+      ++num_includes;
+      const auto why_not = WhyNot(file, include);
+      EXPECT_FALSE(why_not.has_value())
+          << file << " includes " << include << ": " << *why_not;
+    }
+  }
+  EXPECT_GT(num_includes, 500);  // it did read them
+}
+
+struct Use {
+  std::string file;
+  std::string include;
+};
+
+TEST(Layering, AllowsWhatTheTableAllows) {
+  const std::vector<Use> uses = {
+      {"src/alignment/x.cc", "\"base/check.h\""},
+      {"src/alignment/x.cc", "\"alignment/forces.h\""},
+      {"src/alignment/x.cc", "<Eigen/Core>"},
+      {"src/alignment/x.cc", "<curvix/edges.h>"},
+      {"src/alignment/x.cc", "<vector>"},
+      {"src/base/parallel.cc", "<thread>"},
+      {"src/pipeline/x.cc", "\"alignment/align_edges.h\""},
+      {"src/output/x.cc", "<pcl/point_types.h>"},
+      {"plugin/x.cc", "<boost/program_options.hpp>"},
+      {"plugin/x.cc", "\"plugin/text.h\""},
+      {"examples/x.cc", "<curvix/curvix.h>"}};
+  for (const Use& use : uses) {
+    EXPECT_EQ(WhyNot(use.file, use.include), std::nullopt)
+        << use.file << ' ' << use.include;
+  }
+}
+
+TEST(Layering, RefusesWhatTheTableDoesNotAllow) {
+  const std::vector<Use> uses = {
+      {"src/alignment/x.cc", "\"connectivity/group_edges.h\""},
+      {"src/alignment/x.cc", "\"forces.h\""},
+      {"src/alignment/x.cc", "\"../base/check.h\""},
+      {"src/alignment/x.cc", "\"pipeline/sketch_edges.h\""},
+      {"src/alignment/x.cc", "<opencv2/core.hpp>"},
+      {"src/alignment/x.cc", "<nanoflann.hpp>"},
+      {"src/alignment/x.cc", "<thread>"},
+      {"src/alignment/x.cc", "<omp.h>"},
+      {"src/alignment/x.cc", "<curvix/no_such_header.h>"},
+      {"src/model/x.h", "\"geometry/epipolar.h\""},
+      {"src/base/x.h", "\"model/posed_view.h\""},
+      {"src/pipeline/x.cc", "\"output/ply_lines.h\""},
+      {"src/pipeline/x.cc", "\"synthetic/render.h\""},
+      {"src/new_folder/x.cc", "<vector>"},
+      {"plugin/x.cc", "\"base/check.h\""},
+      {"plugin/x.cc", "<pcl/point_types.h>"},
+      {"include/curvix/x.h", "\"base/check.h\""},
+      {"include/curvix/x.h", "<opencv2/core.hpp>"},
+      {"examples/x.cc", "\"plugin/text.h\""}};
+  for (const Use& use : uses) {
+    EXPECT_NE(WhyNot(use.file, use.include), std::nullopt)
+        << use.file << ' ' << use.include;
+  }
+}
+
+}  // namespace
+}  // namespace curvix

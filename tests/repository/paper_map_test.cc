@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every file says what it is of the paper, and docs/paper_map.md knows the
+// files, and only files that exist.
+#include <algorithm>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gtest/gtest.h"
+#include "tests/repository/source_tree.h"
+
+namespace curvix {
+namespace {
+
+constexpr char kMap[] = "docs/paper_map.md";
+
+// What line 2 of `file` says after "// Paper: "; empty if it says nothing.
+std::string PaperLine(const std::string& file) {
+  static const std::string start = "// Paper: ";
+  const auto lines = Lines(ReadSource(file));
+  if (lines.size() < 2 || lines[1].rfind(start, 0) != 0) return "";
+  return lines[1].substr(start.size());
+}
+
+bool NamesASection(const std::string& paper) {
+  static const std::regex section(R"(^Secs?\. [3-7]\b.*)");
+  return std::regex_match(paper, section);
+}
+
+// Helpers without a counterpart; "beyond it" is for departures from the method.
+bool IsOutsideThePaper(const std::string& paper) {
+  return paper.rfind("none (engineering)", 0) == 0;
+}
+bool IsBeyondThePaper(const std::string& paper) {
+  return paper.rfind("none (beyond it)", 0) == 0;
+}
+
+// "forces.{h,cc}" -> "forces.h", "forces.cc"; other names as they are.
+std::vector<std::string> Expand(const std::string& name) {
+  static const std::string braces = "{h,cc}";
+  const auto at = name.find(braces);
+  if (at == std::string::npos) return {name};
+  return {name.substr(0, at) + "h", name.substr(0, at) + "cc"};
+}
+
+// The files that a text names: words with a folder and an ending of ours.
+std::set<std::string> NamedFiles(const std::string& text) {
+  static const std::regex pattern(
+      R"([\w-]+(?:/[\w-]+)+\.(?:\{h,cc\}|(?:h|cc|md|cmake|sh|py)\b))");
+  std::set<std::string> names;
+  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end;
+       ++i) {
+    for (const std::string& name : Expand(i->str())) names.insert(name);
+  }
+  return names;
+}
+
+// The path from the root of a file named as the map or an #include names it.
+// Empty if there is none.
+std::string Locate(const std::string& name) {
+  for (const char* folder : {"", "src/", "include/", "docs/"}) {
+    if (ExistsInTree(folder + name)) return folder + name;
+  }
+  return "";
+}
+
+TEST(PaperMap, EverySourceFileSaysWhatItIsOfThePaper) {
+  const auto files = FilesBelow({"src"}, {".h", ".cc"});
+  ASSERT_GT(files.size(), 100u);
+  for (const std::string& file : files) {
+    const std::string paper = PaperLine(file);
+    EXPECT_TRUE(NamesASection(paper) || IsOutsideThePaper(paper) ||
+                IsBeyondThePaper(paper))
+        << file << ", line 2, is '// Paper: " << paper
+        << "'; it must begin with '// Paper: Sec. N' or '// Paper: none "
+           "(engineering)' or '// Paper: none (beyond it)'";
+  }
+}
+
+TEST(PaperMap, NamesOnlyFilesThatExist) {
+  ASSERT_TRUE(ExistsInTree(kMap));
+  const auto names = NamedFiles(ReadSource(kMap));
+  EXPECT_GT(names.size(), 20u);
+  for (const std::string& name : names) {
+    EXPECT_NE(Locate(name), "")
+        << kMap << " names " << name << ", which is gone";
+  }
+}
+
+TEST(PaperMap, KnowsEveryHeaderOfTheMethod) {
+  std::set<std::string> known;
+  for (const std::string& name : NamedFiles(ReadSource(kMap))) {
+    known.insert(Locate(name));
+  }
+  for (const std::string& file : FilesBelow({"src"}, {".h"})) {
+    if (IsOutsideThePaper(PaperLine(file))) continue;
+    EXPECT_TRUE(known.contains(file))
+        << kMap << " does not name " << file.substr(4) << " ("
+        << PaperLine(file) << ")";
+  }
+}
+
+TEST(PaperMap, FindsNamesInText) {
+  const std::set<std::string> expected = {"src/alignment/forces.h",
+                                          "src/alignment/forces.cc",
+                                          "tests/base/parallel_test.cc",
+                                          "curvix/options.h"};
+  EXPECT_EQ(NamedFiles("| `src/alignment/forces.{h,cc}` | [t](tests/base/"
+                       "parallel_test.cc), and/or <curvix/options.h>."),
+            expected);
+}
+
+}  // namespace
+}  // namespace curvix

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rules that every file keeps.
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "tests/repository/source_tree.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kLicense[] = "SPDX-License-Identifier: BSD-3-Clause";
+const std::vector<std::string> kFolders = {
+    "src", "plugin", "include", "tests", "examples"};
+
+TEST(SourceRules, CodeBeginsWithItsLicense) {
+  const auto files = FilesBelow(kFolders, {".h", ".cc"});
+  ASSERT_GT(files.size(), 100u);
+  for (const std::string& file : files) {
+    const auto lines = Lines(ReadSource(file));
+    ASSERT_FALSE(lines.empty()) << file;
+    EXPECT_EQ(lines[0], std::string("// ") + kLicense) << file;
+  }
+}
+
+TEST(SourceRules, ScriptsNameTheirLicense) {
+  auto files = FilesBelow(kFolders, {".sh", ".cmake", ".py", ".txt", ".in"});
+  files.push_back("CMakeLists.txt");
+  for (const std::string& file : files) {
+    const auto lines = Lines(ReadSource(file));
+    ASSERT_FALSE(lines.empty()) << file;
+    const bool has_interpreter = lines[0].rfind("#!", 0) == 0;
+    ASSERT_GT(lines.size(), 1u) << file;
+    EXPECT_EQ(lines[has_interpreter ? 1 : 0], std::string("# ") + kLicense)
+        << file;
+  }
+}
+
+TEST(SourceRules, FilesAreUnder400Lines) {
+  for (const std::string& file : FilesBelow(kFolders, {".h", ".cc"})) {
+    EXPECT_LT(Lines(ReadSource(file)).size(), 400u) << file << ": split it";
+  }
+}
+
+TEST(SourceRules, LinesEndCleanly) {
+  for (const std::string& file : FilesBelow(kFolders, {".h", ".cc"})) {
+    const std::string text = ReadSource(file);
+    EXPECT_EQ(text.back(), '\n') << file;
+    EXPECT_EQ(text.find('\t'), std::string::npos) << file << ": a tab";
+    EXPECT_EQ(text.find(" \n"), std::string::npos) << file << ": space at end";
+  }
+}
+
+TEST(SourceRules, TheRootHoldsSixFolders) {
+  const std::set<std::string> expected = {
+      "docs", "examples", "include", "plugin", "src", "tests"};
+  std::set<std::string> actual;
+  for (const auto& entry : fs::directory_iterator(CURVIX_SOURCE_DIR)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_build = name.rfind("build", 0) == 0;
+    if (entry.is_directory() && name[0] != '.' && !is_build) {
+      actual.insert(name);
+    }
+  }
+  EXPECT_EQ(actual, expected);
+}
+
+TEST(SourceRules, TheCommonHeaderIncludesEveryPublicOne) {
+  const std::string common = ReadSource("include/curvix/curvix.h");
+  const auto headers = FilesBelow({"include/curvix"}, {".h"});
+  ASSERT_GT(headers.size(), 5u);
+  for (const std::string& header : headers) {
+    if (header == "include/curvix/curvix.h") continue;
+    const std::string name = header.substr(sizeof("include/") - 1);
+    EXPECT_THAT(common, testing::HasSubstr("#include <" + name + ">\n"));
+  }
+}
+
+}  // namespace
+}  // namespace curvix
