@@ -22,6 +22,17 @@ struct EdgeDetectionOptions {
   double max_neighbor_distance_px = 3.0;
   // Largest angle between an edge, its neighbour and the chord. Degrees, > 0.
   double max_neighbor_angle_deg = 15.0;
+  // Contours, that is chains of mutual neighbours, with fewer edges count as
+  // short: they are dropped where they are weak, and first when there are too
+  // many edges. Edges are about half a pixel apart; >= 1, which makes none
+  // short.
+  int min_contour_edges = 6;
+  // Short contours are weak if their mean gradient is below this many times the
+  // weakest gradient kept; >= 0, and up to 1 drops none.
+  double short_contour_factor = 2.0;
+  // Most edges of an image per million pixels, though any image may have 5,000:
+  // the contours with the steepest mean gradients are kept; > 0.
+  double max_edges_per_megapixel = 50000;
 };
 
 // How hypothesis views are chosen (Sec. 3).

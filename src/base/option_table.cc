@@ -87,6 +87,15 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
   row("max_neighbor_angle_deg", &o.max_neighbor_angle_deg, AboveUpTo(0, 90),
       "deg", "Sec. 5",
       "largest angle between an edge, its neighbor and the chord");
+  row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
+      "contours with fewer edges are short: dropped where weak, and first "
+      "where there are too many edges");
+  row("short_contour_factor", &o.short_contour_factor, AtLeast(0), "", "",
+      "short contours are weak below this many times the weakest gradient "
+      "kept");
+  row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
+      "most edges of an image per million pixels, at least 5,000 in all; the "
+      "contours with the steepest gradients are kept");
 }
 
 void AddRows(HypothesisOptions& o, Section row) {

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "edge_detection/curvelets.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "edge_detection/image_noise.h"
+#include "edge_detection/keep_contours.h"
 #include "edge_detection/load_image.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
@@ -37,6 +39,19 @@ double GradientThreshold(const EdgeDetectionOptions& options, double noise) {
       options.noise_factor * noise * GradientNoiseGain(options.sigma_px));
 }
 
+std::int64_t MaxEdges(const EdgeDetectionOptions& options,
+                      int width,
+                      int height) {
+  constexpr double kAlwaysAllowed = 5000;
+  // More than any image has, and still an integer.
+  constexpr double kUnlimited = 1e15;
+  const double megapixels = 1e-6 * width * height;
+  return static_cast<std::int64_t>(
+      std::clamp(options.max_edges_per_megapixel * megapixels,
+                 kAlwaysAllowed,
+                 kUnlimited));
+}
+
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,
                                 const EdgeDetectionOptions& options) {
@@ -46,9 +61,19 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   if (!size_status.ok()) return size_status;
   EdgeMap map;
   map.noise = EstimateNoise(*image);
-  map.edges = DetectThirdOrderEdges(
-      *image, options, GradientThreshold(options, map.noise));
+  const double min_gradient = GradientThreshold(options, map.noise);
+  const std::vector<Edge2d> edges =
+      DetectThirdOrderEdges(*image, options, min_gradient);
+  KeptEdges kept = KeepContours(edges,
+                                LinkNeighbors(edges, options),
+                                options,
+                                min_gradient,
+                                MaxEdges(options, image->width, image->height));
+  map.edges = std::move(kept.edges);
+  // Again, since what was dropped may have stood between two that were not.
   map.neighbors = LinkNeighbors(map.edges, options);
+  map.num_dropped_isolated = kept.num_isolated;
+  map.num_dropped_over_limit = kept.num_over_limit;
   return UndistortEdges(std::move(map), camera);
 }
 

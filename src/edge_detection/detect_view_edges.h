@@ -7,6 +7,8 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
+#include <cstdint>
+
 namespace curvix {
 
 // Weakest gradient that counts as an edge where the image noise has standard
@@ -14,8 +16,16 @@ namespace curvix {
 // gradient of the noise). Grey levels per pixel.
 double GradientThreshold(const EdgeDetectionOptions& options, double noise);
 
-// The edges of the view's image, linked along its contours and carried to the
-// ideal pinhole of `camera`, which is the view's. kInvalidArgument: the image
+// Most edges that are kept of an image of that size: at least 5,000, and
+// options.max_edges_per_megapixel for each million pixels.
+std::int64_t MaxEdges(const EdgeDetectionOptions& options,
+                      int width,
+                      int height);
+
+// The edges of the view's image that are worth keeping, linked along its
+// contours and carried to the ideal pinhole of `camera`, which is the view's.
+// Isolated edges and the weakest contours of crowded images are dropped and
+// counted: see KeepContours(). kInvalidArgument: the image
 // is not of the camera's size. Other errors: those of LoadGrayImage().
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,

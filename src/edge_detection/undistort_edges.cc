@@ -54,6 +54,8 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   EdgeMap ideal;
   ideal.noise = distorted.noise;
+  ideal.num_dropped_isolated = distorted.num_dropped_isolated;
+  ideal.num_dropped_over_limit = distorted.num_dropped_over_limit;
   NewIndices new_idx(distorted.edges.size());
   for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
     const std::optional<Edge2d> edge =

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -100,6 +102,52 @@ TEST(DetectViewEdges, PassesOnThatTheImageIsMissing) {
   view.image_path = fs::path(::testing::TempDir()) / "no_such_view.png";
   EXPECT_EQ(DetectViewEdges(view, PinholeOfSize(9, 9), {}).status().code(),
             StatusCode::kNotFound);
+}
+
+TEST(DetectViewEdges, CountsWhatItDrops) {
+  GrayImage image = RenderDisc(400, {200, 200}, 150);
+  AddNoise(8, 11, image);
+  const ImageFile file(image);
+  EdgeDetectionOptions options;
+  options.noise_factor = 1;
+  options.max_edges_per_megapixel = 1e9;
+  const auto detect = [&] {
+    return DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  };
+  const Result<EdgeMap> bounded_by_noise = detect();
+  options.max_edges_per_megapixel = 1;
+  const Result<EdgeMap> bounded = detect();
+  options.min_contour_edges = 1;
+  options.max_edges_per_megapixel = 1e9;
+  const Result<EdgeMap> all = detect();
+  ASSERT_TRUE(bounded_by_noise.ok() && bounded.ok() && all.ok());
+  EXPECT_EQ(all->num_dropped_isolated, 0);
+  EXPECT_EQ(all->num_dropped_over_limit, 0);
+  for (const EdgeMap* map : {&*bounded_by_noise, &*bounded}) {
+    EXPECT_GT(map->num_dropped_isolated, 1000);
+    EXPECT_EQ(map->edges.size() +
+                  static_cast<std::size_t>(map->num_dropped_isolated +
+                                           map->num_dropped_over_limit),
+              all->edges.size());
+  }
+  EXPECT_EQ(bounded_by_noise->num_dropped_over_limit, 0);
+  EXPECT_LE(bounded->edges.size(), 5000u);
+  EXPECT_GT(bounded->edges.size(), 4900u);
+  const auto on_disc = std::count_if(
+      bounded->edges.begin(), bounded->edges.end(), [](const Edge2d& edge) {
+        return std::abs((edge.position - Eigen::Vector2d(200, 200)).norm() -
+                        150) < 1;
+      });
+  EXPECT_GT(on_disc, 1700) << "the disc outlives the noise";
+}
+
+TEST(MaxEdges, GrowsWithTheImage) {
+  EdgeDetectionOptions options;
+  options.max_edges_per_megapixel = 20000;
+  EXPECT_EQ(MaxEdges(options, 2000, 1000), 40000);
+  EXPECT_EQ(MaxEdges(options, 100, 100), 5000);
+  options.max_edges_per_megapixel = 1e300;
+  EXPECT_GT(MaxEdges(options, 2000, 1000), 2000 * 1000);
 }
 
 TEST(GradientThreshold, IsTheLargerOfTheTwo) {

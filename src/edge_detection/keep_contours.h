@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Which edges of a photograph are worth keeping.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+// The contour of each edge: edges joined by mutual links have the same number.
+// Contours are numbered from 0 in the order of their first edges.
+std::vector<std::int32_t> LabelContours(
+    const std::vector<EdgeNeighbors>& neighbors);
+
+// What KeepContours() keeps, in the order in which it came, and how many edges
+// it dropped.
+struct KeptEdges {
+  std::vector<Edge2d> edges;
+  std::int32_t num_isolated = 0;
+  std::int32_t num_over_limit = 0;
+};
+
+// Drops isolated edges, which are noise, mostly: contours of fewer than
+// options.min_contour_edges edges whose mean strength is below
+// options.short_contour_factor * min_gradient. (Strong short contours are
+// corners and tight bends.) If more than `max_edges` are left, keeps
+// whole contours in turn, long ones before short ones, then by mean strength,
+// then by number, up to the first that does not fit. Edges and `neighbors`
+// correspond; `min_gradient` is that of the detector.
+KeptEdges KeepContours(const std::vector<Edge2d>& edges,
+                       const std::vector<EdgeNeighbors>& neighbors,
+                       const EdgeDetectionOptions& options,
+                       double min_gradient,
+                       std::int64_t max_edges);
+
+}  // namespace curvix

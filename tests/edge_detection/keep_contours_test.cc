@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_detection/keep_contours.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace curvix {
+namespace {
+
+// A chain of mutual neighbours, `length` edges of strength `strength`.
+void AppendChain(int length,
+                 float strength,
+                 std::vector<Edge2d>& edges,
+                 std::vector<EdgeNeighbors>& neighbors) {
+  const auto begin = static_cast<std::int32_t>(edges.size());
+  for (std::int32_t i = 0; i < length; ++i) {
+    Edge2d edge;
+    edge.position.x() = begin + i;
+    edge.strength = strength;
+    edges.push_back(edge);
+    neighbors.emplace_back();
+    if (i > 0) neighbors.back().previous = begin + i - 1;
+    if (i + 1 < length) neighbors.back().next = begin + i + 1;
+  }
+}
+
+struct Chain {
+  int length;
+  float strength;
+};
+
+class KeepContoursTest : public ::testing::Test {
+ protected:
+  void Build(const std::vector<Chain>& chains) {
+    for (const Chain& chain : chains) {
+      AppendChain(chain.length, chain.strength, edges_, neighbors_);
+    }
+  }
+  KeptEdges Keep(std::int64_t max_edges) const {
+    EdgeDetectionOptions options;
+    options.min_contour_edges = 4;
+    options.short_contour_factor = 2;
+    return KeepContours(edges_, neighbors_, options, 10, max_edges);
+  }
+
+  std::vector<Edge2d> edges_;
+  std::vector<EdgeNeighbors> neighbors_;
+};
+
+std::vector<float> Strengths(const KeptEdges& kept) {
+  std::vector<float> strengths;
+  for (const Edge2d& edge : kept.edges) {
+    if (strengths.empty() || strengths.back() != edge.strength) {
+      strengths.push_back(edge.strength);
+    }
+  }
+  return strengths;
+}
+
+TEST(LabelContours, FollowsMutualLinksOnly) {
+  // 0 <-> 2 <-> 1 from start to end; 3 points at 1, which does not answer;
+  // 4 <-> 5 is closed.
+  std::vector<EdgeNeighbors> neighbors(6);
+  neighbors[0].next = 2;
+  neighbors[2] = {0, 1};
+  neighbors[1].previous = 2;
+  neighbors[3].previous = 1;
+  neighbors[4] = {5, 5};
+  neighbors[5] = {4, 4};
+  EXPECT_EQ(LabelContours(neighbors),
+            (std::vector<std::int32_t>{0, 0, 0, 1, 2, 2}));
+  EXPECT_TRUE(LabelContours({}).empty());
+}
+
+TEST(LabelContours, StartsAnywhereInAContour) {
+  std::vector<EdgeNeighbors> neighbors(3);
+  neighbors[0] = {1, 2};
+  neighbors[1].next = 0;
+  neighbors[2].previous = 0;
+  EXPECT_EQ(LabelContours(neighbors), (std::vector<std::int32_t>{0, 0, 0}));
+}
+
+TEST_F(KeepContoursTest, DropsWhatIsBothShortAndWeak) {
+  Build({{3, 19}, {4, 11}, {3, 20}, {1, 15}});
+  const KeptEdges kept = Keep(100);
+  EXPECT_EQ(Strengths(kept), (std::vector<float>{11, 20}));
+  EXPECT_EQ(kept.num_isolated, 4);
+  EXPECT_EQ(kept.num_over_limit, 0);
+}
+
+TEST_F(KeepContoursTest, KeepsTheStrongestLongContoursWithinTheLimit) {
+  Build({{5, 12}, {3, 90}, {6, 30}, {5, 25}, {2, 15}});
+  EXPECT_EQ(Strengths(Keep(19)), (std::vector<float>{12, 90, 30, 25}));
+  EXPECT_EQ(Strengths(Keep(18)), (std::vector<float>{12, 30, 25}))
+      << "short contours go first";
+  EXPECT_EQ(Strengths(Keep(15)), (std::vector<float>{30, 25}));
+  EXPECT_EQ(Strengths(Keep(6)), (std::vector<float>{30}));
+  EXPECT_TRUE(Keep(5).edges.empty()) << "contours are kept whole";
+  EXPECT_EQ(Keep(15).num_over_limit, 8);
+  EXPECT_EQ(Keep(15).num_isolated, 2);
+}
+
+TEST_F(KeepContoursTest, KeepsTheFirstOfEquals) {
+  Build({{4, 30}, {4, 30}});
+  const KeptEdges kept = Keep(4);
+  ASSERT_EQ(kept.edges.size(), 4u);
+  EXPECT_EQ(kept.edges[0].position.x(), 0);
+}
+
+TEST_F(KeepContoursTest, KeepsTheOrderAndAcceptsNoEdges) {
+  EXPECT_TRUE(Keep(10).edges.empty());
+  Build({{5, 20}, {5, 60}, {5, 40}});
+  const KeptEdges kept = Keep(100);
+  ASSERT_EQ(kept.edges.size(), 15u);
+  for (std::size_t i = 0; i < kept.edges.size(); ++i) {
+    EXPECT_EQ(kept.edges[i].position.x(), static_cast<double>(i));
+  }
+}
+
+}  // namespace
+}  // namespace curvix
