@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace curvix {
@@ -91,6 +92,10 @@ Status WriteColmapModel(const ColmapModel& model,
 // without ".."). Tracks may refer to images that are not there: some tools
 // remove images and leave the points.
 Status ValidateColmapModel(const ColmapModel& model);
+
+// Whether the name of an image is empty, absolute or holds "..", and so may lead
+// out of the image folder on some system.
+bool LeavesImageFolder(std::string_view name);
 
 // The scene of a valid model: cameras in the model's order, views sorted by
 // name with image_path = image_folder / name, without the images whose names

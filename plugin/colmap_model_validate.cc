@@ -16,18 +16,6 @@ std::string Label(const ColmapImage& image) {
   return "image " + std::to_string(image.image_id) + " (" + image.name + ")";
 }
 
-// Whether `name` may lead out of the image folder, on any system.
-bool LeavesFolder(std::string_view name) {
-  if (name.empty() || name[0] == '/' || name[0] == '\\') return true;
-  if (name.size() > 1 && name[1] == ':') return true;  // C:
-  while (!name.empty()) {
-    const std::size_t end = std::min(name.find_first_of("/\\"), name.size());
-    if (name.substr(0, end) == "..") return true;
-    name.remove_prefix(std::min(end + 1, name.size()));
-  }
-  return false;
-}
-
 std::string WrongCamera(const std::vector<ColmapCamera>& cameras) {
   std::set<std::uint32_t> ids;
   for (const ColmapCamera& item : cameras) {
@@ -47,7 +35,7 @@ std::string WrongCamera(const std::vector<ColmapCamera>& cameras) {
 }
 
 std::string WrongImage(const ColmapImage& image) {
-  if (LeavesFolder(image.name)) {
+  if (LeavesImageFolder(image.name)) {
     return "the name of " + Label(image) +
            " is empty, absolute or contains \"..\"; name images relative to "
            "their folder.";
@@ -109,6 +97,17 @@ std::string WrongPoint(const std::vector<ColmapPoint3D>& points) {
 }
 
 }  // namespace
+
+bool LeavesImageFolder(std::string_view name) {
+  if (name.empty() || name[0] == '/' || name[0] == '\\') return true;
+  if (name.size() > 1 && name[1] == ':') return true;  // C:
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of("/\\"), name.size());
+    if (name.substr(0, end) == "..") return true;
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return false;
+}
 
 std::optional<ColmapFlaw> FindFlaw(const ColmapModel& model) {
   ColmapFlaw flaws[] = {{"cameras", WrongCamera(model.cameras)},

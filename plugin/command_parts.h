@@ -22,6 +22,7 @@ struct Command {
 
 ExitCode RunReconstruct(const Arguments& arguments);
 ExitCode RunSynthesize(const Arguments& arguments);
+ExitCode RunImport(const Arguments& arguments);
 ExitCode RunEvaluate(const Arguments& arguments);
 
 // nullptr: there is no such word.
