@@ -93,8 +93,8 @@ Status WriteColmapModel(const ColmapModel& model,
 // remove images and leave the points.
 Status ValidateColmapModel(const ColmapModel& model);
 
-// Whether the name of an image is empty, absolute or holds "..", and so may lead
-// out of the image folder on some system.
+// Whether the name of an image is empty, absolute or holds "..", and so may
+// lead out of the image folder on some system.
 bool LeavesImageFolder(std::string_view name);
 
 // The scene of a valid model: cameras in the model's order, views sorted by
