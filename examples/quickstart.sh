@@ -21,7 +21,7 @@ step "1 of 4: install what the build needs"
 examples/install_dependencies.sh
 
 step "2 of 4: build $program"
-cmake --preset release
+cmake --preset release --log-level=NOTICE
 cmake --build --preset release
 
 step "3 of 4: photograph a part whose edges are known"

@@ -8,7 +8,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=build-tests/results.xml
 
 # attribute <name>: of the test suite in the results.
-attribute() { sed -nE 's/^[[:space:]]+'"$1"'="([0-9]+)".*/\1/p' "$results"; }
+attribute() {
+  sed -nE '1,/^[[:space:]]*>/ s/^[[:space:]]+'"$1"'="([0-9]+)".*/\1/p' "$results"
+}
 
 run() {
   local status=0
@@ -21,7 +23,7 @@ run() {
 }
 
 run examples/install_dependencies.sh --tests
-run cmake --preset tests
+run cmake --preset tests --log-level=NOTICE
 run cmake --build --preset tests
 
 rm -f "$results"
