@@ -35,9 +35,22 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
       fundamental_(FundamentalMatrix(h1, h2)),
       sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {}
 
+bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
+  // The epipolar plane of the edge meets the image in its epipolar line.
+  const Eigen::Vector3d normal =
+      pencil_.baseline().cross(h1_->Ray(edge1.position));
+  const Eigen::Vector3d line =
+      h1_->calibration.inverse().transpose() * (h1_->rotation * normal);
+  const double sine = line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
+  return std::abs(sine) <
+         std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
+}
+
 std::vector<Hypothesis> HypothesisViews::Hypothesise(
     const Edge2d& edge1) const {
   std::vector<Hypothesis> hypotheses;
+  const ImageEdge image_edge1 = ToImageEdge(edge1);
+  if (RunsAlongEpipolarLine(image_edge1)) return hypotheses;
   const double tolerance_px = options_->hypotheses.location_tolerance_px;
   const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
   if (!wedge) return hypotheses;
@@ -52,7 +65,6 @@ std::vector<Hypothesis> HypothesisViews::Hypothesise(
                     options_->consolidation);
     if (moved) on_line.push_back({*moved, idx});
   }
-  const ImageEdge image_edge1 = ToImageEdge(edge1);
   const double min_angle =
       DegToRad(options_->hypotheses.min_epipolar_angle_deg);
   for (VirtualEdge& virtual_edge :

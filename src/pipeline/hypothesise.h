@@ -35,8 +35,9 @@ class HypothesisViews {
                                              const Options& options);
 
   // Candidates in the epipolar wedge of `edge1`, moved onto its epipolar line,
-  // clustered, triangulated; in order along the line. Virtual edges that run
-  // along the line or give no 3D edge are left out.
+  // clustered, triangulated; in order along the line. None for an edge that
+  // runs along its epipolar line in H1; virtual edges that do so in H2 or give
+  // no 3D edge are left out.
   std::vector<Hypothesis> Hypothesise(const Edge2d& edge1) const;
 
   const PosedView& h1() const { return *h1_; }
@@ -48,6 +49,8 @@ class HypothesisViews {
                   const PosedView& h2,
                   const std::vector<Edge2d>& edges2,
                   const Options& options);
+
+  bool RunsAlongEpipolarLine(const ImageEdge& edge1) const;
 
   const PosedView *h1_, *h2_;
   const std::vector<Edge2d>* edges2_;
