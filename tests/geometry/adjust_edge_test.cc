@@ -184,7 +184,7 @@ TEST(AdjustEdge, StaysNearTheStartWherePlanesHardlyDiffer) {
   EXPECT_GT(axes.eigenvalues()(1), 100 * axes.eigenvalues()(0));
 }
 
-TEST(PredictedSigmaPx, IsTheScatterOfTheEdgeInAnotherView) {
+TEST(AdjustEdge, StatesTheScatterOfTheEdgeInAnotherView) {
   Random random(6);
   const auto all = RingOfViews(12);
   const std::vector<PosedView> views(all.begin(), all.begin() + 8);
@@ -199,8 +199,15 @@ TEST(PredictedSigmaPx, IsTheScatterOfTheEdgeInAnotherView) {
     const ImageEdge projected = *ProjectEdge(other, estimate.edge);
     const double error = normal.dot(projected.position - expected.position);
     actual += error * error / num_trials;
-    const double sigma = PredictedSigmaPx(estimate, other, projected);
-    predicted += sigma * sigma / num_trials;
+    const auto slope = [&](const Vector3d& axis) {
+      const Vector3d h = 1e-5 * axis;
+      const Vector3d& x = estimate.edge.position;
+      return normal.dot(other.Pixel(other.InCamera(x + h)) -
+                        other.Pixel(other.InCamera(x - h))) /
+             2e-5;
+    };
+    const Vector2d gradient(slope(estimate.across1), slope(estimate.across2));
+    predicted += gradient.dot(estimate.covariance * gradient) / num_trials;
   }
   EXPECT_NEAR(std::sqrt(predicted / actual), 1, 0.2);
 }
