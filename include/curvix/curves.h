@@ -13,7 +13,9 @@ namespace curvix {
 struct CurveSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit, along the curve
-  double sigma = 0;  // standard deviation across the curve, world units
+  double sigma = 0;     // standard deviation across the curve, world units;
+                        // 0: not estimated
+  double evidence = 0;  // of Edge3d: how strongly the views support it
   std::vector<EdgeRef> support;  // at most one 2D edge per view, ascending
 };
 

@@ -146,9 +146,21 @@ struct ConnectivityOptions {
   double min_length_px = 10.0;
 };
 
-// Beyond the paper: curves moved onto the 2D edges of all their views.
+// Beyond the paper: curves as a person would draw them.
 struct CurveRefinementOptions {
   bool enabled = true;
+  // Curves of less median evidence are left out, log units; >= 0.
+  double min_evidence = 20.0;
+  // Curves that are known less well need more evidence, by the square of the
+  // ratio. Pixels of the view that sees them largest, > 0.
+  double sigma_scale_px = 0.12;
+  // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
+  // smooths nothing.
+  double smoothing_px = 2.5;
+  // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
+  double junction_reach_px = 10.0;
+  // Largest distance of a continued end from its corner. Pixels, > 0.
+  double max_junction_gap_px = 1.0;
 };
 
 struct RuntimeOptions {

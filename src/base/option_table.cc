@@ -203,7 +203,17 @@ void AddRows(ConnectivityOptions& o, Section row) {
 
 void AddRows(CurveRefinementOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
-      "move curves onto the 2D edges of all their views");
+      "select, smooth and join curves as a person would draw them");
+  row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
+      "curves of less median evidence are left out, log units");
+  row("sigma_scale_px", &o.sigma_scale_px, Above(0), "px", "",
+      "curves known less well than this need more evidence");
+  row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
+      "standard deviation of the weights of the local fits; 0 smooths nothing");
+  row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",
+      "how far ends are carried on to a corner; 0 carries none on");
+  row("max_junction_gap_px", &o.max_junction_gap_px, Above(0), "px", "",
+      "largest distance of a continued end from its corner");
 }
 
 void AddRows(RuntimeOptions& o, Section row) {

@@ -12,7 +12,7 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "connectivity/end_chains.h"
-#include "connectivity/pixel_size.h"
+#include "geometry/pixel_size.h"
 #include "geometry/edge_distances.h"
 
 namespace curvix {

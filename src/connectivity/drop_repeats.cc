@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/angles.h"
-#include "connectivity/pixel_size.h"
+#include "geometry/pixel_size.h"
 #include "connectivity/point_tree.h"
 #include "connectivity/trace_curves.h"
 #include "geometry/edge_distances.h"

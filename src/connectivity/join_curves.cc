@@ -12,7 +12,7 @@
 
 #include "base/angles.h"
 #include "connectivity/end_chains.h"
-#include "connectivity/pixel_size.h"
+#include "geometry/pixel_size.h"
 #include "connectivity/point_tree.h"
 
 namespace curvix {

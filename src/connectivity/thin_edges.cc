@@ -11,8 +11,8 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "connectivity/pixel_size.h"
 #include "geometry/edge_distances.h"
+#include "geometry/pixel_size.h"
 
 namespace curvix {
 namespace {
@@ -23,6 +23,13 @@ using Rows = std::vector<std::vector<std::int32_t>>;
 
 std::size_t NumVotes(const Edge3d& edge) {
   return std::max<std::size_t>(edge.support.size(), 1);
+}
+
+// Inverse variance where it is known, else votes; all edges come from one
+// sketch, so it is known for all or for none.
+double Weight(const Edge3d& edge) {
+  return edge.sigma > 0 ? 1 / (edge.sigma * edge.sigma)
+                        : static_cast<double>(NumVotes(edge));
 }
 
 // For each edge, the linked edges that may join its group, ascending.
@@ -104,17 +111,19 @@ Edge3d Fuse(const std::vector<Edge3d>& edges, const Group& group) {
   const Eigen::Vector3d tangent = fused.tangent;
   Eigen::Vector3d sum_offsets = Eigen::Vector3d::Zero();
   Eigen::Vector3d sum_tangents = Eigen::Vector3d::Zero();
-  double sum_votes = 0;
+  double sum_weights = 0;
   for (const std::size_t member : group) {
     const Edge3d& edge = edges[member];
-    const auto votes = static_cast<double>(NumVotes(edge));
+    const double weight = Weight(edge);
     const double sign = edge.tangent.dot(tangent) < 0 ? -1 : 1;
-    sum_offsets += votes * (edge.position - fused.position);
-    sum_tangents += votes * sign * edge.tangent;
-    sum_votes += votes;
+    sum_offsets += weight * (edge.position - fused.position);
+    sum_tangents += weight * sign * edge.tangent;
+    sum_weights += weight;
+    if (edge.sigma < fused.sigma) fused.sigma = edge.sigma;
+    fused.evidence = std::max(fused.evidence, edge.evidence);
     AddViews(edge.support, fused.support);
   }
-  const Eigen::Vector3d offset = sum_offsets / sum_votes;
+  const Eigen::Vector3d offset = sum_offsets / sum_weights;
   fused.position += offset - offset.dot(tangent) * tangent;
   fused.tangent = sum_tangents.normalized();
   return fused;

@@ -25,7 +25,9 @@ struct ThinnedEdges {
 // limits, its own included, comes first (ties: smaller index), so the middle of
 // parallel tracks goes before its rim. It is moved across its tangent to the
 // mean of its group and turned to its mean direction, members weighted by their
-// number of supports. Its support is the union, its own first, then members in
+// inverse variance, or by their number of supports where that is not known. Its
+// sigma is the least and its evidence the greatest of the group: members share
+// most of their 2D edges. Its support is the union, its own first, then members in
 // index order; still at most one 2D edge per view. The edges come in the order
 // of the first edges' indices.
 //

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/check.h"
-#include "connectivity/pixel_size.h"
+#include "geometry/pixel_size.h"
 
 namespace curvix {
 namespace {
@@ -32,6 +32,8 @@ CurveSample SampleOf(const Edge3d& edge, bool flipped) {
   CurveSample sample;
   sample.position = edge.position;
   sample.tangent = flipped ? Eigen::Vector3d(-edge.tangent) : edge.tangent;
+  sample.sigma = edge.sigma;
+  sample.evidence = edge.evidence;
   sample.support = edge.support;
   return sample;
 }

@@ -108,14 +108,13 @@ EdgeEstimate AdjustEdge(const SpaceEdge& start,
   return estimate;
 }
 
-double PredictedSigmaPx(const EdgeEstimate& estimate,
-                        const PosedView& view,
-                        const ImageEdge& projected) {
+Eigen::Vector2d DistanceGradient(const EdgeEstimate& estimate,
+                                 const PosedView& view,
+                                 const ImageEdge& projected) {
   const Residual residual =
       Evaluate(MeasurePlane(view, projected), estimate.edge.position);
-  const Eigen::Vector2d gradient(residual.gradient.dot(estimate.across1),
-                                 residual.gradient.dot(estimate.across2));
-  return std::sqrt(gradient.dot(estimate.covariance * gradient));
+  return {residual.gradient.dot(estimate.across1),
+          residual.gradient.dot(estimate.across2)};
 }
 
 }  // namespace curvix

@@ -41,10 +41,12 @@ EdgeEstimate AdjustEdge(const SpaceEdge& start,
                         const std::vector<PlaneMeasurement>& measurements,
                         double sigma_px);
 
-// Standard deviation, in pixels, of the normal distance at which `estimate`
-// appears in `view`. `projected` is ProjectEdge(view, estimate.edge).
-double PredictedSigmaPx(const EdgeEstimate& estimate,
-                        const PosedView& view,
-                        const ImageEdge& projected);
+// Gradient of the normal distance, in pixels, between the projection of the
+// estimate into `view` and the line on which it lies now, by the position on
+// the two axes across the tangent. `projected` is ProjectEdge(view,
+// estimate.edge). The distance is known to sqrt(g^T covariance g) pixels.
+Eigen::Vector2d DistanceGradient(const EdgeEstimate& estimate,
+                                 const PosedView& view,
+                                 const ImageEdge& projected);
 
 }  // namespace curvix

@@ -18,9 +18,14 @@ Options PaperOptions() {
   options.validation.max_angle_deg = 15.0;
   options.validation.min_num_support_views = 4;
   options.neighborhood.max_projection_distance_px = 6.0;
+  options.neighborhood.max_num_links = 1000;
   options.alignment.num_iterations = 1000;
   options.alignment.step_size = 0.01;
   options.alignment.use_mean_direction = false;
+  options.connectivity.sample_spacing_px = 0;
+  options.connectivity.max_gap_px = 0;
+  options.connectivity.max_repeat_distance_px = 0;
+  options.connectivity.max_corner_deg = 180;
   options.curve_refinement.enabled = false;
   return options;
 }

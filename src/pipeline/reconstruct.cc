@@ -15,6 +15,7 @@
 #include "pipeline/run_recorder.h"
 #include "pipeline/sketch_edges.h"
 #include "pipeline/why_empty.h"
+#include "refinement/refine_curves.h"
 
 namespace curvix {
 namespace {
@@ -49,6 +50,12 @@ Reconstruction Reconstruct(const Scene& scene,
   run.Begin("connect_edges");
   result.curves.curves =
       GroupEdges(result.edges, graph, views, options.connectivity, num_threads);
+  run.End(CountsOf(result.curves));
+
+  // Beyond the paper.
+  run.Begin("refine_curves");
+  result.curves.curves = RefineCurves(
+      result.curves.curves, views, options.curve_refinement, num_threads);
   run.End(CountsOf(result.curves));
 
   result.report = run.TakeReport();

@@ -45,9 +45,8 @@ EdgeDensity::EdgeDensity(const std::vector<Edge2d>& edges,
   }
 }
 
-double EdgeDensity::ChanceOfSupport(const Eigen::Vector2d& pixel,
-                                    double angle_rad,
-                                    double gate_px) const {
+double EdgeDensity::Density(const Eigen::Vector2d& pixel,
+                            double angle_rad) const {
   const int column = Clamp(pixel.x() / kCellPx, columns_);
   const int row = Clamp(pixel.y() / kCellPx, rows_);
   const int bin = BinOf(angle_rad);
@@ -62,10 +61,8 @@ double EdgeDensity::ChanceOfSupport(const Eigen::Vector2d& pixel,
       ++num_cells;
     }
   }
-  const double contour_px = num_edges * kEdgeSpacingPx;
-  const double covered =
-      contour_px * 2 * gate_px / (num_cells * kCellPx * kCellPx);
-  return std::clamp(1 - std::exp(-covered), 0.005, 0.95);
+  const double area = num_cells * kCellPx * kCellPx;
+  return std::max(0.003, num_edges * kEdgeSpacingPx / area);
 }
 
 }  // namespace curvix

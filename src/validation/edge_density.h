@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). How likely an edge supports a hypothesis by chance.
+// Paper: none (beyond it). How many edges lie about by chance.
 #pragma once
 
 #include <curvix/edges.h>
@@ -16,13 +16,11 @@ class EdgeDensity {
   EdgeDensity() = default;
   EdgeDensity(const std::vector<Edge2d>& edges, int width, int height);
 
-  // Chance that a random place near `pixel`, expecting an edge in direction
-  // `angle_rad`, finds one within `gate_px` across it and 15 degrees: the share
-  // of the surroundings (about 48 x 48 pixels) that lies within the gate of
-  // contours of like orientation. In [0.005, 0.95].
-  double ChanceOfSupport(const Eigen::Vector2d& pixel,
-                         double angle_rad,
-                         double gate_px) const;
+  // Edges of like direction (within 15 degrees of `angle_rad`) per pixel across
+  // them, around `pixel`: the length of their contours in the surroundings
+  // (about 48 x 48 pixels) over the area. At least 0.003, one contour in 330
+  // pixels.
+  double Density(const Eigen::Vector2d& pixel, double angle_rad) const;
 
  private:
   int columns_ = 0;

@@ -2,16 +2,23 @@
 // Paper: none (beyond it). Weighs which views support a 3D edge and which do
 // not.
 //
+// What a view shows where a 3D edge projects has a likelihood under "a real
+// edge, seen here" and one under "nothing, and other edges lie about by
+// chance". The logarithm of their ratio is the view's vote:
+//   log(q N(r) N(a) / c + 1 - q)  with an edge at distance r and angle a,
+//   log(1 - q)                    without;
+// N are normal densities with wide tails, q = 0.9 the share of seen edges that
+// are detected, and c the density of edges of like direction around the place.
+//
 // A real edge is seen from one or two connected regions of viewing directions,
 // so a view without support between supporting views speaks against it, and one
-// far from all of them hardly does. Each view has a log likelihood ratio of
-// real and seen over chance: log(q / p0) with support and log((1 - q) / (1 -
-// p0)) without, where p0 is the chance of support (EdgeDensity) and q = 0.9. It
-// is averaged over the view and its neighbours in direction, and the evidence
-// is the sum of the positive averages: regions of support count, scattered
-// support cancels.
+// far from all of them hardly does. Therefore each vote is averaged with those
+// of the views next in direction, and the evidence is the sum of the positive
+// averages: regions of support count, scattered support cancels.
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace curvix {
@@ -22,15 +29,43 @@ struct ViewNeighbor {
   double weight = 0;  // exp(-(angle / 25 deg)^2 / 2)
 };
 
-// What a view says about one 3D edge.
-struct ViewVote {
-  bool asked = false;      // the edge projects into the image
-  bool supported = false;  // and there is an edge
-  double chance = 0;       // p0
+// How a supporting edge lies relative to the projected 3D edge.
+struct SupportFit {
+  double distance_px = 0;  // across the edge
+  double sigma_px = 0;     // expected standard deviation of the distance, > 0
+  double angle_rad = 0;    // between the directions
 };
 
-// `votes` and `neighbors` by view index. Natural logarithm units; >= 0.
-double Evidence(const std::vector<ViewVote>& votes,
+// The vote of a view with a supporting edge; `density` of like edges per pixel
+// across them, > 0. Natural logarithm units.
+double VoteWithSupport(const SupportFit& fit, double density);
+
+// The vote of a view that ought to show the edge and does not.
+double VoteWithoutSupport();
+
+// What one view contributes.
+struct ViewVote {
+  double vote = 0;  // of one of the above
+  // Gradient of the distance in this view by the position of the 3D edge on its
+  // two axes across the tangent, pixels per world unit.
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  double weight = 0;  // of the supporting edge, 0..1; 0 without
+};
+using Votes = std::vector<std::optional<ViewVote>>;  // by view; none: not asked
+
+// The sum over regions of support; `votes` and `neighbors` by view index. >= 0.
+double Evidence(const Votes& votes,
                 const std::vector<std::vector<ViewNeighbor>>& neighbors);
+
+// Which share of what the views around its supporters should tell about the
+// place of the edge its supporters do tell, in the direction in which they tell
+// least; 0..1. A view without support counts as much as its nearest supporting
+// neighbour weighs. A real edge keeps most. The silhouette of a round body
+// looks like a curve from directions in one plane only: its supporters leave
+// the depth in that plane open, views next to them out of the plane could tell
+// it, and show no edge.
+double InformationShare(
+    const Votes& votes,
+    const std::vector<std::vector<ViewNeighbor>>& neighbors);
 
 }  // namespace curvix

@@ -15,23 +15,65 @@ constexpr int kNumRounds = 4;
 // Views in which the estimate may be off by more are not asked yet. Pixels.
 constexpr double kMaxPredictedSigmaPx = 0.7;
 constexpr int kFewestAfterFirstRound = 4;
+constexpr double kGateSigmas = 4;
+constexpr double kMaxTangentialPx = 1;
 
 struct Support {
   std::vector<EdgeRef> refs;
   std::vector<PlaneMeasurement> measurements;
-  std::vector<ViewVote> votes;  // by view
+  Votes votes;
 };
 
-Gate MakeGate(double predicted_sigma_px,
-              double sigma_px,
-              const ValidationOptions& options) {
-  Gate gate;
-  gate.normal_px =
-      std::min(options.max_distance_px,
-               2.5 * std::hypot(predicted_sigma_px, sigma_px) + sigma_px);
-  gate.tangential_px = 1.0;
-  gate.min_cosine = std::cos(DegToRad(options.max_angle_deg));
-  return gate;
+double AngleOf(const Eigen::Vector2d& direction) {
+  return std::atan2(direction.y(), direction.x());
+}
+
+SupportFit Fit(const ImageEdge& projected,
+               const ImageEdge& edge,
+               double sigma_px) {
+  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
+  return {
+      normal.dot(projected.position - edge.position),
+      sigma_px,
+      UndirectedDifference(AngleOf(projected.tangent), AngleOf(edge.tangent))};
+}
+
+// What one view says; nothing if the edge is not in its image or not known well
+// enough there.
+void AskView(const EdgeEstimate& estimate,
+             const ViewIndex& view,
+             std::int32_t view_idx,
+             double sigma_px,
+             const ValidationOptions& options,
+             Support& support) {
+  const auto projected = ProjectEdge(*view.view, estimate.edge);
+  if (!projected || !view.view->Contains(projected->position)) return;
+  const Eigen::Vector2d gradient =
+      DistanceGradient(estimate, *view.view, *projected);
+  const double predicted =
+      std::sqrt(gradient.dot(estimate.covariance * gradient));
+  if (predicted > kMaxPredictedSigmaPx) return;
+  const double expected = std::hypot(predicted, sigma_px);
+  const Gate gate{std::min(options.max_distance_px, kGateSigmas * expected),
+                  kMaxTangentialPx,
+                  std::cos(DegToRad(options.max_angle_deg))};
+  ViewVote& vote = support.votes[static_cast<std::size_t>(view_idx)].emplace();
+  vote.gradient = gradient;
+  const auto nearest = NearestEdge(view, *projected, gate);
+  if (!nearest) {
+    vote.vote = VoteWithoutSupport();
+    return;
+  }
+  const ImageEdge edge =
+      ToImageEdge(view.edges->edges[static_cast<std::size_t>(*nearest)]);
+  const SupportFit fit = Fit(*projected, edge, expected);
+  const double r = fit.distance_px / fit.sigma_px;
+  vote.weight = 1 / (1 + r * r);
+  vote.vote = VoteWithSupport(
+      fit,
+      view.density.Density(projected->position, AngleOf(projected->tangent)));
+  support.refs.push_back({view_idx, *nearest});
+  support.measurements.push_back(MeasurePlane(*view.view, edge));
 }
 
 Support FindSupport(const EdgeEstimate& estimate,
@@ -41,25 +83,12 @@ Support FindSupport(const EdgeEstimate& estimate,
   Support support;
   support.votes.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const ViewIndex& view = views[i];
-    const auto projected = ProjectEdge(*view.view, estimate.edge);
-    if (!projected || !view.view->Contains(projected->position)) continue;
-    const double predicted = PredictedSigmaPx(estimate, *view.view, *projected);
-    if (predicted > kMaxPredictedSigmaPx) continue;
-    const Gate gate = MakeGate(predicted, sigma_px, options);
-    const auto nearest = NearestEdge(view, *projected, gate);
-    ViewVote& vote = support.votes[i];
-    vote.asked = true;
-    vote.supported = nearest.has_value();
-    vote.chance = view.density.ChanceOfSupport(
-        projected->position,
-        std::atan2(projected->tangent.y(), projected->tangent.x()),
-        gate.normal_px);
-    if (!nearest) continue;
-    support.refs.push_back({static_cast<std::int32_t>(i), *nearest});
-    support.measurements.push_back(MeasurePlane(
-        *view.view,
-        ToImageEdge(view.edges->edges[static_cast<std::size_t>(*nearest)])));
+    AskView(estimate,
+            views[i],
+            static_cast<std::int32_t>(i),
+            sigma_px,
+            options,
+            support);
   }
   return support;
 }
@@ -91,6 +120,7 @@ std::optional<TrackedEdge> TrackSupport(
     return std::nullopt;
   }
   tracked.evidence = Evidence(support.votes, neighbors);
+  tracked.information_share = InformationShare(support.votes, neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;
   return tracked;
 }

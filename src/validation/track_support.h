@@ -20,7 +20,8 @@ namespace curvix {
 struct TrackedEdge {
   EdgeEstimate estimate;
   std::vector<EdgeRef> support;  // at most one per view, ascending
-  double evidence = 0;
+  double evidence = 0;           // Evidence()
+  double information_share = 0;  // InformationShare()
 };
 
 // Looks for the support of `start` in all views. Two rays fix a 3D edge to a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "connectivity/pixel_size.h"
+#include "geometry/pixel_size.h"
 
 #include <algorithm>
 #include <cmath>

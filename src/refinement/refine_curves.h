@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). From traced curves to curves as one would draw them.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/options.h>
+
+#include <vector>
+
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// Selects (select_curves.h), smooths (smooth_curves.h), and carries on to
+// corners (meet_at_junctions.h).
+std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
+                                const std::vector<PosedView>& views,
+                                const CurveRefinementOptions& options,
+                                int num_threads);
+
+}  // namespace curvix
