@@ -12,7 +12,7 @@ namespace curvix {
 namespace {
 
 constexpr double kCellPx = 16;
-constexpr int kNumBins = 6;
+constexpr int kNumBins = 12;            // of 15 degrees
 constexpr double kEdgeSpacingPx = 0.5;  // of edges along a contour
 
 int Clamp(double value, int count) {
@@ -20,10 +20,13 @@ int Clamp(double value, int count) {
   return value >= count ? count - 1 : static_cast<int>(value);
 }
 
-int BinOf(double angle_rad) {
-  const double turn = (WrapUndirected(angle_rad) + kPi / 2) / kPi;  // (0, 1]
-  return Clamp(turn * kNumBins, kNumBins);
+// Place on the circle of bins, in [0, kNumBins).
+double TurnOf(double angle_rad) {
+  const double turn = (WrapUndirected(angle_rad) / kPi + 0.5) * kNumBins;
+  return turn < kNumBins ? turn : 0;
 }
+
+int BinOf(double angle_rad) { return Clamp(TurnOf(angle_rad), kNumBins); }
 
 }  // namespace
 
@@ -49,15 +52,23 @@ double EdgeDensity::Density(const Eigen::Vector2d& pixel,
                             double angle_rad) const {
   const int column = Clamp(pixel.x() / kCellPx, columns_);
   const int row = Clamp(pixel.y() / kCellPx, rows_);
+  // One bin to either side of the angle: the own bin, and of the bins next to
+  // it what is left of either side.
+  const double turn = TurnOf(angle_rad);
   const int bin = BinOf(angle_rad);
+  const double after = turn - bin;
+  const int bin_before = (bin + kNumBins - 1) % kNumBins;
+  const int bin_after = (bin + 1) % kNumBins;
   double num_edges = 0;
   int num_cells = 0;
   for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
     for (int c = std::max(0, column - 1);
          c <= std::min(columns_ - 1, column + 1);
          ++c) {
-      num_edges += counts_[static_cast<std::size_t>(
-          (r * columns_ + c) * kNumBins + bin)];
+      const std::uint16_t* counts =
+          &counts_[static_cast<std::size_t>((r * columns_ + c) * kNumBins)];
+      num_edges += counts[bin] + (1 - after) * counts[bin_before] +
+                   after * counts[bin_after];
       ++num_cells;
     }
   }

@@ -10,7 +10,7 @@
 
 namespace curvix {
 
-// Counts of edges by place (square cells) and orientation (bins of 30 degrees).
+// Counts of edges by place (square cells) and orientation (bins of 15 degrees).
 class EdgeDensity {
  public:
   EdgeDensity() = default;
