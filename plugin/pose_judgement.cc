@@ -39,7 +39,8 @@ CheckErrors MeasureErrors(const Bundle& poses,
   return result;
 }
 
-// The median shift of each view.
+// The median shift of each view. A change of its camera does not count: points
+// that are all nearer or further away may make up for that.
 std::vector<double> Shifts(const Bundle& before, const Bundle& after) {
   std::vector<std::vector<double>> shifts(before.views.size());
   for (const BundlePoint& point : before.points) {
@@ -49,7 +50,7 @@ std::vector<double> Shifts(const Bundle& before, const Bundle& after) {
       const auto from = Project(before.cameras[old_view.camera_idx],
                                 old_view.cam_from_world,
                                 point.position);
-      const auto to = Project(after.cameras[new_view.camera_idx],
+      const auto to = Project(before.cameras[new_view.camera_idx],
                               new_view.cam_from_world,
                               point.position);
       shifts[seen.view_idx].push_back(from && to ? (*to - *from).norm()

@@ -45,7 +45,7 @@ struct PoseJudgement {
   // Root of the fall of the mean square error.
   double explained_px = 0;
   // How far a view's points, at their places before, shift in its image when
-  // its pose and camera change: the median over the view's points; of all views
+  // its pose changes: the median over the view's points; of all views
   // the median and the largest, and the image_idx of that view.
   double median_shift_px = 0;
   double max_shift_px = 0;

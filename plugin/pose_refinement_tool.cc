@@ -56,6 +56,29 @@ Status ToolFailure(const std::string& sentence) {
   return {StatusCode::kExternalTool, sentence};
 }
 
+// COLMAP squares the errors: observations that are this many times the median
+// off would pull at the poses.
+constexpr double kOutlier = 5;
+
+// `bundle` with its points fitted to the poses, without outliers. Points may
+// be left with any number of observations.
+Bundle WithoutOutliers(Bundle bundle) {
+  FitPoints(&bundle);
+  std::vector<double> errors;
+  for (const BundlePoint& point : bundle.points) {
+    for (const double e : ReprojectionErrors(bundle, point)) {
+      errors.push_back(e);
+    }
+  }
+  const double limit = kOutlier * Median(errors);
+  auto error = errors.cbegin();
+  for (BundlePoint& point : bundle.points) {
+    std::erase_if(point.observations,
+                  [&](const auto&) { return !(*error++ <= limit); });
+  }
+  return bundle;
+}
+
 // What is written for COLMAP: ids are indices + 1, and only what takes part,
 // whatever else the model of the user holds.
 ColmapModel ModelForColmap(const Bundle& bundle) {
@@ -73,9 +96,11 @@ ColmapModel ModelForColmap(const Bundle& bundle) {
     image.name = std::to_string(id);
     model.images.push_back(std::move(image));
   }
-  for (const BundlePoint& source : bundle.points) {
+  for (std::size_t i = 0; i < bundle.points.size(); ++i) {
+    const BundlePoint& source = bundle.points[i];
+    if (source.observations.size() < 2) continue;
     ColmapPoint3D point;
-    point.point3D_id = model.points.size() + 1;
+    point.point3D_id = i + 1;
     point.position = source.position;
     for (const BundleObservation& seen : source.observations) {
       ColmapImage& image = model.images[seen.view_idx];
@@ -220,8 +245,8 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   const fs::path output = scratch.path() / "output";
   std::error_code error;
   fs::create_directory(output, error);
-  const Status written =
-      WriteColmapModel(ModelForColmap(bundle), input, ColmapFormat::kBinary);
+  const Status written = WriteColmapModel(
+      ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
   if (!written.ok()) return written;
   const Result<ChildEnd> end = RunChildProcess(
       {run.program,

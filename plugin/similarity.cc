@@ -13,8 +13,6 @@ using Points = Eigen::Matrix3Xd;
 // Centres closer together than this share of their distance from the origin
 // are at one place: rounding is all that parts them.
 constexpr double kCoincident = 1e-10;
-// Centres on a line: second over first singular value.
-constexpr double kCollinear = 0.02;
 
 Points Centers(const std::vector<Rigid3>& poses) {
   Points centers(3, static_cast<Eigen::Index>(poses.size()));
@@ -24,21 +22,12 @@ Points Centers(const std::vector<Rigid3>& poses) {
   return centers;
 }
 
-// Singular values of the centred points, descending; zero if they coincide.
-Eigen::Vector3d Spread(const Points& points) {
+// The points around their mean; all zero if they coincide.
+Points Centered(const Points& points) {
   const Points centered = points.colwise() - points.rowwise().mean();
   const double size = points.cwiseAbs().maxCoeff();
-  if (centered.cwiseAbs().maxCoeff() <= kCoincident * size) {
-    return Eigen::Vector3d::Zero();
-  }
-  const Eigen::Matrix3d scatter = centered * centered.transpose();
-  return Eigen::JacobiSVD<Eigen::Matrix3d>(scatter)
-      .singularValues()
-      .cwiseSqrt();
-}
-
-bool IsPlaneOrMore(const Eigen::Vector3d& spread) {
-  return spread[1] > kCollinear * spread[0];
+  if (centered.cwiseAbs().maxCoeff() > kCoincident * size) return centered;
+  return Points::Zero(3, points.cols());
 }
 
 // The rotation nearest to all that turn `from` into `to`, camera by camera.
@@ -56,13 +45,9 @@ Eigen::Quaterniond MeanRotation(const std::vector<Rigid3>& from,
                                             svd.matrixV().transpose()));
 }
 
-// Rotation and scale of the transformation of the homogeneous `matrix`.
-Similarity3 FromMatrix(const Eigen::Matrix4d& matrix) {
-  Similarity3 result;
-  result.scale = matrix.block<3, 1>(0, 0).norm();
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>() / result.scale;
-  result.rotation = Eigen::Quaterniond(rotation).normalized();
-  return result;
+// The scale of the similarity with any rotation that brings `a` nearest to `b`.
+double BestScale(const Points& a, const Points& b) {
+  return Eigen::umeyama(a, b, true).block<3, 1>(0, 0).norm();
 }
 
 }  // namespace
@@ -80,24 +65,20 @@ std::optional<Similarity3> AlignPoses(const std::vector<Rigid3>& from,
   const Points a = Centers(from);
   const Points b = Centers(to);
   if (!a.allFinite() || !b.allFinite()) return std::nullopt;
-  const Eigen::Vector3d spread_a = Spread(a);
-  const Eigen::Vector3d spread_b = Spread(b);
-  const bool coincide = spread_a[0] == 0 && spread_b[0] == 0;
-  if (!coincide && (spread_a[0] == 0 || spread_b[0] == 0)) return std::nullopt;
+  const Points centered_a = Centered(a);
+  const Points centered_b = Centered(b);
+  const bool is_place = centered_a.isZero(0);
+  if (is_place != centered_b.isZero(0)) return std::nullopt;
 
+  Similarity3 result;
+  result.rotation = MeanRotation(from, to);
+  if (!is_place) {
+    const Points turned = result.rotation.toRotationMatrix() * centered_a;
+    if (!(turned.cwiseProduct(centered_b).sum() > 0)) return std::nullopt;
+    result.scale = BestScale(centered_a, centered_b);
+  }
   const Eigen::Vector3d mean_a = a.rowwise().mean();
   const Eigen::Vector3d mean_b = b.rowwise().mean();
-  Similarity3 result;
-  if (IsPlaneOrMore(spread_a) && IsPlaneOrMore(spread_b)) {
-    result = FromMatrix(Eigen::umeyama(a, b, true));
-  } else {
-    result.rotation = MeanRotation(from, to);
-    const Points turned =
-        result.rotation.toRotationMatrix() * (a.colwise() - mean_a);
-    const Points target = b.colwise() - mean_b;
-    const double product = turned.cwiseProduct(target).sum();
-    result.scale = coincide ? 1 : product / turned.squaredNorm();
-  }
   result.translation = mean_b - result.scale * (result.rotation * mean_a);
   const bool is_usable = std::isfinite(result.scale) && result.scale > 0 &&
                          result.rotation.coeffs().allFinite() &&

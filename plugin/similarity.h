@@ -29,14 +29,15 @@ struct Similarity3 {
 // seen from the camera change by the scale, its pictures do not.
 Rigid3 MovePose(const Similarity3& b_from_a, const Rigid3& cam_from_a);
 
-// The similarity that brings the centres of the cameras of `from` nearest to
-// those of `to`, in the sense of least squares (Umeyama 1991). Two poses with
-// the same index are of one camera. Where the centres do not tell the rotation
-// (on a line, to 2 % of their extent, or all at one place), it is the mean of
-// the rotations between the cameras, and only scale and translation come from
-// the centres; the scale is 1 where these coincide in both sets.
+// The similarity that brings the cameras of `from` back to those of `to`; two
+// poses with the same index are of one camera. The rotation is the mean of the
+// rotations between the cameras: it keeps the pictures in place where centres
+// on a line, or in a small part of space, tell little about it. The scale is
+// the one of the least squares similarity between the centres (Umeyama 1991),
+// or 1 where they coincide in both sets. The translation brings the means of
+// the centres together.
 // nullopt: no poses, not finite, or the centres contradict each other (they
-// coincide in one of the sets only, or the best scale is not positive).
+// coincide in one of the sets only, or point the other way).
 std::optional<Similarity3> AlignPoses(const std::vector<Rigid3>& from,
                                       const std::vector<Rigid3>& to);
 

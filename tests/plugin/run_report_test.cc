@@ -120,6 +120,7 @@ TEST(ProjectFile, ReadsBackAsTheSameSettings) {
                       {PathFlag("workspace_path", &read.workspace_path, ""),
                        PathFlag("project_path", &project_path, ""),
                        ChoiceFlag("preset", {"paper"}, &read.preset, "")}});
+  sections.push_back(PoseRefinementFlags(&read.poses));
   const auto request = ParseFlags({"--project_path", path.string()}, sections);
   ASSERT_TRUE(request.ok()) << request.status().message();
   EXPECT_EQ(ProjectFile(read), ProjectFile(written));

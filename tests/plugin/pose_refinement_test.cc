@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/pose_refinement.h"
+
+#include <curvix/camera_model.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/similarity.h"
+#include "tests/plugin/posed_points.h"
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+bool Continue(const std::string&, int, int) { return true; }
+
+PoseRefinement Refine(const ColmapModel& model,
+                      const PoseRefinementSettings& settings,
+                      const fs::path& log_path = {}) {
+  Result<PoseRefinement> result =
+      RefinePoses(model, settings, log_path, Continue);
+  EXPECT_TRUE(result.ok()) << result.status().message();
+  return result.ok() ? *std::move(result) : PoseRefinement();
+}
+
+PoseRefinementSettings Ceres(bool refine_intrinsics = false) {
+  PoseRefinementSettings settings;
+  settings.refiner = "ceres";
+  settings.refine_intrinsics = refine_intrinsics;
+  return settings;
+}
+
+// `model` after the similarity that brings its cameras to those of `truth`.
+ColmapModel AlignedTo(const ColmapModel& truth, ColmapModel model) {
+  const auto back = AlignPoses(PosesOf(model), PosesOf(truth));
+  EXPECT_TRUE(back);
+  for (ColmapImage& image : model.images) {
+    image.cam_from_world = MovePose(*back, image.cam_from_world);
+  }
+  return model;
+}
+
+class EveryCameraModel : public testing::TestWithParam<int> {};
+
+TEST_P(EveryCameraModel, GetsItsPosesBackFromNoisyPoints) {
+  PosedPointsOptions options;
+  options.camera = {*ModelFromId(GetParam()), 640, 480, {}};
+  for (int i = NumParams(options.camera.model); i > 0; --i) {
+    options.camera.params.push_back(0.01);
+  }
+  const Eigen::Matrix3d k = [&] {
+    Camera numbered = options.camera;
+    for (std::size_t i = 0; i < numbered.params.size(); ++i) {
+      numbered.params[i] = static_cast<double>(i);
+    }
+    return PinholeCalibration(numbered);
+  }();
+  const auto cx = static_cast<std::size_t>(k(0, 2));
+  for (std::size_t i = 0; i < cx; ++i) options.camera.params[i] = 500;
+  options.camera.params[cx] = 320;
+  options.camera.params[cx + 1] = 240;
+  if (options.camera.model == CameraModel::kEucm) {
+    options.camera.params[cx + 2] = 0.5;
+    options.camera.params[cx + 3] = 1;
+  }
+  const ColmapModel truth = PosedPoints(options);
+  ColmapModel model = truth;
+  DisturbPoses(1, 5, &model);
+
+  const PoseRefinement result = Refine(model, Ceres());
+  ASSERT_TRUE(result.model) << result.record.reason;
+  const ColmapModel refined = AlignedTo(truth, *result.model);
+  const double before = MedianShift(AlignedTo(truth, model), truth);
+  EXPECT_GT(before, 0.5);
+  EXPECT_LT(MedianShift(refined, truth), 0.1);
+  EXPECT_EQ(result.model->cameras[0].camera.params, options.camera.params);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ids, EveryCameraModel, testing::Range(0, 17));
+
+TEST(RefineWithCeres, KeepsTheScaleOfTheWorld) {
+  ColmapModel model = PosedPoints({});
+  DisturbPoses(1, 5, &model);
+  const PoseRefinement result = Refine(model, Ceres());
+  ASSERT_TRUE(result.model);
+  const auto left = AlignPoses(PosesOf(*result.model), PosesOf(model));
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->scale, 1, 1e-9);
+  EXPECT_LT(left->translation.norm(), 1e-9);
+  EXPECT_LT(left->rotation.angularDistance(Eigen::Quaterniond::Identity()),
+            1e-7);
+}
+
+TEST(RefineWithCeres, LowersTheErrorsOfPointsThatWereHeldOut) {
+  ColmapModel model = PosedPoints({});
+  DisturbPoses(1, 5, &model);
+  const PoseRefinement result = Refine(model, Ceres());
+  ASSERT_TRUE(result.record.judgement);
+  const PoseJudgement& judgement = *result.record.judgement;
+  EXPECT_TRUE(result.record.accepted);
+  EXPECT_GT(judgement.before.mean_px, 0.6);
+  EXPECT_LT(judgement.after.mean_px, 0.4);  // noise: 0.3 px an axis
+  EXPECT_GE(judgement.num_check_points, 40u);
+  EXPECT_LT(judgement.median_shift_px, 2);
+  EXPECT_LT(judgement.max_shift_px, 5);
+  EXPECT_THAT(result.notes, IsEmpty());
+  for (const ColmapPoint3D& point : result.model->points) {
+    EXPECT_TRUE(point.track.size() < 2 || point.error < 2) << point.error;
+  }
+}
+
+TEST(RefineWithCeres, BearsOutliers) {
+  const ColmapModel truth = PosedPoints({});
+  ColmapModel model = truth;
+  for (ColmapImage& image : model.images) {
+    for (std::size_t i = 0; i < image.points2D.size(); i += 10) {
+      image.points2D[i].x += 20;
+    }
+  }
+  DisturbPoses(1, 5, &model);
+  const PoseRefinement result = Refine(model, Ceres());
+  ASSERT_TRUE(result.model) << result.record.reason;
+  EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 0.1);
+}
+
+TEST(RefineWithCeres, RefinesSharedIntrinsicsIfAsked) {
+  PosedPointsOptions options;
+  options.camera = {
+      CameraModel::kRadial, 640, 480, {500, 320, 240, -0.1, 0.02}};
+  const ColmapModel truth = PosedPoints(options);
+  ColmapModel model = truth;
+  model.cameras[0].camera.params = {510, 320, 240, 0, 0};
+  const PoseRefinement kept = Refine(model, Ceres());
+  if (kept.model) {
+    EXPECT_EQ(kept.model->cameras[0].camera.params,
+              model.cameras[0].camera.params);
+  }
+  const PoseRefinement result = Refine(model, Ceres(true));
+  ASSERT_TRUE(result.model) << result.record.reason;
+  const std::vector<double>& params = result.model->cameras[0].camera.params;
+  EXPECT_NEAR(params[0], 500, 3);
+  EXPECT_EQ(params[1], 320);
+  EXPECT_EQ(params[2], 240);
+  EXPECT_NEAR(params[3], -0.1, 0.02);
+}
+
+TEST(RefinePoses, KeepsPosesThatAreGood) {
+  const PoseRefinement result = Refine(PosedPoints({}), Ceres());
+  EXPECT_FALSE(result.model);
+  EXPECT_FALSE(result.record.accepted);
+  EXPECT_THAT(result.record.reason, HasSubstr("nothing to gain"));
+}
+
+TEST(RefinePoses, SkipsModelsWithFewPoints) {
+  for (const std::size_t num_points : {0, 5, 90}) {
+    PosedPointsOptions options;
+    options.num_points = num_points;
+    ColmapModel model = PosedPoints(options);
+    DisturbPoses(1, 5, &model);
+    const PoseRefinement result = Refine(model, {});
+    EXPECT_FALSE(result.model);
+    EXPECT_EQ(result.record.refiner, "none");
+    EXPECT_THAT(result.notes, ElementsAre(HasSubstr("at least 100")));
+  }
+}
+
+TEST(RefinePoses, DoesNothingIfNotAskedTo) {
+  PoseRefinementSettings settings;
+  settings.refiner = "none";
+  ColmapModel model = PosedPoints({});
+  DisturbPoses(1, 5, &model);
+  const PoseRefinement result = Refine(model, settings);
+  EXPECT_FALSE(result.model);
+  EXPECT_THAT(result.notes, IsEmpty());
+}
+
+TEST(RefinePoses, StopsWhenAskedTo) {
+  ColmapModel model = PosedPoints({});
+  DisturbPoses(1, 5, &model);
+  int num_calls = 0;
+  const auto result =
+      RefinePoses(model, Ceres(), {}, [&](const std::string&, int, int) {
+        return ++num_calls < 3;
+      });
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
+}
+
+TEST(RefinePoses, GivesTheSameBytesEachTime) {
+  ColmapModel model = PosedPoints({});
+  DisturbPoses(1, 5, &model);
+  const PoseRefinement a = Refine(model, Ceres());
+  const PoseRefinement b = Refine(model, Ceres());
+  ASSERT_TRUE(a.model && b.model);
+  for (std::size_t i = 0; i < a.model->images.size(); ++i) {
+    EXPECT_EQ(PosesOf(*a.model)[i].translation,
+              PosesOf(*b.model)[i].translation);
+    EXPECT_EQ(PosesOf(*a.model)[i].rotation.coeffs(),
+              PosesOf(*b.model)[i].rotation.coeffs());
+  }
+}
+
+// A script in COLMAP's place. $4 is the input folder, $6 the output folder.
+class FakeColmap : public testing::Test {
+ protected:
+  void SetUp() override { DisturbPoses(1, 5, &model_); }
+
+  PoseRefinement Run(const std::string& bundle_adjuster,
+                     const std::string& help = "echo 'COLMAP 3.8 -- SfM'") {
+    const fs::path script =
+        folder_.Write("bin/colmap",
+                      "#!/bin/sh\nif [ \"$1\" = help ]; "
+                      "then\n" +
+                          help + "\nexit 0\nfi\n" + bundle_adjuster + "\n");
+    fs::permissions(script, fs::perms::owner_all);
+    settings_.colmap_path = script;
+    settings_.refiner_timeout_s = 1;
+    return Refine(model_, settings_, folder_.path() / "log");
+  }
+
+  // Writes `model` where the script can copy it from.
+  std::string Copy(const ColmapModel& model, const std::string& name) {
+    const fs::path folder = folder_.path() / name;
+    const Status status =
+        WriteColmapModel(model, folder, ColmapFormat::kBinary);
+    EXPECT_TRUE(status.ok()) << status.message();
+    return "cp '" + folder.string() + "'/*.bin \"$5\"";
+  }
+
+  // What the adapter writes for COLMAP.
+  ColmapModel Written() {
+    Run("cp \"$3\"/*.bin '" + folder_.path().string() + "'");
+    return ReadColmapModel(folder_.path()).value();
+  }
+
+  static void ExpectKept(const PoseRefinement& result,
+                         const std::string& reason) {
+    EXPECT_FALSE(result.model);
+    EXPECT_FALSE(result.record.accepted);
+    EXPECT_EQ(result.record.refiner, "colmap");
+    EXPECT_THAT(result.record.reason, HasSubstr(reason));
+    EXPECT_THAT(result.notes,
+                ElementsAre(AllOf(HasSubstr("Poses are used as they are"),
+                                  HasSubstr(reason))));
+  }
+
+  TemporaryFolder folder_;
+  ColmapModel model_ = PosedPoints({});
+  PoseRefinementSettings settings_;
+};
+
+TEST_F(FakeColmap, GetsStableOptionsAndAModelOfItsOwn) {
+  Run("echo \"$@\"; ls \"$3\"");
+  std::ifstream log(folder_.path() / "log");
+  const std::string text(std::istreambuf_iterator<char>(log), {});
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("--BundleAdjustment.refine_focal_length 0 "
+                              "--BundleAdjustment.refine_principal_point 0 "
+                              "--BundleAdjustment.refine_extra_params 0\n"),
+                    HasSubstr("cameras.bin\nimages.bin\npoints3D.bin\n")));
+  const ColmapModel written = Written();
+  EXPECT_EQ(written.images.size(), model_.images.size());
+  EXPECT_LT(written.points.size(), model_.points.size());
+}
+
+TEST_F(FakeColmap, MissingIsToldAndCeresTakesOver) {
+  settings_.colmap_path = folder_.path() / "no colmap";
+  const PoseRefinement result = Refine(model_, settings_);
+  EXPECT_TRUE(result.model);
+  EXPECT_EQ(result.record.refiner, "ceres");
+  EXPECT_THAT(result.notes,
+              ElementsAre(AllOf(HasSubstr("WARNING"),
+                                HasSubstr("no colmap"),
+                                HasSubstr("apt install colmap"),
+                                HasSubstr("Ceres"))));
+}
+
+TEST_F(FakeColmap, HangingIsEnded) {
+  ExpectKept(Run("sleep 600"), "not done after 1.0 s");
+}
+
+TEST_F(FakeColmap, HangingInHelpIsEnded) {
+  ExpectKept(Run("exit 0", "sleep 600"), "not done after 1.0 s");
+}
+
+TEST_F(FakeColmap, CrashingIsTold) {
+  ExpectKept(Run("echo Check failed; kill -ABRT $$"), "signal 6");
+  ExpectKept(Run("exit 134"), "exit code 134");
+  ExpectKept(Run("exit 1"), "see bundle_adjuster.log");
+}
+
+TEST_F(FakeColmap, WritingNothingIsTold) {
+  ExpectKept(Run("exit 0"), "no model that can be read");
+}
+
+TEST_F(FakeColmap, WritingNonsenseIsTold) {
+  ExpectKept(Run("for f in cameras images points3D; do head -c 5000 "
+                 "/dev/urandom > \"$5\"/$f.bin; done"),
+             "no model that can be read");
+}
+
+TEST_F(FakeColmap, WritingAnotherModelIsTold) {
+  ColmapModel fewer = Written();
+  fewer.images.pop_back();
+  for (ColmapPoint3D& point : fewer.points) point.track.clear();
+  ExpectKept(Run(Copy(fewer, "fewer")), "other images or cameras");
+  ColmapModel renamed = Written();
+  std::swap(renamed.images[0].name, renamed.images[1].name);
+  ExpectKept(Run(Copy(renamed, "renamed")), "other images or cameras");
+}
+
+TEST_F(FakeColmap, WritingPosesThatAreNoBetterChangesNothing) {
+  ExpectKept(Run("cp \"$3\"/*.bin \"$5\""), "nothing to gain");
+}
+
+TEST_F(FakeColmap, MovingACameraImplausiblyIsRefused) {
+  ColmapModel moved = PosedPoints({});
+  const ColmapModel written = Written();
+  for (std::size_t i = 0; i < moved.images.size(); ++i) {
+    moved.images[i].image_id = written.images[i].image_id;
+    moved.images[i].camera_id = 1;
+    moved.images[i].name = written.images[i].name;
+    moved.images[i].points2D = written.images[i].points2D;
+  }
+  moved.cameras = written.cameras;
+  moved.points = written.points;
+  EXPECT_TRUE(Run(Copy(moved, "good")).model);  // the true poses
+  moved.images[2].cam_from_world.translation.x() += 1;
+  ExpectKept(Run(Copy(moved, "moved")), "px");
+}
+
+TEST_F(FakeColmap, MovingAndScalingTheWorldIsUndone) {
+  Similarity3 moved;
+  moved.scale = 1 / 967.36;
+  moved.rotation = Eigen::Quaterniond(0.3, -0.5, 0.1, 0.8).normalized();
+  moved.translation = {-30, 4, 1000};
+  const ColmapModel truth = PosedPoints({});
+  ColmapModel model = Written();
+  for (std::size_t i = 0; i < model.images.size(); ++i) {
+    model.images[i].cam_from_world =
+        MovePose(moved, truth.images[i].cam_from_world);
+  }
+  for (ColmapPoint3D& point : model.points) {
+    point.position = moved * point.position;
+  }
+  const PoseRefinement result = Run(Copy(model, "scaled"));
+  ASSERT_TRUE(result.model) << result.record.reason;
+  EXPECT_NEAR(result.record.scale_removed, moved.scale, 1e-3 * moved.scale);
+  EXPECT_EQ(result.record.colmap_version, "3.8");
+  const auto left = AlignPoses(PosesOf(*result.model), PosesOf(model_));
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->scale, 1, 1e-9);
+  EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 1e-3);
+}
+
+}  // namespace
+}  // namespace curvix
