@@ -34,20 +34,24 @@ std::vector<ViewIndex> IndexViews(const SketchInput& input) {
   return indices;
 }
 
-// The nearest views in direction, with their weights.
+// The nearest views in direction, nearest first.
+std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps) {
+  std::sort(overlaps.begin(),
+            overlaps.end(),
+            [](const ViewOverlap& a, const ViewOverlap& b) {
+              return std::pair(a.ray_angle_rad, a.other) <
+                     std::pair(b.ray_angle_rad, b.other);
+            });
+  overlaps.resize(std::min(overlaps.size(), kMaxNumNeighbors));
+  return overlaps;
+}
+
+// The weights of the nearest views' votes.
 std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
     const std::vector<std::vector<ViewOverlap>>& overlaps) {
   std::vector<std::vector<ViewNeighbor>> neighbors(overlaps.size());
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
-    std::vector<ViewOverlap> nearest = overlaps[i];
-    std::sort(nearest.begin(),
-              nearest.end(),
-              [](const ViewOverlap& a, const ViewOverlap& b) {
-                return std::pair(a.ray_angle_rad, a.other) <
-                       std::pair(b.ray_angle_rad, b.other);
-              });
-    nearest.resize(std::min(nearest.size(), kMaxNumNeighbors));
-    for (const ViewOverlap& overlap : nearest) {
+    for (const ViewOverlap& overlap : NearestInDirection(overlaps[i])) {
       const double r = RadToDeg(overlap.ray_angle_rad) / kNeighborAngleDeg;
       neighbors[i].push_back({overlap.other, std::exp(-0.5 * r * r)});
     }
@@ -63,6 +67,12 @@ struct H1Result {
   std::int64_t rivals = 0;
 };
 
+// A partner of an H1 view, and the views to ask first about their hypotheses.
+struct Partner {
+  HypothesisViews pair;
+  std::vector<std::int32_t> first_views;  // ascending
+};
+
 class ViewSketcher {
  public:
   explicit ViewSketcher(const SketchInput& input)
@@ -72,8 +82,8 @@ class ViewSketcher {
         sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {}
 
   // The partners of view h1, ready for pairing.
-  std::vector<HypothesisViews> Partners(int h1) const {
-    std::vector<HypothesisViews> partners;
+  std::vector<Partner> Partners(int h1) const {
+    std::vector<Partner> partners;
     const auto i = static_cast<std::size_t>(h1);
     for (const int h2 :
          SelectPartners(input_.overlaps[i], input_.options.hypotheses)) {
@@ -82,18 +92,18 @@ class ViewSketcher {
                                         input_.views[j],
                                         input_.edge_maps[j].edges,
                                         input_.options);
-      if (pair) partners.push_back(*std::move(pair));
+      if (pair) partners.push_back({*std::move(pair), FirstViews(h1, h2)});
     }
     return partners;
   }
 
   H1Result Sketch(const Edge2d& edge1,
-                  const std::vector<HypothesisViews>& partners) const {
+                  const std::vector<Partner>& partners) const {
     H1Result result;
-    for (const HypothesisViews& pair : partners) {
-      for (const Hypothesis& hypothesis : pair.Hypothesise(edge1)) {
+    for (const Partner& partner : partners) {
+      for (const Hypothesis& hypothesis : partner.pair.Hypothesise(edge1)) {
         ++result.hypotheses;
-        auto tracked = Track(hypothesis, pair);
+        auto tracked = Track(hypothesis, partner);
         if (!tracked) {
           ++result.unsupported;
         } else if (!IsKnown(*tracked, result.tracked)) {
@@ -106,15 +116,33 @@ class ViewSketcher {
   }
 
  private:
+  // Both views and those next to them in direction.
+  std::vector<std::int32_t> FirstViews(int h1, int h2) const {
+    std::vector<std::int32_t> first = {h1, h2};
+    for (const int view_idx : {h1, h2}) {
+      for (const ViewNeighbor& neighbor :
+           neighbors_[static_cast<std::size_t>(view_idx)]) {
+        first.push_back(neighbor.view_idx);
+      }
+    }
+    std::sort(first.begin(), first.end());
+    first.erase(std::unique(first.begin(), first.end()), first.end());
+    return first;
+  }
+
   std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
-                                   const HypothesisViews& pair) const {
+                                   const Partner& partner) const {
     const EdgeEstimate start =
         AdjustEdge(hypothesis.edge,
-                   {MeasurePlane(pair.h1(), hypothesis.edge1),
-                    MeasurePlane(pair.h2(), hypothesis.edge2)},
+                   {MeasurePlane(partner.pair.h1(), hypothesis.edge1),
+                    MeasurePlane(partner.pair.h2(), hypothesis.edge2)},
                    sigma_px_);
-    return TrackSupport(
-        start, indices_, neighbors_, sigma_px_, input_.options.validation);
+    return TrackSupport(start,
+                        indices_,
+                        neighbors_,
+                        partner.first_views,
+                        sigma_px_,
+                        input_.options.validation);
   }
 
   // Hypotheses from several partners end at the same 3D edge.

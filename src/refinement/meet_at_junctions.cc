@@ -29,6 +29,7 @@ struct CurveEnd {
   Eigen::Vector3d direction;  // unit, out of the curve
   Eigen::Vector3d origin;     // on the line, next to the last sample
   double pixel = 0;           // world units per pixel
+  double length = 0;          // of the fitted samples, world units
 };
 
 // The direction in which points scatter most.
@@ -65,6 +66,7 @@ std::optional<CurveEnd> FitEnd(const Curve& curve,
     if (along > kFittedPx * end.pixel) break;
     if (along < kRoundedPx * end.pixel) continue;
     fitted.push_back(sample(k).position);
+    end.length = along;
     mean += sample(k).position;
   }
   if (fitted.size() < kMinNumFitted) return std::nullopt;
@@ -122,7 +124,9 @@ std::optional<double> GapAt(const std::vector<CurveEnd>& ends,
     const CurveEnd& end = ends[i];
     const Eigen::Vector3d offset = point - end.origin;
     const double ahead = offset.dot(end.direction);
-    if (std::abs(ahead) > reach_px * end.pixel) return std::nullopt;
+    if (std::abs(ahead) > std::min(reach_px * end.pixel, end.length)) {
+      return std::nullopt;
+    }
     gap = std::max(gap, (offset - ahead * end.direction).norm() / end.pixel);
   }
   return gap;

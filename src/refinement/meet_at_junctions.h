@@ -15,12 +15,12 @@ namespace curvix {
 // corners by its own width, so the last pixels before one are missing or bent:
 // each open end is continued along the line fitted to the samples 2.5 to 12 px
 // before it. Ends whose lines pass each other within
-// options.max_junction_gap_px, at most options.junction_reach_px ahead of both
-// and at more than 20 degrees, form a junction: the point nearest to all its
-// lines. The curves are cut 2.5 px before their ends and carried on to it:
-// samples of one junction are equal to the last bit. Junctions are formed by
-// rising gap, ties by the order of curves; an end belongs to one junction.
-// Pixels as in pixel_size.h.
+// options.max_junction_gap_px, at most options.junction_reach_px and the length
+// of the fitted samples ahead of both and at more than 20 degrees, form a
+// junction: the point nearest to all its lines. The curves are cut 2.5 px
+// before their ends and carried on to it: samples of one junction are equal to
+// the last bit. Junctions are formed by rising gap, ties by the order of
+// curves; an end belongs to one junction. Pixels as in pixel_size.h.
 std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
                                    const std::vector<PosedView>& views,
                                    const CurveRefinementOptions& options);

@@ -2,8 +2,6 @@
 // Paper: none (beyond it).
 #include "validation/evidence.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
@@ -42,41 +40,17 @@ double Evidence(const Votes& votes,
   double evidence = 0;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     if (!votes[i]) continue;
-    double sum = votes[i]->vote;
+    double sum = *votes[i];
     double weights = 1;
     for (const ViewNeighbor& neighbor : neighbors[i]) {
       const auto& vote = votes[static_cast<std::size_t>(neighbor.view_idx)];
       if (!vote) continue;
-      sum += neighbor.weight * vote->vote;
+      sum += neighbor.weight * *vote;
       weights += neighbor.weight;
     }
     if (sum > 0) evidence += sum / weights;
   }
   return evidence;
-}
-
-double InformationShare(
-    const Votes& votes,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors) {
-  Eigen::Matrix2d told = Eigen::Matrix2d::Zero();
-  Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < votes.size(); ++i) {
-    if (!votes[i]) continue;
-    const Eigen::Matrix2d information =
-        votes[i]->gradient * votes[i]->gradient.transpose();
-    double share = votes[i]->weight;
-    told += share * information;
-    for (const ViewNeighbor& neighbor : neighbors[i]) {
-      const auto& vote = votes[static_cast<std::size_t>(neighbor.view_idx)];
-      if (vote) share = std::max(share, neighbor.weight * vote->weight);
-    }
-    expected += share * information;
-  }
-  if (!(expected.determinant() > 0)) return 0;
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(
-             told, expected, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
 }
 
 }  // namespace curvix

@@ -17,7 +17,6 @@
 // averages: regions of support count, scattered support cancels.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -43,29 +42,10 @@ double VoteWithSupport(const SupportFit& fit, double density);
 // The vote of a view that ought to show the edge and does not.
 double VoteWithoutSupport();
 
-// What one view contributes.
-struct ViewVote {
-  double vote = 0;  // of one of the above
-  // Gradient of the distance in this view by the position of the 3D edge on its
-  // two axes across the tangent, pixels per world unit.
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  double weight = 0;  // of the supporting edge, 0..1; 0 without
-};
-using Votes = std::vector<std::optional<ViewVote>>;  // by view; none: not asked
+using Votes = std::vector<std::optional<double>>;  // by view; none: not asked
 
 // The sum over regions of support; `votes` and `neighbors` by view index. >= 0.
 double Evidence(const Votes& votes,
                 const std::vector<std::vector<ViewNeighbor>>& neighbors);
-
-// Which share of what the views around its supporters should tell about the
-// place of the edge its supporters do tell, in the direction in which they tell
-// least; 0..1. A view without support counts as much as its nearest supporting
-// neighbour weighs. A real edge keeps most. The silhouette of a round body
-// looks like a curve from directions in one plane only: its supporters leave
-// the depth in that plane open, views next to them out of the plane could tell
-// it, and show no edge.
-double InformationShare(
-    const Votes& votes,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors);
 
 }  // namespace curvix

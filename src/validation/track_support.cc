@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/angles.h"
 #include "geometry/image_edge.h"
@@ -14,7 +15,8 @@ namespace {
 constexpr int kNumRounds = 4;
 // Views in which the estimate may be off by more are not asked yet. Pixels.
 constexpr double kMaxPredictedSigmaPx = 0.7;
-constexpr int kFewestAfterFirstRound = 4;
+// The hypothesis views and two more.
+constexpr int kFewestSupports = 4;
 constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 
@@ -57,20 +59,17 @@ void AskView(const EdgeEstimate& estimate,
   const Gate gate{std::min(options.max_distance_px, kGateSigmas * expected),
                   kMaxTangentialPx,
                   std::cos(DegToRad(options.max_angle_deg))};
-  ViewVote& vote = support.votes[static_cast<std::size_t>(view_idx)].emplace();
-  vote.gradient = gradient;
+  std::optional<double>& vote =
+      support.votes[static_cast<std::size_t>(view_idx)];
   const auto nearest = NearestEdge(view, *projected, gate);
   if (!nearest) {
-    vote.vote = VoteWithoutSupport();
+    vote = VoteWithoutSupport();
     return;
   }
   const ImageEdge edge =
       ToImageEdge(view.edges->edges[static_cast<std::size_t>(*nearest)]);
-  const SupportFit fit = Fit(*projected, edge, expected);
-  const double r = fit.distance_px / fit.sigma_px;
-  vote.weight = 1 / (1 + r * r);
-  vote.vote = VoteWithSupport(
-      fit,
+  vote = VoteWithSupport(
+      Fit(*projected, edge, expected),
       view.density.Density(projected->position, AngleOf(projected->tangent)));
   support.refs.push_back({view_idx, *nearest});
   support.measurements.push_back(MeasurePlane(*view.view, edge));
@@ -78,19 +77,26 @@ void AskView(const EdgeEstimate& estimate,
 
 Support FindSupport(const EdgeEstimate& estimate,
                     const std::vector<ViewIndex>& views,
+                    const std::vector<std::int32_t>& asked,
                     double sigma_px,
                     const ValidationOptions& options) {
   Support support;
   support.votes.resize(views.size());
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  for (const std::int32_t view_idx : asked) {
     AskView(estimate,
-            views[i],
-            static_cast<std::int32_t>(i),
+            views[static_cast<std::size_t>(view_idx)],
+            view_idx,
             sigma_px,
             options,
             support);
   }
   return support;
+}
+
+std::vector<std::int32_t> AllOf(const std::vector<ViewIndex>& views) {
+  std::vector<std::int32_t> all(views.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 }  // namespace
@@ -99,20 +105,25 @@ std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
     const std::vector<std::vector<ViewNeighbor>>& neighbors,
+    const std::vector<std::int32_t>& first_views,
     double sigma_px,
     const ValidationOptions& options) {
   TrackedEdge tracked;
   tracked.estimate = start;
   Support support;
   for (int round = 0; round < kNumRounds; ++round) {
-    support = FindSupport(tracked.estimate, views, sigma_px, options);
-    if (static_cast<int>(support.refs.size()) < kFewestAfterFirstRound) {
+    support = FindSupport(tracked.estimate,
+                          views,
+                          round == 0 ? first_views : AllOf(views),
+                          sigma_px,
+                          options);
+    if (static_cast<int>(support.refs.size()) < kFewestSupports) {
       return std::nullopt;
     }
+    // Settled: further rounds would ask the same views.
+    if (round > 0 && tracked.support == support.refs) break;
     tracked.estimate =
         AdjustEdge(tracked.estimate.edge, support.measurements, sigma_px);
-    // Settled: further rounds would ask the same views.
-    if (tracked.support == support.refs) break;
     tracked.support = support.refs;
   }
   if (static_cast<int>(tracked.support.size()) <
@@ -120,7 +131,6 @@ std::optional<TrackedEdge> TrackSupport(
     return std::nullopt;
   }
   tracked.evidence = Evidence(support.votes, neighbors);
-  tracked.information_share = InformationShare(support.votes, neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;
   return tracked;
 }

@@ -7,6 +7,7 @@
 #include <curvix/edges.h>
 #include <curvix/options.h>
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -21,21 +22,23 @@ struct TrackedEdge {
   EdgeEstimate estimate;
   std::vector<EdgeRef> support;  // at most one per view, ascending
   double evidence = 0;           // Evidence()
-  double information_share = 0;  // InformationShare()
 };
 
-// Looks for the support of `start` in all views. Two rays fix a 3D edge to a
-// few tenths of a pixel in their own views and to several pixels in a view at a
-// right angle; so each round asks the views in which the estimate's predicted
-// standard deviation is below a bound, takes the nearest edge within the gate,
-// and adjusts the estimate to all support found. nullopt as soon as fewer than
-// two views besides the hypothesis views, in the end fewer than
-// options.min_num_support_views, support it, or the evidence is below
+// Looks for the support of `start`. Two rays fix a 3D edge to a few tenths of a
+// pixel in their own views and to several pixels in a view at a right angle; so
+// each round asks the views in which the estimate's predicted standard
+// deviation is below a bound, takes the nearest edge within the gate, and
+// adjusts the estimate to all support found. The first round asks `first_views`
+// only, the hypothesis views and those next to them: most hypotheses are wrong,
+// and that shows there. nullopt as soon as fewer than two views besides the
+// hypothesis views support it, or when in the end fewer than
+// options.min_num_support_views do or the evidence is below
 // options.min_evidence. `sigma_px`: standard deviation of an edge's location.
 std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
     const std::vector<std::vector<ViewNeighbor>>& neighbors,
+    const std::vector<std::int32_t>& first_views,
     double sigma_px,
     const ValidationOptions& options);
 
