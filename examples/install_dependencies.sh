@@ -17,7 +17,7 @@ packages=(
 case "${1:-}" in
   "") ;;
   --tests)
-    packages+=(libbenchmark-dev libgmock-dev libgtest-dev
+    packages+=(colmap libbenchmark-dev libgmock-dev libgtest-dev
       python3-numpy python3-scipy)
     ;;
   *)

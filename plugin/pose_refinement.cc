@@ -16,11 +16,6 @@ constexpr char kStage[] = "refine_poses";
 
 Status Cancelled() { return {StatusCode::kCancelled, "interrupted"}; }
 
-bool IsFinal(const Status& status) {
-  return status.code() == StatusCode::kCancelled ||
-         status.code() == StatusCode::kInvalidArgument;
-}
-
 std::vector<Rigid3> Poses(const Bundle& bundle) {
   std::vector<Rigid3> poses;
   for (const BundleView& view : bundle.views) {
@@ -109,10 +104,14 @@ void Keep(const std::string& reason,
   result->notes.push_back(sentence + reason + ".");
 }
 
-void KeepAfterFailure(const std::string& reason, PoseRefinement* result) {
+void KeepAfterFailure(const std::string& reason,
+                      const std::filesystem::path& log_path,
+                      PoseRefinement* result) {
   const PoseRefinementRecord& record = result->record;
+  const bool has_log =
+      record.refiner == "colmap" && std::filesystem::exists(log_path);
   const std::string log =
-      record.refiner == "colmap" ? "; see bundle_adjuster.log" : "";
+      has_log ? "; see " + log_path.filename().string() : "";
   Keep(reason + log,
        "WARNING: Poses are used as they are: " + RefinerName(record) +
            " failed: ",
@@ -212,13 +211,14 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   std::vector<BundlePoint> check_points = TakeCheckPoints(&input);
   Result<Bundle> refined =
       Refiner(settings, log_path, progress, &result).Run(input);
-  if (!refined.ok() && IsFinal(refined.status())) return refined.status();
   if (!refined.ok()) {
-    KeepAfterFailure(refined.status().message(), &result);
+    if (refined.status().code() == StatusCode::kCancelled) return Cancelled();
+    KeepAfterFailure(refined.status().message(), log_path, &result);
     return result;
   }
   if (!AlignTo(input, &*refined, &record.scale_removed)) {
-    KeepAfterFailure("its cameras do not resemble the input", &result);
+    KeepAfterFailure(
+        "its cameras do not resemble the input", log_path, &result);
     return result;
   }
   Conclude(model, input, *std::move(refined), std::move(check_points), &result);

@@ -66,7 +66,7 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings);
 // in any way, and a model without points, are told in `notes` and leave the
 // poses as they were; without COLMAP, our own takes over. COLMAP's output goes
 // to `log_path`. `progress` is called as stage "refine_poses". kCancelled when
-// it returns false; kInvalidArgument when there is no room for temporary files.
+// it returns false.
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,
                                    const PoseRefinementSettings& settings,
                                    const std::filesystem::path& log_path,

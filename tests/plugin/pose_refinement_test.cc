@@ -295,7 +295,7 @@ TEST_F(FakeColmap, HangingInHelpIsEnded) {
 TEST_F(FakeColmap, CrashingIsTold) {
   ExpectKept(Run("echo Check failed; kill -ABRT $$"), "signal 6");
   ExpectKept(Run("exit 134"), "exit code 134");
-  ExpectKept(Run("exit 1"), "see bundle_adjuster.log");
+  ExpectKept(Run("exit 1"), "see log");
 }
 
 TEST_F(FakeColmap, WritingNothingIsTold) {

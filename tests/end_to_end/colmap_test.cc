@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The installed COLMAP makes a model of synthetic photographs; the program
+// refines its disturbed poses. Skipped where COLMAP is not installed.
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/child_process.h"
+#include "plugin/similarity.h"
+#include "plugin/synthesize.h"
+#include "tests/plugin/posed_points.h"
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+// The exit code of `command`, run by a shell, and what it says.
+int Execute(const std::string& command, std::string* said) {
+  said->clear();
+  FILE* const pipe = popen((command + " 2>&1").c_str(), "r");
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
+    *said += static_cast<char>(c);
+  }
+  const int status = pclose(pipe);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+class InstalledColmap : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (FindInPath("colmap").empty()) {
+      GTEST_SKIP() << "COLMAP is not installed";
+    }
+    SyntheticOptions options;
+    options.num_views = 36;
+    options.width = 400;
+    options.height = 400;
+    options.texture = 200;
+    const Status status = Synthesize(options, folder_.path());
+    ASSERT_TRUE(status.ok()) << status.message();
+    fs::create_directories(folder_.path() / "true");
+    // One thread: ids in the database in the order of the names, as ours are.
+    Colmap(
+        "feature_extractor --database_path db --image_path images "
+        "--ImageReader.single_camera 1 --ImageReader.camera_model PINHOLE "
+        "--SiftExtraction.use_gpu 0 --SiftExtraction.num_threads 1");
+    Colmap(
+        "exhaustive_matcher --database_path db --SiftMatching.use_gpu 0 "
+        "--SiftMatching.max_num_trials 100");
+    Colmap(
+        "point_triangulator --database_path db --image_path images "
+        "--input_path sparse/0 --output_path true");
+    const Result<ColmapModel> truth = ReadColmapModel(folder_.path() / "true");
+    ASSERT_TRUE(truth.ok()) << truth.status().message();
+    ASSERT_GE(truth->points.size(), 200u);
+    truth_ = *truth;
+  }
+
+  // Runs colmap in the folder of the test.
+  std::string Colmap(const std::string& arguments) {
+    std::string said;
+    EXPECT_EQ(Execute("cd '" + folder_.path().string() +
+                          "' && QT_QPA_PLATFORM=offscreen colmap " + arguments,
+                      &said),
+              0)
+        << said;
+    return said;
+  }
+
+  // Runs the program on the model in sparse/1, with few hypotheses.
+  int Curvix(const std::string& more, std::string* said) {
+    const std::string folder = folder_.path().string();
+    return Execute(std::string("'") + CURVIX_PROGRAM + "' --workspace_path '" +
+                       folder + "' --input_path '" + folder +
+                       "/sparse/1' --output_path '" + folder +
+                       "/out' --EdgeDetection.min_gradient 20 "
+                       "--Hypotheses.num_partners 1 " +
+                       more,
+                   said);
+  }
+
+  TemporaryFolder folder_;
+  ColmapModel truth_;
+};
+
+TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
+  ColmapModel model = truth_;
+  DisturbPoses(1.5, 5, &model);
+  const fs::path input = folder_.path() / "sparse/1";
+  ASSERT_TRUE(WriteColmapModel(model, input, ColmapFormat::kBinary).ok());
+  const fs::path output = folder_.path() / "out";
+  std::string said;
+  ASSERT_EQ(Curvix("", &said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("Refine poses ... COLMAP "));
+
+  std::ifstream file(output / "report.json");
+  const auto report = nlohmann::json::parse(file)["pose_refinement"];
+  EXPECT_TRUE(report["accepted"]) << report;
+  EXPECT_LT(report["error_after"]["mean_px"], report["error_before"]["mean_px"])
+      << report;
+  EXPECT_TRUE(fs::exists(output / "bundle_adjuster.log"));
+
+  const Result<ColmapModel> refined = ReadColmapModel(output / "sparse");
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  EXPECT_THAT(Colmap("model_analyzer --path out/sparse"),
+              HasSubstr(std::to_string(refined->points.size())));
+  const auto left = AlignPoses(PosesOf(*refined), PosesOf(model));
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->scale, 1, 1e-6);
+  EXPECT_LT(MedianShift(*refined, truth_), 0.75 * MedianShift(model, truth_));
+
+  const fs::path broken =
+      folder_.Write("broken/colmap", "#!/bin/sh\necho Aborted\nexit 134\n");
+  fs::permissions(broken, fs::perms::owner_all);
+  EXPECT_EQ(Curvix("--colmap_path '" + broken.string() + "'", &said), 0);
+  EXPECT_THAT(said, HasSubstr("WARNING: Poses are used as they are"));
+  EXPECT_FALSE(fs::exists(output / "sparse"));  // of the run before
+}
+
+}  // namespace
+}  // namespace curvix
