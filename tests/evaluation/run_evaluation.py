@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs colmap_curvix on scenes with known curves and prints the tables of
+docs/evaluation.md.
+
+usage: run_evaluation.py [--program build/bin/colmap_curvix] [--data FOLDER]
+                         [--tables A,B,C] [--scenes WORD,...] [--write FILE]
+
+A  the default and --preset paper, scene by scene
+B  one departure from the paper at a time taken back, means over two scenes
+C  scenes without known curves: time, memory and numbers only
+
+A scene is a folder below FOLDER ($CURVIX_DATA, else ../shared/data beside the
+source tree) that holds sparse/ and images/, and gt.txt where the curves are
+known. --scenes keeps those whose path contains a WORD. --write puts the tables
+into FILE, between '<!-- table A -->' and '<!-- end of table A -->' and so on.
+Needs Python 3.9 and nothing else. Data is only read.
+"""
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import platform
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+UNIT_MM = '1000'  # one world unit of the scenes with known curves
+
+SCORES = [  # key of `evaluate --json`, heading, decimals
+    ('F5', 'F5', 1), ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('Rv5', 'Rv5', 1),
+    ('acc', 'acc mm', 2), ('compv', 'compv mm', 2),
+    ('tangent', 'tangent °', 2), ('dup', 'dup', 2), ('whole', 'whole', 0),
+    ('pure', 'pure', 0)]
+
+UNDO = [  # number in docs/paper_map.md, what is taken back, flags
+    ('–', 'nothing', []),
+    ('1 to 5', 'every view, tracked support, evidence',
+     ['--Hypotheses.view_selection', 'unused_edges',
+      '--Validation.support_test', 'wedges']),
+    ('4', 'evidence of an edge', ['--Validation.min_evidence', '0']),
+    ('6', 'no alignment', ['--Alignment.num_iterations', '1000']),
+    ('13', 'thinning', ['--Connectivity.sample_spacing_px', '0']),
+    ('15', 'tracks drawn once', ['--Connectivity.max_repeat_distance_px', '0']),
+    ('16', 'joins', ['--Connectivity.max_gap_px', '0']),
+    ('17', 'corner splits', ['--Connectivity.max_corner_deg', '180']),
+    ('18', 'selection of curves', ['--CurveRefinement.min_evidence', '0']),
+    ('19', 'smoothing', ['--CurveRefinement.smoothing_px', '0']),
+    ('20', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
+    ('18 to 20', 'all refinement', ['--CurveRefinement.enabled', '0'])]
+UNDO_SCENES = ['00000006', 'l_bracket']
+
+
+def find_scenes(data, words):
+    """[(name, folder)]: workspaces below `data`, in order."""
+    scenes = []
+    for sparse in sorted(data.rglob('sparse')):
+        name = str(sparse.parent.relative_to(data))
+        if (sparse.parent / 'images').is_dir() and (
+                not words or any(word in name for word in words)):
+            scenes.append((name, sparse.parent))
+    return scenes
+
+
+def run_program(program, scene, output, flags):
+    """Exit code, CPU seconds and peak MB."""
+    with open(output.parent / 'log.txt', 'w') as log:
+        process = subprocess.Popen(
+            [program, '--workspace_path', scene, '--output_path', output, *flags],
+            stdout=log, stderr=log)
+        _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return (process.returncode, usage.ru_utime + usage.ru_stime,
+            usage.ru_maxrss / 1024)
+
+
+def evaluate(program, scene, flags):
+    """The scores of one run; {} where the program fails."""
+    with tempfile.TemporaryDirectory() as folder:
+        output = pathlib.Path(folder) / 'curvix'
+        code, cpu, memory = run_program(program, scene, output, flags)
+        print(f'  {scene.name} {" ".join(flags)}: exit code {code}, '
+              f'{cpu:.0f} s', file=sys.stderr, flush=True)
+        scores = {'cpu': cpu, 'mb': memory, 'code': code}
+        if code != 0:
+            return scores
+        scores['report'] = json.loads((output / 'report.json').read_text())
+        if (scene / 'gt.txt').exists():
+            scores.update(json.loads(subprocess.check_output(
+                [program, 'evaluate', '--json', '--unit_mm', UNIT_MM,
+                 '--curves_path', output / 'curves.ply',
+                 '--truth_path', scene / 'gt.txt'])))
+        return scores
+
+
+def cell(value, decimals):
+    return '–' if value is None else f'{value:.{decimals}f}'
+
+
+def score_cells(scores):
+    cells = [cell(scores.get(key), decimals) for key, _, decimals in SCORES]
+    cells.append(f'{cell(scores.get("curves"), 0)} / '
+                 f'{cell(scores.get("gt_curves"), 0)}')
+    return cells + [cell(scores['cpu'], 0), cell(scores['mb'], 0)]
+
+
+def score_headings():
+    return [heading for _, heading, _ in SCORES] + [
+        'curves / true', 'CPU s', 'MB']
+
+
+def table(headings, rows):
+    lines = [headings, ['---'] * len(headings), *rows]
+    return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
+
+
+def mean(all_scores):
+    """Means of each score over those runs that have it."""
+    result = {}
+    for key in ['cpu', 'mb', 'curves', 'gt_curves'] + [s[0] for s in SCORES]:
+        values = [s[key] for s in all_scores if s.get(key) is not None]
+        result[key] = sum(values) / len(values) if values else None
+    return result
+
+
+def table_a(program, scenes):
+    rows = []
+    presets = [('default', []), ('paper', ['--preset', 'paper'])]
+    results = {name: [] for name, _ in presets}
+    for name, scene in scenes:
+        for preset, flags in presets:
+            scores = evaluate(program, scene, flags)
+            results[preset].append(scores)
+            rows.append([name, preset, *score_cells(scores)])
+    for preset, _ in presets:
+        rows.append(['**mean**', preset, *score_cells(mean(results[preset]))])
+    return table(['scene', 'preset', *score_headings()], rows)
+
+
+def table_b(program, scenes):
+    scenes = [s for s in scenes if s[1].name in UNDO_SCENES]
+    rows = []
+    for number, what, flags in UNDO:
+        scores = mean([evaluate(program, s, flags) for _, s in scenes])
+        rows.append([number, what, *score_cells(scores)])
+    return table(['row', 'taken back', *score_headings()], rows)
+
+
+def table_c(program, scenes):
+    rows = []
+    for name, scene in scenes:
+        scores = evaluate(program, scene, [])
+        report = scores.get('report', {'input': {}, 'result': {}})
+        counts = [report['input'].get('num_views'),
+                  report['result'].get('num_edges_2d'),
+                  report['result'].get('num_edges_3d'),
+                  report['result'].get('num_curves')]
+        rows.append([name, str(scores['code']), *(cell(c, 0) for c in counts),
+                     cell(scores['cpu'], 0), cell(scores['mb'], 0)])
+    return table(['scene', 'exit code', 'views', '2D edges', '3D edges',
+                  'curves', 'CPU s', 'MB'], rows)
+
+
+def origin():
+    """When, which commit and on what: the line below each table."""
+    commit = subprocess.run(['git', '-C', ROOT, 'rev-parse', '--short', 'HEAD'],
+                            capture_output=True, text=True).stdout.strip()
+    return (f'{datetime.date.today()}, commit {commit or "unknown"}, '
+            f'{platform.machine()}, {os.cpu_count()} cores.')
+
+
+def write(path, letter, text):
+    begin, end = f'<!-- table {letter} -->', f'<!-- end of table {letter} -->'
+    old = path.read_text()
+    head, rest = old.split(begin, 1)
+    path.write_text(head + begin + '\n' + text + '\n' + end
+                    + rest.split(end, 1)[1])
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument('--program', type=pathlib.Path,
+                        default=ROOT / 'build/bin/colmap_curvix')
+    parser.add_argument('--data', type=pathlib.Path, default=os.environ.get(
+        'CURVIX_DATA', ROOT.parent / 'shared/data'))
+    parser.add_argument('--tables', default='A,B,C')
+    parser.add_argument('--scenes', default='')
+    parser.add_argument('--write', type=pathlib.Path)
+    arguments = parser.parse_args()
+    scenes = find_scenes(pathlib.Path(arguments.data),
+                         [w for w in arguments.scenes.split(',') if w])
+    if not scenes:
+        raise SystemExit(f'There are no scenes in {arguments.data}')
+    known = [s for s in scenes if (s[1] / 'gt.txt').exists()]
+    others = [s for s in scenes if s not in known]
+    makers = {'A': (table_a, known), 'B': (table_b, known),
+              'C': (table_c, others)}
+    for letter in arguments.tables.split(','):
+        make, its_scenes = makers[letter]
+        text = make(arguments.program, its_scenes) + '\n\n' + origin()
+        print(text, flush=True)
+        if arguments.write:
+            write(arguments.write, letter, text)
+
+
+if __name__ == '__main__':
+    main()
