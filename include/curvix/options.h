@@ -157,6 +157,9 @@ struct CurveRefinementOptions {
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
   // smooths nothing.
   double smoothing_px = 2.5;
+  // Longest gap closed between ends that continue each other at their own
+  // curvature. Pixels, >= 0; 0 closes none.
+  double max_gap_px = 15.0;
   // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
   double junction_reach_px = 10.0;
   // Largest distance of a continued end from its corner. Pixels, > 0.

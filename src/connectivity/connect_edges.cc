@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "base/check.h"
 #include "base/parallel.h"
-#include "connectivity/end_chains.h"
+#include "model/end_chains.h"
 #include "geometry/pixel_size.h"
 #include "geometry/edge_distances.h"
 

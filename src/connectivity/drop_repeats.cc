@@ -11,7 +11,7 @@
 
 #include "base/angles.h"
 #include "geometry/pixel_size.h"
-#include "connectivity/point_tree.h"
+#include "base/point_tree.h"
 #include "connectivity/trace_curves.h"
 #include "geometry/edge_distances.h"
 

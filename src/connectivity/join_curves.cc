@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "base/angles.h"
-#include "connectivity/end_chains.h"
+#include "base/point_tree.h"
 #include "geometry/pixel_size.h"
-#include "connectivity/point_tree.h"
+#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -84,25 +83,6 @@ std::vector<EndPair> FindPairs(const std::vector<CurveEnd>& ends,
   return pairs;
 }
 
-Curve Reversed(Curve curve) {
-  std::reverse(curve.samples.begin(), curve.samples.end());
-  for (CurveSample& sample : curve.samples) sample.tangent = -sample.tangent;
-  return curve;
-}
-
-Curve Concatenated(const EndChain& chain, std::vector<Curve>& curves) {
-  Curve whole;
-  whole.closed = chain.closed || curves[chain.items.front().item].closed;
-  for (const ChainItem& link : chain.items) {
-    Curve part = std::move(curves[link.item]);
-    if (link.flipped) part = Reversed(std::move(part));
-    std::move(part.samples.begin(),
-              part.samples.end(),
-              std::back_inserter(whole.samples));
-  }
-  return whole;
-}
-
 }  // namespace
 
 std::vector<Curve> JoinCurves(std::vector<Curve> curves,
@@ -116,11 +96,7 @@ std::vector<Curve> JoinCurves(std::vector<Curve> curves,
   }
   const EndTies ties =
       TieCheapestFirst(FindPairs(ends, options), curves.size());
-  std::vector<Curve> joined;
-  for (const EndChain& chain : FollowEnds(ties)) {
-    joined.push_back(Concatenated(chain, curves));
-  }
-  return joined;
+  return StringTogether(std::move(curves), ties, {});
 }
 
 }  // namespace curvix

@@ -16,6 +16,9 @@ struct PosedView {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();        // camera, in world
   int width = 0;                                           // pixels
   int height = 0;                                          // pixels
+  // How far the image, freed of its distortion, reaches beyond width and
+  // height.
+  double margin_px = 0;
 
   Eigen::Vector3d InCamera(const Eigen::Vector3d& x) const {
     return rotation * x + translation;
@@ -25,8 +28,8 @@ struct PosedView {
     return (calibration * x_cam).hnormalized();
   }
   bool Contains(const Eigen::Vector2d& pixel) const {
-    return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < width &&
-           pixel.y() < height;
+    return pixel.x() >= -margin_px && pixel.y() >= -margin_px &&
+           pixel.x() < width + margin_px && pixel.y() < height + margin_px;
   }
   // World direction, not normalised, in which `pixel` is seen.
   Eigen::Vector3d Ray(const Eigen::Vector2d& pixel) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "connectivity/end_chains.h"
+#include "model/end_chains.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "connectivity/point_tree.h"
+#include "base/point_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: Sec. 6.
-#include "connectivity/end_chains.h"
+#include "model/end_chains.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "connectivity/point_tree.h"
+#include "base/point_tree.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 6. Curves strung together.
+#pragma once
+
+#include <curvix/curves.h>
+
+#include <functional>
+#include <vector>
+
+#include "model/end_chains.h"
+
+namespace curvix {
+
+// `curve` run through from its end; tangents turn with it.
+Curve Reversed(Curve curve);
+
+// Samples between the last sample of one curve and the first of the next.
+using FillGap = std::function<std::vector<CurveSample>(const CurveSample& from,
+                                                       const CurveSample& to)>;
+
+// One curve per chain of ties between ends (end_chains.h; items are `curves`),
+// in the order of FollowEnds. `fill` (may be empty) is asked for the samples of
+// each gap, that of a closed chain included.
+std::vector<Curve> StringTogether(std::vector<Curve> curves,
+                                  const EndTies& ties,
+                                  const FillGap& fill);
+
+}  // namespace curvix
