@@ -30,10 +30,10 @@ RunRecord Example() {
   curves.curves.resize(2);
   curves.curves[0].closed = true;
   for (const auto& [x, y] : {std::pair(0., 0.), {2., 0.}, {2., 2.}, {0., 2.}}) {
-    curves.curves[0].samples.push_back({{x, y, 0}, {1, 0, 0}, 0, {}});
+    curves.curves[0].samples.push_back({{x, y, 0}, {1, 0, 0}, 0, 0, {}});
   }
-  curves.curves[1].samples = {{{0, 0, 0}, {1, 0, 0}, 0, {}},
-                              {{0, 0, 3}, {1, 0, 0}, 0, {}}};
+  curves.curves[1].samples = {{{0, 0, 0}, {1, 0, 0}, 0, 0, {}},
+                              {{0, 0, 3}, {1, 0, 0}, 0, 0, {}}};
   record.result = SummarizeCurves(curves);
   record.result.num_edges_2d = 171204;
   record.result.num_edges_3d = 5;
