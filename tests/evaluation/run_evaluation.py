@@ -48,8 +48,9 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('17', 'corner splits', ['--Connectivity.max_corner_deg', '180']),
     ('18', 'selection of curves', ['--CurveRefinement.min_evidence', '0']),
     ('19', 'smoothing', ['--CurveRefinement.smoothing_px', '0']),
-    ('20', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
-    ('18 to 20', 'all refinement', ['--CurveRefinement.enabled', '0'])]
+    ('20', 'gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
+    ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
+    ('18 to 21', 'all refinement', ['--CurveRefinement.enabled', '0'])]
 UNDO_SCENES = ['00000006', 'l_bracket']
 
 
