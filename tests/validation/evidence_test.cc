@@ -12,14 +12,7 @@
 namespace curvix {
 namespace {
 
-using Eigen::Vector2d;
 using Neighbors = std::vector<std::vector<ViewNeighbor>>;
-
-ViewVote Vote(double vote,
-              const Vector2d& gradient = {1, 0},
-              double weight = 1) {
-  return {vote, gradient, weight};
-}
 
 // A row of views, each next to the one before and the one after.
 Neighbors Row(std::size_t size, double weight) {
@@ -32,9 +25,7 @@ Neighbors Row(std::size_t size, double weight) {
 }
 
 Votes RowOfVotes(std::initializer_list<double> votes) {
-  Votes row;
-  for (const double vote : votes) row.push_back(Vote(vote));
-  return row;
+  return Votes(votes.begin(), votes.end());
 }
 
 TEST(VoteWithSupport, FallsWithDistanceAngleAndDensity) {
@@ -109,29 +100,6 @@ TEST(Evidence, ForgivesMissingSupportFarFromAllSupporters) {
   const double many =
       Evidence(RowOfVotes({3, 3, 3, -2, -2, -2, -2, -2}), Row(8, 0.9));
   EXPECT_DOUBLE_EQ(many, few);
-}
-
-TEST(InformationShare, IsOneWhereEveryViewSupports) {
-  const Votes votes = {Vote(3, {1, 0}), Vote(3, {0, 1}), Vote(3, {1, 1})};
-  EXPECT_NEAR(InformationShare(votes, Row(3, 0.8)), 1, 1e-12);
-}
-
-TEST(InformationShare, FallsWhereTheViewsThatCouldTellShowNothing) {
-  // Two directions of gradients; along the second only unsupporting neighbours
-  // tell anything.
-  const Votes votes = {Vote(3, {1, 0}),
-                       Vote(-2, {0, 1}, 0),
-                       Vote(3, {1, 0.1}),
-                       Vote(-2, {0, 1}, 0)};
-  EXPECT_LT(InformationShare(votes, Row(4, 0.9)), 0.05);
-  // Not next to a supporter: nothing is expected of them.
-  EXPECT_NEAR(InformationShare(votes, Row(4, 0)), 1, 1e-9);
-}
-
-TEST(InformationShare, IsNothingWithoutTwoDirections) {
-  EXPECT_EQ(InformationShare({}, {}), 0);
-  EXPECT_EQ(InformationShare({Vote(3, {1, 0}), Vote(3, {2, 0})}, Row(2, 0.5)),
-            0);
 }
 
 }  // namespace

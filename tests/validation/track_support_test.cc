@@ -24,6 +24,9 @@ using Eigen::Vector3d;
 constexpr double kSigmaPx = 0.15;
 
 // A tilted line and a circle apart from it, in 16 views.
+// Those of the hypothesis, 0 and 2, and the views next to them.
+const std::vector<std::int32_t> kFirstViews = {0, 1, 2, 3, 15};
+
 class TrackSupportTest : public ::testing::Test {
  protected:
   explicit TrackSupportTest(double noise_px = 0)
@@ -61,7 +64,8 @@ class TrackSupportTest : public ::testing::Test {
 
   std::optional<TrackedEdge> Track(
       const EdgeEstimate& start, const ValidationOptions& options = {}) const {
-    return TrackSupport(start, indices_, neighbors_, kSigmaPx, options);
+    return TrackSupport(
+        start, indices_, neighbors_, kFirstViews, kSigmaPx, options);
   }
 
   const std::vector<TestCurve> curves_ = {
@@ -98,6 +102,13 @@ TEST_F(TrackSupportTest, FindsExactCurvesInEveryView) {
       EXPECT_GT(tracked->evidence, ValidationOptions().min_evidence);
     }
   }
+}
+
+TEST_F(TrackSupportTest, RejectsWhatTheFirstViewsDoNotShow) {
+  const EdgeEstimate start = Start(curves_[0], 1, 0);
+  EXPECT_TRUE(
+      TrackSupport(start, indices_, neighbors_, kFirstViews, kSigmaPx, {}));
+  EXPECT_FALSE(TrackSupport(start, indices_, neighbors_, {0, 2}, kSigmaPx, {}));
 }
 
 TEST_F(TrackSupportTest, ListsOneEdgePerViewInOrder) {
