@@ -5,6 +5,7 @@ docs/evaluation.md.
 
 usage: run_evaluation.py [--program build/bin/colmap_curvix] [--data FOLDER]
                          [--tables A,B,C] [--scenes WORD,...] [--write FILE]
+                         [--commit HASH]
 
 A  the default and --preset paper, scene by scene
 B  one departure from the paper at a time taken back, means over two scenes
@@ -164,10 +165,13 @@ def table_c(program, scenes):
                   'curves', 'CPU s', 'MB'], rows)
 
 
-def origin():
+def current_commit():
+    return subprocess.run(['git', '-C', ROOT, 'rev-parse', '--short', 'HEAD'],
+                          capture_output=True, text=True).stdout.strip()
+
+
+def origin(commit):
     """When, which commit and on what: the line below each table."""
-    commit = subprocess.run(['git', '-C', ROOT, 'rev-parse', '--short', 'HEAD'],
-                            capture_output=True, text=True).stdout.strip()
     return (f'{datetime.date.today()}, commit {commit or "unknown"}, '
             f'{platform.machine()}, {os.cpu_count()} cores.')
 
@@ -187,6 +191,8 @@ def main():
                         default=ROOT / 'build/bin/colmap_curvix')
     parser.add_argument('--data', type=pathlib.Path, default=os.environ.get(
         'CURVIX_DATA', ROOT.parent / 'shared/data'))
+    parser.add_argument('--commit', default=current_commit(),
+                        help='from which the program was built')
     parser.add_argument('--tables', default='A,B,C')
     parser.add_argument('--scenes', default='')
     parser.add_argument('--write', type=pathlib.Path)
@@ -201,7 +207,7 @@ def main():
               'C': (table_c, others)}
     for letter in arguments.tables.split(','):
         make, its_scenes = makers[letter]
-        text = make(arguments.program, its_scenes) + '\n\n' + origin()
+        text = make(arguments.program, its_scenes) + '\n\n' + origin(arguments.commit)
         print(text, flush=True)
         if arguments.write:
             write(arguments.write, letter, text)
