@@ -161,7 +161,7 @@ struct CurveRefinementOptions {
   // curvature. Pixels, >= 0; 0 closes none.
   double max_gap_px = 15.0;
   // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
-  double junction_reach_px = 10.0;
+  double junction_reach_px = 7.0;
   // Largest distance of a continued end from its corner. Pixels, > 0.
   double max_junction_gap_px = 1.0;
 };

@@ -19,6 +19,8 @@ namespace {
 constexpr double kNeighborAngleDeg = 25;
 constexpr std::size_t kMaxNumNeighbors = 4;
 constexpr double kGridCellPx = 4;
+// Times the evidence that is asked for.
+constexpr double kSettledEvidence = 3;
 
 std::vector<ViewIndex> IndexViews(const SketchInput& input) {
   std::vector<ViewIndex> indices(input.views.size());
@@ -101,6 +103,7 @@ class ViewSketcher {
                   const std::vector<Partner>& partners) const {
     H1Result result;
     for (const Partner& partner : partners) {
+      if (IsSettled(result)) break;
       for (const Hypothesis& hypothesis : partner.pair.Hypothesise(edge1)) {
         ++result.hypotheses;
         auto tracked = Track(hypothesis, partner);
@@ -158,6 +161,18 @@ class ViewSketcher {
                                 std::back_inserter(shared));
           return 2 * shared.size() >= edge.support.size();
         });
+  }
+
+  // All views have had their say about what is tracked already, so another
+  // partner would lead to the same 3D edge again.
+  bool IsSettled(const H1Result& result) const {
+    return std::any_of(result.tracked.begin(),
+                       result.tracked.end(),
+                       [&](const TrackedEdge& edge) {
+                         return edge.evidence >=
+                                kSettledEvidence *
+                                    input_.options.validation.min_evidence;
+                       });
   }
 
   void DropRivals(H1Result& result) const {
