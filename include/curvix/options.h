@@ -32,7 +32,7 @@ struct EdgeDetectionOptions {
   double short_contour_factor = 2.0;
   // Most edges of an image per million pixels, though any image may have 5,000:
   // the contours with the steepest mean gradients are kept; > 0.
-  double max_edges_per_megapixel = 50000;
+  double max_edges_per_megapixel = 25000;
 };
 
 // How hypothesis views are chosen (Sec. 3).
