@@ -3,6 +3,7 @@
 #include "plugin/import_dtu.h"
 
 #include <curvix/file_io.h>
+#include <curvix/text_fields.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,6 @@
 
 #include "plugin/npy.h"
 #include "plugin/projection_matrix.h"
-#include "src/output/bytes.h"
 
 namespace curvix {
 namespace {

@@ -3,12 +3,12 @@
 #include "plugin/import_middlebury.h"
 
 #include <curvix/file_io.h>
+#include <curvix/text_fields.h>
 
 #include <array>
 #include <string_view>
 
 #include "plugin/projection_matrix.h"
-#include "src/output/bytes.h"
 
 namespace curvix {
 namespace {

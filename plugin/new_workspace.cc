@@ -2,12 +2,11 @@
 // Paper: none (engineering).
 #include "plugin/new_workspace.h"
 
-#include <algorithm>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "plugin/staged_output.h"
-#include "src/base/check.h"
 
 namespace curvix {
 namespace {
@@ -88,7 +87,9 @@ Status WriteNewWorkspace(const ColmapModel& model,
                          const std::vector<fs::path>& image_files,
                          CopyPolicy policy,
                          const fs::path& workspace) {
-  CURVIX_CHECK(image_files.size() == model.images.size(), "one file an image");
+  if (image_files.size() != model.images.size()) {
+    throw std::logic_error("WriteNewWorkspace without one file per image");
+  }
   Status status = CheckWorkspaceUnused(workspace);
   if (!status.ok()) return status;
   const bool in_place = AreInPlace(model, image_files, workspace / "images");

@@ -2,12 +2,15 @@
 // Paper: none (engineering).
 #include "plugin/npy.h"
 
+#include <curvix/text_fields.h>
+
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <utility>
-
-#include "src/output/bytes.h"
 
 namespace curvix {
 namespace {
@@ -15,6 +18,15 @@ namespace {
 Status Broken(const std::string& name, const std::string& why) {
   return {StatusCode::kDataLoss,
           name + " " + why + "; save it again with numpy.save or numpy.savez."};
+}
+
+// The value in the first sizeof(T) bytes, which must be there.
+template <typename T>
+T LoadBytes(const char* bytes, std::endian order) {
+  std::array<char, sizeof(T)> copy;
+  std::memcpy(copy.data(), bytes, sizeof(T));
+  if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+  return std::bit_cast<T>(copy);
 }
 
 // What the header says, a Python dictionary:

@@ -2,9 +2,8 @@
 #include "plugin/synthesize.h"
 
 #include <curvix/file_io.h>
+#include <curvix/text_fields.h>
 
-#include <array>
-#include <charconv>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <system_error>
@@ -72,20 +71,12 @@ ColmapModel ModelOf(const Scene& scene) {
   return model;
 }
 
-// The shortest text that reads back as `value`, in any locale.
-void AppendNumber(std::string& text, double value) {
-  std::array<char, 32> digits;
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  text.append(digits.data(), end);
-}
-
 std::string TruthText(const std::vector<TrueSample>& samples) {
   std::string text;
   for (const TrueSample& sample : samples) {
     for (const Eigen::Vector3d& vector : {sample.position, sample.tangent}) {
       for (int axis = 0; axis < 3; ++axis) {
-        AppendNumber(text, vector[axis]);
+        AppendNumber(vector[axis], text);
         text += ' ';
       }
     }

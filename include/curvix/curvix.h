@@ -14,3 +14,4 @@
 #include <curvix/status.h>
 #include <curvix/stopwatch.h>
 #include <curvix/synthetic.h>
+#include <curvix/text_fields.h>

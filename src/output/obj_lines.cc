@@ -2,11 +2,12 @@
 // Paper: none (engineering). Line sets as Wavefront OBJ.
 #include "output/obj_lines.h"
 
+#include <curvix/text_fields.h>
+
 #include <cmath>
 #include <cstdint>
 #include <optional>
 
-#include "output/bytes.h"
 #include "output/curve_style.h"
 #include "output/polylines.h"
 

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <vector>
 
-#include "output/bytes.h"
 #include "output/curve_style.h"
 
 namespace curvix {

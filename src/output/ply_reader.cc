@@ -2,6 +2,8 @@
 // Paper: none (engineering). Any PLY file as columns of numbers.
 #include "output/ply_reader.h"
 
+#include <curvix/text_fields.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>

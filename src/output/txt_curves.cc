@@ -2,6 +2,8 @@
 // Paper: none (engineering). Curves as text.
 #include "output/txt_curves.h"
 
+#include <curvix/text_fields.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +12,6 @@
 #include <optional>
 
 #include "base/check.h"
-#include "output/bytes.h"
 
 namespace curvix {
 namespace {

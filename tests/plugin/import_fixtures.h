@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/scene.h>
+#include <curvix/text_fields.h>
 #include <zip.h>
 
 #include <Eigen/Geometry>
