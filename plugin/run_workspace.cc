@@ -21,6 +21,7 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
+using StageCounts = decltype(StageReport::counts);
 
 Status Cancelled() {
   return {StatusCode::kCancelled, "interrupted; nothing was written"};
@@ -55,12 +56,29 @@ InputSummary SummarizeInput(const Workspace& workspace,
   return summary;
 }
 
-std::int64_t NumEdges(const std::vector<EdgeMap>& edge_maps) {
-  std::int64_t num_edges = 0;
+// How many edges there are in all views; those left out, if any are.
+StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
+  std::int64_t num_edges = 0, num_isolated = 0, num_over_limit = 0;
   for (const EdgeMap& map : edge_maps) {
     num_edges += static_cast<std::int64_t>(map.edges.size());
+    num_isolated += map.num_dropped_isolated;
+    num_over_limit += map.num_dropped_over_limit;
   }
-  return num_edges;
+  StageCounts counts = {{"edges", num_edges}};
+  if (num_isolated > 0)
+    counts.emplace_back("dropped as isolated", num_isolated);
+  if (num_over_limit > 0)
+    counts.emplace_back("dropped over limit", num_over_limit);
+  return counts;
+}
+
+// "8 views, 123 edges"
+std::string CountsText(const StageCounts& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
+  }
+  return text;
 }
 
 // One run, from the first file read to the last one written.
@@ -189,12 +207,12 @@ Result<std::vector<EdgeMap>> Job::Detect(const Scene& scene) {
   Result<std::vector<EdgeMap>> edge_maps =
       DetectEdges(scene, record_.settings.options, Callback());
   if (!edge_maps.ok()) return edge_maps.status();
-  record_.result.num_edges_2d = NumEdges(*edge_maps);
+  StageCounts counts = CountEdges(*edge_maps);
+  record_.result.num_edges_2d = counts.front().second;
+  counts.insert(counts.begin(), {"views", record_.input.num_views});
+  progress_.Finish(CountsText(counts));
   record_.stages.push_back(stopwatch.Read("detect_edges"));
-  record_.stages.back().counts = {{"views", record_.input.num_views},
-                                  {"edges", record_.result.num_edges_2d}};
-  progress_.Finish(GroupDigits(record_.input.num_views) + " views, " +
-                   GroupDigits(record_.result.num_edges_2d) + " edges");
+  record_.stages.back().counts = std::move(counts);
   return edge_maps;
 }
 
