@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/posed_views.h"
 
+#include <curvix/camera_model.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
@@ -37,6 +38,29 @@ TEST(MakePosedViews, SharesACameraBetweenViews) {
   for (const PosedView& view : MakePosedViews(scene)) {
     EXPECT_EQ(view.calibration(0, 0), 100);
   }
+}
+
+// The margin of a camera of 800 x 600 pixels with radial distortion `k`.
+double MarginOf(double k) {
+  Scene scene = ToScene({MakeView(Eigen::Matrix3d::Identity(), {0, 0, 0})});
+  scene.cameras[0] = {CameraModel::kSimpleRadial, 800, 600, {700, 400, 300, k}};
+  return MakePosedViews(scene)[0].margin_px;
+}
+
+TEST(MakePosedViews, MarginIsHowFarTheIdealImageReachesBeyondItsFrame) {
+  EXPECT_EQ(MarginOf(0.0), 0);
+  EXPECT_EQ(MarginOf(0.1), 0);  // drawn inwards: all lies within
+  const Camera camera = {
+      CameraModel::kSimpleRadial, 800, 600, {700, 400, 300, -0.1}};
+  const auto corner = IdealFromImage(camera, {0, 0});  // farthest
+  ASSERT_TRUE(corner.has_value());
+  const double expected = -(700 * corner->x() + 400);
+  EXPECT_GT(expected, 10);
+  EXPECT_NEAR(MarginOf(-0.1), expected, 1e-9);
+}
+
+TEST(MakePosedViews, MarginIsAtMostTheLongerSide) {
+  EXPECT_EQ(MarginOf(-0.5), 800);  // corners have no ideal pixel
 }
 
 }  // namespace
