@@ -43,7 +43,7 @@ class InstalledColmap : public testing::Test {
       GTEST_SKIP() << "COLMAP is not installed";
     }
     SyntheticOptions options;
-    options.num_views = 36;
+    options.num_views = 24;
     options.width = 400;
     options.height = 400;
     options.texture = 200;
@@ -78,14 +78,16 @@ class InstalledColmap : public testing::Test {
     return said;
   }
 
-  // Runs the program on the model in sparse/1, with few hypotheses.
+  // Runs the program on the model in sparse/1, with few hypotheses and low
+  // demands.
   int Curvix(const std::string& more, std::string* said) {
     const std::string folder = folder_.path().string();
     return Execute(std::string("'") + CURVIX_PROGRAM + "' --workspace_path '" +
                        folder + "' --input_path '" + folder +
                        "/sparse/1' --output_path '" + folder +
-                       "/out' --EdgeDetection.min_gradient 20 "
-                       "--Hypotheses.num_partners 1 " +
+                       "/out' --EdgeDetection.min_gradient 60 "
+                       "--Hypotheses.num_partners 1 "
+                       "--CurveRefinement.min_evidence 0 " +
                        more,
                    said);
   }

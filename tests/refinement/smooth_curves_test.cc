@@ -59,11 +59,10 @@ TEST(SmoothCurves, TakesNoiseAway) {
   const Curve noisy = WithNoise(LongLine(), 0.3);
   const Curve smooth = Smooth({noisy})[0];
   EXPECT_LT(DistanceFromLine(smooth), 0.6 * DistanceFromLine(noisy));
-  double turned = 0;
-  for (const CurveSample& sample : smooth.samples) {
-    turned = std::max(turned, sample.tangent.tail<2>().norm());
+  // Ends are less sure of their direction.
+  for (std::size_t k = 8; k + 8 < smooth.samples.size(); ++k) {
+    EXPECT_LT(smooth.samples[k].tangent.tail<2>().norm(), 0.2);
   }
-  EXPECT_LT(turned, 0.5);
 }
 
 TEST(SmoothCurves, SurerSamplesCountMore) {
