@@ -217,17 +217,21 @@ Edge3d ToEdge3d(TrackedEdge tracked) {
   return edge;
 }
 
-// The view with most unused edges among those not done; ties: smaller index.
-std::optional<int> NextView(const std::vector<int>& num_unused,
+// The view with most unused edges among those not done; ties: that with more
+// edges in all, so that the order of views makes no difference, then the
+// smaller index.
+std::optional<int> NextView(const SketchInput& input,
+                            const std::vector<int>& num_unused,
                             const std::vector<bool>& done) {
-  std::optional<int> best;
+  std::optional<std::size_t> best;
+  const auto rank = [&](std::size_t i) {
+    return std::pair(num_unused[i], input.edge_maps[i].edges.size());
+  };
   for (std::size_t i = 0; i < done.size(); ++i) {
-    if (done[i]) continue;
-    if (!best || num_unused[i] > num_unused[static_cast<std::size_t>(*best)]) {
-      best = static_cast<int>(i);
-    }
+    if (!done[i] && (!best || rank(i) > rank(*best))) best = i;
   }
-  return best;
+  if (!best) return std::nullopt;
+  return static_cast<int>(*best);
 }
 
 }  // namespace
@@ -239,7 +243,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
   std::vector<bool> done(input.views.size(), false);
   const int total = static_cast<int>(input.views.size());
   for (int step = 0; step_done(step, total); ++step) {
-    const auto h1 = NextView(used.num_unused(), done);
+    const auto h1 = NextView(input, used.num_unused(), done);
     if (!h1) break;
     const auto h1_idx = static_cast<std::size_t>(*h1);
     done[h1_idx] = true;
