@@ -11,8 +11,10 @@
 
 namespace curvix {
 
-// Selects (select_curves.h), smooths (smooth_curves.h), closes gaps
-// (bridge_gaps.h), and carries on to corners (meet_at_junctions.h).
+// Selects (select_curves.h; with fewer than 50 views, n, the least evidence is
+// n / 50 of options.min_evidence, since evidence adds up over views), smooths
+// (smooth_curves.h), closes gaps (bridge_gaps.h), and carries on to corners
+// (meet_at_junctions.h).
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
                                 const CurveRefinementOptions& options,
