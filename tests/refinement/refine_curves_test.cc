@@ -28,7 +28,7 @@ std::vector<Curve> RoughSquare() {
     }
   }
   curves.push_back(Line(InPlane(-20, 0), InPlane(20, 0)));
-  for (CurveSample& sample : curves.back().samples) sample.evidence = 12;
+  for (CurveSample& sample : curves.back().samples) sample.evidence = 0.1;
   return curves;
 }
 
