@@ -8,6 +8,7 @@
 
 #include "plugin/command_line.h"
 #include "plugin/commands.h"
+#include "plugin/run_report.h"
 
 namespace curvix {
 
@@ -24,6 +25,9 @@ ExitCode RunReconstruct(const Arguments& arguments);
 ExitCode RunSynthesize(const Arguments& arguments);
 ExitCode RunImport(const Arguments& arguments);
 ExitCode RunEvaluate(const Arguments& arguments);
+
+// What `reconstruct` can be told; the preset comes before what it changes.
+std::vector<FlagSection> ReconstructSections(RunSettings* settings);
 
 // nullptr: there is no such word.
 const Command* FindCommand(const std::string& name);

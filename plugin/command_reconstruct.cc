@@ -30,6 +30,8 @@ Flag PresetFlag(RunSettings* settings) {
   return flag;
 }
 
+}  // namespace
+
 std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
   std::vector<FlagSection> sections = {
       {"Paths",
@@ -55,8 +57,6 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
   }
   return sections;
 }
-
-}  // namespace
 
 ExitCode RunReconstruct(const Arguments& arguments) {
   RunSettings settings;

@@ -25,7 +25,9 @@ constexpr std::array kCommands = {
     Command{"import",
             "Make a workspace of Middlebury, DTU, NeRF or COLMAP data",
             RunImport},
-    Command{"evaluate", "Compare curves with known ones", RunEvaluate},
+    Command{"evaluate",
+            "Compare curves with known ones, or with photographs held out",
+            RunEvaluate},
     Command{"help", "This overview; 'help <command>' explains one", Help},
     Command{"version", "The version of the program", Version},
 };

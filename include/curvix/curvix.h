@@ -7,6 +7,8 @@
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/file_io.h>
+#include <curvix/fitting.h>
+#include <curvix/holdout.h>
 #include <curvix/option_table.h>
 #include <curvix/options.h>
 #include <curvix/reconstruct.h>

@@ -142,6 +142,21 @@ TEST_F(ProgramRun, FindsTheEdgesOfTheBlock) {
   EXPECT_GT(scores["Rv10"], 80) << outcome.output;
 }
 
+TEST_F(ProgramRun, ViewsHeldOutShowItsCurves) {
+  const auto before = Contents(workspace_);
+  const Outcome outcome =
+      RunProgram("evaluate --json --holdout_every 4 --workspace_path '" +
+                 workspace_.string() + "'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json scores =
+      json::parse(outcome.output.substr(outcome.output.find('{')));
+  EXPECT_EQ(scores["held_out"], 3);
+  EXPECT_GT(scores["curves"], 0);
+  EXPECT_GT(scores["support"], 3 * scores["chance"].get<double>());
+  EXPECT_LT(scores["median_px"], 0.3);
+  EXPECT_EQ(Contents(workspace_), before);
+}
+
 TEST_F(ProgramRun, GivesTheSameBytesForAnyNumberOfThreads) {
   std::vector<std::map<std::string, std::string>> results;
   for (const std::string threads : {"1", "2", "3"}) {
@@ -269,7 +284,8 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
       {"--workspace_path . --preset papr", "one of default, paper"},
       {"--workspace_path . --Hypotheses.min_ray_angle_deg 90",
        "Hypotheses.min_ray_angle_deg"},
-      {"evaluate --json", "'--curves_path' is required"},
+      {"evaluate --json", "either --curves_path and --truth_path, or"},
+      {"evaluate --workspace_path x", "--holdout_every"},
       {"synthesize --workspace_path x --num_views 2", "num_views is 2"}};
   for (const auto& [words, hint] : cases) {
     const Outcome outcome = RunProgram(words);
