@@ -233,7 +233,8 @@ Scene SceneFromColmapModel(const ColmapModel& model,
                            image_folder / image.name,
                            image.image_id,
                            camera_idxs.at(image.camera_id),
-                           image.cam_from_world});
+                           image.cam_from_world,
+                           {}});
   }
   std::sort(scene.views.begin(),
             scene.views.end(),

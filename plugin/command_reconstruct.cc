@@ -49,7 +49,11 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
         PathFlag("output_path",
                  &settings->output_path,
                  "folder of the results, when it is not to be curvix/0 beside "
-                 "sparse/0")}},
+                 "sparse/0"),
+        PathFlag("mask_path",
+                 &settings->mask_path,
+                 "folder of masks as COLMAP's, <image name>.png: edges on "
+                 "black do not count")}},
       {"Method", {PresetFlag(settings)}},
       PoseRefinementFlags(&settings->poses)};
   for (FlagSection& section : OptionSections(settings->options)) {

@@ -94,7 +94,8 @@ Status RunHoldout(const RunSettings& settings,
   const Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
                                                      settings.input_path,
                                                      settings.image_path,
-                                                     settings.output_path});
+                                                     settings.output_path,
+                                                     settings.mask_path});
   if (!workspace.ok()) return workspace.status();
   const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
   if (!input.ok()) return input.status();

@@ -52,6 +52,9 @@ Json InputJson(const InputSummary& input) {
   Json json;
   json["model_path"] = Printable(input.model_path.string());
   json["image_path"] = Printable(input.image_path.string());
+  if (!input.mask_path.empty()) {
+    json["mask_path"] = Printable(input.mask_path.string());
+  }
   json["camera_models"] = input.camera_models;
   json["num_views"] = input.num_views;
   json["num_points"] = input.num_points;
@@ -239,6 +242,7 @@ std::string ProjectFile(const RunSettings& settings) {
   add("input_path", settings.input_path.string());
   add("image_path", settings.image_path.string());
   add("output_path", settings.output_path.string());
+  add("mask_path", settings.mask_path.string());
   add("preset", settings.preset);
   PoseRefinementSettings poses = settings.poses;
   for (const Flag& flag : PoseRefinementFlags(&poses).flags) {

@@ -27,6 +27,7 @@ struct RunSettings {
   std::filesystem::path input_path;
   std::filesystem::path image_path;
   std::filesystem::path output_path;
+  std::filesystem::path mask_path;  // "": no masks
   std::string preset = "default";
   PoseRefinementSettings poses;
   Options options;
@@ -35,6 +36,7 @@ struct RunSettings {
 struct InputSummary {
   std::filesystem::path model_path;
   std::filesystem::path image_path;
+  std::filesystem::path mask_path;         // "": no masks
   std::vector<std::string> camera_models;  // one per camera
   std::int64_t num_views = 0;
   std::int64_t num_points = 0;

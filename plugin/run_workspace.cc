@@ -31,8 +31,9 @@ Status Cancelled() {
 // over COLMAP's.
 Status CheckOutputPath(const Workspace& workspace) {
   const fs::path output = fs::weakly_canonical(workspace.output_path);
-  for (const fs::path& input : {workspace.model_path, workspace.image_path}) {
-    if (output == fs::weakly_canonical(input)) {
+  for (const fs::path& input :
+       {workspace.model_path, workspace.image_path, workspace.mask_path}) {
+    if (!input.empty() && output == fs::weakly_canonical(input)) {
       return {StatusCode::kInvalidArgument,
               "the results would be written among the inputs in " +
                   output.string() +
@@ -47,6 +48,7 @@ InputSummary SummarizeInput(const Workspace& workspace,
   InputSummary summary;
   summary.model_path = fs::absolute(workspace.model_path);
   summary.image_path = fs::absolute(workspace.image_path);
+  summary.mask_path = workspace.mask_path;
   for (const Camera& camera : input.scene.cameras) {
     summary.camera_models.emplace_back(ModelName(camera.model));
   }
@@ -58,13 +60,16 @@ InputSummary SummarizeInput(const Workspace& workspace,
 
 // How many edges there are in all views; those left out, if any are.
 StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
-  std::int64_t num_edges = 0, num_isolated = 0, num_over_limit = 0;
+  std::int64_t num_edges = 0, num_masked = 0;
+  std::int64_t num_isolated = 0, num_over_limit = 0;
   for (const EdgeMap& map : edge_maps) {
     num_edges += static_cast<std::int64_t>(map.edges.size());
+    num_masked += map.num_dropped_masked;
     num_isolated += map.num_dropped_isolated;
     num_over_limit += map.num_dropped_over_limit;
   }
   StageCounts counts = {{"edges", num_edges}};
+  if (num_masked > 0) counts.emplace_back("dropped by masks", num_masked);
   if (num_isolated > 0)
     counts.emplace_back("dropped as isolated", num_isolated);
   if (num_over_limit > 0)
@@ -148,7 +153,8 @@ Result<WorkspaceScene> Job::Read() {
   Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
                                                settings.input_path,
                                                settings.image_path,
-                                               settings.output_path});
+                                               settings.output_path,
+                                               settings.mask_path});
   if (!workspace.ok()) return workspace.status();
   workspace_ = *workspace;
   const Status usable = CheckOutputPath(workspace_);
@@ -160,6 +166,7 @@ Result<WorkspaceScene> Job::Read() {
   settings.input_path = fs::absolute(workspace_.model_path);
   settings.image_path = fs::absolute(workspace_.image_path);
   settings.output_path = fs::absolute(workspace_.output_path);
+  settings.mask_path = workspace_.mask_path;
   record_.input = SummarizeInput(workspace_, *input);
   record_.stages.push_back(stopwatch.Read("read_model"));
   record_.stages.back().counts = {
@@ -198,8 +205,7 @@ Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
       *refined->model, staging_ / "sparse", ColmapFormat::kBinary);
   if (!written.ok()) return written;
   record_.result.files.push_back("sparse/");
-  return SceneFromColmapModel(
-      *refined->model, workspace_.image_path, input.missing_images);
+  return MakeScene(workspace_, *refined->model, input.missing_images);
 }
 
 Result<std::vector<EdgeMap>> Job::Detect(const Scene& scene) {

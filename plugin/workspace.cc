@@ -234,6 +234,40 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
   return missing;
 }
 
+// "" if there is none.
+fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
+  std::error_code error;
+  const fs::path mask = folder / (image_name + ".png");
+  if (fs::is_regular_file(mask, error)) return mask;
+  const fs::path same_name = folder / image_name;
+  const bool is_png = same_name.extension() == ".png";
+  return is_png && fs::is_regular_file(same_name, error) ? same_name
+                                                         : fs::path();
+}
+
+Status FindMasks(const WorkspacePaths& paths, Workspace* found) {
+  if (paths.mask_path.empty()) return {};
+  found->mask_path = fs::absolute(paths.mask_path);
+  if (IsFolder(paths.mask_path)) return {};
+  return NotFound("--mask_path " + paths.mask_path.string() +
+                  " is not a folder; name the folder of the masks.");
+}
+
+// Images without masks are used whole, which people should know.
+void NoteMissingMasks(const Workspace& workspace, WorkspaceScene* result) {
+  if (workspace.mask_path.empty()) return;
+  std::vector<std::string> names;
+  for (const View& view : result->scene.views) {
+    if (view.mask_path.empty()) names.push_back(view.name);
+  }
+  if (names.empty()) return;
+  result->notes.push_back(std::to_string(names.size()) + " of " +
+                          std::to_string(result->scene.views.size()) +
+                          " images have no mask in " +
+                          workspace.mask_path.string() +
+                          " and are used whole: " + FirstFive(names) + ".");
+}
+
 constexpr std::size_t kMinViews = 3;
 
 Status TooFewViews(const Workspace& workspace,
@@ -270,6 +304,7 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   Workspace found;
   Status status = FindModel(paths, &found);
   if (status.ok()) status = FindImages(paths, &found);
+  if (status.ok()) status = FindMasks(paths, &found);
   if (!status.ok()) return status;
   found.output_path = OutputPath(paths, found.model_path);
   return found;
@@ -281,8 +316,7 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
   WorkspaceScene result;
   result.model = std::move(model).value();
   result.missing_images = MissingImages(result.model, workspace.image_path);
-  result.scene = SceneFromColmapModel(
-      result.model, workspace.image_path, result.missing_images);
+  result.scene = MakeScene(workspace, result.model, result.missing_images);
   if (result.scene.views.size() < kMinViews) {
     return TooFewViews(
         workspace, result.scene.views.size(), result.missing_images);
@@ -294,7 +328,19 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
         workspace.image_path.string() +
         " and are skipped: " + FirstFive(result.missing_images) + ".");
   }
+  NoteMissingMasks(workspace, &result);
   return result;
+}
+
+Scene MakeScene(const Workspace& workspace,
+                const ColmapModel& model,
+                const std::vector<std::string>& left_out) {
+  Scene scene = SceneFromColmapModel(model, workspace.image_path, left_out);
+  if (workspace.mask_path.empty()) return scene;
+  for (View& view : scene.views) {
+    view.mask_path = MaskOf(workspace.mask_path, view.name);
+  }
+  return scene;
 }
 
 }  // namespace curvix

@@ -24,12 +24,14 @@ struct WorkspacePaths {
   std::filesystem::path input_path;      // the folder of the model
   std::filesystem::path image_path;      // the folder of the images
   std::filesystem::path output_path;     // the folder of the results
+  std::filesystem::path mask_path;       // the folder of the masks
 };
 
 struct Workspace {
   std::filesystem::path model_path;
   std::filesystem::path image_path;
   std::filesystem::path output_path;  // may not exist yet
+  std::filesystem::path mask_path;    // absolute; "": there are no masks
   std::vector<std::string> notes;     // sentences worth telling the user
 };
 
@@ -46,6 +48,7 @@ struct Workspace {
 //  * Results: for a model in the workspace, curvix/<k> beside sparse/<k> and
 //    curvix beside sparse. Else <workspace>/curvix if the workspace is the
 //    model, and <workspace>/curvix/<name of the model's folder> if it is not.
+//  * Masks: only those of `paths`.
 // kInvalidArgument if the workspace is not given; kNotFound, with the places
 // that were tried, if a folder is not there.
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
@@ -58,8 +61,16 @@ struct WorkspaceScene {
 };
 
 // Reads the model and leaves out the views whose images are not on disk, with a
-// note that names the first five. Images are not opened. Fails if the model
+// note that names the first five. Images are not opened. Another note counts
+// the views without a mask, if the workspace has masks. Fails if the model
 // cannot be read, or if fewer than three views remain.
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace);
+
+// The scene of a valid model in the folders of the workspace, without the
+// images whose names are in `left_out` (sorted). The mask of images/a/b.jpg is,
+// as for COLMAP, a/b.jpg.png in the folder of masks; b.png will do for b.png.
+Scene MakeScene(const Workspace& workspace,
+                const ColmapModel& model,
+                const std::vector<std::string>& left_out);
 
 }  // namespace curvix

@@ -34,11 +34,12 @@ struct EdgeMap {
   std::vector<Edge2d> edges;
   std::vector<EdgeNeighbors> neighbors;  // one per edge
   double noise = 0;  // standard deviation of the image noise, grey levels
-  // Edges that were found and dropped: in short, weak contours, and in the
-  // weakest contours of images with more edges than
-  // EdgeDetectionOptions::max_edges_per_megapixel allows.
+  // Edges that were found and dropped: where View::mask_path is black, in
+  // short, weak contours, and in the weakest contours of images with more edges
+  // than EdgeDetectionOptions::max_edges_per_megapixel allows.
   std::int32_t num_dropped_isolated = 0;
   std::int32_t num_dropped_over_limit = 0;
+  std::int32_t num_dropped_masked = 0;
 };
 
 // Names an edge of a view. Ordered by view, then edge.

@@ -72,6 +72,9 @@ struct View {
   std::uint32_t image_id = 0;
   int camera_idx = 0;
   Rigid3 cam_from_world;
+  // An image of the same size: edges are ignored where it is black. Empty: none
+  // are.
+  std::filesystem::path mask_path;
 };
 
 // One triangulated point of the sparse model and the views that see it.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "edge_detection/curvelets.h"
+#include "edge_detection/drop_masked_edges.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "edge_detection/image_noise.h"
 #include "edge_detection/keep_contours.h"
@@ -18,17 +19,30 @@
 namespace curvix {
 namespace {
 
-Status CheckSize(const View& view,
-                 const Camera& camera,
-                 const GrayImage& image) {
-  if (image.width == camera.width && image.height == camera.height) return {};
+// An image or a mask of the size of its camera.
+Result<GrayImage> LoadOfSize(const std::filesystem::path& path,
+                             const Camera& camera) {
+  Result<GrayImage> image = LoadGrayImage(path);
+  if (!image.ok()) return image.status();
+  if (image->width == camera.width && image->height == camera.height) {
+    return image;
+  }
   std::ostringstream message;
-  message << "Image " << view.image_path.string() << " is " << image.width
-          << " x " << image.height << " pixels, but its camera in the model is "
+  message << "Image " << path.string() << " is " << image->width << " x "
+          << image->height << " pixels, but its camera in the model is "
           << camera.width << " x " << camera.height
           << ". Give the images from which the model was made, or export the "
              "model at the size of these images.";
-  return {StatusCode::kInvalidArgument, message.str()};
+  return Status(StatusCode::kInvalidArgument, message.str());
+}
+
+Result<std::int32_t> DropMaskedEdges(const View& view,
+                                     const Camera& camera,
+                                     std::vector<Edge2d>* edges) {
+  if (view.mask_path.empty()) return 0;
+  const Result<GrayImage> mask = LoadOfSize(view.mask_path, camera);
+  if (!mask.ok()) return mask.status();
+  return DropMaskedEdges(*mask, edges);
 }
 
 }  // namespace
@@ -55,15 +69,15 @@ std::int64_t MaxEdges(const EdgeDetectionOptions& options,
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,
                                 const EdgeDetectionOptions& options) {
-  const Result<GrayImage> image = LoadGrayImage(view.image_path);
+  const Result<GrayImage> image = LoadOfSize(view.image_path, camera);
   if (!image.ok()) return image.status();
-  Status size_status = CheckSize(view, camera, *image);
-  if (!size_status.ok()) return size_status;
   EdgeMap map;
   map.noise = EstimateNoise(*image);
   const double min_gradient = GradientThreshold(options, map.noise);
-  const std::vector<Edge2d> edges =
+  std::vector<Edge2d> edges =
       DetectThirdOrderEdges(*image, options, min_gradient);
+  const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
+  if (!num_masked.ok()) return num_masked.status();
   KeptEdges kept = KeepContours(edges,
                                 LinkNeighbors(edges, options),
                                 options,
@@ -72,6 +86,7 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   map.edges = std::move(kept.edges);
   // Again, since what was dropped may have stood between two that were not.
   map.neighbors = LinkNeighbors(map.edges, options);
+  map.num_dropped_masked = *num_masked;
   map.num_dropped_isolated = kept.num_isolated;
   map.num_dropped_over_limit = kept.num_over_limit;
   return UndistortEdges(std::move(map), camera);

@@ -56,6 +56,7 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   ideal.noise = distorted.noise;
   ideal.num_dropped_isolated = distorted.num_dropped_isolated;
   ideal.num_dropped_over_limit = distorted.num_dropped_over_limit;
+  ideal.num_dropped_masked = distorted.num_dropped_masked;
   NewIndices new_idx(distorted.edges.size());
   for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
     const std::optional<Edge2d> edge =

@@ -3,6 +3,7 @@
 #include "pipeline/why_empty.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <sstream>
 
 namespace curvix {
@@ -11,10 +12,18 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
                      const EdgeSketch& sketch,
                      const Options& options) {
   std::size_t num_edges = 0;
-  for (const EdgeMap& map : edge_maps) num_edges += map.edges.size();
+  std::int64_t num_masked = 0;
+  for (const EdgeMap& map : edge_maps) {
+    num_edges += map.edges.size();
+    num_masked += map.num_dropped_masked;
+  }
   const SketchCounts& counts = sketch.counts;
   std::ostringstream text;
-  if (num_edges == 0) {
+  if (num_edges == 0 && num_masked > 0) {
+    text << "All " << num_masked
+         << " edges lie where the masks are black, and black is what does not "
+            "count. Are the masks inverted?";
+  } else if (num_edges == 0) {
     text << "No edges were found in the " << edge_maps.size()
          << " images. Are they blank or very dark? A lower "
             "--EdgeDetection.min_gradient (now "

@@ -88,6 +88,38 @@ TEST(DetectViewEdges, KeepsNoiseOut) {
   EXPECT_LT(map->edges.size(), 20u);
 }
 
+// A view of the disc whose mask is black left of `x`.
+Result<EdgeMap> DetectMasked(int x, int mask_size) {
+  const ImageFile file(RenderDisc(100, {50, 50}, 30));
+  const fs::path mask_path = fs::path(::testing::TempDir()) / "mask.png";
+  cv::Mat mask(mask_size, mask_size, CV_8UC1, cv::Scalar(255));
+  mask.colRange(0, x).setTo(0);
+  EXPECT_TRUE(cv::imwrite(mask_path.string(), mask));
+  View view = file.view();
+  view.mask_path = mask_path;
+  Result<EdgeMap> map = DetectViewEdges(view, PinholeOfSize(100, 100), {});
+  fs::remove(mask_path);
+  return map;
+}
+
+TEST(DetectViewEdges, LeavesOutWhatTheMaskBlackens) {
+  const Result<EdgeMap> all = DetectMasked(0, 100);
+  const Result<EdgeMap> half = DetectMasked(50, 100);
+  ASSERT_TRUE(all.ok() && half.ok());
+  EXPECT_EQ(all->num_dropped_masked, 0);
+  EXPECT_GT(half->edges.size(), 100u);
+  EXPECT_EQ(
+      half->edges.size() + static_cast<std::size_t>(half->num_dropped_masked),
+      all->edges.size());
+  for (const Edge2d& edge : half->edges) EXPECT_GE(edge.position.x(), 50);
+}
+
+TEST(DetectViewEdges, RefusesAMaskOfAnotherSize) {
+  const Result<EdgeMap> map = DetectMasked(0, 50);
+  EXPECT_EQ(map.status().code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(map.status().message(), HasSubstr("mask.png is 50 x 50"));
+}
+
 TEST(DetectViewEdges, NamesBothSizesWhereTheyDiffer) {
   const ImageFile file(RenderDisc(100, {50, 50}, 30));
   const Result<EdgeMap> map =

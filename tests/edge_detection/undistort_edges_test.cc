@@ -103,9 +103,11 @@ TEST(UndistortEdges, DropsWhatHasNoIdealPlaceAndRenumbersLinks) {
   map.neighbors = {{std::nullopt, 1}, {0, 2}, {1, 3}, {2, std::nullopt}};
   map.num_dropped_isolated = 7;
   map.num_dropped_over_limit = 9;
+  map.num_dropped_masked = 11;
   const EdgeMap result = UndistortEdges(map, strong);
   EXPECT_EQ(result.num_dropped_isolated, 7);
   EXPECT_EQ(result.num_dropped_over_limit, 9);
+  EXPECT_EQ(result.num_dropped_masked, 11);
   ASSERT_EQ(result.edges.size(), 3u);
   ASSERT_EQ(result.neighbors.size(), 3u);
   EXPECT_EQ(result.neighbors[0].next, std::nullopt);

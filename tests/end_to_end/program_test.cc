@@ -142,6 +142,17 @@ TEST_F(ProgramRun, FindsTheEdgesOfTheBlock) {
   EXPECT_GT(scores["Rv10"], 80) << outcome.output;
 }
 
+TEST_F(ProgramRun, BlackMasksLeaveNoEdgesAndTheSummarySaysSo) {
+  for (const auto& image : fs::directory_iterator(workspace_ / "images")) {
+    folder_.Write("masks/" + image.path().filename().string() + ".png",
+                  "P5\n200 200\n255\n" + std::string(200 * 200, '\0'));
+  }
+  const Outcome outcome =
+      RunWorkspace("--mask_path '" + (folder_.path() / "masks").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("Are the masks inverted?"));
+}
+
 TEST_F(ProgramRun, ViewsHeldOutShowItsCurves) {
   const auto before = Contents(workspace_);
   const Outcome outcome =

@@ -223,6 +223,34 @@ TEST_F(WorkspaceTest, SceneSkipsAndNamesMissingImages) {
                         "image_6.png, ..."));
 }
 
+TEST_F(WorkspaceTest, FindsMasksAsColmapNamesThem) {
+  MakeModel("proj/sparse/0");
+  MakeImages("proj/images");
+  for (const std::string name : {"image_1.png.png",
+                                 "image_1.png",  // first
+                                 "image_2.png"}) {
+    folder_.Write("masks/" + name, "");
+  }
+  WorkspacePaths paths = Root();
+  paths.mask_path = At("masks");
+  const Result<WorkspaceScene> scene =
+      LoadWorkspaceScene(*FindWorkspace(paths));
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  const std::vector<View>& views = scene->scene.views;
+  ASSERT_EQ(views.size(), 4u);
+  EXPECT_EQ(views[0].mask_path, At("masks/image_1.png.png"));
+  EXPECT_EQ(views[1].mask_path, At("masks/image_2.png"));
+  EXPECT_EQ(views[2].mask_path, "");
+  ASSERT_EQ(scene->notes.size(), 1u);
+  EXPECT_THAT(scene->notes[0], HasSubstr("2 of 4 images have no mask"));
+  EXPECT_THAT(scene->notes[0], HasSubstr("image_3.png, image_4.png"));
+
+  paths.mask_path = At("no_masks");
+  const Status status = FindWorkspace(paths).status();
+  EXPECT_EQ(status.code(), StatusCode::kNotFound);
+  EXPECT_THAT(status.message(), HasSubstr("no_masks is not a folder"));
+}
+
 TEST_F(WorkspaceTest, FewerThanThreeViewsAreAnError) {
   MakeModel("proj/sparse/0", 4);
   MakeImages("proj/images", 2);
