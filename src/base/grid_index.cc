@@ -15,7 +15,7 @@ constexpr double kBucketsPerEdge = 16;
 }  // namespace
 
 GridIndex::GridIndex(const std::vector<Edge2d>& edges, double cell_size_px)
-    : cell_size_px_(cell_size_px) {
+    : cells_per_px_(1 / cell_size_px) {
   CURVIX_CHECK(cell_size_px > 0, "cell_size_px is " << cell_size_px);
   if (edges.empty()) return;
   origin_ = edges.front().position;
@@ -27,8 +27,8 @@ GridIndex::GridIndex(const std::vector<Edge2d>& edges, double cell_size_px)
   const Eigen::Vector2d extent = end - origin_;
   const double most =
       kFreeBuckets + kBucketsPerEdge * static_cast<double>(edges.size());
-  const auto count = [&](double length) { return length / cell_size_px_ + 1; };
-  while (count(extent.x()) * count(extent.y()) > most) cell_size_px_ *= 2;
+  const auto count = [&](double length) { return length * cells_per_px_ + 1; };
+  while (count(extent.x()) * count(extent.y()) > most) cells_per_px_ /= 2;
   columns_ = static_cast<int>(count(extent.x()));
   rows_ = static_cast<int>(count(extent.y()));
 

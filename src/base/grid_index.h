@@ -54,7 +54,7 @@ class GridIndex {
  private:
   // The bucket of an offset from the origin, clamped into the grid.
   int Cell(double offset, int count) const {
-    const double cell = offset / cell_size_px_;
+    const double cell = offset * cells_per_px_;
     if (!(cell > 0)) return 0;
     return cell >= count ? count - 1 : static_cast<int>(cell);
   }
@@ -64,7 +64,7 @@ class GridIndex {
   }
 
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-  double cell_size_px_ = 1;
+  double cells_per_px_ = 1;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<std::int32_t> begins_;  // first edge of each bucket, and the end

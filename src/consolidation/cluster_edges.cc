@@ -12,127 +12,174 @@
 namespace curvix {
 namespace {
 
-// Members are kept by their place along the line.
+// Directions are kept as unit vectors at twice their angle, so that 1 and 179
+// degrees give 0 and not 90, and opposite tangents are one.
+using DoubledDirection = Eigen::Vector2d;
+
 struct Member {
   double along = 0;  // pixels along the line
-  double angle = 0;  // radians
+  DoubledDirection direction;
   std::int32_t edge_idx = 0;
+  int next = -1;  // member of the same cluster
 };
 
 struct Cluster {
-  std::vector<Member> members;
-  double center = 0;  // mean of the members' places, pixels along the line
-  double angle = 0;   // weighted mean direction, radians, mod pi
+  double center = 0;           // mean of the members' places
+  DoubledDirection direction;  // weighted mean
+  int first = 0, last = 0;     // members
+  int size = 1;
 };
 
-// Directions are doubled before they are averaged, so that 1 and 179 degrees
-// give 0 and not 90. Deviation: the paper gives no sigma; see
-// docs/paper_map.md.
-double MeanAngle(const std::vector<Member>& members,
-                 double center,
-                 double sigma_px) {
-  double sine = 0, cosine = 0;
-  for (const Member& member : members) {
-    const double distance = (member.along - center) / sigma_px;
-    const double weight = std::exp(-0.5 * distance * distance);
-    sine += weight * std::sin(2 * member.angle);
-    cosine += weight * std::cos(2 * member.angle);
+DoubledDirection Doubled(const Eigen::Vector2d& t) {
+  return {t.x() * t.x() - t.y() * t.y(), 2 * t.x() * t.y()};
+}
+
+// The tangent in (-90, 90] degrees.
+Eigen::Vector2d Halved(const DoubledDirection& d) {
+  if (d.x() >= 0) {
+    const double cosine = std::sqrt((1 + d.x()) / 2);
+    return {cosine, d.y() / (2 * cosine)};
   }
-  return std::atan2(sine, cosine) / 2;
+  const double sine = std::copysign(std::sqrt((1 - d.x()) / 2), d.y());
+  return {d.y() / (2 * sine), sine};
 }
 
-Cluster MakeCluster(std::vector<Member> members, double sigma_px) {
-  Cluster cluster;
-  for (const Member& member : members) cluster.center += member.along;
-  cluster.center /= static_cast<double>(members.size());
-  cluster.angle = MeanAngle(members, cluster.center, sigma_px);
-  cluster.members = std::move(members);
-  return cluster;
-}
+// Clusters of members that lie on one line; the members outlive it.
+class Clustering {
+ public:
+  Clustering(std::vector<Member>& members, const ConsolidationOptions& options)
+      : members_(members),
+        max_distance_px_(options.max_cluster_distance_px),
+        min_doubled_cosine_(
+            std::cos(2 * DegToRad(options.max_cluster_angle_deg))),
+        sigma_px_(options.angle_weight_sigma_px) {}
 
-// The pair (i, j), i < j, of clusters to merge next. Clusters are sorted by
-// center, so partners of i are right behind it.
-std::optional<std::pair<std::size_t, std::size_t>> NearestPair(
-    const std::vector<Cluster>& clusters, const ConsolidationOptions& options) {
-  std::optional<std::pair<std::size_t, std::size_t>> best;
-  double best_distance = options.max_cluster_distance_px;
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    for (std::size_t j = i + 1; j < clusters.size(); ++j) {
-      const double distance = clusters[j].center - clusters[i].center;
-      if (distance > best_distance || (best && distance == best_distance))
-        break;
-      if (UndirectedDifference(clusters[i].angle, clusters[j].angle) >
-          DegToRad(options.max_cluster_angle_deg)) {
-        continue;
-      }
-      best = {i, j};
-      best_distance = distance;
+  // The clusters of members [begin, end), which are in order along the line and
+  // out of reach of all others; in order along the line.
+  const std::vector<Cluster>& Agglomerate(int begin, int end) {
+    clusters_.clear();
+    for (int i = begin; i < end; ++i) {
+      const Member& member = At(i);
+      clusters_.push_back({member.along, member.direction, i, i, 1});
     }
+    while (const auto pair = NearestPair()) Merge(pair->first, pair->second);
+    return clusters_;
   }
-  return best;
-}
 
-void Merge(std::vector<Cluster>& clusters,
-           std::size_t i,
-           std::size_t j,
-           double sigma_px) {
-  std::vector<Member> members = std::move(clusters[i].members);
-  members.insert(
-      members.end(), clusters[j].members.begin(), clusters[j].members.end());
-  clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));
-  clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(i));
-  Cluster merged = MakeCluster(std::move(members), sigma_px);
-  const auto place = std::upper_bound(
-      clusters.begin(),
-      clusters.end(),
-      merged.center,
-      [](double center, const Cluster& c) { return center < c.center; });
-  clusters.insert(place, std::move(merged));
-}
+ private:
+  Member& At(int i) const { return members_[static_cast<std::size_t>(i)]; }
 
-VirtualEdge MakeVirtualEdge(Cluster cluster, const Line2& line) {
-  std::sort(cluster.members.begin(),
-            cluster.members.end(),
-            [](const Member& a, const Member& b) {
-              return std::pair(a.along, a.edge_idx) <
-                     std::pair(b.along, b.edge_idx);
-            });
+  // The pair (i, j), i < j, of clusters to merge next. Clusters are sorted by
+  // center, so partners of i are right behind it.
+  std::optional<std::pair<std::size_t, std::size_t>> NearestPair() const {
+    std::optional<std::pair<std::size_t, std::size_t>> best;
+    double best_distance = max_distance_px_;
+    for (std::size_t i = 0; i < clusters_.size(); ++i) {
+      for (std::size_t j = i + 1; j < clusters_.size(); ++j) {
+        const double distance = clusters_[j].center - clusters_[i].center;
+        if (distance > best_distance || (best && distance == best_distance))
+          break;
+        if (clusters_[i].direction.dot(clusters_[j].direction) <
+            min_doubled_cosine_) {
+          continue;
+        }
+        best = {i, j};
+        best_distance = distance;
+      }
+    }
+    return best;
+  }
+
+  void Merge(std::size_t i, std::size_t j) {
+    Cluster merged = clusters_[i];
+    At(merged.last).next = clusters_[j].first;
+    merged.last = clusters_[j].last;
+    merged.size += clusters_[j].size;
+    SetMeans(merged);
+    clusters_.erase(clusters_.begin() + static_cast<std::ptrdiff_t>(j));
+    clusters_.erase(clusters_.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto place = std::upper_bound(
+        clusters_.begin(),
+        clusters_.end(),
+        merged.center,
+        [](double center, const Cluster& c) { return center < c.center; });
+    clusters_.insert(place, merged);
+  }
+
+  // Deviation: the paper gives no sigma of the weights; see docs/paper_map.md.
+  void SetMeans(Cluster& cluster) const {
+    double sum = 0;
+    for (int i = cluster.first; i >= 0; i = At(i).next) sum += At(i).along;
+    cluster.center = sum / cluster.size;
+    DoubledDirection mean = DoubledDirection::Zero();
+    for (int i = cluster.first; i >= 0; i = At(i).next) {
+      const double distance = (At(i).along - cluster.center) / sigma_px_;
+      mean += std::exp(-0.5 * distance * distance) * At(i).direction;
+    }
+    const double length = mean.norm();
+    cluster.direction = length > 0 ? DoubledDirection(mean / length)
+                                   : DoubledDirection::UnitX();
+  }
+
+  std::vector<Member>& members_;
+  std::vector<Cluster> clusters_;  // by center
+  double max_distance_px_, min_doubled_cosine_, sigma_px_;
+};
+
+VirtualEdge MakeVirtualEdge(const Cluster& cluster,
+                            const std::vector<Member>& members,
+                            const Line2& line) {
   VirtualEdge result;
   result.edge.position =
       cluster.center * line.Direction() - line.offset * line.normal;
-  result.edge.tangent = {std::cos(cluster.angle), std::sin(cluster.angle)};
-  for (const Member& member : cluster.members) {
-    result.members.push_back(member.edge_idx);
+  result.edge.tangent = Halved(cluster.direction);
+  // Members are in order along the line.
+  std::vector<int> order;
+  order.reserve(static_cast<std::size_t>(cluster.size));
+  for (int i = cluster.first; i >= 0;
+       i = members[static_cast<std::size_t>(i)].next) {
+    order.push_back(i);
+  }
+  std::sort(order.begin(), order.end());
+  result.members.reserve(order.size());
+  for (const int i : order) {
+    result.members.push_back(members[static_cast<std::size_t>(i)].edge_idx);
   }
   return result;
 }
 
 }  // namespace
 
-std::vector<VirtualEdge> ClusterEdges(std::vector<LineEdge> edges,
+std::vector<VirtualEdge> ClusterEdges(const std::vector<LineEdge>& edges,
                                       const Line2& line,
                                       const ConsolidationOptions& options) {
-  const double sigma_px = options.angle_weight_sigma_px;
-  std::vector<Cluster> clusters;
-  clusters.reserve(edges.size());
+  std::vector<Member> members;
+  members.reserve(edges.size());
   for (const LineEdge& e : edges) {
-    const Member member{line.Direction().dot(e.edge.position),
-                        std::atan2(e.edge.tangent.y(), e.edge.tangent.x()),
-                        e.edge_idx};
-    clusters.push_back(MakeCluster({member}, sigma_px));
+    members.push_back({line.Direction().dot(e.edge.position),
+                       Doubled(e.edge.tangent),
+                       e.edge_idx,
+                       -1});
   }
   std::sort(
-      clusters.begin(), clusters.end(), [](const Cluster& a, const Cluster& b) {
-        return std::pair(a.center, a.members.front().edge_idx) <
-               std::pair(b.center, b.members.front().edge_idx);
+      members.begin(), members.end(), [](const Member& a, const Member& b) {
+        return std::pair(a.along, a.edge_idx) < std::pair(b.along, b.edge_idx);
       });
-  while (const auto pair = NearestPair(clusters, options)) {
-    Merge(clusters, pair->first, pair->second, sigma_px);
-  }
   std::vector<VirtualEdge> result;
-  result.reserve(clusters.size());
-  for (Cluster& cluster : clusters) {
-    result.push_back(MakeVirtualEdge(std::move(cluster), line));
+  result.reserve(members.size());
+  Clustering clustering(members, options);
+  // Members further apart than clusters may be never come together.
+  for (std::size_t begin = 0, end = 0; begin < members.size(); begin = end) {
+    for (end = begin + 1; end < members.size(); ++end) {
+      if (members[end].along - members[end - 1].along >
+          options.max_cluster_distance_px) {
+        break;
+      }
+    }
+    for (const Cluster& cluster : clustering.Agglomerate(
+             static_cast<int>(begin), static_cast<int>(end))) {
+      result.push_back(MakeVirtualEdge(cluster, members, line));
+    }
   }
   return result;
 }

@@ -32,7 +32,7 @@ struct VirtualEdge {
 // result is in order along the line; the order of the input makes no
 // difference. O(n log n) plus O(n k) per merge, k the clusters within
 // max_cluster_distance_px of one.
-std::vector<VirtualEdge> ClusterEdges(std::vector<LineEdge> edges,
+std::vector<VirtualEdge> ClusterEdges(const std::vector<LineEdge>& edges,
                                       const Line2& line,
                                       const ConsolidationOptions& options);
 

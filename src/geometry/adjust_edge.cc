@@ -4,7 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace curvix {
 namespace {
@@ -36,7 +38,7 @@ struct NormalEquations {
 };
 
 NormalEquations Linearise(const EdgeEstimate& estimate,
-                          const std::vector<PlaneMeasurement>& measurements,
+                          std::span<const PlaneMeasurement> measurements,
                           double sigma_px) {
   NormalEquations sum;
   for (const PlaneMeasurement& m : measurements) {
@@ -108,13 +110,31 @@ EdgeEstimate AdjustEdge(const SpaceEdge& start,
   return estimate;
 }
 
-Eigen::Vector2d DistanceGradient(const EdgeEstimate& estimate,
-                                 const PosedView& view,
-                                 const ImageEdge& projected) {
-  const Residual residual =
-      Evaluate(MeasurePlane(view, projected), estimate.edge.position);
-  return {residual.gradient.dot(estimate.across1),
-          residual.gradient.dot(estimate.across2)};
+EdgeEstimate EstimateAtMeeting(const SpaceEdge& edge,
+                               const PlaneMeasurement& measurement1,
+                               const PlaneMeasurement& measurement2,
+                               double sigma_px) {
+  EdgeEstimate estimate;
+  estimate.edge = edge;
+  SetAxes(estimate);
+  const std::array measurements = {measurement1, measurement2};
+  estimate.covariance =
+      sigma_px * sigma_px *
+      Linearise(estimate, measurements, sigma_px).matrix.inverse();
+  return estimate;
+}
+
+std::optional<ProjectedEstimate> ProjectEstimate(const PosedView& view,
+                                                 const EdgeEstimate& estimate) {
+  const auto edge = ProjectEdge(view, estimate.edge);
+  if (!edge || !view.Contains(edge->position)) return std::nullopt;
+  // The distance's gradient by the position is plane / depth.
+  const Eigen::Vector3d plane = EdgePlane(view, *edge);
+  const double depth =
+      view.rotation.row(2).dot(estimate.edge.position - view.center);
+  const Eigen::Vector2d gradient(plane.dot(estimate.across1) / depth,
+                                 plane.dot(estimate.across2) / depth);
+  return ProjectedEstimate{*edge, gradient.dot(estimate.covariance * gradient)};
 }
 
 }  // namespace curvix

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "base/angles.h"
-
 namespace curvix {
 
 std::optional<Wedge> WedgeOf(const EpipolarPencil& pencil,
@@ -42,33 +40,19 @@ SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
       });
 }
 
-void SortedByAngle::Collect(const Wedge& wedge,
-                            double shift,
-                            std::vector<std::int32_t>& found) const {
-  const double center = wedge.center + shift;
-  const double reach = wedge.half_width + max_half_width_;
-  auto entry = std::lower_bound(
-      entries_.begin(),
-      entries_.end(),
-      center - reach,
-      [](const Entry& e, double angle) { return e.angle < angle; });
-  for (; entry != entries_.end() && entry->angle <= center + reach; ++entry) {
-    if (std::abs(entry->angle - center) <=
-        wedge.half_width + entry->half_width) {
-      found.push_back(entry->edge_idx);
-    }
-  }
-}
-
 std::vector<std::int32_t> SortedByAngle::Meeting(const Wedge& wedge) const {
   std::vector<std::int32_t> found;
-  const double reach = wedge.half_width + max_half_width_;
-  Collect(wedge, 0, found);
-  if (wedge.center + reach > kPi) Collect(wedge, -2 * kPi, found);
-  if (wedge.center - reach < -kPi) Collect(wedge, 2 * kPi, found);
+  VisitMeeting(wedge,
+               [&](std::size_t i) { found.push_back(entries_[i].edge_idx); });
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+std::vector<std::int32_t> SortedByAngle::EdgeIdxs() const {
+  std::vector<std::int32_t> edge_idxs;
+  edge_idxs.reserve(entries_.size());
+  for (const Entry& entry : entries_) edge_idxs.push_back(entry.edge_idx);
+  return edge_idxs;
 }
 
 }  // namespace curvix

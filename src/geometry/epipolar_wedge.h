@@ -4,10 +4,13 @@
 
 #include <curvix/edges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "base/angles.h"
 #include "geometry/epipolar.h"
 #include "model/posed_view.h"
 
@@ -43,15 +46,49 @@ class SortedByAngle {
   // ascending order of edge index.
   std::vector<std::int32_t> Meeting(const Wedge& wedge) const;
 
+  // Calls f(place) for each of these edges, in no useful order: `place` is the
+  // edge's in EdgeIdxs().
+  template <typename F>
+  void VisitMeeting(const Wedge& wedge, const F& f) const {
+    const double reach = wedge.half_width + max_half_width_;
+    if (reach >= kPi) {  // all around: nearly along the baseline
+      for (std::size_t i = 0; i < entries_.size(); ++i) {
+        if (Meet(wedge, {entries_[i].angle, entries_[i].half_width})) f(i);
+      }
+      return;
+    }
+    Visit(wedge, 0, f);
+    if (wedge.center + reach > kPi) Visit(wedge, -2 * kPi, f);
+    if (wedge.center - reach < -kPi) Visit(wedge, 2 * kPi, f);
+  }
+
+  // All edges, by angle.
+  std::vector<std::int32_t> EdgeIdxs() const;
+
  private:
   struct Entry {
     double angle;
     double half_width;
     std::int32_t edge_idx;
   };
-  void Collect(const Wedge& wedge,
-               double shift,
-               std::vector<std::int32_t>& found) const;
+  template <typename F>
+  void Visit(const Wedge& wedge, double shift, const F& f) const {
+    const double center = wedge.center + shift;
+    const double reach = wedge.half_width + max_half_width_;
+    const auto first = std::lower_bound(
+        entries_.begin(),
+        entries_.end(),
+        center - reach,
+        [](const Entry& e, double angle) { return e.angle < angle; });
+    for (auto entry = first;
+         entry != entries_.end() && entry->angle <= center + reach;
+         ++entry) {
+      if (std::abs(entry->angle - center) <=
+          wedge.half_width + entry->half_width) {
+        f(static_cast<std::size_t>(entry - entries_.begin()));
+      }
+    }
+  }
 
   std::vector<Entry> entries_;  // by angle
   double max_half_width_ = 0;

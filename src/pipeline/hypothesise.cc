@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/angles.h"
-#include "consolidation/cluster_edges.h"
 #include "consolidation/slide_to_line.h"
 #include "geometry/image_edge.h"
 
@@ -29,11 +28,16 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
                                  const Options& options)
     : h1_(&h1),
       h2_(&h2),
-      edges2_(&edges2),
       options_(&options),
       pencil_(pencil),
       fundamental_(FundamentalMatrix(h1, h2)),
-      sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {}
+      sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {
+  edges2_.reserve(edges2.size());
+  for (const std::int32_t edge_idx : sorted2_.EdgeIdxs()) {
+    edges2_.push_back(
+        {ToImageEdge(edges2[static_cast<std::size_t>(edge_idx)]), edge_idx});
+  }
+}
 
 bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
   // The epipolar plane of the edge meets the image in its epipolar line.
@@ -57,20 +61,16 @@ std::vector<Hypothesis> HypothesisViews::Hypothesise(
   const Line2 line = EpipolarLine(fundamental_, edge1.position);
 
   std::vector<LineEdge> on_line;
-  for (const std::int32_t idx : sorted2_.Meeting(*wedge)) {
-    const auto moved =
-        SlideToLine(ToImageEdge((*edges2_)[static_cast<std::size_t>(idx)]),
-                    line,
-                    tolerance_px,
-                    options_->consolidation);
-    if (moved) on_line.push_back({*moved, idx});
-  }
-  const double min_angle =
-      DegToRad(options_->hypotheses.min_epipolar_angle_deg);
+  sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
+    const auto moved = SlideToLine(
+        edges2_[i].edge, line, tolerance_px, options_->consolidation);
+    if (moved) on_line.push_back({*moved, edges2_[i].edge_idx});
+  });
+  const double min_sine =
+      std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
   for (VirtualEdge& virtual_edge :
-       ClusterEdges(std::move(on_line), line, options_->consolidation)) {
-    if (std::abs(line.normal.dot(virtual_edge.edge.tangent)) <
-        std::sin(min_angle)) {
+       ClusterEdges(on_line, line, options_->consolidation)) {
+    if (std::abs(line.normal.dot(virtual_edge.edge.tangent)) < min_sine) {
       continue;
     }
     const auto edge =

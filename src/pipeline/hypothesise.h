@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "consolidation/cluster_edges.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"
 #include "geometry/epipolar_wedge.h"
@@ -53,11 +54,11 @@ class HypothesisViews {
   bool RunsAlongEpipolarLine(const ImageEdge& edge1) const;
 
   const PosedView *h1_, *h2_;
-  const std::vector<Edge2d>* edges2_;
   const Options* options_;
   EpipolarPencil pencil_;
   Eigen::Matrix3d fundamental_;
   SortedByAngle sorted2_;
+  std::vector<LineEdge> edges2_;  // as detected, in the order of sorted2_
 };
 
 }  // namespace curvix

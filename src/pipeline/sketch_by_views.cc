@@ -3,6 +3,7 @@
 // partners, for the edges that nothing explains yet; see docs/paper_map.md.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/angles.h"
@@ -69,10 +70,10 @@ struct H1Result {
   std::int64_t rivals = 0;
 };
 
-// A partner of an H1 view, and the views to ask first about their hypotheses.
+// A partner of an H1 view, and the views to ask about their hypotheses.
 struct Partner {
   HypothesisViews pair;
-  std::vector<std::int32_t> first_views;  // ascending
+  ViewsToAsk to_ask;
 };
 
 class ViewSketcher {
@@ -81,7 +82,17 @@ class ViewSketcher {
       : input_(input),
         indices_(IndexViews(input)),
         neighbors_(NeighborsInDirection(input.overlaps)),
-        sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {}
+        sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {
+    const ValidationOptions& options = input.options.validation;
+    ParallelFor(
+        indices_.size(), input.options.runtime.num_threads, [&](std::size_t i) {
+          indices_[i].presence = EdgePresence(input.edge_maps[i].edges,
+                                              input.views[i].width,
+                                              input.views[i].height,
+                                              SearchReachPx(options),
+                                              DegToRad(options.max_angle_deg));
+        });
+  }
 
   // The partners of view h1, ready for pairing.
   std::vector<Partner> Partners(int h1) const {
@@ -94,7 +105,7 @@ class ViewSketcher {
                                         input_.views[j],
                                         input_.edge_maps[j].edges,
                                         input_.options);
-      if (pair) partners.push_back({*std::move(pair), FirstViews(h1, h2)});
+      if (pair) partners.push_back({*std::move(pair), ToAsk(h1, h2)});
     }
     return partners;
   }
@@ -119,31 +130,38 @@ class ViewSketcher {
   }
 
  private:
-  // Both views and those next to them in direction.
-  std::vector<std::int32_t> FirstViews(int h1, int h2) const {
-    std::vector<std::int32_t> first = {h1, h2};
+  ViewsToAsk ToAsk(int h1, int h2) const {
+    ViewsToAsk to_ask;
     for (const int view_idx : {h1, h2}) {
       for (const ViewNeighbor& neighbor :
            neighbors_[static_cast<std::size_t>(view_idx)]) {
-        first.push_back(neighbor.view_idx);
+        to_ask.first.push_back(neighbor.view_idx);
       }
     }
-    std::sort(first.begin(), first.end());
-    first.erase(std::unique(first.begin(), first.end()), first.end());
-    return first;
+    std::erase_if(to_ask.first, [&](int i) { return i == h1 || i == h2; });
+    std::sort(to_ask.first.begin(), to_ask.first.end());
+    to_ask.first.erase(std::unique(to_ask.first.begin(), to_ask.first.end()),
+                       to_ask.first.end());
+    to_ask.first.insert(to_ask.first.end(), {h1, h2});
+    to_ask.all.resize(input_.views.size());
+    std::iota(to_ask.all.begin(), to_ask.all.end(), 0);
+    return to_ask;
   }
 
   std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
                                    const Partner& partner) const {
+    if (!MayBeSupported(hypothesis.edge, indices_, partner.to_ask)) {
+      return std::nullopt;
+    }
     const EdgeEstimate start =
-        AdjustEdge(hypothesis.edge,
-                   {MeasurePlane(partner.pair.h1(), hypothesis.edge1),
-                    MeasurePlane(partner.pair.h2(), hypothesis.edge2)},
-                   sigma_px_);
+        EstimateAtMeeting(hypothesis.edge,
+                          MeasurePlane(partner.pair.h1(), hypothesis.edge1),
+                          MeasurePlane(partner.pair.h2(), hypothesis.edge2),
+                          sigma_px_);
     return TrackSupport(start,
                         indices_,
                         neighbors_,
-                        partner.first_views,
+                        partner.to_ask,
                         sigma_px_,
                         input_.options.validation);
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/angles.h"
 #include "geometry/image_edge.h"
@@ -16,121 +15,184 @@ constexpr int kNumRounds = 4;
 // Views in which the estimate may be off by more are not asked yet. Pixels.
 constexpr double kMaxPredictedSigmaPx = 0.7;
 // The hypothesis views and two more.
-constexpr int kFewestSupports = 4;
+constexpr std::size_t kFewestSupports = 4;
 constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 
-struct Support {
-  std::vector<EdgeRef> refs;
-  std::vector<PlaneMeasurement> measurements;
-  Votes votes;
+struct Search {
+  double sigma_px = 0;
+  double max_distance_px = 0;
+  double min_cosine = 0;
 };
+
+// What a view shows there.
+struct Answer {
+  std::int32_t view_idx = 0;
+  ImageEdge projected;
+  double expected_px = 0;  // standard deviation of the distance from an edge
+  std::optional<std::int32_t> edge_idx;
+};
+
+// nullopt if the edge is not in the image or not known well enough there.
+std::optional<Answer> Ask(const EdgeEstimate& estimate,
+                          const std::vector<ViewIndex>& views,
+                          std::int32_t view_idx,
+                          const Search& search) {
+  const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
+  const auto projected = ProjectEstimate(*view.view, estimate);
+  if (!projected ||
+      projected->variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {
+    return std::nullopt;
+  }
+  const double expected_px =
+      std::sqrt(projected->variance_px2 + search.sigma_px * search.sigma_px);
+  const Gate gate{std::min(search.max_distance_px, kGateSigmas * expected_px),
+                  kMaxTangentialPx,
+                  search.min_cosine};
+  return Answer{view_idx,
+                projected->edge,
+                expected_px,
+                NearestEdge(view, projected->edge, gate)};
+}
+
+// Whether `supports` is true of at least kFewestSupports of the views. Asks no
+// more of them than it takes to know.
+template <typename F>
+bool AtLeastFewest(const std::vector<std::int32_t>& asked, const F& supports) {
+  std::size_t num_supports = 0;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (num_supports + (asked.size() - i) < kFewestSupports) return false;
+    if (supports(asked[i]) && ++num_supports == kFewestSupports) return true;
+  }
+  return false;
+}
+
+// By view index.
+std::vector<Answer> AskAll(const EdgeEstimate& estimate,
+                           const std::vector<ViewIndex>& views,
+                           const std::vector<std::int32_t>& asked,
+                           const Search& search) {
+  std::vector<Answer> answers;
+  answers.reserve(asked.size());
+  for (const std::int32_t view_idx : asked) {
+    if (auto answer = Ask(estimate, views, view_idx, search)) {
+      answers.push_back(*answer);
+    }
+  }
+  std::sort(
+      answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
+        return a.view_idx < b.view_idx;
+      });
+  return answers;
+}
+
+std::vector<EdgeRef> SupportIn(const std::vector<Answer>& answers) {
+  std::vector<EdgeRef> support;
+  for (const Answer& answer : answers) {
+    if (answer.edge_idx) support.push_back({answer.view_idx, *answer.edge_idx});
+  }
+  return support;
+}
+
+ImageEdge EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views) {
+  return ToImageEdge(views[static_cast<std::size_t>(ref.view_idx)]
+                         .edges->edges[static_cast<std::size_t>(ref.edge_idx)]);
+}
+
+std::vector<PlaneMeasurement> Measure(const std::vector<EdgeRef>& support,
+                                      const std::vector<ViewIndex>& views) {
+  std::vector<PlaneMeasurement> measurements;
+  measurements.reserve(support.size());
+  for (const EdgeRef& ref : support) {
+    measurements.push_back(
+        MeasurePlane(*views[static_cast<std::size_t>(ref.view_idx)].view,
+                     EdgeOf(ref, views)));
+  }
+  return measurements;
+}
 
 double AngleOf(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-SupportFit Fit(const ImageEdge& projected,
-               const ImageEdge& edge,
-               double sigma_px) {
+double VoteOf(const Answer& answer, const std::vector<ViewIndex>& views) {
+  if (!answer.edge_idx) return VoteWithoutSupport();
+  const ImageEdge edge = EdgeOf({answer.view_idx, *answer.edge_idx}, views);
+  const ImageEdge& projected = answer.projected;
   const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
-  return {
-      normal.dot(projected.position - edge.position),
-      sigma_px,
-      UndirectedDifference(AngleOf(projected.tangent), AngleOf(edge.tangent))};
+  const double angle = AngleOf(projected.tangent);
+  const SupportFit fit{normal.dot(projected.position - edge.position),
+                       answer.expected_px,
+                       UndirectedDifference(angle, AngleOf(edge.tangent))};
+  return VoteWithSupport(
+      fit,
+      views[static_cast<std::size_t>(answer.view_idx)].density.Density(
+          projected.position, angle));
 }
 
-// What one view says; nothing if the edge is not in its image or not known well
-// enough there.
-void AskView(const EdgeEstimate& estimate,
-             const ViewIndex& view,
-             std::int32_t view_idx,
-             double sigma_px,
-             const ValidationOptions& options,
-             Support& support) {
-  const auto projected = ProjectEdge(*view.view, estimate.edge);
-  if (!projected || !view.view->Contains(projected->position)) return;
-  const Eigen::Vector2d gradient =
-      DistanceGradient(estimate, *view.view, *projected);
-  const double predicted =
-      std::sqrt(gradient.dot(estimate.covariance * gradient));
-  if (predicted > kMaxPredictedSigmaPx) return;
-  const double expected = std::hypot(predicted, sigma_px);
-  const Gate gate{std::min(options.max_distance_px, kGateSigmas * expected),
-                  kMaxTangentialPx,
-                  std::cos(DegToRad(options.max_angle_deg))};
-  std::optional<double>& vote =
-      support.votes[static_cast<std::size_t>(view_idx)];
-  const auto nearest = NearestEdge(view, *projected, gate);
-  if (!nearest) {
-    vote = VoteWithoutSupport();
-    return;
+Votes VotesOf(const std::vector<Answer>& answers,
+              const std::vector<ViewIndex>& views) {
+  Votes votes(views.size());
+  for (const Answer& answer : answers) {
+    votes[static_cast<std::size_t>(answer.view_idx)] = VoteOf(answer, views);
   }
-  const ImageEdge edge =
-      ToImageEdge(view.edges->edges[static_cast<std::size_t>(*nearest)]);
-  vote = VoteWithSupport(
-      Fit(*projected, edge, expected),
-      view.density.Density(projected->position, AngleOf(projected->tangent)));
-  support.refs.push_back({view_idx, *nearest});
-  support.measurements.push_back(MeasurePlane(*view.view, edge));
-}
-
-Support FindSupport(const EdgeEstimate& estimate,
-                    const std::vector<ViewIndex>& views,
-                    const std::vector<std::int32_t>& asked,
-                    double sigma_px,
-                    const ValidationOptions& options) {
-  Support support;
-  support.votes.resize(views.size());
-  for (const std::int32_t view_idx : asked) {
-    AskView(estimate,
-            views[static_cast<std::size_t>(view_idx)],
-            view_idx,
-            sigma_px,
-            options,
-            support);
-  }
-  return support;
-}
-
-std::vector<std::int32_t> AllOf(const std::vector<ViewIndex>& views) {
-  std::vector<std::int32_t> all(views.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
+  return votes;
 }
 
 }  // namespace
+
+double SearchReachPx(const ValidationOptions& options) {
+  return std::hypot(options.max_distance_px, kMaxTangentialPx);
+}
+
+bool MayBeSupported(const SpaceEdge& edge,
+                    const std::vector<ViewIndex>& views,
+                    const ViewsToAsk& to_ask) {
+  return AtLeastFewest(to_ask.first, [&](std::int32_t view_idx) {
+    const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
+    const auto projected = ProjectEdge(*view.view, edge);
+    return projected &&
+           view.presence.MayHave(projected->position, projected->tangent);
+  });
+}
 
 std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
     const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const std::vector<std::int32_t>& first_views,
+    const ViewsToAsk& to_ask,
     double sigma_px,
     const ValidationOptions& options) {
+  const Search search{sigma_px,
+                      options.max_distance_px,
+                      std::cos(DegToRad(options.max_angle_deg))};
+  const bool is_worth_it =
+      AtLeastFewest(to_ask.first, [&](std::int32_t view_idx) {
+        const auto answer = Ask(start, views, view_idx, search);
+        return answer && answer->edge_idx;
+      });
+  if (!is_worth_it) return std::nullopt;
   TrackedEdge tracked;
   tracked.estimate = start;
-  Support support;
+  std::vector<Answer> answers;
   for (int round = 0; round < kNumRounds; ++round) {
-    support = FindSupport(tracked.estimate,
-                          views,
-                          round == 0 ? first_views : AllOf(views),
-                          sigma_px,
-                          options);
-    if (static_cast<int>(support.refs.size()) < kFewestSupports) {
-      return std::nullopt;
-    }
+    answers = AskAll(tracked.estimate,
+                     views,
+                     round == 0 ? to_ask.first : to_ask.all,
+                     search);
+    std::vector<EdgeRef> support = SupportIn(answers);
+    if (support.size() < kFewestSupports) return std::nullopt;
     // Settled: further rounds would ask the same views.
-    if (round > 0 && tracked.support == support.refs) break;
+    if (round > 0 && tracked.support == support) break;
     tracked.estimate =
-        AdjustEdge(tracked.estimate.edge, support.measurements, sigma_px);
-    tracked.support = support.refs;
+        AdjustEdge(tracked.estimate.edge, Measure(support, views), sigma_px);
+    tracked.support = std::move(support);
   }
   if (static_cast<int>(tracked.support.size()) <
       options.min_num_support_views + 2) {
     return std::nullopt;
   }
-  tracked.evidence = Evidence(support.votes, neighbors);
+  tracked.evidence = Evidence(VotesOf(answers, views), neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;
   return tracked;
 }

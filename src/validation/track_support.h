@@ -24,21 +24,41 @@ struct TrackedEdge {
   double evidence = 0;           // Evidence()
 };
 
+// Which views to ask about hypotheses of one pair of hypothesis views.
+struct ViewsToAsk {
+  // The views next to the hypothesis views, then these themselves, which hardly
+  // ever tell a wrong hypothesis from a right one.
+  std::vector<std::int32_t> first;
+  std::vector<std::int32_t> all;  // ascending
+};
+
+// How far from a projected edge its support may be, at most: of an EdgePresence
+// for MayBeSupported().
+double SearchReachPx(const ValidationOptions& options);
+
+// False only if TrackSupport() would end in its first round whatever the
+// estimate's covariance: a look at each view's `presence`, before the estimate
+// is made.
+bool MayBeSupported(const SpaceEdge& edge,
+                    const std::vector<ViewIndex>& views,
+                    const ViewsToAsk& to_ask);
+
 // Looks for the support of `start`. Two rays fix a 3D edge to a few tenths of a
 // pixel in their own views and to several pixels in a view at a right angle; so
 // each round asks the views in which the estimate's predicted standard
 // deviation is below a bound, takes the nearest edge within the gate, and
-// adjusts the estimate to all support found. The first round asks `first_views`
-// only, the hypothesis views and those next to them: most hypotheses are wrong,
-// and that shows there. nullopt as soon as fewer than two views besides the
-// hypothesis views support it, or when in the end fewer than
-// options.min_num_support_views do or the evidence is below
-// options.min_evidence. `sigma_px`: standard deviation of an edge's location.
+// adjusts the estimate to all support found. The first round asks
+// `to_ask.first` only, and ends as soon as too few of them are left: most
+// hypotheses are wrong, and that shows there. Later rounds ask `to_ask.all`.
+// nullopt as soon as fewer than two views besides the hypothesis views support
+// it, or when in the end fewer than options.min_num_support_views do or the
+// evidence is below options.min_evidence. `sigma_px`: standard deviation of an
+// edge's location.
 std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
     const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const std::vector<std::int32_t>& first_views,
+    const ViewsToAsk& to_ask,
     double sigma_px,
     const ValidationOptions& options);
 

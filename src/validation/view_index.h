@@ -12,6 +12,7 @@
 #include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 #include "validation/edge_density.h"
+#include "validation/edge_presence.h"
 
 namespace curvix {
 
@@ -21,6 +22,7 @@ struct ViewIndex {
   const EdgeMap* edges = nullptr;
   GridIndex grid;
   EdgeDensity density;
+  EdgePresence presence = {};  // may be left out
 };
 
 // Bounds on where an edge may be, relative to a place and direction in the

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -25,7 +26,13 @@ constexpr double kSigmaPx = 0.15;
 
 // A tilted line and a circle apart from it, in 16 views.
 // Those of the hypothesis, 0 and 2, and the views next to them.
-const std::vector<std::int32_t> kFirstViews = {0, 1, 2, 3, 15};
+const std::vector<std::int32_t> kFirstViews = {1, 3, 15, 0, 2};
+
+std::vector<std::int32_t> AllViews() {
+  std::vector<std::int32_t> all(16);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
 
 class TrackSupportTest : public ::testing::Test {
  protected:
@@ -64,8 +71,12 @@ class TrackSupportTest : public ::testing::Test {
 
   std::optional<TrackedEdge> Track(
       const EdgeEstimate& start, const ValidationOptions& options = {}) const {
-    return TrackSupport(
-        start, indices_, neighbors_, kFirstViews, kSigmaPx, options);
+    return TrackSupport(start,
+                        indices_,
+                        neighbors_,
+                        {kFirstViews, AllViews()},
+                        kSigmaPx,
+                        options);
   }
 
   const std::vector<TestCurve> curves_ = {
@@ -106,9 +117,13 @@ TEST_F(TrackSupportTest, FindsExactCurvesInEveryView) {
 
 TEST_F(TrackSupportTest, RejectsWhatTheFirstViewsDoNotShow) {
   const EdgeEstimate start = Start(curves_[0], 1, 0);
-  EXPECT_TRUE(
-      TrackSupport(start, indices_, neighbors_, kFirstViews, kSigmaPx, {}));
-  EXPECT_FALSE(TrackSupport(start, indices_, neighbors_, {0, 2}, kSigmaPx, {}));
+  const auto track = [&](const std::vector<std::int32_t>& first) {
+    return TrackSupport(
+        start, indices_, neighbors_, {first, AllViews()}, kSigmaPx, {});
+  };
+  EXPECT_TRUE(track(kFirstViews));
+  EXPECT_TRUE(track({15, 3, 1, 2, 0}));
+  EXPECT_FALSE(track({0, 2}));
 }
 
 TEST_F(TrackSupportTest, ListsOneEdgePerViewInOrder) {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Tells at once where no edge can be found.
+#pragma once
+
+#include <curvix/edges.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+// One bit for each place (cells of 4 x 4 pixels) and direction (16 bins) where
+// a search would find an edge within its reach. Two bytes per cell, while the
+// edges themselves and their index take many times as much: most questions end
+// in the cache.
+class EdgePresence {
+ public:
+  // Knows nothing: everything may be found.
+  EdgePresence() = default;
+  // For searches up to reach_px (> 0) away, in x and in y, and up to
+  // max_angle_rad off in direction, in an image of `width` x `height`.
+  EdgePresence(const std::vector<Edge2d>& edges,
+               int width,
+               int height,
+               double reach_px,
+               double max_angle_rad);
+
+  // False only if no edge is within reach of `pixel` and has a direction like
+  // `tangent` (finite, not zero, sign-free).
+  bool MayHave(const Eigen::Vector2d& pixel,
+               const Eigen::Vector2d& tangent) const {
+    if (cells_.empty()) return true;
+    const auto cell = static_cast<std::size_t>(Cell(pixel.y(), rows_)) *
+                          static_cast<std::size_t>(columns_) +
+                      static_cast<std::size_t>(Cell(pixel.x(), columns_));
+    return (cells_[cell] >> Bin(tangent)) & 1;
+  }
+
+ private:
+  static constexpr double kCellsPerPx = 0.25;
+  static constexpr int kNumBins = 16;
+
+  static int Cell(double place, int count) {
+    const double cell = place * kCellsPerPx;
+    if (!(cell > 0)) return 0;
+    return cell >= count ? count - 1 : static_cast<int>(cell);
+  }
+  // Rises with the angle of the line, from 0 up to 2 for a half turn.
+  static double DiamondAngle(const Eigen::Vector2d& t) {
+    const double share = t.x() / (std::abs(t.x()) + std::abs(t.y()));
+    return t.y() < 0 || (t.y() == 0 && t.x() < 0) ? 1 + share : 1 - share;
+  }
+  static int Bin(const Eigen::Vector2d& tangent) {
+    const int bin = static_cast<int>(DiamondAngle(tangent) * (kNumBins / 2));
+    return bin < kNumBins ? bin : kNumBins - 1;
+  }
+  static std::uint16_t BinsAround(double angle_rad, double max_angle_rad);
+
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<std::uint16_t> cells_;
+};
+
+}  // namespace curvix
