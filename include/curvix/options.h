@@ -166,6 +166,22 @@ struct CurveRefinementOptions {
   double max_junction_gap_px = 1.0;
 };
 
+// Beyond the paper: which curves to keep. The defaults keep all; on textured
+// photographs, higher values leave structure and take texture away.
+struct CurveFilterOptions {
+  // Shortest curve, in pixels of the views that see it largest; >= 0.
+  double min_length_px = 0;
+  // Fewest views that support a sample of it, median; >= 0.
+  int min_num_views = 0;
+  // Least gradient of its 2D edges, grey levels per pixel, median; >= 0.
+  double min_contrast = 0;
+  // Largest standard deviation across it. Pixels, median; 0: any.
+  double max_sigma_px = 0;
+  // Mean cosine of the angle between tangents 10 pixels apart: 1 for a line,
+  // 1 - 50 / r^2 for a circle of r pixels; 0..1.
+  double min_straightness = 0;
+};
+
 struct RuntimeOptions {
   // Threads; <= 0 means one per core.
   int num_threads = -1;
@@ -180,6 +196,7 @@ struct Options {
   AlignmentOptions alignment;
   ConnectivityOptions connectivity;
   CurveRefinementOptions curve_refinement;
+  CurveFilterOptions curve_filter;
   RuntimeOptions runtime;
 };
 

@@ -218,6 +218,20 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "largest distance of a continued end from its corner");
 }
 
+void AddRows(CurveFilterOptions& o, Section row) {
+  row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
+      "shortest curve, in the views that see it largest");
+  row("min_num_views", &o.min_num_views, AtLeast(0), "", "",
+      "fewest views that support a sample of a curve, median");
+  row("min_contrast", &o.min_contrast, AtLeast(0), "", "",
+      "least gradient of a curve's edges, grey levels per pixel, median");
+  row("max_sigma_px", &o.max_sigma_px, AtLeast(0), "px", "",
+      "largest standard deviation across a curve, median; 0: any");
+  row("min_straightness", &o.min_straightness, Between(0, 1), "", "",
+      "mean cosine between tangents 10 px apart: 1 for lines, 0.995 for a "
+      "circle of radius 100 px");
+}
+
 void AddRows(RuntimeOptions& o, Section row) {
   row("num_threads", &o.num_threads, Between(-1, 4096), "", "",
       "threads; -1 or 0 means one per core");
@@ -237,6 +251,7 @@ std::vector<OptionRow> OptionTable(Options& options) {
   AddRows(options.alignment, Section("Alignment.", rows));
   AddRows(options.connectivity, Section("Connectivity.", rows));
   AddRows(options.curve_refinement, Section("CurveRefinement.", rows));
+  AddRows(options.curve_filter, Section("CurveFilter.", rows));
   AddRows(options.runtime, Section("", rows));
   return rows;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/median.h"
 #include "geometry/epipolar.h"
 
 namespace curvix {
@@ -16,13 +17,6 @@ constexpr std::size_t kMinNumPoints = 8;
 constexpr std::size_t kMaxNumPlaces = 64;
 // Shares of the baseline below this have no direction.
 constexpr double kMinAcross = 1e-6;
-
-double Median(std::vector<double> values) {
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Eigen::Vector3d OpticalAxis(const PosedView& view) {
   return view.rotation.row(2).transpose();

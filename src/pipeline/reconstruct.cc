@@ -15,6 +15,7 @@
 #include "pipeline/run_recorder.h"
 #include "pipeline/sketch_edges.h"
 #include "pipeline/why_empty.h"
+#include "refinement/filter_curves.h"
 #include "refinement/refine_curves.h"
 
 namespace curvix {
@@ -58,9 +59,16 @@ Reconstruction Reconstruct(const Scene& scene,
       result.curves.curves, views, options.curve_refinement, num_threads);
   run.End(CountsOf(result.curves));
 
+  // What the user wants to see of them.
+  const std::size_t num_refined = result.curves.curves.size();
+  run.Begin("filter_curves");
+  result.curves.curves = FilterCurves(
+      std::move(result.curves.curves), views, edge_maps, options.curve_filter);
+  run.End(CountsOf(result.curves));
+
   result.report = run.TakeReport();
   if (result.curves.curves.empty()) {
-    result.report.why_empty = WhyEmpty(edge_maps, sketch, options);
+    result.report.why_empty = WhyEmpty(edge_maps, sketch, num_refined, options);
   }
   return result;
 }

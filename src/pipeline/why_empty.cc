@@ -10,6 +10,7 @@ namespace curvix {
 
 std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
                      const EdgeSketch& sketch,
+                     std::size_t num_curves,
                      const Options& options) {
   std::size_t num_edges = 0;
   std::int64_t num_masked = 0;
@@ -45,6 +46,9 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
             "right to about a pixel, and do at least "
          << options.validation.min_num_support_views + 2
          << " views see each part of the scene?";
+  } else if (num_curves > 0) {
+    text << "None of " << num_curves
+         << " curves passes the filters; lower the --CurveFilter options.";
   } else {
     text << sketch.edges.size()
          << " 3D edges were found, but no run of them is "

@@ -5,17 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/median.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
 namespace {
-
-double Median(std::vector<double> values) {
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 bool IsConfirmed(const Curve& curve,
                  const std::vector<PosedView>& views,

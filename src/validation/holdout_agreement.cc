@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/image_edge.h"
@@ -140,10 +141,7 @@ HoldoutAgreement Summarize(Tally tally) {
   agreement.support = static_cast<double>(tally.distances.size()) / n;
   agreement.chance = static_cast<double>(tally.num_on_edge_moved) / (2 * n);
   if (tally.distances.empty()) return agreement;
-  const auto middle = tally.distances.begin() +
-                      static_cast<std::ptrdiff_t>(tally.distances.size() / 2);
-  std::nth_element(tally.distances.begin(), middle, tally.distances.end());
-  agreement.median_distance_px = *middle;
+  agreement.median_distance_px = Median(std::move(tally.distances));
   return agreement;
 }
 
