@@ -12,6 +12,7 @@
 #include <curvix/option_table.h>
 #include <curvix/options.h>
 #include <curvix/reconstruct.h>
+#include <curvix/refine_poses.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <curvix/stopwatch.h>

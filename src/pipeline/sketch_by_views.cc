@@ -11,56 +11,14 @@
 #include "hypotheses/select_views.h"
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
+#include "pipeline/view_indices.h"
 #include "validation/track_support.h"
 
 namespace curvix {
 namespace {
 
-// Views further apart in direction have no vote on each other.
-constexpr double kNeighborAngleDeg = 25;
-constexpr std::size_t kMaxNumNeighbors = 4;
-constexpr double kGridCellPx = 4;
 // Times the evidence that is asked for.
 constexpr double kSettledEvidence = 3;
-
-std::vector<ViewIndex> IndexViews(const SketchInput& input) {
-  std::vector<ViewIndex> indices(input.views.size());
-  ParallelFor(
-      indices.size(), input.options.runtime.num_threads, [&](std::size_t i) {
-        const PosedView& view = input.views[i];
-        const EdgeMap& map = input.edge_maps[i];
-        indices[i] = {&view,
-                      &map,
-                      GridIndex(map.edges, kGridCellPx),
-                      EdgeDensity(map.edges, view.width, view.height)};
-      });
-  return indices;
-}
-
-// The nearest views in direction, nearest first.
-std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps) {
-  std::sort(overlaps.begin(),
-            overlaps.end(),
-            [](const ViewOverlap& a, const ViewOverlap& b) {
-              return std::pair(a.ray_angle_rad, a.other) <
-                     std::pair(b.ray_angle_rad, b.other);
-            });
-  overlaps.resize(std::min(overlaps.size(), kMaxNumNeighbors));
-  return overlaps;
-}
-
-// The weights of the nearest views' votes.
-std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
-    const std::vector<std::vector<ViewOverlap>>& overlaps) {
-  std::vector<std::vector<ViewNeighbor>> neighbors(overlaps.size());
-  for (std::size_t i = 0; i < overlaps.size(); ++i) {
-    for (const ViewOverlap& overlap : NearestInDirection(overlaps[i])) {
-      const double r = RadToDeg(overlap.ray_angle_rad) / kNeighborAngleDeg;
-      neighbors[i].push_back({overlap.other, std::exp(-0.5 * r * r)});
-    }
-  }
-  return neighbors;
-}
 
 // What one H1 edge led to.
 struct H1Result {
@@ -80,7 +38,8 @@ class ViewSketcher {
  public:
   explicit ViewSketcher(const SketchInput& input)
       : input_(input),
-        indices_(IndexViews(input)),
+        indices_(IndexViews(
+            input.views, input.edge_maps, input.options.runtime.num_threads)),
         neighbors_(NeighborsInDirection(input.overlaps)),
         sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {
     const ValidationOptions& options = input.options.validation;
@@ -272,6 +231,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     std::vector<H1Result> results(edges.size());
     ParallelFor(
         edges.size(), input.options.runtime.num_threads, [&](std::size_t i) {
+          if (i % input.h1_step != input.h1_step / 2) return;
           if (used.Contains({*h1, static_cast<std::int32_t>(i)})) return;
           results[i] = sketcher.Sketch(edges[i], partners);
         });

@@ -14,6 +14,8 @@ struct SketchInput {
   const std::vector<EdgeMap>& edge_maps;
   const std::vector<std::vector<ViewOverlap>>& overlaps;
   const Options& options;
+  // One edge in so many of each view asks for hypotheses, with SketchByViews.
+  std::size_t h1_step = 1;
 };
 
 // Paper: pairs of views with most unused edges, wedge support.

@@ -12,8 +12,10 @@ namespace curvix {
 namespace {
 
 constexpr int kNumRounds = 4;
-// Views in which the estimate may be off by more are not asked yet. Pixels.
+// Views in which the estimate may be off by more are not asked yet: pixels, or
+// standard deviations of an edge's location where these are larger.
 constexpr double kMaxPredictedSigmaPx = 0.7;
+constexpr double kMaxPredictedSigmas = 4.6;
 // The hypothesis views and two more.
 constexpr std::size_t kFewestSupports = 4;
 constexpr double kGateSigmas = 4;
@@ -40,8 +42,9 @@ std::optional<Answer> Ask(const EdgeEstimate& estimate,
                           const Search& search) {
   const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
   const auto projected = ProjectEstimate(*view.view, estimate);
-  if (!projected ||
-      projected->variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {
+  const double limit_px =
+      std::max(kMaxPredictedSigmaPx, kMaxPredictedSigmas * search.sigma_px);
+  if (!projected || projected->variance_px2 > limit_px * limit_px) {
     return std::nullopt;
   }
   const double expected_px =

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Sketch, shift, and in turns find edges and adjust;
+// see docs/stages/poses.md.
+#include <curvix/option_table.h>
+#include <curvix/refine_poses.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/parallel.h"
+#include "pipeline/check_input.h"
+#include "pipeline/judge_poses.h"
+#include "pipeline/posed_edges.h"
+#include "pipeline/run_recorder.h"
+#include "poses/adjust_poses.h"
+#include "poses/find_shift.h"
+#include "poses/residual_spread.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kNumSketches = 2;  // the second with poses that are nearly right
+constexpr double kSmallShiftPx = 0.1;  // asks for no second sketch
+constexpr int kNumRounds = 6;
+constexpr double kMinGainOfRound = 0.01;
+// Sketches expect larger errors until they find so many places.
+constexpr std::size_t kMinPlaces = 100;
+constexpr double kMaxSketchSigmaPx = 1.2;
+constexpr std::size_t kMinSupport = 6;
+constexpr std::size_t kMinDistancesPerView = 12;
+constexpr double kReachPx = 6;  // of the search for shifts
+// Standard deviations of edges around projections.
+constexpr double kFirstSigmaPx = 0.5;
+constexpr double kMinSigmaPx = 0.15;
+constexpr double kMaxSigmaPx = 1.5;
+constexpr double kSigmaPerSpread = 1.5;
+constexpr double kGateSigmas = 4;
+constexpr double kTangentSigmaPx = 0.3;
+constexpr double kFirstPriorPx = 10;
+constexpr double kMinPriorPx = 0.02;
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Refiner {
+ public:
+  Refiner(const Scene& scene,
+          const std::vector<EdgeMap>& edge_maps,
+          const Options& options,
+          RunRecorder* run)
+      : scene_(scene),
+        options_(options),
+        run_(*run),
+        edges_(scene, edge_maps, options) {}
+
+  CurvePoses Run() {
+    for (int i = 0; i < kNumSketches && !run_.cancelled(); ++i) {
+      places_ = Sketch();
+      std::vector<CurvePlace> check_places = TakeCheckPlaces(&places_);
+      if (i == 0) check_places_ = std::move(check_places);
+      ShiftViews();
+      Adjust();
+      if (prior_px_ < kSmallShiftPx) break;
+    }
+    CurvePoses result = JudgeMotions(
+        check_places_, scene_, options_.runtime.num_threads, &edges_);
+    result.num_samples = places_.size() + check_places_.size();
+    return result;
+  }
+
+ private:
+  std::vector<CurvePlace> Sketch() {
+    double sigma_px = options_.hypotheses.location_tolerance_px / 2;
+    std::vector<CurvePlace> places = edges_.Sketch(sigma_px, run_.Steps());
+    while (places.size() < kMinPlaces && 2 * sigma_px <= kMaxSketchSigmaPx &&
+           !run_.cancelled()) {
+      sigma_px *= 2;
+      places = edges_.Sketch(sigma_px, run_.Steps());
+    }
+    return places;
+  }
+
+  // Turns each camera such that its picture shifts to where most places agree.
+  void ShiftViews() {
+    const std::size_t num_views = edges_.views().size();
+    std::vector<Rigid3> motions = edges_.motions();
+    ParallelFor(num_views, options_.runtime.num_threads, [&](std::size_t i) {
+      const Eigen::Vector2d shift =
+          FindShift(edges_.LookAround(places_, i, kReachPx), kReachPx);
+      if (shift.isZero(0)) return;
+      const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
+      const Eigen::Vector3d turn(
+          -shift.y() / calibration(1, 1), shift.x() / calibration(0, 0), 0);
+      Rigid3 motion;
+      motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+      motions[i] = motion * motions[i];
+    });
+    edges_.SetMotions(std::move(motions));
+    sigmas_px_.assign(num_views, kFirstSigmaPx);
+  }
+
+  // Finds edges and adjusts poses in turns, until edges come no nearer.
+  void Adjust() {
+    double error_px = kMaxSigmaPx;
+    for (int round = 0; round < kNumRounds && !run_.cancelled(); ++round) {
+      FindEdges();
+      UpdateSigmas();
+      AdjustOnce();
+      const double previous = std::exchange(error_px, Median(Distances()));
+      if (round > 1 && error_px > previous * (1 - kMinGainOfRound)) break;
+    }
+  }
+
+  void FindEdges() {
+    std::vector<double> gates_px;
+    for (const double sigma : sigmas_px_) {
+      gates_px.push_back(kGateSigmas * sigma);
+    }
+    ParallelFor(
+        places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
+          CurvePlace& place = places_[i];
+          place.support =
+              edges_.FindEdges(place.edge, edges_.ViewsToAsk(place), gates_px);
+        });
+    std::erase_if(places_, [](const CurvePlace& place) {
+      return place.support.size() < kMinSupport;
+    });
+  }
+
+  std::vector<std::vector<double>> DistancesByView() const {
+    std::vector<std::vector<double>> distances(edges_.views().size());
+    for (const CurvePlace& place : places_) {
+      for (const EdgeRef& ref : place.support) {
+        distances[static_cast<std::size_t>(ref.view_idx)].push_back(
+            edges_.Distance(place.edge.position, ref));
+      }
+    }
+    return distances;
+  }
+
+  std::vector<double> Distances() const {
+    return Concatenate(DistancesByView());
+  }
+
+  // Where few edges are found, the search becomes wider.
+  void UpdateSigmas() {
+    const std::vector<std::vector<double>> distances = DistancesByView();
+    for (std::size_t i = 0; i < sigmas_px_.size(); ++i) {
+      const double sigma_px =
+          distances[i].size() < kMinDistancesPerView
+              ? 2 * sigmas_px_[i]
+              : kSigmaPerSpread *
+                    FitSpread(distances[i], kGateSigmas * sigmas_px_[i]);
+      sigmas_px_[i] = std::clamp(sigma_px, kMinSigmaPx, kMaxSigmaPx);
+    }
+  }
+
+  void AdjustOnce() {
+    std::vector<PoseSample> samples;
+    for (const CurvePlace& place : places_) {
+      PoseSample& sample = samples.emplace_back();
+      sample.edge = place.edge;
+      for (const EdgeRef& ref : place.support) {
+        sample.observations.push_back({ref.view_idx, edges_.EdgeOf(ref)});
+      }
+    }
+    AdjustedPoses adjusted =
+        AdjustPoses({edges_.input_views(), sigmas_px_, samples, prior_px_},
+                    edges_.motions(),
+                    [this] { return run_.Steps()(0, 0); });
+    edges_.SetMotions(std::move(adjusted.new_cam_from_cam));
+    ParallelFor(
+        places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
+          places_[i].edge.position = adjusted.positions[i];
+          places_[i].edge = edges_.Adjusted(places_[i], kTangentSigmaPx);
+        });
+    prior_px_ = std::max(kMinPriorPx, MedianShift());
+  }
+
+  // How far pictures have shifted so far: what the typical pose is off by.
+  double MedianShift() const {
+    std::vector<std::vector<double>> shifts(edges_.views().size());
+    for (const CurvePlace& place : places_) {
+      for (const EdgeRef& ref : place.support) {
+        const auto i = static_cast<std::size_t>(ref.view_idx);
+        const PosedView& from = edges_.input_views()[i];
+        const PosedView& to = edges_.views()[i];
+        shifts[i].push_back((to.Pixel(to.InCamera(place.edge.position)) -
+                             from.Pixel(from.InCamera(place.edge.position)))
+                                .norm());
+      }
+    }
+    std::vector<double> medians;
+    for (std::vector<double>& values : shifts) {
+      if (values.size() >= kMinDistancesPerView) {
+        medians.push_back(Median(std::move(values)));
+      }
+    }
+    return Median(std::move(medians));
+  }
+
+  const Scene& scene_;
+  const Options& options_;
+  RunRecorder& run_;
+  PosedEdges edges_;
+  std::vector<CurvePlace> places_;
+  std::vector<CurvePlace> check_places_;
+  std::vector<double> sigmas_px_;
+  double prior_px_ = kFirstPriorPx;
+};
+
+}  // namespace
+
+Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
+                                         const std::vector<EdgeMap>& edge_maps,
+                                         const Options& options,
+                                         const Progress& progress) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+    return status;
+  }
+  if (Status status = Validate(options); !status.ok()) return status;
+  RunRecorder run(progress);
+  run.Begin("refine_poses_with_curves");
+  CurvePoses result = Refiner(scene, edge_maps, options, &run).Run();
+  if (run.cancelled()) return run.CancelledStatus();
+  return result;
+}
+
+}  // namespace curvix

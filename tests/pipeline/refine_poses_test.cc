@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <curvix/camera_model.h>
+#include <curvix/refine_poses.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "plugin/similarity.h"
+#include "tests/support/random.h"
+#include "tests/support/wire_scene.h"
+
+namespace curvix {
+namespace {
+
+const WireScene& Wires() {
+  static const WireScene wires = MakeWireScene(CubeAndCircle(), 14);
+  return wires;
+}
+
+// Turns and shifts each camera by what moves its picture by `px` (root mean
+// square).
+Scene Disturbed(Scene scene, double px) {
+  Random random(4);
+  for (View& view : scene.views) {
+    const double focal_px =
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)].params[0];
+    const double sigma = px / 2 / focal_px;
+    Rigid3 motion;
+    const Eigen::Vector3d turn = sigma * random.NormalVector();
+    if (px > 0) {
+      motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    }
+    motion.translation =
+        sigma * view.cam_from_world.translation.norm() * random.NormalVector();
+    view.cam_from_world = motion * view.cam_from_world;
+  }
+  return scene;
+}
+
+std::vector<Rigid3> PosesOf(const Scene& scene) {
+  std::vector<Rigid3> poses;
+  for (const View& view : scene.views) poses.push_back(view.cam_from_world);
+  return poses;
+}
+
+// The median over views of how far true places project from where they should,
+// once the poses are brought to the true world. Pixels.
+double MedianShift(const std::vector<Rigid3>& poses) {
+  const Scene& truth = Wires().scene;
+  const auto aligned = AlignPoses(poses, PosesOf(truth));
+  EXPECT_TRUE(aligned);
+  std::vector<double> shifts;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Camera& camera =
+        truth.cameras[static_cast<std::size_t>(truth.views[i].camera_idx)];
+    const Eigen::Matrix3d k = PinholeCalibration(camera);
+    const Rigid3 pose = MovePose(*aligned, poses[i]);
+    for (const TestCurve& curve : Wires().truth) {
+      for (double s = 0; s < curve.length; s += curve.length / 10) {
+        const Eigen::Vector3d x = curve.position(s);
+        const Eigen::Vector3d seen = k * (pose * x);
+        const Eigen::Vector3d meant = k * (truth.views[i].cam_from_world * x);
+        shifts.push_back((seen.hnormalized() - meant.hnormalized()).norm());
+      }
+    }
+  }
+  std::sort(shifts.begin(), shifts.end());
+  return shifts[shifts.size() / 2];
+}
+
+CurvePoses Refine(const Scene& scene, int num_threads = 0) {
+  Options options;
+  options.runtime.num_threads = num_threads;
+  const auto refined = RefinePosesWithCurves(scene, Wires().edge_maps, options);
+  EXPECT_TRUE(refined.ok()) << refined.status().message();
+  return *refined;
+}
+
+TEST(RefinePosesWithCurves, BringsPosesThatAreAPixelOffToATenth) {
+  const Scene disturbed = Disturbed(Wires().scene, 1);
+  ASSERT_GT(MedianShift(PosesOf(disturbed)), 0.5);
+  const CurvePoses refined = Refine(disturbed);
+  EXPECT_TRUE(refined.accepted) << refined.reason;
+  EXPECT_LE(MedianShift(refined.cam_from_world), 0.1);
+  EXPECT_LT(refined.after.mean_px, 0.5 * refined.before.mean_px);
+  EXPECT_GT(refined.num_check_observations, 100u);
+}
+
+TEST(RefinePosesWithCurves, FindsPosesThatAreTwoPixelsOff) {
+  const CurvePoses refined = Refine(Disturbed(Wires().scene, 2));
+  EXPECT_TRUE(refined.accepted) << refined.reason;
+  EXPECT_LE(MedianShift(refined.cam_from_world), 0.1);
+}
+
+TEST(RefinePosesWithCurves, LeavesTruePosesAlone) {
+  const CurvePoses refined = Refine(Wires().scene);
+  EXPECT_LE(MedianShift(refined.cam_from_world), 0.02) << refined.reason;
+}
+
+TEST(RefinePosesWithCurves, KeepsTheScaleOfTheWorld) {
+  const Scene disturbed = Disturbed(Wires().scene, 1);
+  const auto back =
+      AlignPoses(Refine(disturbed).cam_from_world, PosesOf(disturbed));
+  ASSERT_TRUE(back);
+  EXPECT_NEAR(back->scale, 1, 1e-3);
+}
+
+TEST(RefinePosesWithCurves, DoesNotDependOnTheNumberOfThreads) {
+  const Scene disturbed = Disturbed(Wires().scene, 1);
+  const CurvePoses one = Refine(disturbed, 1);
+  const CurvePoses three = Refine(disturbed, 3);
+  for (std::size_t i = 0; i < one.cam_from_world.size(); ++i) {
+    const Rigid3& a = one.cam_from_world[i];
+    const Rigid3& b = three.cam_from_world[i];
+    EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs());
+    EXPECT_EQ(a.translation, b.translation);
+  }
+}
+
+TEST(RefinePosesWithCurves, KeepsThePosesWithoutEdges) {
+  const Scene disturbed = Disturbed(Wires().scene, 1);
+  const auto refined = RefinePosesWithCurves(
+      disturbed, std::vector<EdgeMap>(disturbed.views.size()), Options());
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  EXPECT_FALSE(refined->accepted);
+  EXPECT_EQ(refined->reason, "too few places on curves are left to judge by");
+  EXPECT_EQ(refined->cam_from_world[3].translation,
+            disturbed.views[3].cam_from_world.translation);
+}
+
+TEST(RefinePosesWithCurves, StopsWhenAsked) {
+  const auto refined =
+      RefinePosesWithCurves(Wires().scene,
+                            Wires().edge_maps,
+                            Options(),
+                            [](const std::string&, int, int) { return false; });
+  EXPECT_EQ(refined.status().code(), StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace curvix

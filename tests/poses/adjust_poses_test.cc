@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poses/adjust_poses.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/synthetic_edges.h"
+
+namespace curvix {
+namespace {
+
+bool KeepGoing() { return true; }
+
+// Places on the edges of a cube, and their exact edges in all views.
+std::vector<PoseSample> ExactSamples(const std::vector<PosedView>& views) {
+  std::vector<PoseSample> samples;
+  for (const TestCurve& curve : CubeCurves()) {
+    for (double s = 0.1; s < curve.length; s += 0.3) {
+      PoseSample& sample = samples.emplace_back();
+      sample.edge = {curve.position(s), curve.tangent(s)};
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        sample.observations.push_back({static_cast<std::int32_t>(i),
+                                       *ProjectEdge(views[i], sample.edge)});
+      }
+    }
+  }
+  return samples;
+}
+
+PosedView Moved(PosedView view, const Rigid3& motion) {
+  view.rotation = motion.rotation.toRotationMatrix() * view.rotation;
+  view.translation = motion * view.translation;
+  view.center = -view.rotation.transpose() * view.translation;
+  return view;
+}
+
+TEST(AdjustPoses, LeavesExactPosesAndPlacesAlone) {
+  const std::vector<PosedView> views = RingOfViews(8);
+  const std::vector<double> sigmas(views.size(), 0.2);
+  const std::vector<PoseSample> samples = ExactSamples(views);
+  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 1},
+                                             std::vector<Rigid3>(views.size()),
+                                             KeepGoing);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    EXPECT_LT(adjusted.new_cam_from_cam[i].translation.norm(), 1e-6);
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_LT((adjusted.positions[i] - samples[i].edge.position).norm(), 1e-6);
+  }
+}
+
+TEST(AdjustPoses, BringsAMovedCameraBack) {
+  std::vector<PosedView> views = RingOfViews(8);
+  const std::vector<PoseSample> samples = ExactSamples(views);
+  Rigid3 motion;
+  motion.rotation = Eigen::AngleAxisd(0.003, Eigen::Vector3d::UnitY());
+  motion.translation = {0.01, -0.005, 0.02};
+  views[3] = Moved(views[3], motion);
+  const std::vector<double> sigmas(views.size(), 0.2);
+  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
+                                             std::vector<Rigid3>(views.size()),
+                                             KeepGoing);
+  // All cameras share the way back, which the places do not tell from one.
+  const PosedView back = Moved(views[3], adjusted.new_cam_from_cam[3]);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const auto seen =
+        ProjectEdge(back, {adjusted.positions[i], samples[i].edge.tangent});
+    const ImageEdge& edge = samples[i].observations[3].edge;
+    const Eigen::Vector2d offset = seen->position - edge.position;
+    EXPECT_LT(
+        std::abs(offset.x() * edge.tangent.y() - offset.y() * edge.tangent.x()),
+        0.05);
+  }
+}
+
+TEST(AdjustPoses, StopsWhenAsked) {
+  std::vector<PosedView> views = RingOfViews(8);
+  const std::vector<PoseSample> samples = ExactSamples(views);
+  Rigid3 motion;
+  motion.translation = {0.01, 0, 0};
+  views[3] = Moved(views[3], motion);
+  const std::vector<double> sigmas(views.size(), 0.2);
+  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
+                                             std::vector<Rigid3>(views.size()),
+                                             [] { return false; });
+  EXPECT_EQ(adjusted.new_cam_from_cam[3].translation, Eigen::Vector3d::Zero());
+}
+
+}  // namespace
+}  // namespace curvix
