@@ -19,6 +19,10 @@ struct Edge2d {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
   float angle = 0;                                     // radians
   float strength = 0;  // gradient magnitude, grey levels (0..255) per pixel
+  // How sharp the edge is: 1 / w^2 if across it the image is a step blurred by
+  // a Gaussian of standard deviation w pixels, the detector's own included; <= 0
+  // where the gradient has no peak; 0 also if it is not known.
+  float sharpness = 0;
 };
 
 // The neighbours of an edge along its image contour (paper, Sec. 5): `next`

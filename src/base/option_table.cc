@@ -208,6 +208,11 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "curves of less median evidence are left out, log units");
   row("sigma_scale_px", &o.sigma_scale_px, Above(0), "px", "",
       "curves known less well than this need more evidence");
+  row("max_blurred_share", &o.max_blurred_share, Between(0, 1), "", "",
+      "curves with a larger share of blurred edges are borders of shading and "
+      "left out");
+  row.Switch("keep_occluding_contours", &o.keep_occluding_contours,
+      "keep and label curves that are probably rims of smooth bodies");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
       "standard deviation of the weights of the local fits; 0 smooths nothing");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",

@@ -71,6 +71,18 @@ Eigen::Vector2d GradientOfF(const Eigen::Matrix4d& d) {
               ix * ix * ixxy + iy * iy * iyyy};
 }
 
+// -I_nnn / I_n along the gradient, n. Of a step blurred by a Gaussian of
+// standard deviation w it is 1 / w^2.
+double Sharpness(const Eigen::Matrix4d& d, const Eigen::Vector2d& gradient) {
+  const double strength = gradient.norm();
+  if (strength == 0) return 0;
+  const double x = gradient.x() / strength;
+  const double y = gradient.y() / strength;
+  const double third = x * x * x * d(0, 3) + 3 * x * x * y * d(1, 2) +
+                       3 * x * y * y * d(2, 1) + y * y * y * d(3, 0);
+  return -third / strength;
+}
+
 // Towards the bright side F falls: the edge's normal is -grad F. Where F is
 // flat, the gradient of the image stands in.
 Edge2d OrientEdge(const ImageDerivatives& derivatives,
@@ -84,6 +96,7 @@ Edge2d OrientEdge(const ImageDerivatives& derivatives,
   edge.position = position;
   edge.angle = static_cast<float>(std::atan2(-normal.x(), normal.y()));
   edge.strength = static_cast<float>(gradient.norm());
+  edge.sharpness = static_cast<float>(Sharpness(d, gradient));
   return edge;
 }
 

@@ -55,8 +55,11 @@ Reconstruction Reconstruct(const Scene& scene,
 
   // Beyond the paper.
   run.Begin("refine_curves");
-  result.curves.curves = RefineCurves(
-      result.curves.curves, views, options.curve_refinement, num_threads);
+  result.curves.curves = RefineCurves(result.curves.curves,
+                                      views,
+                                      edge_maps,
+                                      options.curve_refinement,
+                                      num_threads);
   run.End(CountsOf(result.curves));
 
   // What the user wants to see of them.

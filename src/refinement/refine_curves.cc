@@ -29,14 +29,25 @@ CurveRefinementOptions ForNumViews(CurveRefinementOptions options,
 
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
+                                const std::vector<EdgeMap>& edge_maps,
                                 const CurveRefinementOptions& options,
                                 int num_threads) {
   if (!options.enabled) return curves;
+  SelectedCurves selected = SelectCurves(curves,
+                                         views,
+                                         edge_maps,
+                                         ForNumViews(options, views.size()),
+                                         num_threads);
   std::vector<Curve> refined =
-      SelectCurves(curves, views, ForNumViews(options, views.size()));
-  refined = SmoothCurves(refined, views, options, num_threads);
+      SmoothCurves(selected.edges, views, options, num_threads);
   refined = BridgeGaps(std::move(refined), views, options);
-  return MeetAtJunctions(std::move(refined), views, options);
+  refined = MeetAtJunctions(std::move(refined), views, options);
+  if (!options.keep_occluding_contours) return refined;
+  for (Curve& contour :
+       SmoothCurves(selected.occluding_contours, views, options, num_threads)) {
+    refined.push_back(std::move(contour));
+  }
+  return refined;
 }
 
 }  // namespace curvix

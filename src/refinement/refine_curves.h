@@ -17,6 +17,7 @@ namespace curvix {
 // (meet_at_junctions.h).
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
+                                const std::vector<EdgeMap>& edge_maps,
                                 const CurveRefinementOptions& options,
                                 int num_threads);
 

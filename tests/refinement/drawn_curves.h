@@ -7,9 +7,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
+#include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 #include "tests/support/test_views.h"
 
@@ -60,6 +62,31 @@ inline Curve Arc(double radius_px, double begin, double end) {
         SampleAt(InPlane(radius_px * x, radius_px * z), {-z, 0, x}));
   }
   return curve;
+}
+
+// Gives each sample a 2D edge of its own, just where it projects, and returns
+// the edges of the views.
+inline std::vector<EdgeMap> SupportByEdges(const std::vector<PosedView>& views,
+                                           std::vector<Curve>& curves) {
+  std::vector<EdgeMap> edge_maps(views.size());
+  for (Curve& curve : curves) {
+    for (CurveSample& sample : curve.samples) {
+      sample.support.clear();
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto projected =
+            ProjectEdge(views[i], {sample.position, sample.tangent});
+        if (!projected) continue;
+        std::vector<Edge2d>& edges = edge_maps[i].edges;
+        sample.support.push_back({static_cast<std::int32_t>(i),
+                                  static_cast<std::int32_t>(edges.size())});
+        edges.push_back({projected->position,
+                         static_cast<float>(std::atan2(projected->tangent.y(),
+                                                       projected->tangent.x())),
+                         10});
+      }
+    }
+  }
+  return edge_maps;
 }
 
 // The curves and the views of a scene `factor` times as large.

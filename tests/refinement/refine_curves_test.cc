@@ -32,9 +32,15 @@ std::vector<Curve> RoughSquare() {
   return curves;
 }
 
+std::vector<Curve> RefineRoughSquare(const CurveRefinementOptions& options,
+                                     int num_threads) {
+  std::vector<Curve> curves = RoughSquare();
+  const std::vector<EdgeMap> edge_maps = SupportByEdges(FrontalViews(), curves);
+  return RefineCurves(curves, FrontalViews(), edge_maps, options, num_threads);
+}
+
 TEST(RefineCurves, DrawsASquareAsFourSidesBetweenCorners) {
-  const std::vector<Curve> sides =
-      RefineCurves(RoughSquare(), FrontalViews(), {}, 1);
+  const std::vector<Curve> sides = RefineRoughSquare({}, 1);
   ASSERT_EQ(sides.size(), 4u);
   for (const Curve& side : sides) {
     EXPECT_NEAR(Length(side) / kPixel, 100, 1);
@@ -54,15 +60,11 @@ TEST(RefineCurves, DrawsASquareAsFourSidesBetweenCorners) {
 TEST(RefineCurves, ChangesNothingWhenItIsOff) {
   CurveRefinementOptions options;
   options.enabled = false;
-  EXPECT_EQ(
-      LargestDistance(RefineCurves(RoughSquare(), FrontalViews(), options, 1),
-                      RoughSquare()),
-      0);
+  EXPECT_EQ(LargestDistance(RefineRoughSquare(options, 1), RoughSquare()), 0);
 }
 
 TEST(RefineCurves, ThreadsChangeNothing) {
-  EXPECT_EQ(LargestDistance(RefineCurves(RoughSquare(), FrontalViews(), {}, 3),
-                            RefineCurves(RoughSquare(), FrontalViews(), {}, 1)),
+  EXPECT_EQ(LargestDistance(RefineRoughSquare({}, 3), RefineRoughSquare({}, 1)),
             0);
 }
 

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "refinement/curve_traits.h"
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "base/median.h"
+#include "geometry/image_edge.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+// Half as blurred again in variance as an edge of the view is as a rule.
+constexpr double kBlurred = 0.7;
+constexpr double kSigmasOfMedianDistance = 1.4826;
+
+// The edges behind a curve.
+struct Support {
+  std::vector<double> distances_px;
+  std::map<std::int32_t, std::vector<double>> sharpness;  // by view
+};
+
+void AddSupport(const CurveSample& sample,
+                const std::vector<PosedView>& views,
+                const std::vector<EdgeMap>& edge_maps,
+                Support& support) {
+  for (const EdgeRef& ref : sample.support) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    const Edge2d& edge =
+        edge_maps[view_idx].edges[static_cast<std::size_t>(ref.edge_idx)];
+    const Eigen::Vector3d in_camera = views[view_idx].InCamera(sample.position);
+    if (!(in_camera.z() > 0)) continue;
+    const Eigen::Vector2d offset =
+        views[view_idx].Pixel(in_camera) - edge.position;
+    const Eigen::Vector2d tangent = ToImageEdge(edge).tangent;
+    support.distances_px.push_back(
+        std::abs(offset.x() * tangent.y() - offset.y() * tangent.x()));
+    support.sharpness[ref.view_idx].push_back(
+        static_cast<double>(edge.sharpness));
+  }
+}
+
+double BlurredShare(const Support& support,
+                    const std::vector<double>& typical_sharpness) {
+  double num_blurred = 0;
+  double num_edges = 0;
+  for (const auto& [view_idx, sharpness] : support.sharpness) {
+    const double typical =
+        typical_sharpness[static_cast<std::size_t>(view_idx)];
+    const double count = static_cast<double>(sharpness.size());
+    num_edges += count;
+    if (Median(sharpness) < kBlurred * typical) num_blurred += count;
+  }
+  return num_edges > 0 ? num_blurred / num_edges : 0;
+}
+
+double TypicalSharpness(const std::vector<Edge2d>& edges) {
+  if (edges.empty()) return 0;
+  std::vector<double> strengths, sharpness;
+  for (const Edge2d& edge : edges) {
+    strengths.push_back(static_cast<double>(edge.strength));
+  }
+  const double median_strength = Median(std::move(strengths));
+  for (const Edge2d& edge : edges) {
+    if (static_cast<double>(edge.strength) < median_strength) continue;
+    sharpness.push_back(static_cast<double>(edge.sharpness));
+  }
+  return Median(std::move(sharpness));
+}
+
+}  // namespace
+
+std::vector<double> TypicalSharpness(const std::vector<EdgeMap>& edge_maps) {
+  std::vector<double> typical;
+  for (const EdgeMap& map : edge_maps) {
+    typical.push_back(TypicalSharpness(map.edges));
+  }
+  return typical;
+}
+
+std::optional<CurveTraits> MeasureCurve(
+    const Curve& curve,
+    const std::vector<PosedView>& views,
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<double>& typical_sharpness) {
+  std::vector<double> evidence, sigma_px;
+  Support support;
+  for (const CurveSample& sample : curve.samples) {
+    const double pixel = PixelSize(sample.position, sample.support, views);
+    if (!(sample.sigma > 0) || !(pixel > 0)) continue;
+    evidence.push_back(sample.evidence);
+    sigma_px.push_back(sample.sigma / pixel);
+    AddSupport(sample, views, edge_maps, support);
+  }
+  if (support.distances_px.empty()) return std::nullopt;
+  CurveTraits traits;
+  traits.evidence = Median(std::move(evidence));
+  traits.sigma_px = Median(std::move(sigma_px));
+  traits.blurred_share = BlurredShare(support, typical_sharpness);
+  traits.scatter_px =
+      kSigmasOfMedianDistance * Median(std::move(support.distances_px));
+  return traits;
+}
+
+}  // namespace curvix

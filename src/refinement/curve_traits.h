@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). What the 2D edges behind a curve say about it.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+
+#include <optional>
+#include <vector>
+
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// A real edge of the scene is a step in the image, as sharp as the image can
+// show it, and keeps its place as the view moves. Of what else shows as an
+// edge, a border of shading, where a blend meets a face, is blurred, and the
+// rim of a smooth body lies elsewhere on it in every view. Along a whole curve
+// noise averages out, and both show.
+struct CurveTraits {
+  // Medians over the samples whose sigma is known, in pixels (pixel_size.h).
+  double evidence = 0;
+  double sigma_px = 0;
+  // 1.48 times the median distance of the supporting edges from the projected
+  // samples, which for normal errors is their standard deviation. Pixels.
+  double scatter_px = 0;
+  // The share of the supporting edges that lie in views in which this curve is
+  // blurred: the median sharpness of its edges there is below 0.7 of what is
+  // typical of the view. 0..1.
+  double blurred_share = 0;
+};
+
+// What is typical of each view: the median sharpness of the steeper half of its
+// edges; 0 if it is not known.
+std::vector<double> TypicalSharpness(const std::vector<EdgeMap>& edge_maps);
+
+// nullopt if no sample has both a sigma and support.
+std::optional<CurveTraits> MeasureCurve(
+    const Curve& curve,
+    const std::vector<PosedView>& views,
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<double>& typical_sharpness);
+
+}  // namespace curvix

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rims of smooth bodies look like edges in every image and are none.
+#include <curvix/reconstruct.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "geometry/posed_views.h"
+#include "tests/support/wire_scene.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kHalfHeight = 0.8;
+constexpr double kPixel = 1.0 / 65;
+
+// Seen from `center`, the outline of the upright cylinder around the origin:
+// the two lines at which rays touch it.
+std::vector<TestCurve> Outline(const Eigen::Vector3d& center, double radius) {
+  const double towards = std::atan2(center.y(), center.x());
+  const double turn = std::acos(radius / center.head<2>().norm());
+  std::vector<TestCurve> lines;
+  for (const double angle : {towards - turn, towards + turn}) {
+    const Eigen::Vector3d foot(
+        radius * std::cos(angle), radius * std::sin(angle), -kHalfHeight);
+    lines.push_back(
+        LineCurve(foot, foot + Eigen::Vector3d(0, 0, 2 * kHalfHeight)));
+  }
+  return lines;
+}
+
+// A cylinder whose rims and outlines show in all views.
+WireScene Cylinder(double radius, int num_views) {
+  WireScene made = MakeWireScene({CircleCurve({0, 0, kHalfHeight}, radius),
+                                  CircleCurve({0, 0, -kHalfHeight}, radius)},
+                                 num_views);
+  const std::vector<PosedView> views = MakePosedViews(made.scene);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<TestCurve> shown = made.truth;
+    for (TestCurve& line : Outline(views[i].center, radius)) {
+      shown.push_back(std::move(line));
+    }
+    made.edge_maps[i] = ExactEdgeMaps(shown, {views[i]}, 30).front();
+  }
+  return made;
+}
+
+class OccludingContours : public testing::TestWithParam<double> {};
+
+TEST_P(OccludingContours, AreLeftOutAndRimsStay) {
+  const WireScene cylinder = Cylinder(GetParam(), 30);
+  const auto result =
+      ReconstructCurves(cylinder.scene, cylinder.edge_maps, Options());
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  const Agreement agreement = Compare(result->curves, cylinder.truth, kPixel);
+  EXPECT_GT(agreement.accurate, 0.99);
+  EXPECT_GT(agreement.found, 0.98);
+}
+
+// Radii of 13, 32 and 65 pixels.
+INSTANTIATE_TEST_SUITE_P(Radii,
+                         OccludingContours,
+                         testing::Values(0.2, 0.5, 1.0));
+
+TEST(KeptOccludingContours, AreLabelled) {
+  const WireScene cylinder = Cylinder(0.2, 30);
+  Options options;
+  options.curve_refinement.keep_occluding_contours = true;
+  const auto result =
+      ReconstructCurves(cylinder.scene, cylinder.edge_maps, options);
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  CurveSet edges, contours;
+  for (const Curve& curve : result->curves.curves) {
+    (curve.is_occluding_contour ? contours : edges).curves.push_back(curve);
+  }
+  EXPECT_GT(Compare(edges, cylinder.truth, kPixel).accurate, 0.99);
+  EXPECT_FALSE(contours.curves.empty());
+  for (const Curve& contour : contours.curves) {
+    for (const CurveSample& sample : contour.samples) {
+      EXPECT_GT(std::abs(sample.tangent.z()), 0.9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace curvix
