@@ -4,6 +4,7 @@
 
 #include <curvix/curves.h>
 #include <curvix/edges.h>
+#include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
@@ -15,7 +16,8 @@ namespace curvix {
 // Writes `curves` in the format that the extension names: .ply (line set),
 // .pcd (point cloud with curve ids), .obj (lines), .txt (readable, with the
 // supporting image ids, which is what `scene` is for: it must hold every view
-// that a sample names). The file appears whole or not at all.
+// that a sample names), .vtp (VTK polylines) or .glb (glTF lines). The file
+// appears whole or not at all.
 // kInvalidArgument for another extension or a path that cannot be written.
 Status WriteCurves(const std::filesystem::path& path,
                    const CurveSet& curves,
@@ -35,5 +37,17 @@ Result<CurveSet> ReadCurves(const std::filesystem::path& path,
 // Errors as WriteCurves.
 Status WriteEdges(const std::filesystem::path& path,
                   const std::vector<Edge3d>& edges);
+
+// Writes fitted curves for CAD: .dxf, of AutoCAD 2000, with LINE, ARC, CIRCLE,
+// ELLIPSE and SPLINE entities on a layer per kind. Errors as WriteCurves.
+Status WriteDrawing(const std::filesystem::path& path,
+                    const FittedCurves& fitted);
+
+// Writes the curves as a view sees them: .svg, in the pixels of its image. What
+// surfaces hide is drawn, too. Errors as WriteCurves.
+Status WriteProjection(const std::filesystem::path& path,
+                       const CurveSet& curves,
+                       const View& view,
+                       const Camera& camera);
 
 }  // namespace curvix

@@ -4,6 +4,7 @@
 
 #include <curvix/camera_model.h>
 #include <curvix/curve_io.h>
+#include <curvix/curve_style.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/file_io.h>
@@ -11,6 +12,7 @@
 #include <curvix/holdout.h>
 #include <curvix/option_table.h>
 #include <curvix/options.h>
+#include <curvix/project_curve.h>
 #include <curvix/reconstruct.h>
 #include <curvix/refine_poses.h>
 #include <curvix/scene.h>

@@ -187,6 +187,14 @@ struct CurveFilterOptions {
   double min_straightness = 0;
 };
 
+// Beyond the paper: curves as lines, arcs, ellipses and splines (fitting.h).
+struct CurveFittingOptions {
+  // Standard deviation of the error that neighbouring samples have in common,
+  // as of edges in blurred or bent images: added, in squares, to the sigma of
+  // each sample. Pixels of the view that sees the sample largest, >= 0.
+  double common_error_px = 0.1;
+};
+
 struct RuntimeOptions {
   // Threads; <= 0 means one per core.
   int num_threads = -1;
@@ -202,6 +210,7 @@ struct Options {
   ConnectivityOptions connectivity;
   CurveRefinementOptions curve_refinement;
   CurveFilterOptions curve_filter;
+  CurveFittingOptions curve_fitting;
   RuntimeOptions runtime;
 };
 

@@ -237,6 +237,11 @@ void AddRows(CurveFilterOptions& o, Section row) {
       "circle of radius 100 px");
 }
 
+void AddRows(CurveFittingOptions& o, Section row) {
+  row("common_error_px", &o.common_error_px, AtLeast(0), "px", "",
+      "error that neighbouring samples share, besides the sigma of each");
+}
+
 void AddRows(RuntimeOptions& o, Section row) {
   row("num_threads", &o.num_threads, Between(-1, 4096), "", "",
       "threads; -1 or 0 means one per core");
@@ -257,6 +262,7 @@ std::vector<OptionRow> OptionTable(Options& options) {
   AddRows(options.connectivity, Section("Connectivity.", rows));
   AddRows(options.curve_refinement, Section("CurveRefinement.", rows));
   AddRows(options.curve_filter, Section("CurveFilter.", rows));
+  AddRows(options.curve_fitting, Section("CurveFitting.", rows));
   AddRows(options.runtime, Section("", rows));
   return rows;
 }

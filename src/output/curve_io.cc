@@ -5,10 +5,14 @@
 
 #include <string>
 
+#include "output/dxf_drawing.h"
+#include "output/glb_curves.h"
 #include "output/obj_lines.h"
 #include "output/pcl_lines.h"
 #include "output/ply_lines.h"
+#include "output/svg_curves.h"
 #include "output/txt_curves.h"
+#include "output/vtp_curves.h"
 
 namespace curvix {
 namespace {
@@ -22,8 +26,11 @@ Result<std::string> Encode(const std::string& extension,
   if (extension == ".pcd") return EncodePcd(ToPointCloud(curves));
   if (extension == ".obj") return EncodeObjLines(curves);
   if (extension == ".txt") return EncodeTxtCurves(curves, scene);
+  if (extension == ".vtp") return EncodeVtpCurves(curves);
+  if (extension == ".glb") return EncodeGlbCurves(curves);
   return Status(StatusCode::kInvalidArgument,
-                "curves are written as .ply, .pcd, .obj or .txt, not as \"" +
+                "curves are written as .ply, .pcd, .obj, .txt, .vtp or .glb, "
+                "not as \"" +
                     extension + "\"");
 }
 
@@ -70,6 +77,29 @@ Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
                  {StatusCode::kInvalidArgument, "edges are written as .ply"});
   }
   return Write(path, EncodePlyEdges(edges));
+}
+
+Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
+  if (path.extension() != ".dxf") {
+    return About(path,
+                 {StatusCode::kInvalidArgument,
+                  "a drawing of fitted curves is written as .dxf, not as \"" +
+                      path.extension().string() + "\""});
+  }
+  return Write(path, EncodeDxfDrawing(fitted));
+}
+
+Status WriteProjection(const fs::path& path,
+                       const CurveSet& curves,
+                       const View& view,
+                       const Camera& camera) {
+  if (path.extension() != ".svg") {
+    return About(path,
+                 {StatusCode::kInvalidArgument,
+                  "projected curves are written as .svg, not as \"" +
+                      path.extension().string() + "\""});
+  }
+  return Write(path, EncodeSvgCurves(curves, view, camera));
 }
 
 }  // namespace curvix

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). What the files say about a curve beyond geometry.
-#include "output/curve_style.h"
+#include <curvix/curve_style.h>
 
 #include <algorithm>
 #include <cmath>

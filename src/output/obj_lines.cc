@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "output/curve_style.h"
+#include <curvix/curve_style.h>
 #include "output/polylines.h"
 
 namespace curvix {

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include "output/curve_style.h"
+#include <curvix/curve_style.h>
 
 namespace curvix {
 namespace {

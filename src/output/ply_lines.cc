@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include <curvix/curve_style.h>
 #include "output/bytes.h"
-#include "output/curve_style.h"
 
 namespace curvix {
 namespace {

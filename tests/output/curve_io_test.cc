@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "output/curve_style.h"
+#include <curvix/curve_style.h>
 #include "tests/output/test_curves.h"
 #include "tests/plugin/temporary_folder.h"
 

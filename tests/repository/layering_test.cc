@@ -45,6 +45,7 @@ const std::map<std::string, Rule>& Rules() {
       {"connectivity", Stage()},
       {"poses", Stage({"ceres"})},
       {"refinement", Stage({"ceres"})},
+      {"fitting", Stage()},
       {"output", Stage({"pcl"})},
       {"synthetic", Stage()},
       {"pipeline",

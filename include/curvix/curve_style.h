@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What the files say about a curve beyond geometry.
+// What the files say about a curve beyond geometry.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curves as a drawing has them: lines, arcs, ellipses and splines that meet in
+// shared points.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/options.h>
+#include <curvix/scene.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace curvix {
+
+enum class FitKind { kLine, kArc, kEllipse, kSpline };
+
+// One primitive and the samples that it stands for.
+struct CurveFit {
+  FitKind kind = FitKind::kLine;
+  // A whole circle or ellipse, or a spline that ends where it starts.
+  bool closed = false;
+  // Samples of the curve: `num_samples` from `first_sample` on, which go on at
+  // sample 0 of a closed curve. Neighbouring primitives share a sample.
+  std::size_t first_sample = 0;
+  std::size_t num_samples = 0;
+  // World. Equal, to the last bit, to the position of the node, if there is
+  // one.
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();
+  Eigen::Vector3d end = Eigen::Vector3d::Zero();
+  // Index into FittedCurves::nodes, or -1: the end is free.
+  int start_node = -1;
+  int end_node = -1;
+
+  // kArc, kEllipse: center + cos(t) major + sin(t) minor for t from start_angle
+  // to end_angle, which is the larger one; whole: 2 pi apart. Major and minor
+  // are at right angles, and of one length for kArc; |major| >= |minor|.
+  // The ends lie on the nodes to a small part of `sigma`.
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Vector3d major = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d minor = Eigen::Vector3d::UnitY();
+  double start_angle = 0;  // radians, in (-pi, pi]
+  double end_angle = 0;
+
+  // kSpline: a clamped cubic B-spline, num_knots = num_control_points + 4, from
+  // 0 to 1.
+  std::vector<Eigen::Vector3d> control_points;
+  std::vector<double> knots;
+
+  // Distances of the samples that agree with the primitive (within three
+  // standard deviations) from it, world units, and their share of all samples.
+  double rms_residual = 0;
+  double max_residual = 0;
+  double inlier_share = 0;
+  // Standard deviation of the primitive's position across itself, averaged
+  // along it, and (kArc) of its radius. World units.
+  double sigma = 0;
+  double radius_sigma = 0;
+};
+
+// The primitives of one curve, in its direction. Never empty.
+struct FittedCurve {
+  std::vector<CurveFit> fits;
+};
+
+// A point in which primitives meet, of one curve or of several.
+struct CurveNode {
+  struct End {
+    std::size_t curve_idx = 0;
+    std::size_t fit_idx = 0;
+    bool at_end = false;  // else at its start
+  };
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  std::vector<End> ends;  // two or more, ascending by curve and fit
+};
+
+// The result of FitCurves; `curves` are those of the CurveSet, in its order.
+struct FittedCurves {
+  std::vector<FittedCurve> curves;
+  std::vector<CurveNode> nodes;
+};
+
+// Fits each curve by the primitives that explain its samples with the fewest
+// parameters: one line, arc or ellipse, or a chain of lines and arcs, or a
+// spline; the least of
+//   sum of min(distance^2 / sigma^2, 9) + (number of parameters) * log(samples)
+// wins, ties go to the earlier kind. Samples further than three standard
+// deviations off, as at rounded corners, thus cost the same at any distance.
+// Sigma is that of each sample (the median where it is not known, and a
+// twentieth of the distance between samples where it is known nowhere) together
+// with options.common_error_px, for which `scene` has the views that samples
+// name; without views it is left out.
+//
+// Ends of curves in the same place are one node, joints of a chain too. A node
+// lies where its lines and arcs, fitted alone, come nearest to each other, at
+// most ten standard deviations from where the curves meet; then each primitive
+// is fitted again with its ends in the nodes. Same result for any number of
+// threads.
+FittedCurves FitCurves(const CurveSet& curves,
+                       const Scene& scene,
+                       const CurveFittingOptions& options,
+                       int num_threads);
+
+// "line", "arc" ("circle" if closed), "ellipse", "spline".
+std::string_view KindName(const CurveFit& fit);
+
+// The point at `t` from 0 (start) to 1 (end); equal steps of t are equal angles
+// of arcs and ellipses and equal parameters of splines.
+Eigen::Vector3d PointAt(const CurveFit& fit, double t);
+
+// The length along the primitive. World units; exact for lines and arcs.
+double Length(const CurveFit& fit);
+
+}  // namespace curvix

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Circles and ellipses.
+#include "fitting/fit_conic.h"
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+constexpr double kMaxAxisRatio = 20;
+constexpr std::size_t kMinCircleSamples = 4;
+constexpr std::size_t kMinEllipseSamples = 6;
+
+// The plane of the samples: its frame (z is the normal) and their mean.
+Conic PlaneOf(const FitSamples& samples, const std::vector<double>& weights) {
+  Conic plane;
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sum += weights[i];
+    plane.center += weights[i] * samples[i].position;
+  }
+  plane.center /= sum;
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Vector3d offset = samples[i].position - plane.center;
+    scatter += weights[i] * offset * offset.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+  plane.frame.col(0) = eigen.eigenvectors().col(2);
+  plane.frame.col(1) = eigen.eigenvectors().col(1);
+  plane.frame.col(2) = plane.frame.col(0).cross(plane.frame.col(1));
+  return plane;
+}
+
+std::vector<double> EqualWeights(const FitSamples& samples) {
+  std::vector<double> weights;
+  for (const FitSample& s : samples) weights.push_back(1 / (s.sigma * s.sigma));
+  return weights;
+}
+
+// The circle x^2 + y^2 = 2 u x + 2 v y + w with the least squares of the
+// difference of both sides.
+std::optional<Conic> WeightedCircle(const FitSamples& samples,
+                                    const std::vector<double>& weights) {
+  Conic circle = PlaneOf(samples, weights);
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double extent = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Vector2d p = circle.Local(samples[i].position).head<2>();
+    const Eigen::Vector3d row(2 * p.x(), 2 * p.y(), 1);
+    normal += weights[i] * row * row.transpose();
+    right += weights[i] * p.squaredNorm() * row;
+    extent = std::max(extent, p.squaredNorm());
+  }
+  const Eigen::Vector3d uvw = normal.ldlt().solve(right);
+  const double squared_radius = uvw.z() + uvw.head<2>().squaredNorm();
+  if (!uvw.allFinite() || !(squared_radius > 0)) return std::nullopt;
+  if (squared_radius > 1e8 * extent) return std::nullopt;
+  circle.center += circle.frame.leftCols<2>() * uvw.head<2>();
+  circle.a = circle.b = std::sqrt(squared_radius);
+  return circle;
+}
+
+double SquaredDistance(const Conic& conic, const Eigen::Vector3d& point) {
+  return (point - conic.At(NearestParameter(conic, point))).squaredNorm();
+}
+
+// The conic after a step: 3 for the centre, 3 for the turn (in the frame), and
+// the logarithm of the axes. A circle has one axis and no turn about z.
+Conic Moved(const Conic& conic, const Eigen::VectorXd& step, bool is_circle) {
+  Conic moved = conic;
+  const double size = conic.a;
+  moved.center += size * (conic.frame * step.head<3>());
+  const Eigen::Vector3d turn(step(3), step(4), is_circle ? 0 : step(6));
+  if (turn.norm() > 0) {
+    moved.frame =
+        conic.frame *
+        Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  }
+  moved.a *= std::exp(step(5));
+  moved.b = is_circle ? moved.a : conic.b * std::exp(step(7));
+  return moved;
+}
+
+// In-plane and off-plane distance of a point, each with its sign.
+Eigen::Vector2d SignedDistances(const Conic& conic,
+                                const Eigen::Vector3d& point) {
+  const Eigen::Vector3d local = conic.Local(point);
+  const double t = NearestParameter(conic, point);
+  const Eigen::Vector2d normal =
+      Eigen::Vector2d(conic.b * std::cos(t), conic.a * std::sin(t))
+          .normalized();
+  const Eigen::Vector2d foot(conic.a * std::cos(t), conic.b * std::sin(t));
+  return {normal.dot(local.head<2>() - foot), local.z()};
+}
+
+struct Target {
+  Eigen::Vector3d position;
+  double weight = 0;
+};
+
+// One Gauss-Newton step on the distances of the targets; true if it was made.
+bool Step(const std::vector<Target>& targets, bool is_circle, Conic& conic) {
+  const Eigen::Index n = is_circle ? 6 : 8;
+  constexpr double kDelta = 1e-6;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  std::vector<Conic> nudged;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    nudged.push_back(
+        Moved(conic, kDelta * Eigen::VectorXd::Unit(n, k), is_circle));
+  }
+  for (const Target& target : targets) {
+    const Eigen::Vector2d residual = SignedDistances(conic, target.position);
+    Eigen::Matrix2Xd jacobian(2, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      jacobian.col(k) = (SignedDistances(nudged[static_cast<std::size_t>(k)],
+                                         target.position) -
+                         residual) /
+                        kDelta;
+    }
+    normal += target.weight * jacobian.transpose() * jacobian;
+    right -= target.weight * jacobian.transpose() * residual;
+  }
+  normal.diagonal() *= 1 + 1e-9;
+  const Eigen::VectorXd step = normal.ldlt().solve(right);
+  if (!step.allFinite() || step.cwiseAbs().maxCoeff() > 0.7) return false;
+  conic = Moved(conic, step, is_circle);
+  return true;
+}
+
+// Axes in order, as Conic promises.
+Conic Ordered(Conic conic) {
+  if (conic.a < conic.b) {
+    std::swap(conic.a, conic.b);
+    const Eigen::Vector3d x = conic.frame.col(0);
+    conic.frame.col(0) = conic.frame.col(1);
+    conic.frame.col(1) = -x;
+  }
+  return conic;
+}
+
+std::optional<Conic> Refine(Conic conic,
+                            const FitSamples& samples,
+                            bool is_circle) {
+  std::vector<Target> targets(samples.size());
+  for (int round = 0; round < kNumRounds; ++round) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const FitSample& s = samples[i];
+      targets[i] = {
+          s.position,
+          RobustWeight(SquaredDistance(conic, s.position), s.sigma, round)};
+    }
+    if (!Step(targets, is_circle, conic)) return std::nullopt;
+    if (!(conic.a < kMaxAxisRatio * conic.b &&
+          conic.b < kMaxAxisRatio * conic.a)) {
+      return std::nullopt;
+    }
+    conic = Ordered(conic);
+  }
+  return conic;
+}
+
+// The direct least-squares ellipse of Fitzgibbon, Pilu and Fisher in the form
+// of Halir and Flusser, in the plane of the samples.
+std::optional<Conic> DirectEllipse(const FitSamples& samples) {
+  Conic plane = PlaneOf(samples, EqualWeights(samples));
+  double scale = 0;
+  for (const FitSample& s : samples) {
+    scale = std::max(scale, (s.position - plane.center).norm());
+  }
+  Eigen::Matrix3d s1 = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d s2 = s1, s3 = s1;
+  for (const FitSample& s : samples) {
+    const Eigen::Vector2d p = plane.Local(s.position).head<2>() / scale;
+    const Eigen::Vector3d quadratic(
+        p.x() * p.x(), p.x() * p.y(), p.y() * p.y());
+    const Eigen::Vector3d linear(p.x(), p.y(), 1);
+    s1 += quadratic * quadratic.transpose();
+    s2 += quadratic * linear.transpose();
+    s3 += linear * linear.transpose();
+  }
+  const Eigen::Matrix3d t = -s3.ldlt().solve(s2.transpose());
+  const Eigen::Matrix3d m = s1 + s2 * t;
+  Eigen::Matrix3d reduced;
+  reduced << m.row(2) / 2, -m.row(1), m.row(0) / 2;
+  if (!reduced.allFinite()) return std::nullopt;
+  const Eigen::EigenSolver<Eigen::Matrix3d> eigen(reduced);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d q = eigen.eigenvectors().col(k).real();
+    if (!(4 * q(0) * q(2) - q(1) * q(1) > 0)) continue;
+    const Eigen::Vector3d l = t * q;
+    // q0 x^2 + q1 x y + q2 y^2 + l0 x + l1 y + l2 = 0
+    Eigen::Matrix2d form;
+    form << q(0), q(1) / 2, q(1) / 2, q(2);
+    const Eigen::Vector2d center = -0.5 * form.inverse() * l.head<2>();
+    const double level = center.dot(form * center) - l(2);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(form / level);
+    if (!(axes.eigenvalues()(0) > 0)) return std::nullopt;
+    plane.center += scale * plane.frame.leftCols<2>() * center;
+    plane.a = scale / std::sqrt(axes.eigenvalues()(0));
+    plane.b = scale / std::sqrt(axes.eigenvalues()(1));
+    const Eigen::Matrix<double, 3, 2> directions =
+        plane.frame.leftCols<2>() * axes.eigenvectors();
+    plane.frame.leftCols<2>() = directions;
+    plane.frame.col(2) = plane.frame.col(0).cross(plane.frame.col(1));
+    return plane;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Conic> RoughCircle(const FitSamples& samples) {
+  if (samples.size() < 3) return std::nullopt;
+  std::vector<double> weights = EqualWeights(samples);
+  std::optional<Conic> circle = WeightedCircle(samples, weights);
+  for (int round = 0; circle && round < kNumRounds; round += 2) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      weights[i] = RobustWeight(SquaredDistance(*circle, samples[i].position),
+                                samples[i].sigma,
+                                round);
+    }
+    circle = WeightedCircle(samples, weights);
+  }
+  return circle;
+}
+
+std::optional<Conic> FitCircle(const FitSamples& samples) {
+  if (samples.size() < kMinCircleSamples) return std::nullopt;
+  const std::optional<Conic> rough = RoughCircle(samples);
+  if (!rough) return std::nullopt;
+  return Refine(*rough, samples, true);
+}
+
+std::optional<Conic> FitEllipse(const FitSamples& samples) {
+  if (samples.size() < kMinEllipseSamples) return std::nullopt;
+  const std::optional<Conic> rough = DirectEllipse(samples);
+  if (!rough) return std::nullopt;
+  return Refine(*rough, samples, false);
+}
+
+Conic FitThrough(Conic conic,
+                 const FitSamples& samples,
+                 const std::vector<Eigen::Vector3d>& points) {
+  constexpr int kNumSteps = 5;
+  constexpr double kConstraint = 1e4;  // times the weight of all samples
+  const bool is_circle = conic.a == conic.b;
+  const Conic free = conic;
+  for (int step = 0; step < kNumSteps; ++step) {
+    std::vector<Target> targets;
+    double sum = 0;
+    for (const FitSample& s : samples) {
+      targets.push_back(
+          {s.position,
+           RobustWeight(
+               SquaredDistance(free, s.position), s.sigma, kNumRounds - 1)});
+      sum += targets.back().weight;
+    }
+    for (const Eigen::Vector3d& p : points) {
+      targets.push_back({p, kConstraint * sum});
+    }
+    if (!Step(targets, is_circle, conic)) return free;
+  }
+  return Ordered(conic);
+}
+
+double RadiusSigma(const Conic& circle, const FitSamples& samples) {
+  // The distance in the plane changes by -(cos, sin, 1) with centre and radius.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (const FitSample& s : samples) {
+    const double t = NearestParameter(circle, s.position);
+    const Eigen::Vector3d row(std::cos(t), std::sin(t), 1);
+    information += row * row.transpose() / (s.sigma * s.sigma);
+  }
+  return std::sqrt(information.inverse()(2, 2));
+}
+
+}  // namespace curvix

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Curves to primitives.
+#include <curvix/fitting.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/check.h"
+#include "base/parallel.h"
+#include "fitting/choose_primitives.h"
+#include "fitting/fit_conic.h"
+#include "fitting/meet_in_nodes.h"
+#include "geometry/pixel_size.h"
+#include "geometry/posed_views.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kUnknownSigmaSteps = 0.05;  // of the distance between samples
+
+// The median of the known sigmas, else a share of the distance of samples.
+double UsualSigma(const Curve& curve) {
+  std::vector<double> known;
+  for (const CurveSample& s : curve.samples) {
+    if (s.sigma > 0) known.push_back(s.sigma);
+  }
+  if (known.empty()) {
+    const double steps =
+        static_cast<double>(curve.samples.size() - (curve.closed ? 0 : 1));
+    const double sigma = kUnknownSigmaSteps * Length(curve) / steps;
+    return sigma > 0 ? sigma : 1;
+  }
+  const auto middle =
+      known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  return *middle;
+}
+
+CurvePrimitives FitAlone(const Curve& curve,
+                         const std::vector<PosedView>& views,
+                         const CurveFittingOptions& options) {
+  CURVIX_CHECK(curve.samples.size() >= 2, "a curve has two samples or more");
+  CurvePrimitives result;
+  result.closed = curve.closed;
+  const double usual = UsualSigma(curve);
+  for (const CurveSample& s : curve.samples) {
+    const double common =
+        options.common_error_px * PixelSize(s.position, s.support, views);
+    const double own = s.sigma > 0 ? s.sigma : usual;
+    result.samples.push_back({s.position, std::hypot(own, common)});
+  }
+  result.primitives = ChoosePrimitives(result.samples, curve.closed);
+  return result;
+}
+
+// One primitive and the nodes at its ends.
+struct Snapped {
+  const Primitive& primitive;
+  FitSamples samples;
+  std::optional<Eigen::Vector3d> start;
+  std::optional<Eigen::Vector3d> end;
+};
+
+// The node, or the foot of the end sample.
+Eigen::Vector3d EndOn(const Shape& shape,
+                      const std::optional<Eigen::Vector3d>& node,
+                      const FitSample& sample) {
+  if (node) return *node;
+  const auto foot = FootOn(shape, sample.position);
+  return foot ? foot->position : sample.position;
+}
+
+// Each returns the shape that is drawn, after filling in its own fields.
+struct Draw {
+  const Snapped& snapped;
+  CurveFit& fit;
+
+  Shape operator()(const FittedLine& line) const {
+    const FitSamples& samples = snapped.samples;
+    fit.kind = FitKind::kLine;
+    fit.start = EndOn(line, snapped.start, samples.front());
+    fit.end = EndOn(line, snapped.end, samples.back());
+    const Eigen::Vector3d chord = fit.end - fit.start;
+    if (!(chord.norm() > 0)) return line;
+    return FittedLine{fit.start, chord.normalized()};
+  }
+
+  Shape operator()(const Conic& free) const {
+    std::vector<Eigen::Vector3d> points;
+    if (snapped.start) points.push_back(*snapped.start);
+    if (snapped.end) points.push_back(*snapped.end);
+    const Conic conic =
+        points.empty() ? free
+                       : Directed(FitThrough(free, snapped.samples, points),
+                                  snapped.samples);
+    fit.kind = conic.a == conic.b ? FitKind::kArc : FitKind::kEllipse;
+    fit.center = conic.center;
+    fit.major = conic.a * conic.frame.col(0);
+    fit.minor = conic.b * conic.frame.col(1);
+    fit.start = EndOn(conic, snapped.start, snapped.samples.front());
+    fit.end = EndOn(conic, snapped.end, snapped.samples.back());
+    fit.start_angle = NearestParameter(conic, fit.start);
+    if (fit.closed) {
+      fit.end = fit.start;
+      fit.end_angle = fit.start_angle + 2 * kPi;
+    } else {
+      fit.end_angle = NearestParameter(conic, fit.end);
+      while (fit.end_angle <= fit.start_angle) fit.end_angle += 2 * kPi;
+    }
+    if (fit.kind == FitKind::kArc) {
+      fit.radius_sigma = RadiusSigma(conic, snapped.samples);
+    }
+    return conic;
+  }
+
+  Shape operator()(const Spline& free) const {
+    const FitSamples& samples = snapped.samples;
+    const std::pair ends = {snapped.start.value_or(free.At(0)),
+                            snapped.end.value_or(free.At(1))};
+    const auto spline = FitSpline(samples, free.control_points.size(), ends);
+    const Spline& drawn = spline ? *spline : free;
+    fit.kind = FitKind::kSpline;
+    fit.control_points = drawn.control_points;
+    fit.knots = drawn.knots;
+    fit.start = drawn.control_points.front();
+    fit.end = drawn.control_points.back();
+    return drawn;
+  }
+};
+
+std::size_t NumParameters(const CurveFit& fit) {
+  switch (fit.kind) {
+    case FitKind::kLine:
+      return 4;
+    case FitKind::kArc:
+      return 6;
+    case FitKind::kEllipse:
+      return 8;
+    case FitKind::kSpline:
+      return 3 * fit.control_points.size();
+  }
+  return 0;
+}
+
+void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
+  const std::vector<double> squared = SquaredDistances(shape, samples);
+  double sum = 0, max = 0, variance = 0;
+  std::size_t num_inliers = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double s2 = samples[i].sigma * samples[i].sigma;
+    variance += s2;
+    if (squared[i] > kOutlierSigmas * kOutlierSigmas * s2) continue;
+    ++num_inliers;
+    sum += squared[i];
+    max = std::max(max, squared[i]);
+  }
+  const double n = static_cast<double>(samples.size());
+  const double inliers = static_cast<double>(num_inliers);
+  fit.inlier_share = inliers / n;
+  fit.rms_residual = num_inliers > 0 ? std::sqrt(sum / inliers) : 0;
+  fit.max_residual = std::sqrt(max);
+  // Each sample measures two directions across.
+  const double share =
+      static_cast<double>(NumParameters(fit)) / (2 * std::max(inliers, 1.0));
+  fit.sigma = std::sqrt(variance / n * std::min(1.0, share));
+}
+
+CurveFit MakeFit(const Snapped& snapped) {
+  CurveFit fit;
+  fit.closed = snapped.primitive.closed;
+  fit.first_sample = snapped.primitive.first_sample;
+  fit.num_samples = snapped.primitive.num_samples;
+  const Shape drawn = std::visit(Draw{snapped, fit}, snapped.primitive.shape);
+  Judge(drawn, snapped.samples, fit);
+  return fit;
+}
+
+}  // namespace
+
+FittedCurves FitCurves(const CurveSet& curves,
+                       const Scene& scene,
+                       const CurveFittingOptions& options,
+                       int num_threads) {
+  const std::vector<PosedView> views = MakePosedViews(scene);
+  std::vector<CurvePrimitives> alone(curves.curves.size());
+  ParallelFor(alone.size(), num_threads, [&](std::size_t i) {
+    alone[i] = FitAlone(curves.curves[i], views, options);
+  });
+  FittedCurves result;
+  result.nodes = MeetInNodes(alone);
+  std::vector<std::vector<std::pair<int, int>>> node_of(alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    node_of[i].assign(alone[i].primitives.size(), {-1, -1});
+  }
+  for (std::size_t n = 0; n < result.nodes.size(); ++n) {
+    for (const CurveNode::End& end : result.nodes[n].ends) {
+      auto& [start, stop] = node_of[end.curve_idx][end.fit_idx];
+      (end.at_end ? stop : start) = static_cast<int>(n);
+    }
+  }
+  const auto position = [&](int node) -> std::optional<Eigen::Vector3d> {
+    if (node < 0) return std::nullopt;
+    return result.nodes[static_cast<std::size_t>(node)].position;
+  };
+  result.curves.resize(alone.size());
+  ParallelFor(alone.size(), num_threads, [&](std::size_t i) {
+    for (std::size_t f = 0; f < alone[i].primitives.size(); ++f) {
+      const Primitive& primitive = alone[i].primitives[f];
+      const auto [start, end] = node_of[i][f];
+      CurveFit fit = MakeFit({primitive,
+                              SamplesOf(primitive, alone[i].samples),
+                              position(start),
+                              position(end)});
+      fit.start_node = start;
+      fit.end_node = end;
+      result.curves[i].fits.push_back(std::move(fit));
+    }
+  });
+  return result;
+}
+
+}  // namespace curvix

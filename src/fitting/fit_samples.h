@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). What primitives are fitted to.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace curvix {
+
+struct FitSample {
+  Eigen::Vector3d position;
+  double sigma = 0;  // > 0
+};
+
+// Part of a curve, in order.
+using FitSamples = std::vector<FitSample>;
+
+// From here on, in standard deviations, a sample is an outlier.
+constexpr double kOutlierSigmas = 3;
+
+// What a squared distance costs, in squared standard deviations.
+inline double ResidualCost(double squared_distance, double sigma) {
+  return std::min(squared_distance / (sigma * sigma),
+                  kOutlierSigmas * kOutlierSigmas);
+}
+
+// Rounds of reweighting in which the limit for outliers comes down to
+// kOutlierSigmas, so that a first fit that outliers have pulled away finds
+// back.
+constexpr int kNumRounds = 8;
+
+// Weight of a sample in round 0, 1, ..., kNumRounds - 1.
+inline double RobustWeight(double squared_distance, double sigma, int round) {
+  const int doublings = std::max(0, kNumRounds - 3 - round);
+  const double scale = kOutlierSigmas * sigma * (1 << doublings);
+  const double ratio = 1 + squared_distance / (scale * scale);
+  return 1 / (sigma * sigma * ratio * ratio);
+}
+
+}  // namespace curvix

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). A line, circle, ellipse or spline, whichever.
+#include "fitting/primitive.h"
+
+#include <cmath>
+
+#include "base/angles.h"
+
+namespace curvix {
+namespace {
+
+struct DistancesFrom {
+  const FitSamples& samples;
+
+  std::vector<double> operator()(const FittedLine& line) const {
+    std::vector<double> squared;
+    for (const FitSample& s : samples) {
+      squared.push_back((s.position - line.Closest(s.position)).squaredNorm());
+    }
+    return squared;
+  }
+  std::vector<double> operator()(const Conic& conic) const {
+    std::vector<double> squared;
+    for (const FitSample& s : samples) {
+      const double t = NearestParameter(conic, s.position);
+      squared.push_back((s.position - conic.At(t)).squaredNorm());
+    }
+    return squared;
+  }
+  std::vector<double> operator()(const Spline& spline) const {
+    return SquaredDistances(spline, samples);
+  }
+};
+
+}  // namespace
+
+FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve) {
+  FitSamples samples;
+  for (std::size_t k = 0; k < primitive.num_samples; ++k) {
+    samples.push_back(curve[(primitive.first_sample + k) % curve.size()]);
+  }
+  return samples;
+}
+
+std::vector<double> SquaredDistances(const Shape& shape,
+                                     const FitSamples& samples) {
+  return std::visit(DistancesFrom{samples}, shape);
+}
+
+double CostOf(const Shape& shape, const FitSamples& samples) {
+  const std::vector<double> squared = SquaredDistances(shape, samples);
+  double cost = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    cost += ResidualCost(squared[i], samples[i].sigma);
+  }
+  return cost;
+}
+
+bool Explains(const Shape& shape, const FitSamples& samples) {
+  constexpr double kMinInlierShare = 0.9;
+  const std::vector<double> squared = SquaredDistances(shape, samples);
+  double sum = 0, num_inliers = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double ratio = squared[i] / (samples[i].sigma * samples[i].sigma);
+    if (ratio > kOutlierSigmas * kOutlierSigmas) continue;
+    sum += ratio;
+    ++num_inliers;
+  }
+  return sum <= num_inliers &&
+         num_inliers >= kMinInlierShare * static_cast<double>(samples.size());
+}
+
+std::vector<double> UnwrappedAngles(const Conic& conic,
+                                    const FitSamples& samples) {
+  std::vector<double> angles;
+  for (const FitSample& s : samples) {
+    const double t = NearestParameter(conic, s.position);
+    const double last = angles.empty() ? t : angles.back();
+    angles.push_back(last + std::remainder(t - last, 2 * kPi));
+  }
+  return angles;
+}
+
+Conic Directed(const Conic& conic, const FitSamples& samples) {
+  const std::vector<double> angles = UnwrappedAngles(conic, samples);
+  Conic directed = conic;
+  if (angles.back() < angles.front()) directed.frame.rightCols<2>() *= -1;
+  return directed;
+}
+
+bool GoesRound(const Conic& conic, const FitSamples& samples) {
+  const std::vector<double> angles = UnwrappedAngles(conic, samples);
+  const double sweep = std::abs(angles.back() - angles.front());
+  const double step = sweep / static_cast<double>(samples.size() - 1);
+  return sweep > 2 * kPi - std::max(4 * step, 0.1);
+}
+
+}  // namespace curvix

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). A line, circle, ellipse or spline, whichever.
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "fitting/conic.h"
+#include "fitting/fit_line.h"
+#include "fitting/fit_samples.h"
+#include "fitting/spline.h"
+
+namespace curvix {
+
+using Shape = std::variant<FittedLine, Conic, Spline>;
+
+// A shape and the samples of the curve that it stands for: `num_samples` from
+// `first_sample` on, round a closed curve.
+struct Primitive {
+  Shape shape;
+  std::size_t first_sample = 0;
+  std::size_t num_samples = 0;
+  bool closed = false;  // a whole conic, or a spline back to its start
+};
+
+// The samples of a primitive.
+FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve);
+
+// Squared distances of the samples from the shape.
+std::vector<double> SquaredDistances(const Shape& shape,
+                                     const FitSamples& samples);
+
+// Sum of ResidualCost.
+double CostOf(const Shape& shape, const FitSamples& samples);
+
+// Whether the shape explains the samples within their uncertainty: nine in ten
+// are no outliers, and those are off by a standard deviation or less, root mean
+// square.
+bool Explains(const Shape& shape, const FitSamples& samples);
+
+// Angles of the samples on a conic, each within half a turn of the one before.
+std::vector<double> UnwrappedAngles(const Conic& conic,
+                                    const FitSamples& samples);
+
+// The same conic, its angles rising along the samples.
+Conic Directed(const Conic& conic, const FitSamples& samples);
+
+// Whether samples of an open curve leave less of a conic open than four of
+// their steps or a tenth of a radian.
+bool GoesRound(const Conic& conic, const FitSamples& samples);
+
+}  // namespace curvix

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Clamped cubic B-splines with even knots.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "fitting/fit_samples.h"
+
+namespace curvix {
+
+struct Spline {
+  std::vector<Eigen::Vector3d> control_points;  // four or more
+  std::vector<double> knots;                    // four more, 0 to 1
+
+  Eigen::Vector3d At(double t) const;  // 0 <= t <= 1
+};
+
+// The knots of a spline with `num_control_points`: 0 and 1 four times, even
+// steps between.
+std::vector<double> EvenKnots(std::size_t num_control_points);
+
+// The spline with the least robust sum of squared distances at parameters that
+// begin as shares of the samples' length and then slide to the nearest points.
+// With `ends`, it starts and ends there exactly. nullopt: fewer samples than
+// control points, or no solution.
+std::optional<Spline> FitSpline(
+    const FitSamples& samples,
+    std::size_t num_control_points,
+    const std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& ends =
+        std::nullopt);
+
+// Squared distances of the samples from the spline, each near its own place.
+std::vector<double> SquaredDistances(const Spline& spline,
+                                     const FitSamples& samples);
+
+}  // namespace curvix
