@@ -55,7 +55,8 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
                  "folder of masks as COLMAP's, <image name>.png: edges on "
                  "black do not count")}},
       {"Method", {PresetFlag(settings)}},
-      PoseRefinementFlags(&settings->poses)};
+      PoseRefinementFlags(&settings->poses),
+      OutputFlags(&settings->output)};
   for (FlagSection& section : OptionSections(settings->options)) {
     sections.push_back(std::move(section));
   }

@@ -172,11 +172,10 @@ std::string StageLine(const StageReport& stage) {
 }
 
 const char* OpenedBy(const std::string& file) {
-  if (file == "curves.ply")
-    return "lines: MeshLab, Blender, Open3D; points: COLMAP";
-  if (file == "curves.obj") return "lines: CloudCompare, MeshLab, Blender";
-  if (file == "curves.pcd") return "points with tangents: PCL";
-  if (file == "curves.txt") return "text, like COLMAP's points3D.txt";
+  for (const OutputFormat& format : OutputFormats()) {
+    if (file == format.file) return format.opened_by;
+  }
+  if (file == "overlays/") return "photographs with the curves drawn over them";
   if (file == "edges.ply") return "3D edges before grouping, as points";
   if (file == "sparse/") return "model with the refined poses: COLMAP";
   if (file == "bundle_adjuster.log") return "what COLMAP said";
@@ -244,6 +243,10 @@ std::string ProjectFile(const RunSettings& settings) {
   add("output_path", settings.output_path.string());
   add("mask_path", settings.mask_path.string());
   add("preset", settings.preset);
+  OutputSettings output = settings.output;
+  for (const Flag& flag : OutputFlags(&output).flags) {
+    add(flag.name.c_str(), flag.default_value);
+  }
   PoseRefinementSettings poses = settings.poses;
   for (const Flag& flag : PoseRefinementFlags(&poses).flags) {
     add(flag.name.c_str(), flag.default_value);

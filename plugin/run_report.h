@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plugin/pose_refinement.h"
+#include "plugin/write_results.h"
 
 namespace curvix {
 
@@ -30,6 +31,7 @@ struct RunSettings {
   std::filesystem::path mask_path;  // "": no masks
   std::string preset = "default";
   PoseRefinementSettings poses;
+  OutputSettings output;
   Options options;
 };
 

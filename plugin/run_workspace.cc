@@ -4,6 +4,7 @@
 #include <curvix/camera_model.h>
 #include <curvix/curve_io.h>
 #include <curvix/file_io.h>
+#include <curvix/fitting.h>
 #include <curvix/reconstruct.h>
 #include <curvix/stopwatch.h>
 
@@ -16,6 +17,7 @@
 #include "plugin/staged_output.h"
 #include "plugin/text.h"
 #include "plugin/workspace.h"
+#include "plugin/write_results.h"
 
 namespace curvix {
 namespace {
@@ -86,6 +88,24 @@ std::string CountsText(const StageCounts& counts) {
   return text;
 }
 
+// How many primitives of each kind there are.
+StageCounts CountFits(const FittedCurves& fitted) {
+  std::int64_t lines = 0, arcs = 0, ellipses = 0, splines = 0;
+  for (const FittedCurve& curve : fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      lines += fit.kind == FitKind::kLine;
+      arcs += fit.kind == FitKind::kArc;
+      ellipses += fit.kind == FitKind::kEllipse;
+      splines += fit.kind == FitKind::kSpline;
+    }
+  }
+  return {{"lines", lines},
+          {"arcs", arcs},
+          {"ellipses", ellipses},
+          {"splines", splines},
+          {"nodes", static_cast<std::int64_t>(fitted.nodes.size())}};
+}
+
 // One run, from the first file read to the last one written.
 class Job {
  public:
@@ -102,8 +122,12 @@ class Job {
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
-  Status Write(const Scene& scene, const Reconstruction& reconstruction);
-  Status WriteCurveFiles(const Scene& scene, const CurveSet& curves);
+  Status Write(const Scene& scene,
+               const std::vector<EdgeMap>& edge_maps,
+               const Reconstruction& reconstruction);
+  Status WriteCurveFiles(const Scene& scene,
+                         const std::vector<EdgeMap>& edge_maps,
+                         const CurveSet& curves);
   Status WriteReport();
 
   Progress Callback() {
@@ -137,7 +161,7 @@ Result<RunRecord> Job::Run() {
   const Result<Reconstruction> reconstruction = Reconstruct(*scene, *edge_maps);
   if (!reconstruction.ok()) return reconstruction.status();
 
-  const Status written = Write(*scene, *reconstruction);
+  const Status written = Write(*scene, *edge_maps, *reconstruction);
   if (!written.ok()) return written;
   if (IsInterrupted()) return Cancelled();
   // Those of an earlier run would tell of other poses.
@@ -243,11 +267,13 @@ Result<Reconstruction> Job::Reconstruct(const Scene& scene,
   return reconstruction;
 }
 
-Status Job::Write(const Scene& scene, const Reconstruction& reconstruction) {
+Status Job::Write(const Scene& scene,
+                  const std::vector<EdgeMap>& edge_maps,
+                  const Reconstruction& reconstruction) {
   const Stopwatch stopwatch;
   Status status;
   if (!reconstruction.curves.curves.empty()) {
-    status = WriteCurveFiles(scene, reconstruction.curves);
+    status = WriteCurveFiles(scene, edge_maps, reconstruction.curves);
   }
   if (status.ok() && !reconstruction.edges.empty()) {
     record_.result.files.push_back("edges.ply");
@@ -258,16 +284,22 @@ Status Job::Write(const Scene& scene, const Reconstruction& reconstruction) {
   return WriteReport();
 }
 
-Status Job::WriteCurveFiles(const Scene& scene, const CurveSet& curves) {
+Status Job::WriteCurveFiles(const Scene& scene,
+                            const std::vector<EdgeMap>& edge_maps,
+                            const CurveSet& curves) {
+  const Stopwatch stopwatch;
+  const FittedCurves fitted =
+      FitCurves(curves,
+                scene,
+                record_.settings.options.curve_fitting,
+                record_.settings.options.runtime.num_threads);
+  record_.stages.push_back(stopwatch.Read("fit_curves"));
+  record_.stages.back().counts = CountFits(fitted);
+  Result<std::vector<std::string>> written = WriteResults(
+      {scene, edge_maps, curves, fitted}, record_.settings.output, staging_);
+  if (!written.ok()) return written.status();
   std::vector<std::string>& files = record_.result.files;
-  int num_written = 0;
-  for (const char* name :
-       {"curves.ply", "curves.obj", "curves.pcd", "curves.txt"}) {
-    progress_.Update("write_files", num_written++, 4);
-    const Status status = WriteCurves(staging_ / name, curves, scene);
-    if (!status.ok()) return status;
-    files.push_back(name);
-  }
+  files.insert(files.end(), written->begin(), written->end());
   files.push_back("project.ini");
   return WriteFileAtomically(staging_ / "project.ini",
                              ProjectFile(record_.settings));

@@ -119,6 +119,8 @@ TEST_F(ProgramRun, WritesEveryFileAndLeavesTheInputsAlone) {
                                    "curves.obj",
                                    "curves.pcd",
                                    "curves.txt",
+                                   "curves.json",
+                                   "viewer.html",
                                    "edges.ply",
                                    "report.json",
                                    "project.ini"));

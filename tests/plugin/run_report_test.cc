@@ -110,6 +110,7 @@ TEST(ProjectFile, ReadsBackAsTheSameSettings) {
   written.options = PaperOptions();
   written.options.runtime.num_threads = 2;
   written.options.edge_detection.sigma_px = 1.25;
+  written.output = {{"ply", "dxf"}, "view_003.png", 4};
 
   const TemporaryFolder folder;
   const auto path = folder.Write("project.ini", ProjectFile(written));
@@ -121,6 +122,7 @@ TEST(ProjectFile, ReadsBackAsTheSameSettings) {
                        PathFlag("project_path", &project_path, ""),
                        ChoiceFlag("preset", {"paper"}, &read.preset, "")}});
   sections.push_back(PoseRefinementFlags(&read.poses));
+  sections.push_back(OutputFlags(&read.output));
   const auto request = ParseFlags({"--project_path", path.string()}, sections);
   ASSERT_TRUE(request.ok()) << request.status().message();
   EXPECT_EQ(ProjectFile(read), ProjectFile(written));

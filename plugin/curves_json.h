@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// curves.json: everything that is known about the curves.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/fitting.h>
+#include <curvix/scene.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace curvix {
+
+// What a run knows about its curves. All of it outlives the bundle.
+struct CurveRecord {
+  const Scene& scene;
+  const std::vector<EdgeMap>& edge_maps;  // one per view
+  const CurveSet& curves;
+  const FittedCurves& fitted;  // of `curves`
+};
+
+// An edge of a view that supports a sample.
+struct SupportingEdge {
+  Eigen::Vector2d pixel;   // in the image, distortion included
+  double residual_px = 0;  // signed distance of the projected sample from the
+                           // edge's line, in the ideal pinhole image; positive
+                           // on the bright side
+};
+
+// nullopt if the view has no pixel for it.
+std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
+                                                 const CurveSample& sample,
+                                                 const EdgeRef& ref);
+
+// The text of curves.json, as docs/curves.schema.json and
+// docs/output_format.md describe it.
+std::string CurvesJson(const CurveRecord& record);
+
+// `value` with so many digits behind the point at most; JSON's null if it is
+// not finite.
+void AppendRounded(double value, int num_decimals, std::string& out);
+
+// `text` as a JSON string, safe within an HTML <script> element too.
+std::string JsonText(const std::string& text);
+
+}  // namespace curvix

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// viewer.html: the curves in a browser.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "plugin/curves_json.h"
+
+namespace curvix {
+
+// One page that needs nothing else, with the curves, the cameras and small
+// copies of up to 16 well-spread photographs; those that cannot be read are
+// left out. Names of images cannot break out of the page.
+std::string ViewerHtml(const CurveRecord& record);
+
+// plugin/viewer/viewer.html: "@DATA@" stands for the data.
+std::string_view ViewerTemplate();
+
+}  // namespace curvix

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every file that the program writes, opened by readers of others.
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/colmap_model.h"
+#include "plugin/synthesize.h"
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr int kNotInstalled = 77;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // stdout
+};
+
+Outcome RunInShell(const std::string& command) {
+  Outcome outcome;
+  FILE* const pipe = popen(command.c_str(), "r");
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
+    outcome.output += static_cast<char>(c);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  return outcome;
+}
+
+bool IsInstalled(const std::string& program) {
+  return RunInShell("command -v " + program).exit_code == 0;
+}
+
+std::string Quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+std::string Read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string Source(const std::string& path) {
+  return std::string(CURVIX_SOURCE_DIR) + "/" + path;
+}
+
+// One run for all tests: a lathe-turned part in a dozen small photographs, one
+// of which has a name that is out to break pages and files.
+class Formats : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder();
+    SyntheticOptions options;
+    options.solid = SyntheticSolid::kBlock;
+    options.num_views = 12;
+    options.width = 200;
+    options.height = 200;
+    const fs::path workspace = folder_->path() / "proj";
+    ASSERT_TRUE(Synthesize(options, workspace).ok());
+    RenameFirstImage(workspace);
+    results_ = folder_->path() / "out";
+    const Outcome outcome =
+        RunInShell(std::string("'") + CURVIX_PROGRAM + "' --workspace_path " +
+                   Quoted(workspace) + " --output_path " + Quoted(results_) +
+                   " --refiner none --write_overlays 3"
+                   " --output_formats "
+                   "ply,obj,pcd,txt,json,dxf,vtp,glb,svg,colmap,html 2>&1");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    report_ = json::parse(Read(results_ / "report.json"));
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static void RenameFirstImage(const fs::path& workspace) {
+    const fs::path model_path = workspace / "sparse/0";
+    auto model = ReadColmapModel(model_path);
+    ASSERT_TRUE(model.ok()) << model.status().message();
+    const std::string old_name = model->images[0].name;
+    model->images[0].name = kEvilName;
+    fs::rename(workspace / "images" / old_name,
+               workspace / "images" / kEvilName);
+    fs::remove_all(model_path);
+    ASSERT_TRUE(
+        WriteColmapModel(*model, model_path, ColmapFormat::kBinary).ok());
+  }
+
+  static int NumCurves() { return report_["result"]["num_curves"]; }
+  // Primitives of all curves.
+  static int NumFits() {
+    const json curves = json::parse(Read(results_ / "curves.json"));
+    int count = 0;
+    for (const json& curve : curves["curves"]) {
+      count += static_cast<int>(curve["fits"].size());
+    }
+    return count;
+  }
+
+  // What read_file.py counts; -1 if its reader is not installed.
+  static int Count(const std::string& format, const std::string& more = "") {
+    const Outcome outcome = RunInShell(
+        "/usr/bin/python3 '" + Source("tests/end_to_end/read_file.py") + "' " +
+        format + " " + Quoted(results_ / ("curves." + format)) + " " + more);
+    if (outcome.exit_code == kNotInstalled) return -1;
+    EXPECT_EQ(outcome.exit_code, 0) << format;
+    return outcome.exit_code == 0 ? std::stoi(outcome.output) : 0;
+  }
+
+  static constexpr char kEvilName[] = "a b'<script>alert(1)<!--&quot;\xff.png";
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline fs::path results_;
+  static inline json report_;
+};
+
+TEST_F(Formats, JsonKeepsToItsSchema) {
+  const int count =
+      Count("json", "'" + Source("docs/curves.schema.json") + "'");
+  if (count < 0) GTEST_SKIP() << "no python3-jsonschema";
+  EXPECT_EQ(count, NumCurves());
+}
+
+TEST_F(Formats, PythonExampleListsTheCurves) {
+  if (RunInShell("/usr/bin/python3 -c 'import numpy' 2>&1").exit_code != 0) {
+    GTEST_SKIP() << "no python3-numpy";
+  }
+  const Outcome outcome =
+      RunInShell("/usr/bin/python3 '" + Source("examples/04_read_curves.py") +
+                 "' " + Quoted(results_ / "curves.json") + " 2>&1");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output,
+              HasSubstr(std::to_string(NumCurves()) + " curves, "));
+  EXPECT_THAT(outcome.output, HasSubstr("  line, length "));
+}
+
+TEST_F(Formats, DxfPassesAnAudit) {
+  const int count = Count("dxf", Quoted(results_ / "curves.json"));
+  if (count < 0) GTEST_SKIP() << "no python3-ezdxf";
+  EXPECT_EQ(count, NumFits());
+}
+
+TEST_F(Formats, VtkReadsVtp) {
+  const int count = Count("vtp");
+  if (count < 0) GTEST_SKIP() << "no python3-vtk9";
+  EXPECT_EQ(count, NumCurves());
+}
+
+TEST_F(Formats, VtkReadsGlb) {
+  const int count = Count("glb");
+  if (count < 0) GTEST_SKIP() << "no python3-vtk9";
+  EXPECT_EQ(count, NumCurves());
+}
+
+TEST_F(Formats, SvgIsXmlWithAPathPerCurve) {
+  EXPECT_EQ(Count("svg"), NumCurves());
+}
+
+TEST_F(Formats, ColmapModelHasATrackPerSample) {
+  const auto model = ReadColmapModel(results_ / "curves_model");
+  ASSERT_TRUE(model.ok()) << model.status().message();
+  EXPECT_EQ(model->images.size(), 12u);
+  EXPECT_GT(model->points.size(), 100u);
+  for (const ColmapPoint3D& point : model->points) {
+    EXPECT_GE(point.track.size(), 2u);
+    EXPECT_LT(point.error, 2);
+  }
+  if (!IsInstalled("colmap")) GTEST_SKIP() << "no colmap";
+  const Outcome outcome =
+      RunInShell("colmap model_analyzer --path " +
+                 Quoted(results_ / "curves_model") + " 2>&1");
+  EXPECT_THAT(outcome.output,
+              HasSubstr("Points: " + std::to_string(model->points.size())));
+}
+
+TEST_F(Formats, OverlaysAreAsManyAsAskedFor) {
+  int count = 0;
+  for (const auto& file : fs::directory_iterator(results_ / "overlays")) {
+    EXPECT_EQ(file.path().extension(), ".png");
+    EXPECT_EQ(Read(file).substr(1, 3), "PNG");
+    ++count;
+  }
+  EXPECT_EQ(count, 3);
+}
+
+TEST_F(Formats, ViewerWorksInABrowser) {
+  const std::string page = Read(results_ / "viewer.html");
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(page.find("http"), page.find("http-equiv"));  // needs no network
+  if (!IsInstalled("chromium")) GTEST_SKIP() << "no chromium";
+  const std::string end = "</body>";
+  std::string probed = page;
+  probed.insert(probed.rfind(end),
+                "<script>" + Read(Source("tests/end_to_end/viewer_probe.js")) +
+                    "</script>");
+  const fs::path path = folder_->Write("probed.html", probed);
+  const Outcome outcome = RunInShell(
+      "timeout 60 chromium --headless --no-sandbox --disable-gpu "
+      "--window-size=1200,800 --virtual-time-budget=3000 "
+      "--user-data-dir=" +
+      Quoted(folder_->path() / "chromium") + " --dump-dom file://" +
+      path.string() + " 2>/dev/null");
+  const std::string mark = "PROBE";
+  const std::size_t begin = outcome.output.rfind("id=\"probe\"");
+  ASSERT_NE(begin, std::string::npos) << "the page does not get to its end";
+  const std::size_t from = outcome.output.find(mark, begin) + mark.size();
+  const json seen = json::parse(
+      outcome.output.substr(from, outcome.output.find(mark, from) - from));
+  EXPECT_EQ(seen["error"], "");
+  EXPECT_EQ(seen["total"], std::to_string(NumCurves()));
+  EXPECT_EQ(seen["shownAtFirst"], std::to_string(NumCurves()));
+  EXPECT_EQ(seen["selectedRight"], true);
+  EXPECT_THAT(seen["card"].get<std::string>(), HasSubstr("Photographs"));
+  EXPECT_GE(seen["photos"], 1);
+  EXPECT_EQ(seen["selectedNothing"], "-1");
+  EXPECT_EQ(seen["shownLongest"], "1");
+  EXPECT_EQ(seen["objects"], 1);
+  EXPECT_EQ(seen["plyHead"], "ply\n");
+  EXPECT_EQ(seen["jsonCurves"], 1);
+}
+
+TEST_F(Formats, UnknownOnesAreRefusedWithWhatThereIs) {
+  const Outcome outcome =
+      RunInShell(std::string("'") + CURVIX_PROGRAM +
+                 "' --workspace_path x --output_formats ply,step 2>&1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("\"step\""));
+  EXPECT_THAT(outcome.output, HasSubstr("dxf"));
+}
+
+}  // namespace
+}  // namespace curvix
