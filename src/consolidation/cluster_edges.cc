@@ -133,6 +133,11 @@ VirtualEdge MakeVirtualEdge(const Cluster& cluster,
   result.edge.position =
       cluster.center * line.Direction() - line.offset * line.normal;
   result.edge.tangent = Halved(cluster.direction);
+  if (cluster.size == 1) {
+    result.members = {
+        members[static_cast<std::size_t>(cluster.first)].edge_idx};
+    return result;
+  }
   // Members are in order along the line.
   std::vector<int> order;
   order.reserve(static_cast<std::size_t>(cluster.size));

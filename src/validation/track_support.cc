@@ -52,10 +52,12 @@ std::optional<Answer> Ask(const EdgeEstimate& estimate,
   const Gate gate{std::min(search.max_distance_px, kGateSigmas * expected_px),
                   kMaxTangentialPx,
                   search.min_cosine};
-  return Answer{view_idx,
-                projected->edge,
-                expected_px,
-                NearestEdge(view, projected->edge, gate)};
+  Answer answer{view_idx, projected->edge, expected_px, std::nullopt};
+  if (view.presence.MayHave(projected->edge.position,
+                            projected->edge.tangent)) {
+    answer.edge_idx = NearestEdge(view, projected->edge, gate);
+  }
+  return answer;
 }
 
 // Whether `supports` is true of at least kFewestSupports of the views. Asks no
