@@ -3,11 +3,11 @@
 // partners, for the edges that nothing explains yet; see docs/paper_map.md.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/angles.h"
 #include "base/parallel.h"
+#include "hypotheses/select_validators.h"
 #include "hypotheses/select_views.h"
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
@@ -34,13 +34,18 @@ struct Partner {
   ViewsToAsk to_ask;
 };
 
+// All partners of an H1 view.
+struct H1View {
+  std::vector<Partner> partners;
+  std::vector<std::vector<ViewNeighbor>> neighbors;  // among those to ask
+};
+
 class ViewSketcher {
  public:
   explicit ViewSketcher(const SketchInput& input)
       : input_(input),
         indices_(IndexViews(
             input.views, input.edge_maps, input.options.runtime.num_threads)),
-        neighbors_(NeighborsInDirection(input.overlaps)),
         sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {
     const ValidationOptions& options = input.options.validation;
     ParallelFor(
@@ -53,30 +58,36 @@ class ViewSketcher {
         });
   }
 
-  // The partners of view h1, ready for pairing.
-  std::vector<Partner> Partners(int h1) const {
-    std::vector<Partner> partners;
+  // View h1 and its partners, ready for pairing.
+  H1View Prepare(int h1) const {
+    H1View view;
     const auto i = static_cast<std::size_t>(h1);
-    for (const int h2 :
-         SelectPartners(input_.overlaps[i], input_.options.hypotheses)) {
+    const std::vector<int> partners =
+        SelectPartners(input_.overlaps[i], input_.options.hypotheses);
+    const std::vector<int> validators =
+        SelectValidators(input_.overlaps, h1, partners);
+    view.neighbors =
+        NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
+    for (const int h2 : partners) {
       const auto j = static_cast<std::size_t>(h2);
       auto pair = HypothesisViews::Make(input_.views[i],
                                         input_.views[j],
                                         input_.edge_maps[j].edges,
                                         input_.options);
-      if (pair) partners.push_back({*std::move(pair), ToAsk(h1, h2)});
+      if (!pair) continue;
+      view.partners.push_back(
+          {*std::move(pair), {FirstViews(h1, h2, view.neighbors), validators}});
     }
-    return partners;
+    return view;
   }
 
-  H1Result Sketch(const Edge2d& edge1,
-                  const std::vector<Partner>& partners) const {
+  H1Result Sketch(const Edge2d& edge1, const H1View& view) const {
     H1Result result;
-    for (const Partner& partner : partners) {
+    for (const Partner& partner : view.partners) {
       if (IsSettled(result)) break;
       for (const Hypothesis& hypothesis : partner.pair.Hypothesise(edge1)) {
         ++result.hypotheses;
-        auto tracked = Track(hypothesis, partner);
+        auto tracked = Track(hypothesis, partner, view.neighbors);
         if (!tracked) {
           ++result.unsupported;
         } else if (!IsKnown(*tracked, result.tracked)) {
@@ -89,26 +100,27 @@ class ViewSketcher {
   }
 
  private:
-  ViewsToAsk ToAsk(int h1, int h2) const {
-    ViewsToAsk to_ask;
+  // The views next to either in direction, then both.
+  static std::vector<std::int32_t> FirstViews(
+      int h1, int h2, const std::vector<std::vector<ViewNeighbor>>& neighbors) {
+    std::vector<std::int32_t> first;
     for (const int view_idx : {h1, h2}) {
       for (const ViewNeighbor& neighbor :
-           neighbors_[static_cast<std::size_t>(view_idx)]) {
-        to_ask.first.push_back(neighbor.view_idx);
+           neighbors[static_cast<std::size_t>(view_idx)]) {
+        first.push_back(neighbor.view_idx);
       }
     }
-    std::erase_if(to_ask.first, [&](int i) { return i == h1 || i == h2; });
-    std::sort(to_ask.first.begin(), to_ask.first.end());
-    to_ask.first.erase(std::unique(to_ask.first.begin(), to_ask.first.end()),
-                       to_ask.first.end());
-    to_ask.first.insert(to_ask.first.end(), {h1, h2});
-    to_ask.all.resize(input_.views.size());
-    std::iota(to_ask.all.begin(), to_ask.all.end(), 0);
-    return to_ask;
+    std::erase_if(first, [&](int i) { return i == h1 || i == h2; });
+    std::sort(first.begin(), first.end());
+    first.erase(std::unique(first.begin(), first.end()), first.end());
+    first.insert(first.end(), {h1, h2});
+    return first;
   }
 
-  std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
-                                   const Partner& partner) const {
+  std::optional<TrackedEdge> Track(
+      const Hypothesis& hypothesis,
+      const Partner& partner,
+      const std::vector<std::vector<ViewNeighbor>>& neighbors) const {
     if (!MayBeSupported(hypothesis.edge, indices_, partner.to_ask)) {
       return std::nullopt;
     }
@@ -119,7 +131,7 @@ class ViewSketcher {
                           sigma_px_);
     return TrackSupport(start,
                         indices_,
-                        neighbors_,
+                        neighbors,
                         partner.to_ask,
                         sigma_px_,
                         input_.options.validation);
@@ -165,7 +177,6 @@ class ViewSketcher {
 
   const SketchInput& input_;
   std::vector<ViewIndex> indices_;
-  std::vector<std::vector<ViewNeighbor>> neighbors_;
   double sigma_px_;
 };
 
@@ -224,8 +235,8 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     if (!h1) break;
     const auto h1_idx = static_cast<std::size_t>(*h1);
     done[h1_idx] = true;
-    const auto partners = sketcher.Partners(*h1);
-    sketch.counts.view_pairs += static_cast<std::int64_t>(partners.size());
+    const H1View view = sketcher.Prepare(*h1);
+    sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
 
     const std::vector<Edge2d>& edges = input.edge_maps[h1_idx].edges;
     std::vector<H1Result> results(edges.size());
@@ -233,7 +244,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
         edges.size(), input.options.runtime.num_threads, [&](std::size_t i) {
           if (i % input.h1_step != input.h1_step / 2) return;
           if (used.Contains({*h1, static_cast<std::int32_t>(i)})) return;
-          results[i] = sketcher.Sketch(edges[i], partners);
+          results[i] = sketcher.Sketch(edges[i], view);
         });
     sketch.counts.h1_edges += used.num_unused()[h1_idx];
     for (H1Result& result : results) {
