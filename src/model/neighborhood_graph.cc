@@ -24,24 +24,51 @@ void CheckRow(const Row& row, std::size_t edge_idx, std::size_t num_edges) {
   }
 }
 
-// rows[j] of the result lists the links that other rows have to j.
-std::vector<Row> Transposed(const std::vector<Row>& rows) {
-  std::vector<std::size_t> sizes(rows.size(), 0);
-  for (const Row& row : rows) {
-    for (const NeighborLink& link : row) {
-      ++sizes[static_cast<std::size_t>(link.edge_idx)];
+// The links that other rows have to a row, ascending, for all rows.
+class Transposed {
+ public:
+  explicit Transposed(const std::vector<Row>& rows)
+      : begins_(rows.size() + 1, 0) {
+    for (const Row& row : rows) {
+      for (const NeighborLink& link : row) ++begins_[After(link)];
+    }
+    for (std::size_t i = 1; i < begins_.size(); ++i) {
+      begins_[i] += begins_[i - 1];
+    }
+    links_.resize(begins_.back());
+    std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (NeighborLink link : rows[i]) {
+        std::size_t& place = next[After(link) - 1];
+        link.edge_idx = static_cast<std::int32_t>(i);
+        links_[place++] = link;
+      }
     }
   }
-  std::vector<Row> transposed(rows.size());
-  for (std::size_t j = 0; j < rows.size(); ++j) transposed[j].reserve(sizes[j]);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (NeighborLink link : rows[i]) {
-      Row& row = transposed[static_cast<std::size_t>(link.edge_idx)];
-      link.edge_idx = static_cast<std::int32_t>(i);
-      row.push_back(link);
-    }
+
+  std::span<const NeighborLink> operator[](std::size_t i) const {
+    return {links_.data() + begins_[i], begins_[i + 1] - begins_[i]};
   }
-  return transposed;
+
+ private:
+  static std::size_t After(const NeighborLink& link) {
+    return static_cast<std::size_t>(link.edge_idx) + 1;
+  }
+
+  std::vector<std::size_t> begins_;
+  std::vector<NeighborLink> links_;
+};
+
+// How many different edges the links of `a` and `b`, both ascending, name.
+std::size_t UnionSize(std::span<const NeighborLink> a,
+                      std::span<const NeighborLink> b) {
+  std::size_t size = a.size() + b.size();
+  auto y = b.begin();
+  for (const NeighborLink& link : a) {
+    while (y != b.end() && y->edge_idx < link.edge_idx) ++y;
+    if (y != b.end() && y->edge_idx == link.edge_idx) --size;
+  }
+  return size;
 }
 
 // Appends the links of `a` and `b`, both ascending, to `out`; links in both are
@@ -98,9 +125,14 @@ NeighborhoodGraph NeighborhoodGraph::FromRows(const std::vector<Row>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     CheckRow(rows[i], i, rows.size());
   }
-  const std::vector<Row> transposed = Transposed(rows);
+  const Transposed transposed(rows);
   NeighborhoodGraph graph;
   graph.offsets_.reserve(rows.size() + 1);
+  std::size_t num_links = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    num_links += UnionSize(rows[i], transposed[i]);
+  }
+  graph.links_.reserve(num_links);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     MergeRows(rows[i], transposed[i], LargerCounts, graph.links_);
     graph.offsets_.push_back(graph.links_.size());
