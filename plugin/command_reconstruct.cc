@@ -53,7 +53,11 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
         PathFlag("mask_path",
                  &settings->mask_path,
                  "folder of masks as COLMAP's, <image name>.png: edges on "
-                 "black do not count")}},
+                 "black do not count"),
+        Switch("clean",
+               &settings->clean,
+               "remove stages/ from the folder of the results: start from the "
+               "beginning and keep nothing to go on from")}},
       {"Method", {PresetFlag(settings)}},
       PoseRefinementFlags(&settings->poses),
       OutputFlags(&settings->output)};

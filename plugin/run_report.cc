@@ -137,6 +137,7 @@ Json RunJson(const RunRecord& record) {
   Json json = CostJson(record.total);
   json.erase("name");
   json["num_threads"] = record.settings.options.runtime.num_threads;
+  json["resumed_stages"] = record.resumed_stages;
   json["stages"] = Json::array();
   for (const StageReport& stage : record.stages) {
     json["stages"].push_back(CostJson(stage));

@@ -33,6 +33,7 @@ struct RunSettings {
   PoseRefinementSettings poses;
   OutputSettings output;
   Options options;
+  bool clean = false;  // neither use nor keep the results of stages
 };
 
 struct InputSummary {
@@ -62,6 +63,8 @@ struct RunRecord {
   InputSummary input;
   PoseRefinementRecord poses;
   std::vector<StageReport> stages;  // in the order in which they ran
+  // The names of those whose results an earlier run had left.
+  std::vector<std::string> resumed_stages;
   ResultSummary result;
   StageReport total;  // of the whole run
 };

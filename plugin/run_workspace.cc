@@ -8,12 +8,14 @@
 #include <curvix/reconstruct.h>
 #include <curvix/stopwatch.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "plugin/colmap_model.h"
 #include "plugin/pose_refinement.h"
+#include "plugin/stage_store.h"
 #include "plugin/staged_output.h"
 #include "plugin/text.h"
 #include "plugin/workspace.h"
@@ -122,6 +124,12 @@ class Job {
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
+  Result<EdgeSketch> Sketch(const Scene& scene,
+                            const std::vector<EdgeMap>& edge_maps);
+  void FinishStage(StageReport report, StageCounts counts, bool is_resumed);
+  template <typename T>
+  void Save(std::uint64_t key, const T& result);
+  Status KeptStages(Status status) const;
   Status Write(const Scene& scene,
                const std::vector<EdgeMap>& edge_maps,
                const Reconstruction& reconstruction);
@@ -143,6 +151,7 @@ class Job {
   Stopwatch since_start_;
   Workspace workspace_;
   fs::path staging_;
+  std::optional<StageStore> stages_;
   RunRecord record_;
 };
 
@@ -153,13 +162,15 @@ Result<RunRecord> Job::Run() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   if (!output.ok()) return output.status();
   staging_ = output->folder();
+  stages_.emplace(workspace_.output_path / "stages");
+  if (record_.settings.clean) stages_->Clean();
 
   const Result<Scene> scene = RefinePoses(*input);
   if (!scene.ok()) return scene.status();
   const Result<std::vector<EdgeMap>> edge_maps = Detect(*scene);
   if (!edge_maps.ok()) return edge_maps.status();
   const Result<Reconstruction> reconstruction = Reconstruct(*scene, *edge_maps);
-  if (!reconstruction.ok()) return reconstruction.status();
+  if (!reconstruction.ok()) return KeptStages(reconstruction.status());
 
   const Status written = Write(*scene, *edge_maps, *reconstruction);
   if (!written.ok()) return written;
@@ -234,22 +245,79 @@ Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
 
 Result<std::vector<EdgeMap>> Job::Detect(const Scene& scene) {
   const Stopwatch stopwatch;
-  Result<std::vector<EdgeMap>> edge_maps =
-      DetectEdges(scene, record_.settings.options, Callback());
-  if (!edge_maps.ok()) return edge_maps.status();
+  progress_.Update("detect_edges", 0, 0);
+  const std::uint64_t key = EdgesKey(scene, record_.settings.options);
+  Result<std::vector<EdgeMap>> edge_maps = Status();
+  if (auto saved = stages_->LoadEdges(key)) edge_maps = *std::move(saved);
+  const bool is_resumed = edge_maps.ok();
+  if (!is_resumed) {
+    edge_maps = DetectEdges(scene, record_.settings.options, Callback());
+    if (!edge_maps.ok()) return edge_maps.status();
+    Save(key, *edge_maps);
+  }
   StageCounts counts = CountEdges(*edge_maps);
   record_.result.num_edges_2d = counts.front().second;
   counts.insert(counts.begin(), {"views", record_.input.num_views});
-  progress_.Finish(CountsText(counts));
-  record_.stages.push_back(stopwatch.Read("detect_edges"));
-  record_.stages.back().counts = std::move(counts);
+  FinishStage(stopwatch.Read("detect_edges"), std::move(counts), is_resumed);
   return edge_maps;
+}
+
+Result<EdgeSketch> Job::Sketch(const Scene& scene,
+                               const std::vector<EdgeMap>& edge_maps) {
+  const Stopwatch stopwatch;
+  progress_.Update("sketch_edges", 0, 0);
+  const std::uint64_t key = SketchKey(scene, record_.settings.options);
+  Result<EdgeSketch> sketch = Status();
+  if (auto saved = stages_->LoadSketch(key)) sketch = *std::move(saved);
+  const bool is_resumed = sketch.ok();
+  if (!is_resumed) {
+    sketch =
+        SketchEdges(scene, edge_maps, record_.settings.options, Callback());
+    if (!sketch.ok()) return sketch;
+    Save(key, *sketch);
+  }
+  FinishStage(stopwatch.Read("sketch_edges"), CountsOf(*sketch), is_resumed);
+  return sketch;
+}
+
+void Job::FinishStage(StageReport report, StageCounts counts, bool is_resumed) {
+  if (is_resumed) record_.resumed_stages.push_back(report.name);
+  const bool tells_counts = report.name == "detect_edges";
+  std::string text = tells_counts ? CountsText(counts) : "";
+  if (is_resumed) {
+    text += std::string(text.empty() ? "" : ", ") + "as an earlier run left it";
+  }
+  progress_.Finish(text);
+  record_.stages.push_back(std::move(report));
+  record_.stages.back().counts = std::move(counts);
+}
+
+template <typename T>
+void Job::Save(std::uint64_t key, const T& result) {
+  if (record_.settings.clean) return;
+  const std::string problem = stages_->Save(key, result);
+  if (!problem.empty()) {
+    progress_.Note("A later run will not be able to go on from here: " +
+                   problem);
+  }
+}
+
+// What an interrupted run leaves behind.
+Status Job::KeptStages(Status status) const {
+  if (status.code() != StatusCode::kCancelled || !stages_->has_saved()) {
+    return status;
+  }
+  return {status.code(),
+          "interrupted; no results were written, but finished stages are kept: "
+          "the same command goes on from there"};
 }
 
 Result<Reconstruction> Job::Reconstruct(const Scene& scene,
                                         const std::vector<EdgeMap>& edge_maps) {
-  Result<Reconstruction> reconstruction =
-      ReconstructCurves(scene, edge_maps, record_.settings.options, Callback());
+  const Result<EdgeSketch> sketch = Sketch(scene, edge_maps);
+  if (!sketch.ok()) return sketch.status();
+  Result<Reconstruction> reconstruction = CurvesFromSketch(
+      scene, edge_maps, *sketch, record_.settings.options, Callback());
   if (!reconstruction.ok()) return reconstruction.status();
   progress_.Finish();
   for (const StageReport& stage : reconstruction->report.stages) {

@@ -6,6 +6,7 @@
 #include <curvix/curve_io.h>
 #include <curvix/curve_style.h>
 #include <curvix/curves.h>
+#include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/file_io.h>
 #include <curvix/fitting.h>
@@ -16,6 +17,7 @@
 #include <curvix/reconstruct.h>
 #include <curvix/refine_poses.h>
 #include <curvix/scene.h>
+#include <curvix/stage_io.h>
 #include <curvix/status.h>
 #include <curvix/stopwatch.h>
 #include <curvix/synthetic.h>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/curves.h>
+#include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
@@ -58,8 +59,24 @@ Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const Options& options,
                                          const Progress& progress = {});
 
-// Both. Same input, options and build give the same result for any number of
-// threads.
+// The two parts of that, for a run in pieces: Secs. 3 and 4, and the rest. The
+// report of the second part begins where the first ended.
+Result<EdgeSketch> SketchEdges(const Scene& scene,
+                               const std::vector<EdgeMap>& edge_maps,
+                               const Options& options,
+                               const Progress& progress = {});
+Result<Reconstruction> CurvesFromSketch(const Scene& scene,
+                                        const std::vector<EdgeMap>& edge_maps,
+                                        const EdgeSketch& sketch,
+                                        const Options& options,
+                                        const Progress& progress = {});
+
+// For StageReport::counts.
+std::vector<std::pair<std::string, std::int64_t>> CountsOf(
+    const EdgeSketch& sketch);
+
+// Detection and all that follows. Same input, options and build give the same
+// result for any number of threads.
 Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const Options& options,
                                          const Progress& progress = {});

@@ -4,6 +4,7 @@
 
 #include <curvix/camera_model.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -58,6 +59,22 @@ bool IsSound(const EdgeMap& map) {
   return true;
 }
 
+bool IsSound(const Edge3d& edge, const std::vector<EdgeMap>& edge_maps) {
+  int last_view_idx = -1;
+  for (const EdgeRef& ref : edge.support) {
+    if (ref.view_idx <= last_view_idx || ref.edge_idx < 0) return false;
+    last_view_idx = ref.view_idx;
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    if (view_idx >= edge_maps.size() ||
+        static_cast<std::size_t>(ref.edge_idx) >=
+            edge_maps[view_idx].edges.size()) {
+      return false;
+    }
+  }
+  return edge.position.allFinite() && edge.tangent.allFinite() &&
+         std::isfinite(edge.sigma) && std::isfinite(edge.evidence);
+}
+
 }  // namespace
 
 Status CheckScene(const Scene& scene) {
@@ -97,6 +114,18 @@ Status CheckEdgeMaps(const Scene& scene,
                    "positions within a million pixels are needed");
   }
   return {};
+}
+
+Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
+                       const EdgeSketch& sketch) {
+  const bool is_sound = std::all_of(
+      sketch.edges.begin(), sketch.edges.end(), [&](const Edge3d& edge) {
+        return IsSound(edge, edge_maps);
+      });
+  if (is_sound) return {};
+  return Invalid(
+      "the 3D edges are not sound: finite numbers and, in the order of views, "
+      "at most one 2D edge per view are needed, and these among the edges");
 }
 
 }  // namespace curvix

@@ -2,6 +2,7 @@
 // Paper: none (engineering). Refuses input that the stages do not expect.
 #pragma once
 
+#include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
@@ -18,5 +19,10 @@ Status CheckScene(const Scene& scene);
 // neighbours that are not there, positions or angles that are not finite,
 // positions beyond a million pixels.
 Status CheckEdgeMaps(const Scene& scene, const std::vector<EdgeMap>& edge_maps);
+
+// kInvalidArgument: a 3D edge that is not finite or whose support is not in the
+// edge maps, or not at most one edge per view in ascending order.
+Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
+                       const EdgeSketch& sketch);
 
 }  // namespace curvix

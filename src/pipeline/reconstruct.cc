@@ -21,19 +21,26 @@
 namespace curvix {
 namespace {
 
-Reconstruction Reconstruct(const Scene& scene,
-                           const std::vector<EdgeMap>& edge_maps,
-                           const Options& options,
-                           RunRecorder& run) {
-  const int num_threads = options.runtime.num_threads;
-  const std::vector<PosedView> views = MakePosedViews(scene);
-  Reconstruction result;
-
-  // Sec. 3 (hypothesise, validate) and Sec. 4 (consolidate).
+// Sec. 3 (hypothesise, validate) and Sec. 4 (consolidate).
+EdgeSketch Sketch(const Scene& scene,
+                  const std::vector<PosedView>& views,
+                  const std::vector<EdgeMap>& edge_maps,
+                  const Options& options,
+                  RunRecorder& run) {
   run.Begin("sketch_edges");
   EdgeSketch sketch =
       SketchEdges(views, edge_maps, scene.points, options, run.Steps());
   run.End(CountsOf(sketch));
+  return sketch;
+}
+
+Reconstruction Connect(const std::vector<PosedView>& views,
+                       const std::vector<EdgeMap>& edge_maps,
+                       const EdgeSketch& sketch,
+                       const Options& options,
+                       RunRecorder& run) {
+  const int num_threads = options.runtime.num_threads;
+  Reconstruction result;
 
   // Sec. 5, Fig. 6.
   run.Begin("link_edges");
@@ -76,6 +83,16 @@ Reconstruction Reconstruct(const Scene& scene,
   return result;
 }
 
+Status Check(const Scene& scene,
+             const std::vector<EdgeMap>& edge_maps,
+             const Options& options) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+    return status;
+  }
+  return Validate(options);
+}
+
 }  // namespace
 
 Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
@@ -100,17 +117,49 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
   return edge_maps;
 }
 
+Result<EdgeSketch> SketchEdges(const Scene& scene,
+                               const std::vector<EdgeMap>& edge_maps,
+                               const Options& options,
+                               const Progress& progress) {
+  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
+    return status;
+  }
+  RunRecorder run(progress);
+  EdgeSketch sketch =
+      Sketch(scene, MakePosedViews(scene), edge_maps, options, run);
+  if (run.cancelled()) return run.CancelledStatus();
+  return sketch;
+}
+
+Result<Reconstruction> CurvesFromSketch(const Scene& scene,
+                                        const std::vector<EdgeMap>& edge_maps,
+                                        const EdgeSketch& sketch,
+                                        const Options& options,
+                                        const Progress& progress) {
+  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
+    return status;
+  }
+  if (Status status = CheckEdgeSketch(edge_maps, sketch); !status.ok()) {
+    return status;
+  }
+  RunRecorder run(progress);
+  Reconstruction result =
+      Connect(MakePosedViews(scene), edge_maps, sketch, options, run);
+  if (run.cancelled()) return run.CancelledStatus();
+  return result;
+}
+
 Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,
                                          const Progress& progress) {
-  if (Status status = CheckScene(scene); !status.ok()) return status;
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
     return status;
   }
-  if (Status status = Validate(options); !status.ok()) return status;
   RunRecorder run(progress);
-  Reconstruction result = Reconstruct(scene, edge_maps, options, run);
+  const std::vector<PosedView> views = MakePosedViews(scene);
+  const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
+  Reconstruction result = Connect(views, edge_maps, sketch, options, run);
   if (run.cancelled()) return run.CancelledStatus();
   return result;
 }

@@ -18,7 +18,6 @@ namespace curvix {
 
 using Counts = std::vector<std::pair<std::string, std::int64_t>>;
 
-Counts CountsOf(const EdgeSketch& sketch);
 Counts CountsOf(const CurveSet& curves);
 
 // Records one stage after the other. Once the progress callback returns false

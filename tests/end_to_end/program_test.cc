@@ -27,7 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 struct Outcome {
@@ -123,7 +125,8 @@ TEST_F(ProgramRun, WritesEveryFileAndLeavesTheInputsAlone) {
                                    "viewer.html",
                                    "edges.ply",
                                    "report.json",
-                                   "project.ini"));
+                                   "project.ini",
+                                   "stages"));
   const json report = json::parse(Read(results_ / "report.json"));
   EXPECT_GT(report["result"]["num_curves"], 0);
   EXPECT_EQ(report["input"]["num_views"], 12);
@@ -210,7 +213,7 @@ TEST_F(ProgramRun, ExplainsWhyBlankImagesGiveNoCurves) {
   EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
   EXPECT_THAT(outcome.output,
               AllOf(HasSubstr("No curves: "), HasSubstr("0 edges")));
-  EXPECT_THAT(Names(results_), UnorderedElementsAre("report.json"));
+  EXPECT_THAT(Names(results_), UnorderedElementsAre("report.json", "stages"));
   const json report = json::parse(Read(results_ / "report.json"));
   EXPECT_EQ(report["result"]["num_curves"], 0);
   EXPECT_NE(report["result"]["why_empty"], "");
@@ -224,6 +227,54 @@ TEST_F(ProgramRun, AFailureKeepsEarlierResults) {
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("view_0"));
   EXPECT_EQ(Contents(workspace_ / "curvix"), before);
+}
+
+TEST_F(ProgramRun, GoesOnFromTheStagesThatALateOptionLeavesAsTheyWere) {
+  const auto resumed = [&](const std::string& more) {
+    const Outcome outcome = RunWorkspace(more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    const json report = json::parse(Read(results_ / "report.json"));
+    return report["run"]["resumed_stages"].get<std::vector<std::string>>();
+  };
+  const std::string late = "--CurveRefinement.smoothing_px 2";
+  const std::string middle = "--Validation.max_angle_deg 14";
+  EXPECT_THAT(resumed(""), IsEmpty());
+  EXPECT_THAT(resumed(late), ElementsAre("detect_edges", "sketch_edges"));
+  auto from_stages = Contents(results_);
+  EXPECT_THAT(resumed(late + " --clean"), IsEmpty());
+  EXPECT_FALSE(fs::exists(results_ / "stages"));
+  auto from_scratch = Contents(results_);
+  std::erase_if(from_stages, [](const auto& file) {
+    return file.first.rfind("stages", 0) == 0;
+  });
+  // All but the seconds.
+  json report1 = json::parse(from_stages["report.json"]);
+  json report2 = json::parse(from_scratch["report.json"]);
+  report1.erase("run");
+  report2.erase("run");
+  EXPECT_EQ(report1, report2);
+  from_stages.erase("report.json");
+  from_scratch.erase("report.json");
+  EXPECT_EQ(from_stages, from_scratch);
+
+  EXPECT_THAT(resumed(""), IsEmpty());
+  EXPECT_THAT(resumed(middle), ElementsAre("detect_edges"));
+  EXPECT_THAT(resumed("--EdgeDetection.sigma_px 1.1"), IsEmpty());
+}
+
+TEST_F(ProgramRun, DoesNotGoOnFromOtherOrBrokenStages) {
+  const auto resumed = [&] {
+    EXPECT_EQ(RunWorkspace().exit_code, 0);
+    const json report = json::parse(Read(results_ / "report.json"));
+    return report["run"]["resumed_stages"].size();
+  };
+  EXPECT_EQ(resumed(), 0u);
+  EXPECT_EQ(resumed(), 2u);
+  fs::resize_file(results_ / "stages/sketch.bin", 1000);
+  EXPECT_EQ(resumed(), 1u);
+  const fs::path image = fs::directory_iterator(workspace_ / "images")->path();
+  fs::last_write_time(image, fs::file_time_type::clock::now());
+  EXPECT_EQ(resumed(), 0u);
 }
 
 TEST_F(ProgramRun, RefusesBrokenInputWithoutATrace) {
@@ -251,7 +302,7 @@ TEST_F(ProgramRun, LeavesNothingWhenInterrupted) {
   const auto before = Contents(workspace_);
   const std::string path = workspace_.string();
   const std::vector<const char*> arguments = {
-      CURVIX_PROGRAM, "--workspace_path", path.c_str(), nullptr};
+      CURVIX_PROGRAM, "--workspace_path", path.c_str(), "--clean", nullptr};
   pid_t child = 0;
   ASSERT_EQ(posix_spawn(&child,
                         CURVIX_PROGRAM,

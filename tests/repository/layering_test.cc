@@ -87,8 +87,13 @@ std::string FirstPart(const std::string& path) {
 
 // <vector>, and the headers of POSIX.
 bool IsSystemHeader(const std::string& path) {
-  static const Names posix = {
-      "fcntl.h", "poll.h", "signal.h", "spawn.h", "stdlib.h", "unistd.h"};
+  static const Names posix = {"dlfcn.h",
+                              "fcntl.h",
+                              "poll.h",
+                              "signal.h",
+                              "spawn.h",
+                              "stdlib.h",
+                              "unistd.h"};
   return path.find_first_of("/.") == std::string::npos ||
          posix.contains(path) || FirstPart(path) == "sys";
 }

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The 3D edge sketch: what the paper's Secs. 3 and 4 give to Secs. 5 and 6.
+#pragma once
+
+#include <curvix/edges.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+// What became of the H1 edges and their hypotheses.
+struct SketchCounts {
+  std::int64_t view_pairs = 0;
+  std::int64_t h1_edges = 0;     // asked for hypotheses
+  std::int64_t hypotheses = 0;   // after consolidation (Sec. 4)
+  std::int64_t unsupported = 0;  // hypotheses that other views did not confirm
+  std::int64_t rivals = 0;       // confirmed, but far weaker than another
+  std::int64_t used_edges = 0;   // 2D edges that formed or support a 3D edge
+};
+
+struct EdgeSketch {
+  std::vector<Edge3d> edges;
+  SketchCounts counts;
+};
+
+}  // namespace curvix

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Results of finished stages to and from files, bit by bit: a run that goes on
+// from a file gives the same bytes as one that does not, on this machine or on
+// another. docs/output_format.md describes the files.
+#pragma once
+
+#include <curvix/edge_sketch.h>
+#include <curvix/edges.h>
+#include <curvix/status.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace curvix {
+
+// `key` stands for all that the result depends on; the caller chooses it. The
+// file appears whole or not at all. kInvalidArgument if it cannot be written.
+Status WriteEdgeMaps(const std::filesystem::path& path,
+                     std::uint64_t key,
+                     const std::vector<EdgeMap>& edge_maps);
+Status WriteEdgeSketch(const std::filesystem::path& path,
+                       std::uint64_t key,
+                       const EdgeSketch& sketch);
+
+// kNotFound: no file, or one with another key, of another kind or version, or
+// from a machine with the other byte order. kDataLoss: broken or truncated; a
+// checksum tells, and no memory is taken on the word of a count. Indices in it
+// are not checked: they mean something together with a scene only.
+Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
+                                          std::uint64_t key);
+Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,
+                                  std::uint64_t key);
+
+// A hash of bytes (64-bit FNV-1a), for keys; goes on from `hash`.
+std::uint64_t HashBytes(std::string_view bytes,
+                        std::uint64_t hash = 0xcbf29ce484222325);
+
+}  // namespace curvix

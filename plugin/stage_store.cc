@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/stage_store.h"
+
+#include <curvix/option_table.h>
+#include <curvix/reconstruct.h>
+#include <curvix/stage_io.h>
+#include <dlfcn.h>
+
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+
+#include "plugin/run_report.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEdgesName = "edges.bin";
+constexpr const char* kSketchName = "sketch.bin";
+
+// Hashes one thing after the other; texts with their end.
+class KeyMaker {
+ public:
+  void Add(std::string_view text) {
+    hash_ = HashBytes(text, hash_);
+    hash_ = HashBytes(std::string_view("\0", 1), hash_);
+  }
+  void Add(const std::string& text) { Add(std::string_view(text)); }
+  // Bit by bit.
+  template <typename T>
+  void Add(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    hash_ = HashBytes({reinterpret_cast<const char*>(&value), sizeof(value)},
+                      hash_);
+  }
+  // A file by its path, size and time of last change.
+  void AddFile(const fs::path& path) {
+    std::error_code error;
+    Add(path.string());
+    if (path.empty()) return;
+    Add(static_cast<std::uint64_t>(fs::file_size(path, error)));
+    Add(static_cast<std::int64_t>(
+        fs::last_write_time(path, error).time_since_epoch().count()));
+  }
+  // The options whose section has this name.
+  void AddOptions(const Options& options, const std::string& section) {
+    Options copy = options;
+    for (const OptionRow& row : OptionTable(copy)) {
+      if (row.name.rfind(section + ".", 0) != 0) continue;
+      Add(row.name);
+      Add(ValueText(row));
+    }
+  }
+  std::uint64_t key() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = HashBytes("");
+};
+
+// Another build of the program or its library may give another result.
+void AddProgram(KeyMaker& key) {
+  key.Add(ProgramVersion());
+  std::error_code error;
+  key.AddFile(fs::read_symlink("/proc/self/exe", error));
+  Dl_info library;
+  if (dladdr(reinterpret_cast<const void*>(&HashBytes), &library) == 0) return;
+  // The program itself, by whatever name it was called, if that holds it all.
+  const fs::path path = fs::canonical(library.dli_fname, error);
+  if (!error) key.AddFile(path);
+}
+
+void AddPose(const Rigid3& pose, KeyMaker& key) {
+  for (int i = 0; i < 4; ++i) key.Add(pose.rotation.coeffs()[i]);
+  for (int i = 0; i < 3; ++i) key.Add(pose.translation[i]);
+}
+
+}  // namespace
+
+std::uint64_t EdgesKey(const Scene& scene, const Options& options) {
+  KeyMaker key;
+  AddProgram(key);
+  for (const Camera& camera : scene.cameras) {
+    key.Add(static_cast<int>(camera.model));
+    key.Add(camera.width);
+    key.Add(camera.height);
+    for (const double param : camera.params) key.Add(param);
+  }
+  for (const View& view : scene.views) {
+    key.Add(view.camera_idx);
+    key.AddFile(fs::absolute(view.image_path));
+    key.AddFile(view.mask_path);
+  }
+  key.AddOptions(options, "EdgeDetection");
+  return key.key();
+}
+
+std::uint64_t SketchKey(const Scene& scene, const Options& options) {
+  KeyMaker key;
+  key.Add(EdgesKey(scene, options));
+  for (const View& view : scene.views) AddPose(view.cam_from_world, key);
+  for (const ScenePoint& point : scene.points) {
+    for (int i = 0; i < 3; ++i) key.Add(point.position[i]);
+    for (const int view_idx : point.view_idxs) key.Add(view_idx);
+  }
+  for (const char* section : {"Hypotheses", "Consolidation", "Validation"}) {
+    key.AddOptions(options, section);
+  }
+  return key.key();
+}
+
+std::optional<std::vector<EdgeMap>> StageStore::LoadEdges(
+    std::uint64_t key) const {
+  auto edge_maps = ReadEdgeMaps(folder_ / kEdgesName, key);
+  if (!edge_maps.ok()) return std::nullopt;
+  return *std::move(edge_maps);
+}
+
+std::optional<EdgeSketch> StageStore::LoadSketch(std::uint64_t key) const {
+  auto sketch = ReadEdgeSketch(folder_ / kSketchName, key);
+  if (!sketch.ok()) return std::nullopt;
+  return *std::move(sketch);
+}
+
+std::string StageStore::MakeFolder() const {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  return error ? "cannot make " + folder_.string() : "";
+}
+
+std::string StageStore::Save(std::uint64_t key,
+                             const std::vector<EdgeMap>& edge_maps) {
+  if (const std::string why = MakeFolder(); !why.empty()) return why;
+  const Status status = WriteEdgeMaps(folder_ / kEdgesName, key, edge_maps);
+  has_saved_ = has_saved_ || status.ok();
+  return status.message();
+}
+
+std::string StageStore::Save(std::uint64_t key, const EdgeSketch& sketch) {
+  if (const std::string why = MakeFolder(); !why.empty()) return why;
+  const Status status = WriteEdgeSketch(folder_ / kSketchName, key, sketch);
+  has_saved_ = has_saved_ || status.ok();
+  return status.message();
+}
+
+void StageStore::Clean() {
+  std::error_code ignored;
+  fs::remove(folder_ / kEdgesName, ignored);
+  fs::remove(folder_ / kSketchName, ignored);
+  fs::remove(folder_, ignored);
+}
+
+}  // namespace curvix

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Results of finished stages, kept beside the output for a later run to go on
+// from.
+#pragma once
+
+#include <curvix/edge_sketch.h>
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <curvix/scene.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace curvix {
+
+// What the edges of a scene depend on: the program, the images and masks (by
+// path, size and time of last change), the cameras and
+// Options::edge_detection. Not the poses.
+std::uint64_t EdgesKey(const Scene& scene, const Options& options);
+
+// What its 3D edge sketch depends on: that, and the poses, the points and the
+// options of hypotheses, consolidation and validation.
+std::uint64_t SketchKey(const Scene& scene, const Options& options);
+
+// The stages that take long: edges.bin and sketch.bin in a folder. A file
+// that another key was meant for, or that is broken, is as good as none.
+class StageStore {
+ public:
+  explicit StageStore(std::filesystem::path folder)
+      : folder_(std::move(folder)) {}
+
+  std::optional<std::vector<EdgeMap>> LoadEdges(std::uint64_t key) const;
+  std::optional<EdgeSketch> LoadSketch(std::uint64_t key) const;
+
+  // A sentence why it could not be saved, or "": a run can do without.
+  std::string Save(std::uint64_t key, const std::vector<EdgeMap>& edge_maps);
+  std::string Save(std::uint64_t key, const EdgeSketch& sketch);
+
+  // Whether anything was saved.
+  bool has_saved() const { return has_saved_; }
+
+  // Removes the files, and the folder if nothing else is in it.
+  void Clean();
+
+ private:
+  std::string MakeFolder() const;
+
+  std::filesystem::path folder_;
+  bool has_saved_ = false;
+};
+
+}  // namespace curvix

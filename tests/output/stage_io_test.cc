@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <curvix/file_io.h>
+#include <curvix/stage_io.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::uint64_t kKey = 0x123456789abcdef0;
+
+std::vector<EdgeMap> SomeEdgeMaps() {
+  std::vector<EdgeMap> maps(3);
+  maps[0].noise = 0.1;
+  maps[0].num_dropped_isolated = 7;
+  maps[2].num_dropped_masked = 3;
+  maps[2].num_dropped_over_limit = 5;
+  for (int i = 0; i < 4; ++i) {
+    Edge2d edge;
+    edge.position = {1.0 / 3 + i, std::nextafter(2.0, 3.0)};
+    edge.angle = 0.1F * static_cast<float>(i);
+    edge.strength = std::numeric_limits<float>::denorm_min();
+    edge.sharpness = -0.3F;
+    maps[2].edges.push_back(edge);
+    EdgeNeighbors neighbors;
+    if (i > 0) neighbors.previous = i - 1;
+    if (i < 3) neighbors.next = i + 1;
+    maps[2].neighbors.push_back(neighbors);
+  }
+  return maps;
+}
+
+EdgeSketch SomeSketch() {
+  EdgeSketch sketch;
+  sketch.counts = {1, 2, 3, 4, 5, 6'000'000'000};
+  for (int i = 0; i < 3; ++i) {
+    Edge3d edge;
+    edge.position = {i / 3.0, -1e-300, 1e300};
+    edge.tangent = {0, 0.6, -0.8};
+    edge.sigma = 1e-5;
+    edge.evidence = 12.5 * i;
+    for (int k = 0; k < i; ++k) edge.support.push_back({2 * k, 5});
+    sketch.edges.push_back(edge);
+  }
+  return sketch;
+}
+
+class StageIo : public testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "stage.bin";
+};
+
+TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
+  const auto maps = SomeEdgeMaps();
+  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, maps).ok());
+  const auto read = ReadEdgeMaps(path_, kKey);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  ASSERT_EQ(read->size(), maps.size());
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const EdgeMap& a = maps[i];
+    const EdgeMap& b = (*read)[i];
+    EXPECT_EQ(a.noise, b.noise);
+    EXPECT_EQ(a.num_dropped_masked, b.num_dropped_masked);
+    EXPECT_EQ(a.num_dropped_isolated, b.num_dropped_isolated);
+    EXPECT_EQ(a.num_dropped_over_limit, b.num_dropped_over_limit);
+    ASSERT_EQ(a.edges.size(), b.edges.size());
+    ASSERT_EQ(b.neighbors.size(), b.edges.size());
+    for (std::size_t k = 0; k < a.edges.size(); ++k) {
+      EXPECT_EQ(a.edges[k].position, b.edges[k].position);
+      EXPECT_EQ(a.edges[k].angle, b.edges[k].angle);
+      EXPECT_EQ(a.edges[k].strength, b.edges[k].strength);
+      EXPECT_EQ(a.edges[k].sharpness, b.edges[k].sharpness);
+      EXPECT_EQ(a.neighbors[k].previous, b.neighbors[k].previous);
+      EXPECT_EQ(a.neighbors[k].next, b.neighbors[k].next);
+    }
+  }
+}
+
+TEST_F(StageIo, GivesASketchBackBitByBit) {
+  const EdgeSketch sketch = SomeSketch();
+  ASSERT_TRUE(WriteEdgeSketch(path_, kKey, sketch).ok());
+  const auto read = ReadEdgeSketch(path_, kKey);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_EQ(read->counts.view_pairs, 1);
+  EXPECT_EQ(read->counts.unsupported, 4);
+  EXPECT_EQ(read->counts.used_edges, 6'000'000'000);
+  ASSERT_EQ(read->edges.size(), sketch.edges.size());
+  for (std::size_t i = 0; i < sketch.edges.size(); ++i) {
+    EXPECT_EQ(read->edges[i].position, sketch.edges[i].position);
+    EXPECT_EQ(read->edges[i].tangent, sketch.edges[i].tangent);
+    EXPECT_EQ(read->edges[i].sigma, sketch.edges[i].sigma);
+    EXPECT_EQ(read->edges[i].evidence, sketch.edges[i].evidence);
+    EXPECT_EQ(read->edges[i].support, sketch.edges[i].support);
+  }
+}
+
+TEST_F(StageIo, FindsNothingUnderAnotherKeyOrKind) {
+  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, SomeEdgeMaps()).ok());
+  EXPECT_EQ(ReadEdgeMaps(path_, kKey + 1).status().code(),
+            StatusCode::kNotFound);
+  EXPECT_EQ(ReadEdgeSketch(path_, kKey).status().code(), StatusCode::kNotFound);
+  EXPECT_EQ(ReadEdgeMaps(folder_.path() / "none.bin", kKey).status().code(),
+            StatusCode::kNotFound);
+}
+
+TEST_F(StageIo, NoticesEveryMissingEnd) {
+  ASSERT_TRUE(WriteEdgeSketch(path_, kKey, SomeSketch()).ok());
+  const std::string bytes = *ReadFile(path_);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    folder_.Write("stage.bin", bytes.substr(0, size));
+    EXPECT_EQ(ReadEdgeSketch(path_, kKey).status().code(),
+              StatusCode::kDataLoss)
+        << size;
+  }
+  folder_.Write("stage.bin", bytes + "x");
+  EXPECT_FALSE(ReadEdgeSketch(path_, kKey).ok());
+}
+
+TEST_F(StageIo, NoticesEveryChangedByte) {
+  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, SomeEdgeMaps()).ok());
+  const std::string bytes = *ReadFile(path_);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::string changed = bytes;
+    changed[i] = static_cast<char>(changed[i] ^ 0x40);
+    folder_.Write("stage.bin", changed);
+    EXPECT_FALSE(ReadEdgeMaps(path_, kKey).ok()) << i;
+  }
+}
+
+TEST_F(StageIo, TakesNoMemoryOnTheWordOfACount) {
+  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, {}).ok());
+  std::string bytes = *ReadFile(path_);
+  // The number of views; then a checksum that agrees with it.
+  bytes.replace(bytes.size() - 8, 8, std::string(8, '\x7f'));
+  const std::uint64_t hash =
+      HashBytes(std::string_view(bytes).substr(bytes.size() - 8));
+  bytes.replace(bytes.size() - 16,
+                8,
+                std::string(reinterpret_cast<const char*>(&hash), 8));
+  folder_.Write("stage.bin", bytes);
+  EXPECT_EQ(ReadEdgeMaps(path_, kKey).status().code(), StatusCode::kDataLoss);
+}
+
+TEST_F(StageIo, SaysThatItCannotWrite) {
+  const auto nowhere = folder_.path() / "no folder" / "stage.bin";
+  EXPECT_EQ(WriteEdgeMaps(nowhere, kKey, {}).code(),
+            StatusCode::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace curvix
