@@ -150,13 +150,13 @@ struct ConnectivityOptions {
 struct CurveRefinementOptions {
   bool enabled = true;
   // Curves of less median evidence are left out, log units; >= 0.
-  double min_evidence = 12.0;
+  double min_evidence = 14.0;
   // Curves that are known less well need more evidence, by the square of the
   // ratio. Pixels of the view that sees them largest, > 0.
   double sigma_scale_px = 0.08;
   // Curves of which a larger share of the 2D edges is blurred are left out as
   // borders of shading. 0..1; 1 leaves none out.
-  double max_blurred_share = 0.2;
+  double max_blurred_share = 0.3;
   // Curves that are probably rims of smooth bodies stay, labelled.
   bool keep_occluding_contours = false;
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0

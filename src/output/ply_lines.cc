@@ -2,6 +2,7 @@
 // Paper: none (engineering). Line sets as PLY.
 #include "output/ply_lines.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -50,15 +51,26 @@ bool HasClosingEdge(const Curve& curve) {
   return curve.closed && curve.samples.size() > 2;
 }
 
-std::string LinesHeader(std::size_t num_vertices, std::size_t num_edges) {
+// Nothing is labelled unless the user asked for it.
+bool HasOccludingContours(const CurveSet& curves) {
+  return std::any_of(
+      curves.curves.begin(), curves.curves.end(), [](const Curve& curve) {
+        return curve.is_occluding_contour;
+      });
+}
+
+std::string LinesHeader(std::size_t num_vertices,
+                        std::size_t num_edges,
+                        bool is_labelled) {
   std::string header(kPlyStart);
   header += std::to_string(num_vertices);
   header += kPlyGeometry;
   header +=
       "property float curve_id\n"
       "property float confidence\n"
-      "property float support\n"
-      "element edge ";
+      "property float support\n";
+  if (is_labelled) header += "property uchar occluding\n";
+  header += "element edge ";
   header += std::to_string(num_edges);
   header +=
       "\n"
@@ -68,7 +80,10 @@ std::string LinesHeader(std::size_t num_vertices, std::size_t num_edges) {
   return header;
 }
 
-void AppendVertices(const Curve& curve, std::size_t id, std::string& out) {
+void AppendVertices(const Curve& curve,
+                    std::size_t id,
+                    bool is_labelled,
+                    std::string& out) {
   const Rgb color = CurveColor(id);
   for (const CurveSample& sample : curve.samples) {
     AppendVector(sample.position, out);
@@ -77,6 +92,10 @@ void AppendVertices(const Curve& curve, std::size_t id, std::string& out) {
     AppendLittleEndian(static_cast<float>(id), out);
     AppendLittleEndian(Confidence(sample.support.size()), out);
     AppendLittleEndian(static_cast<float>(sample.support.size()), out);
+    if (is_labelled) {
+      AppendLittleEndian(
+          static_cast<std::uint8_t>(curve.is_occluding_contour ? 1 : 0), out);
+    }
   }
 }
 
@@ -106,9 +125,10 @@ Result<std::string> EncodePlyLines(const CurveSet& curves) {
   }
   if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
 
-  std::string out = LinesHeader(num_vertices, num_edges);
+  const bool is_labelled = HasOccludingContours(curves);
+  std::string out = LinesHeader(num_vertices, num_edges, is_labelled);
   for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    AppendVertices(curves.curves[id], id, out);
+    AppendVertices(curves.curves[id], id, is_labelled, out);
   }
   std::size_t first = 0;
   for (const Curve& curve : curves.curves) {

@@ -77,6 +77,24 @@ TEST(PlyLines, RowsFollowTheHeaderInOrder) {
   EXPECT_EQ(LoadBytes<std::int32_t>(closing + 4, std::endian::little), 9);
 }
 
+TEST(PlyLines, LabelsOccludingContoursWhereThereAreAny) {
+  CurveSet curves = MakeTestCurves();
+  const std::size_t unlabelled = EncodePlyLines(curves)->size();
+  curves.curves[1].is_occluding_contour = true;
+  const std::string bytes = *EncodePlyLines(curves);
+  const std::string property = "property uchar occluding\n";
+  EXPECT_EQ(bytes.size(), unlabelled + property.size() + 23);
+  EXPECT_THAT(bytes,
+              HasSubstr("property float support\n" + property + "element"));
+  const std::string end = "end_header\n";
+  const char* body = bytes.data() + bytes.find(end) + end.size();
+  constexpr std::ptrdiff_t kVertexBytes = 9 * 4 + 4;
+  for (int i = 0; i < 23; ++i) {  // the second curve has vertices 9 to 20
+    EXPECT_EQ(body[i * kVertexBytes + 39], i >= 9 && i <= 20 ? 1 : 0);
+  }
+  EXPECT_TRUE(DecodePlyLines(bytes).ok());
+}
+
 TEST(PlyLines, CurvesComeBackInOrderClosedAndOpen) {
   const CurveSet curves = MakeTestCurves();
   const auto read = DecodePlyLines(*EncodePlyLines(curves));
