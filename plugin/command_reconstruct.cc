@@ -24,6 +24,7 @@ Flag PresetFlag(RunSettings* settings) {
     const RuntimeOptions runtime = settings->options.runtime;
     settings->options = text == "paper" ? PaperOptions() : Options();
     settings->poses.refiner = text == "paper" ? "none" : "colmap";
+    settings->poses.refine_poses_with_curves = text != "paper";
     settings->options.runtime = runtime;
     return status;
   };

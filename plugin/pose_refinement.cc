@@ -182,7 +182,14 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
                     .min_is_excluded = true,
                     .unit = "s",
                     .help = "COLMAP is ended after so long, and the poses "
-                            "stay as they are"})}};
+                            "stay as they are"}),
+           RowFlag({.name = "refine_poses_with_curves",
+                    .field = &settings->refine_poses_with_curves,
+                    .max = 1,
+                    .help = "1: refine poses and curves together by the edges "
+                            "in the images, with or without points (0 with "
+                            "--preset paper); poses that are not better are "
+                            "not used"})}};
 }
 
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,

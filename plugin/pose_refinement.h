@@ -24,10 +24,11 @@
 namespace curvix {
 
 struct PoseRefinementSettings {
-  std::string refiner = "colmap";     // or "ceres" or "none"
-  std::filesystem::path colmap_path;  // the program; empty: found
-  bool refine_intrinsics = false;     // focal lengths and distortion, too
-  double refiner_timeout_s = 1800;    // COLMAP is ended after this
+  std::string refiner = "colmap";        // or "ceres" or "none"
+  std::filesystem::path colmap_path;     // the program; empty: found
+  bool refine_intrinsics = false;        // focal lengths and distortion, too
+  double refiner_timeout_s = 1800;       // COLMAP is ended after this
+  bool refine_poses_with_curves = true;  // afterwards; see curve_poses.h
 };
 
 // Fewer points seen by two views are not enough to refine poses with.

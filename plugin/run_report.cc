@@ -101,6 +101,32 @@ Json PosesJson(const PoseRefinementRecord& poses) {
   return json;
 }
 
+Json EdgeErrorsJson(const EdgeErrors& errors) {
+  return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
+}
+
+Json CurvePosesJson(const CurvePoseRecord& record) {
+  const CurvePoses& poses = record.poses;
+  Json json;
+  json["accepted"] = poses.accepted;
+  json["reason"] = Printable(poses.reason);
+  json["num_places"] = poses.num_samples;
+  json["num_held_out_places"] = poses.num_check_samples;
+  json["num_held_out_observations"] = poses.num_check_observations;
+  json["num_views_moved"] = poses.num_views_moved;
+  json["error_before"] = EdgeErrorsJson(poses.before);
+  json["error_after"] = EdgeErrorsJson(poses.after);
+  json["median_shift_px"] = poses.median_shift_px;
+  json["max_shift_px"] = poses.max_shift_px;
+  json["max_shift_image"] = Printable(record.largest_shift_image);
+  json["scale_removed"] = record.scale_removed;
+  if (record.points) {
+    json["point_error_before"] = ErrorsJson(record.points->before);
+    json["point_error_after"] = ErrorsJson(record.points->after);
+  }
+  return json;
+}
+
 Json CountsJson(const std::vector<StageReport>& stages) {
   Json json = Json::array();
   for (const StageReport& stage : stages) {
@@ -227,6 +253,9 @@ std::string ReportJson(const RunRecord& record) {
   json["options"] = OptionsJson(record.settings.options);
   json["input"] = InputJson(record.input);
   json["pose_refinement"] = PosesJson(record.poses);
+  if (record.curve_poses) {
+    json["pose_refinement_with_curves"] = CurvePosesJson(*record.curve_poses);
+  }
   json["stages"] = CountsJson(record.stages);
   json["result"] = ResultJson(record.result);
   json["run"] = RunJson(record);

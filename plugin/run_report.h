@@ -10,10 +10,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "plugin/curve_poses.h"
 #include "plugin/pose_refinement.h"
 #include "plugin/write_results.h"
 
@@ -62,7 +64,8 @@ struct RunRecord {
   RunSettings settings;
   InputSummary input;
   PoseRefinementRecord poses;
-  std::vector<StageReport> stages;  // in the order in which they ran
+  std::optional<CurvePoseRecord> curve_poses;  // if asked for
+  std::vector<StageReport> stages;             // in the order in which they ran
   // The names of those whose results an earlier run had left.
   std::vector<std::string> resumed_stages;
   ResultSummary result;

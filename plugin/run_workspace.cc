@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "plugin/colmap_model.h"
+#include "plugin/curve_poses.h"
 #include "plugin/pose_refinement.h"
 #include "plugin/stage_store.h"
 #include "plugin/staged_output.h"
@@ -121,6 +122,9 @@ class Job {
  private:
   Result<WorkspaceScene> Read();
   Result<Scene> RefinePoses(const WorkspaceScene& input);
+  Result<Scene> RefinePosesWithCurves(const WorkspaceScene& input,
+                                      const Scene& scene,
+                                      const std::vector<EdgeMap>& edge_maps);
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
@@ -151,6 +155,7 @@ class Job {
   Stopwatch since_start_;
   Workspace workspace_;
   fs::path staging_;
+  std::optional<ColmapModel> refined_model_;
   std::optional<StageStore> stages_;
   RunRecord record_;
 };
@@ -165,10 +170,14 @@ Result<RunRecord> Job::Run() {
   stages_.emplace(workspace_.output_path / "stages");
   if (record_.settings.clean) stages_->Clean();
 
-  const Result<Scene> scene = RefinePoses(*input);
+  Result<Scene> scene = RefinePoses(*input);
   if (!scene.ok()) return scene.status();
   const Result<std::vector<EdgeMap>> edge_maps = Detect(*scene);
   if (!edge_maps.ok()) return edge_maps.status();
+  if (record_.settings.poses.refine_poses_with_curves) {
+    scene = RefinePosesWithCurves(*input, *scene, *edge_maps);
+    if (!scene.ok()) return scene.status();
+  }
   const Result<Reconstruction> reconstruction = Reconstruct(*scene, *edge_maps);
   if (!reconstruction.ok()) return KeptStages(reconstruction.status());
 
@@ -236,11 +245,29 @@ Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
     record_.result.files.push_back("bundle_adjuster.log");
   }
   if (!refined->model) return input.scene;
-  const Status written = WriteColmapModel(
-      *refined->model, staging_ / "sparse", ColmapFormat::kBinary);
-  if (!written.ok()) return written;
-  record_.result.files.push_back("sparse/");
-  return MakeScene(workspace_, *refined->model, input.missing_images);
+  refined_model_ = std::move(refined->model);
+  return MakeScene(workspace_, *refined_model_, input.missing_images);
+}
+
+// The same with the edges of the views, which stay where they are.
+Result<Scene> Job::RefinePosesWithCurves(
+    const WorkspaceScene& input,
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps) {
+  const Stopwatch stopwatch;
+  Result<CurvePoseRefinement> refined =
+      RefineModelWithCurves(refined_model_ ? *refined_model_ : input.model,
+                            scene,
+                            edge_maps,
+                            record_.settings.options,
+                            Callback());
+  if (!refined.ok()) return refined.status();
+  record_.curve_poses = std::move(refined->record);
+  record_.stages.push_back(stopwatch.Read("refine_poses_with_curves"));
+  progress_.Finish(CurvePosesText(*record_.curve_poses));
+  if (!refined->model) return scene;
+  refined_model_ = std::move(refined->model);
+  return MakeScene(workspace_, *refined_model_, input.missing_images);
 }
 
 Result<std::vector<EdgeMap>> Job::Detect(const Scene& scene) {
@@ -340,6 +367,12 @@ Status Job::Write(const Scene& scene,
                   const Reconstruction& reconstruction) {
   const Stopwatch stopwatch;
   Status status;
+  if (refined_model_) {
+    status = WriteColmapModel(
+        *refined_model_, staging_ / "sparse", ColmapFormat::kBinary);
+    if (!status.ok()) return status;
+    record_.result.files.push_back("sparse/");
+  }
   if (!reconstruction.curves.curves.empty()) {
     status = WriteCurveFiles(scene, edge_maps, reconstruction.curves);
   }

@@ -26,13 +26,13 @@ struct CurvePoses {
   // Refined if accepted, else those of the scene; by view.
   std::vector<Rigid3> cam_from_world;
   bool accepted = false;
-  std::string reason; // why, or why not: part of a sentence, no full stop
-  std::size_t num_samples = 0;       // places on curves that took part
-  std::size_t num_check_samples = 0; // held out to judge by
+  std::string reason;  // why, or why not: part of a sentence, no full stop
+  std::size_t num_samples = 0;        // places on curves that took part
+  std::size_t num_check_samples = 0;  // held out to judge by
   std::size_t num_check_observations = 0;
-  EdgeErrors before; // of the samples held out, fitted to the poses before
-  EdgeErrors after;  // and to those after
-  std::size_t num_views_moved = 0; // views that the new poses serve better
+  EdgeErrors before;  // of the samples held out, fitted to the poses before
+  EdgeErrors after;   // and to those after
+  std::size_t num_views_moved = 0;  // views that the new poses serve better
   // How far the samples that a view sees, at their places before, shift in its
   // image: the median over these samples; of all views the median and the
   // largest.
@@ -48,12 +48,13 @@ struct CurvePoses {
 // prior as wide as poses turn out to be off holds each where it was.
 // One fifth of space is held out to judge by. A view in which the samples held
 // out do not come nearer to their edges keeps its pose; so do all if the mean
-// distance falls by less than 2 %. The same result for any number of threads.
-// kInvalidArgument as ReconstructCurves. `progress` is called as stage
-// "refine_poses_with_curves"; kCancelled when it returns false.
-Result<CurvePoses> RefinePosesWithCurves(const Scene &scene,
-                                         const std::vector<EdgeMap> &edge_maps,
-                                         const Options &options,
-                                         const Progress &progress = {});
+// distance falls by less than 2 %. Poses are taken as they are, without much
+// ado, if the median distance is below 0.06 px. The same result for any number
+// of threads. kInvalidArgument as ReconstructCurves. `progress` is called as
+// stage "refine_poses_with_curves"; kCancelled when it returns false.
+Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
+                                         const std::vector<EdgeMap>& edge_maps,
+                                         const Options& options,
+                                         const Progress& progress = {});
 
-} // namespace curvix
+}  // namespace curvix

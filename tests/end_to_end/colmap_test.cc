@@ -3,6 +3,11 @@
 // refines its disturbed poses. Skipped where COLMAP is not installed.
 #include <sys/wait.h>
 
+#include <curvix/curve_io.h>
+#include <curvix/synthetic.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -10,6 +15,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
@@ -42,12 +48,11 @@ class InstalledColmap : public testing::Test {
     if (FindInPath("colmap").empty()) {
       GTEST_SKIP() << "COLMAP is not installed";
     }
-    SyntheticOptions options;
-    options.num_views = 24;
-    options.width = 400;
-    options.height = 400;
-    options.texture = 200;
-    const Status status = Synthesize(options, folder_.path());
+    options_.num_views = 24;
+    options_.width = 400;
+    options_.height = 400;
+    options_.texture = 200;
+    const Status status = Synthesize(options_, folder_.path());
     ASSERT_TRUE(status.ok()) << status.message();
     fs::create_directories(folder_.path() / "true");
     // One thread: ids in the database in the order of the names, as ours are.
@@ -92,9 +97,60 @@ class InstalledColmap : public testing::Test {
                    said);
   }
 
+  // The median distance of true places that views see from the curves of the
+  // last run, made with `poses` and brought to the true cameras. World units.
+  double CurveError(const std::vector<Rigid3>& poses) const {
+    Result<CurveSet> curves = ReadCurves(folder_.path() / "out/curves.ply", {});
+    const Result<SyntheticScene> scene = MakeSyntheticScene(options_);
+    const auto to_truth = AlignPoses(poses, PosesOf(truth_));
+    if (!curves.ok() || !scene.ok() || !to_truth) return 1e9;
+    std::vector<Eigen::Vector3d> samples;
+    for (const Curve& curve : curves->curves) {
+      for (const CurveSample& sample : curve.samples) {
+        samples.push_back(*to_truth * sample.position);
+      }
+    }
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < scene->truth.size(); i += 3) {
+      const TrueSample& place = scene->truth[i];
+      if (place.num_views_edge < 8) continue;
+      double least = 1e9;
+      for (const Eigen::Vector3d& sample : samples) {
+        const Eigen::Vector3d offset = sample - place.position;
+        // Across the true curve: samples are some way apart along it.
+        if (std::abs(offset.dot(place.tangent)) > 0.01) continue;
+        least = std::min(least, offset.cross(place.tangent).norm());
+      }
+      distances.push_back(least);
+    }
+    return Median(distances);
+  }
+
+  SyntheticOptions options_;
   TemporaryFolder folder_;
   ColmapModel truth_;
 };
+
+TEST_F(InstalledColmap, GivesCurvesAsGoodAsThoseOfTruePoses) {
+  const fs::path input = folder_.path() / "sparse/1";
+  std::string said;
+  ASSERT_TRUE(WriteColmapModel(truth_, input, ColmapFormat::kBinary).ok());
+  ASSERT_EQ(Curvix("--refiner none --refine_poses_with_curves 0", &said), 0)
+      << said;
+  const double error_of_truth = CurveError(PosesOf(truth_));
+
+  ColmapModel model = truth_;
+  DisturbPoses(1, 5, &model);
+  ASSERT_TRUE(WriteColmapModel(model, input, ColmapFormat::kBinary).ok());
+  ASSERT_EQ(Curvix("", &said), 0) << said;
+  const Result<ColmapModel> refined =
+      ReadColmapModel(folder_.path() / "out/sparse");
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  EXPECT_LE(CurveError(PosesOf(*refined)), 1.1 * error_of_truth) << said;
+  const auto left = AlignPoses(PosesOf(*refined), PosesOf(model));
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->scale, 1, 1e-6);
+}
 
 TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   ColmapModel model = truth_;
@@ -103,7 +159,8 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   ASSERT_TRUE(WriteColmapModel(model, input, ColmapFormat::kBinary).ok());
   const fs::path output = folder_.path() / "out";
   std::string said;
-  ASSERT_EQ(Curvix("", &said), 0) << said;
+  const std::string by_points = "--refine_poses_with_curves 0 ";
+  ASSERT_EQ(Curvix(by_points, &said), 0) << said;
   EXPECT_THAT(said, HasSubstr("Refine poses ... COLMAP "));
 
   std::ifstream file(output / "report.json");
@@ -126,7 +183,8 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   const fs::path broken =
       folder_.Write("broken/colmap", "#!/bin/sh\necho Aborted\nexit 134\n");
   fs::permissions(broken, fs::perms::owner_all);
-  EXPECT_EQ(Curvix("--colmap_path '" + broken.string() + "'", &said), 0);
+  EXPECT_EQ(
+      Curvix(by_points + "--colmap_path '" + broken.string() + "'", &said), 0);
   EXPECT_THAT(said, HasSubstr("WARNING: Poses are used as they are"));
   EXPECT_FALSE(fs::exists(output / "sparse"));  // of the run before
 }

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "poses/hold_world.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace curvix {
+namespace {
+
+constexpr int kNumIterations = 10;
+constexpr double kLossScalePx = 2;
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Matrix26d = Eigen::Matrix<double, 2, 6>;
+
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return matrix;
+}
+
+struct NormalEquations {
+  Matrix6d matrix = Matrix6d::Zero();
+  Vector6d vector = Vector6d::Zero();
+};
+
+// Unknowns: a turn about `center` of the places, then a shift, both small.
+void Add(const PosedView& view,
+         const Eigen::Vector3d& position,
+         const Eigen::Vector3d& center,
+         const Eigen::Vector2d& pixel,
+         NormalEquations* sum) {
+  const Eigen::Vector3d x = view.InCamera(position);
+  if (!(x.z() > 0)) return;
+  const Eigen::Vector2d residual = view.Pixel(x) - pixel;
+  Eigen::Matrix<double, 2, 3> by_x;
+  by_x << 1, 0, -x.x() / x.z(), 0, 1, -x.y() / x.z();
+  by_x = view.calibration.topLeftCorner<2, 2>() * by_x / x.z();
+  const Eigen::Matrix<double, 2, 3> by_position = by_x * view.rotation;
+  Matrix26d by_motion;
+  by_motion.leftCols<3>() = -by_position * CrossMatrix(position - center);
+  by_motion.rightCols<3>() = by_position;
+  const double weight =
+      1 / (1 + residual.squaredNorm() / (kLossScalePx * kLossScalePx));
+  sum->matrix += weight * by_motion.transpose() * by_motion;
+  sum->vector += weight * by_motion.transpose() * residual;
+}
+
+}  // namespace
+
+Rigid3 HoldWorld(const std::vector<PosedView>& views,
+                 const std::vector<SeenPlace>& places) {
+  Rigid3 motion;
+  if (places.empty()) return motion;
+  for (int i = 0; i < kNumIterations; ++i) {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    for (const SeenPlace& place : places) center += motion * place.position;
+    center /= static_cast<double>(places.size());
+    NormalEquations sum;
+    for (const SeenPlace& place : places) {
+      Add(views[place.view_idx],
+          motion * place.position,
+          center,
+          place.pixel,
+          &sum);
+    }
+    const Vector6d step = -sum.matrix.ldlt().solve(sum.vector);
+    if (!step.allFinite()) return motion;
+    const Eigen::Vector3d turn = step.head<3>();
+    Rigid3 update;
+    if (turn.norm() > 0) {
+      update.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    }
+    update.translation = center + step.tail<3>() - update.rotation * center;
+    motion = update * motion;
+  }
+  return motion;
+}
+
+}  // namespace curvix

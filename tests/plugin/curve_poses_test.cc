@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/curve_poses.h"
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/similarity.h"
+#include "tests/plugin/posed_points.h"
+#include "tests/support/wire_scene.h"
+
+namespace curvix {
+namespace {
+
+using testing::HasSubstr;
+
+// A model of the views of `scene`, without points.
+ColmapModel ModelOf(const Scene& scene) {
+  ColmapModel model;
+  for (const View& view : scene.views) {
+    const auto camera_idx = static_cast<std::size_t>(view.camera_idx);
+    const auto camera_id = static_cast<std::uint32_t>(camera_idx + 1);
+    model.cameras.push_back({camera_id, scene.cameras[camera_idx]});
+    ColmapImage& image = model.images.emplace_back();
+    image.image_id = view.image_id;
+    image.camera_id = camera_id;
+    image.name = view.name;
+    image.cam_from_world = view.cam_from_world;
+  }
+  return model;
+}
+
+class CurvePosesOfAModel : public testing::Test {
+ protected:
+  CurvePosesOfAModel()
+      : wires_(MakeWireScene(CubeAndCircle(), 12)),
+        model_(ModelOf(wires_.scene)) {
+    DisturbPoses(1, 3, &model_);
+    scene_ = SceneFromColmapModel(model_, "images");
+  }
+
+  WireScene wires_;
+  ColmapModel model_;
+  Scene scene_;
+};
+
+TEST_F(CurvePosesOfAModel, AreThoseOfTheInputsWorld) {
+  const auto refined =
+      RefineModelWithCurves(model_, scene_, wires_.edge_maps, Options(), {});
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  ASSERT_TRUE(refined->model) << refined->record.poses.reason;
+  const auto left = AlignPoses(PosesOf(*refined->model), PosesOf(model_));
+  ASSERT_TRUE(left);
+  EXPECT_NEAR(left->scale, 1, 1e-6);
+  EXPECT_NEAR(refined->record.scale_removed, 1, 1e-2);
+  EXPECT_FALSE(refined->record.points);
+  EXPECT_THAT(CurvePosesText(refined->record), HasSubstr("12 views, "));
+}
+
+TEST_F(CurvePosesOfAModel, LeaveOutViewsThatAreMissing) {
+  scene_ = SceneFromColmapModel(model_, "images", {scene_.views[5].name});
+  wires_.edge_maps.erase(wires_.edge_maps.begin() + 5);
+  const auto refined =
+      RefineModelWithCurves(model_, scene_, wires_.edge_maps, Options(), {});
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  ASSERT_TRUE(refined->model) << refined->record.poses.reason;
+  EXPECT_EQ(refined->model->images[5].cam_from_world.translation,
+            model_.images[5].cam_from_world.translation);
+}
+
+}  // namespace
+}  // namespace curvix
