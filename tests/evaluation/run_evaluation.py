@@ -70,7 +70,7 @@ def run_program(program, scene, output, flags):
     """Exit code, CPU seconds and peak MB."""
     with open(output.parent / 'log.txt', 'w') as log:
         process = subprocess.Popen(
-            [program, '--workspace_path', scene, '--output_path', output, *flags],
+            [program, '--workspace_path', scene, '--output_path', output, '--clean', *flags],
             stdout=log, stderr=log)
         _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
