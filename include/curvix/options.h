@@ -88,7 +88,8 @@ struct ValidationOptions {
   double max_distance_px = 1.0;
   // Delta theta_p: largest angle of a supporting edge. Degrees, > 0.
   double max_angle_deg = 15.0;
-  // M: fewest supporting validation views; >= 1.
+  // M: fewest supporting validation views; >= 1. With kDistance, more than half
+  // of all views will do, hypothesis views included.
   int min_num_support_views = 4;
   // With kDistance: least evidence, see docs/paper_map.md; natural logarithm
   // units, >= 0.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <sstream>
 
+#include "validation/track_support.h"
+
 namespace curvix {
 
 std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
@@ -44,7 +46,7 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
     text << "None of " << counts.hypotheses
          << " edge pairs is confirmed by enough other views. Are the poses "
             "right to about a pixel, and do at least "
-         << options.validation.min_num_support_views + 2
+         << FewestSupports(options.validation, edge_maps.size())
          << " views see each part of the scene?";
   } else if (num_curves > 0) {
     text << "None of " << num_curves

@@ -150,6 +150,12 @@ double SearchReachPx(const ValidationOptions& options) {
   return std::hypot(options.max_distance_px, kMaxTangentialPx);
 }
 
+std::size_t FewestSupports(const ValidationOptions& options,
+                           std::size_t num_views) {
+  return std::min(static_cast<std::size_t>(options.min_num_support_views) + 2,
+                  num_views / 2 + 1);
+}
+
 bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
                     const ViewsToAsk& to_ask) {
@@ -193,8 +199,7 @@ std::optional<TrackedEdge> TrackSupport(
         AdjustEdge(tracked.estimate.edge, Measure(support, views), sigma_px);
     tracked.support = std::move(support);
   }
-  if (static_cast<int>(tracked.support.size()) <
-      options.min_num_support_views + 2) {
+  if (tracked.support.size() < FewestSupports(options, views.size())) {
     return std::nullopt;
   }
   tracked.evidence = Evidence(VotesOf(answers, views), neighbors);

@@ -36,6 +36,12 @@ struct ViewsToAsk {
 // for MayBeSupported().
 double SearchReachPx(const ValidationOptions& options);
 
+// How many views must support an edge: options.min_num_support_views and the
+// two hypothesis views; where there are few views, more than half of them will
+// do.
+std::size_t FewestSupports(const ValidationOptions& options,
+                           std::size_t num_views);
+
 // False only if TrackSupport() would end in its first round whatever the
 // estimate's covariance: a look at each view's `presence`, before the estimate
 // is made.
@@ -51,7 +57,7 @@ bool MayBeSupported(const SpaceEdge& edge,
 // `to_ask.first` only, and ends as soon as too few of them are left: most
 // hypotheses are wrong, and that shows there. Later rounds ask `to_ask.all`.
 // nullopt as soon as fewer than two views besides the hypothesis views support
-// it, or when in the end fewer than options.min_num_support_views do or the
+// it, or when in the end fewer than FewestSupports() views do or the
 // evidence is below options.min_evidence. `sigma_px`: standard deviation of an
 // edge's location.
 std::optional<TrackedEdge> TrackSupport(

@@ -73,6 +73,15 @@ TEST(ReconstructCurves, NamesTheEdgesBehindEverySample) {
   }
 }
 
+TEST(ReconstructCurves, FourOfSixViewsAreEnough) {
+  WireScene wires = MakeWireScene({CubeCurves()[4]}, 6);
+  wires.edge_maps[0] = wires.edge_maps[3] = EdgeMap();
+  const auto result =
+      ReconstructCurves(wires.scene, wires.edge_maps, Options());
+  ASSERT_TRUE(result.ok());
+  EXPECT_EQ(result->curves.curves.size(), 1u) << result->report.why_empty;
+}
+
 TEST(ReconstructCurves, CountsWhatEachStageDid) {
   const WireScene wires = MakeWireScene({CubeCurves()[4]}, 10);
   const auto result =

@@ -156,6 +156,15 @@ TEST_F(TrackSupportTest, RejectsWhatTooFewViewsSupport) {
   EXPECT_FALSE(Track(start, options));
 }
 
+TEST(FewestSupports, AreNoMoreThanJustOverHalfOfTheViews) {
+  ValidationOptions options;
+  options.min_num_support_views = 4;
+  EXPECT_EQ(FewestSupports(options, 50), 6u);
+  EXPECT_EQ(FewestSupports(options, 10), 6u);
+  EXPECT_EQ(FewestSupports(options, 9), 5u);
+  EXPECT_EQ(FewestSupports(options, 6), 4u);
+}
+
 TEST_F(TrackSupportTest, RejectsTooLittleEvidence) {
   const EdgeEstimate start = Start(curves_[0], 1, 0);
   ValidationOptions options;
