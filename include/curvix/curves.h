@@ -27,11 +27,24 @@ struct Curve {
   // than an edge of it; CurveRefinementOptions::keep_occluding_contours.
   bool is_occluding_contour = false;
   std::vector<CurveSample> samples;
+  // The junctions in which the first and the last sample lie: indices into
+  // CurveSet::junctions, or -1.
+  int start_junction = -1;
+  int end_junction = -1;
+};
+
+// Where ends of curves meet, as at a corner. The first or last samples of all
+// these curves are at `position` to the last bit.
+struct CurveJunction {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  double sigma = 0;  // the largest of its samples, world units
+  int num_ends = 0;  // two or more
 };
 
 // The index of a curve is its id in every output file.
 struct CurveSet {
   std::vector<Curve> curves;
+  std::vector<CurveJunction> junctions;
 };
 
 // The length of the polyline, closing segment included. World units.

@@ -144,7 +144,8 @@ struct ConnectivityOptions {
   // 180 (paper) cuts none.
   double max_corner_deg = 30.0;
   // Shortest curve kept, in pixels of the view that sees it largest; >= 0.
-  double min_length_px = 10.0;
+  // Curve refinement asks for more where it does not see how a curve goes on.
+  double min_length_px = 5.0;
 };
 
 // Beyond the paper: curves as a person would draw them.
@@ -164,8 +165,11 @@ struct CurveRefinementOptions {
   // smooths nothing.
   double smoothing_px = 2.5;
   // Longest gap closed between ends that continue each other at their own
-  // curvature. Pixels, >= 0; 0 closes none.
+  // curvature, though the images do not show it. Pixels, >= 0; 0 closes none.
   double max_gap_px = 15.0;
+  // Shortest curve kept, unless it leads from one junction to another. Pixels
+  // of the view that sees it largest; >= 0.
+  double min_length_px = 10.0;
   // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
   double junction_reach_px = 7.0;
   // Largest distance of a continued end from its corner. Pixels, > 0.

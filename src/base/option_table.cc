@@ -217,6 +217,8 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "standard deviation of the weights of the local fits; 0 smooths nothing");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other in a bend");
+  row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
+      "shortest curve kept, unless it leads from one junction to another");
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",
       "how far ends are carried on to a corner; 0 carries none on");
   row("max_junction_gap_px", &o.max_junction_gap_px, Above(0), "px", "",

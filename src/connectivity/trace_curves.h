@@ -21,10 +21,6 @@ namespace curvix {
 std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
                                const ConnectivityGraph& graph);
 
-// The length of a curve in pixels: every segment in pixels of the view that
-// sees it largest (pixel_size.h), whatever the angle at which it sees it.
-double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views);
-
 // The curves of at least two samples that are at least `min_length_px` long, in
 // the same order.
 std::vector<Curve> DropShortCurves(std::vector<Curve> curves,

@@ -49,4 +49,18 @@ std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
   return sizes;
 }
 
+double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views) {
+  const std::size_t size = curve.samples.size();
+  const std::size_t num_segments = size - (curve.closed || size == 0 ? 0 : 1);
+  double length_px = 0;
+  for (std::size_t k = 0; k < num_segments; ++k) {
+    const CurveSample& a = curve.samples[k];
+    const CurveSample& b = curve.samples[(k + 1) % size];
+    const double unit = std::min(PixelSize(a.position, a.support, views),
+                                 PixelSize(b.position, b.support, views));
+    if (unit > 0) length_px += (b.position - a.position).norm() / unit;
+  }
+  return length_px;
+}
+
 }  // namespace curvix

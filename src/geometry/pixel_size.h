@@ -2,6 +2,7 @@
 // Paper: none (engineering). The local unit of length of Sec. 6.
 #pragma once
 
+#include <curvix/curves.h>
 #include <curvix/edges.h>
 
 #include <vector>
@@ -24,5 +25,9 @@ double PixelSize(const Eigen::Vector3d& position,
 // The pixel size of each edge.
 std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
                                const std::vector<PosedView>& views);
+
+// The length of a curve in pixels: every segment in pixels of the view that
+// sees it largest, whatever the angle at which it sees it.
+double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views);
 
 }  // namespace curvix

@@ -10,6 +10,7 @@
 #include "connectivity/group_edges.h"
 #include "edge_detection/detect_view_edges.h"
 #include "geometry/posed_views.h"
+#include "model/curve_junctions.h"
 #include "neighborhood/link_edges.h"
 #include "pipeline/check_input.h"
 #include "pipeline/run_recorder.h"
@@ -74,6 +75,7 @@ Reconstruction Connect(const std::vector<PosedView>& views,
   run.Begin("filter_curves");
   result.curves.curves = FilterCurves(
       std::move(result.curves.curves), views, edge_maps, options.curve_filter);
+  IndexJunctions(result.curves);
   run.End(CountsOf(result.curves));
 
   result.report = run.TakeReport();

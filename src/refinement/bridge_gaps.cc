@@ -2,9 +2,9 @@
 // Paper: none (beyond it).
 #include "refinement/bridge_gaps.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -12,107 +12,42 @@
 #include "base/point_tree.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
+#include "refinement/end_fit.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kFittedPx = 15;
-constexpr std::size_t kMinNumFitted = 5;
 constexpr double kMaxMissPx = 1;
 constexpr double kMaxMissPerGap = 0.1;
 constexpr double kMaxAngleDeg = 15;
+constexpr double kRingTolerance = 3;
+constexpr double kMaxOverlapPx = 6;
+constexpr double kMaxBentPx = 5;  // of an end
+constexpr double kMaxOffPx = 0.4;
+constexpr double kCostOfGap = 0.05;  // a pixel of miss is a pixel
 constexpr double kFillSpacingPx = 1.5;
 
-// x(s) = position + s outward + s^2 bend / 2, s the way on beyond the end.
-struct EndFit {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d outward = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d bend = Eigen::Vector3d::Zero();
-  double length = 0;  // fitted, world units; 0: no end to join
-  double pixel = 0;   // world units
+// Support of the samples in a gap.
+constexpr double kMaxSupportDistancePx = 1;
+constexpr double kMinSupportShare = 0.5;    // of that of the ends
+constexpr double kMinSupportedShare = 0.8;  // of the samples
+constexpr std::size_t kNumEndSamples = 10;
 
-  Eigen::Vector3d PointAt(double s) const {
-    return position + s * outward + s * s / 2 * bend;
-  }
-  Eigen::Vector3d DirectionAt(double s) const {
-    return (outward + s * bend).normalized();
-  }
-};
-
-EndFit FitEnd(const Curve& curve,
-              bool front,
-              const std::vector<PosedView>& views) {
-  const std::size_t size = curve.samples.size();
-  const auto sample = [&](std::size_t k) -> const CurveSample& {
-    return curve.samples[front ? size - 1 - k : k];
-  };
-  EndFit fit;
-  fit.position = sample(0).position;
-  fit.pixel = PixelSize(fit.position, sample(0).support, views);
-  if (curve.closed || !(fit.pixel > 0)) return fit;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
-  double along = 0;
-  std::size_t k = 0;
-  for (; k < size; ++k) {
-    if (k > 0) along += (sample(k).position - sample(k - 1).position).norm();
-    if (along > kFittedPx * fit.pixel) break;
-    const double s = -along / fit.pixel;
-    const Eigen::Vector3d powers(1, s, s * s / 2);
-    normal += powers * powers.transpose();
-    right += powers * (sample(k).position - fit.position).transpose();
-    fit.length = along;
-  }
-  const Eigen::Matrix3d parabola = normal.ldlt().solve(right) / fit.pixel;
-  if (k < kMinNumFitted || !parabola.allFinite() ||
-      !(parabola.row(1).norm() > 0)) {
-    fit.length = 0;
-    return fit;
-  }
-  fit.outward = parabola.row(1).transpose().normalized();
-  fit.bend = parabola.row(2).transpose() / fit.pixel;
-  return fit;
-}
-
-// Whether `from`, carried on, arrives at `to`.
-bool Arrives(const EndFit& from, const EndFit& to, double gap, double unit) {
-  const double miss = (from.PointAt(gap) - to.position).norm();
-  const double cosine = from.DirectionAt(gap).dot(-to.outward);
-  return miss <= kMaxMissPx * unit + kMaxMissPerGap * gap &&
-         cosine >= std::cos(DegToRad(kMaxAngleDeg));
-}
-
-std::optional<double> JoinCost(const EndFit& a,
-                               const EndFit& b,
-                               const CurveRefinementOptions& options) {
-  const double unit = std::min(a.pixel, b.pixel);
-  const double gap = (b.position - a.position).norm();
-  const double longest =
-      std::min({options.max_gap_px * unit, a.length, b.length});
-  if (!(gap > 0) || gap > longest || !Arrives(a, b, gap, unit) ||
-      !Arrives(b, a, gap, unit)) {
+// How far from `to` the fit of `from`, carried on, passes; nullopt if it does
+// not arrive there.
+std::optional<double> Miss(const EndFit& from,
+                           const EndFit& to,
+                           double max_miss,
+                           double max_angle_deg,
+                           double max_overlap) {
+  const double arc_length = from.ArcLengthTo(to.position);
+  const double miss = (from.PointAt(arc_length) - to.position).norm();
+  const double cosine = from.DirectionAt(arc_length).dot(-to.outward);
+  if (arc_length < -max_overlap || miss > max_miss ||
+      cosine < std::cos(DegToRad(max_angle_deg))) {
     return std::nullopt;
   }
-  return gap;
-}
-
-std::vector<EndPair> FindPairs(const std::vector<EndFit>& ends,
-                               const CurveRefinementOptions& options) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const EndFit& end : ends) positions.push_back(end.position);
-  const PointTree tree(std::move(positions));
-  std::vector<EndPair> pairs;
-  for (EndIdx a = 0; a < ends.size(); ++a) {
-    if (!(ends[a].length > 0)) continue;
-    for (const EndIdx b :
-         tree.Within(ends[a].position, options.max_gap_px * ends[a].pixel)) {
-      if (b == a) continue;
-      if (const auto cost = JoinCost(ends[a], ends[b], options)) {
-        pairs.push_back({*cost, a, b});
-      }
-    }
-  }
-  return pairs;
+  return miss;
 }
 
 // Samples on the cubic through both ends with their tangents.
@@ -136,26 +71,183 @@ std::vector<CurveSample> Fill(const CurveSample& from,
   return filled;
 }
 
+// Finds the pairs of ends that continue each other.
+class GapFinder {
+ public:
+  GapFinder(const std::vector<Curve>& curves,
+            const std::vector<PosedView>& views,
+            const ImageSupport& images,
+            const CurveRefinementOptions& options)
+      : curves_(curves), images_(images), options_(options) {
+    for (const Curve& curve : curves) {
+      ends_.push_back(FitLongEnd(curve, true, views));
+      ends_.push_back(FitLongEnd(curve, false, views));
+    }
+  }
+
+  std::vector<EndPair> Pairs() const {
+    std::vector<Eigen::Vector3d> positions;
+    for (const EndFit& end : ends_) positions.push_back(end.position);
+    const PointTree tree(std::move(positions));
+    std::vector<EndPair> pairs;
+    for (EndIdx a = 0; a < ends_.size(); ++a) {
+      if (!(ends_[a].length > 0)) continue;
+      const double reach =
+          std::max(options_.max_gap_px * ends_[a].pixel, ends_[a].length);
+      for (const EndIdx b : tree.Within(ends_[a].position, reach)) {
+        if (b == a) continue;
+        if (const auto cost = Cost(a, b)) pairs.push_back({*cost, a, b});
+      }
+    }
+    return pairs;
+  }
+
+ private:
+  std::optional<double> Cost(EndIdx a, EndIdx b) const {
+    const EndFit& from = ends_[a];
+    const EndFit& to = ends_[b];
+    const double unit = std::min(from.pixel, to.pixel);
+    const double gap = (to.position - from.position).norm();
+    const double longest = std::min(from.length, to.length);
+    if (!(gap > 0) || gap > longest) return std::nullopt;
+    // The two ends of one curve hardly meet by chance.
+    const double tolerance = ItemOf(a) == ItemOf(b) ? kRingTolerance : 1;
+    const bool is_long = gap > options_.max_gap_px * unit;
+    const double max_miss =
+        tolerance * (kMaxMissPx * unit + (is_long ? 0 : kMaxMissPerGap * gap));
+    const auto forth = Miss(
+        from, to, max_miss, tolerance * kMaxAngleDeg, kMaxOverlapPx * unit);
+    const auto back = Miss(
+        to, from, max_miss, tolerance * kMaxAngleDeg, kMaxOverlapPx * unit);
+    if (!forth || !back || (is_long && !ImagesShow(a, b, unit))) {
+      return std::nullopt;
+    }
+    return kCostOfGap * gap + std::max(*forth, *back);
+  }
+
+  const CurveSample& Sample(EndIdx end, std::size_t k) const {
+    const std::vector<CurveSample>& samples = curves_[ItemOf(end)].samples;
+    return samples[IsFront(end) ? samples.size() - 1 - k : k];
+  }
+
+  // The median number of 2D edges of the samples before an end.
+  std::size_t SupportAt(EndIdx end) const {
+    const std::size_t num_samples =
+        std::min(kNumEndSamples, curves_[ItemOf(end)].samples.size());
+    std::vector<std::size_t> counts;
+    for (std::size_t k = 0; k < num_samples; ++k) {
+      counts.push_back(Sample(end, k).support.size());
+    }
+    std::sort(counts.begin(), counts.end());
+    return counts[counts.size() / 2];
+  }
+
+  bool ImagesShow(EndIdx a, EndIdx b, double unit) const {
+    CurveSample from = Sample(a, 0);
+    CurveSample to = Sample(b, 0);
+    from.tangent = ends_[a].outward;
+    to.tangent = -ends_[b].outward;
+    const auto least = static_cast<std::size_t>(
+        std::ceil(kMinSupportShare *
+                  static_cast<double>(std::min(SupportAt(a), SupportAt(b)))));
+    const auto filled = Fill(from, to, kFillSpacingPx * unit);
+    const auto num_shown =
+        std::count_if(filled.begin(), filled.end(), [&](const auto& sample) {
+          return images_
+                     .Find(
+                         sample.position, sample.tangent, kMaxSupportDistancePx)
+                     .size() >= least;
+        });
+    return static_cast<double>(num_shown) >=
+           kMinSupportedShare * static_cast<double>(filled.size());
+  }
+
+  const std::vector<Curve>& curves_;
+  const ImageSupport& images_;
+  const CurveRefinementOptions& options_;
+  std::vector<EndFit> ends_;
+};
+
+// Cuts the last samples up to the one nearest to the end that `keep` is true
+// for; two stay.
+template <typename Keep>
+void CutEnd(Curve& curve, bool front, const Keep& keep) {
+  std::vector<CurveSample>& samples = curve.samples;
+  if (!front) std::reverse(samples.begin(), samples.end());
+  while (samples.size() > 2 && !keep(samples.back())) samples.pop_back();
+  if (!front) std::reverse(samples.begin(), samples.end());
+}
+
+// Last samples that leave the curve they end, as next to a corner.
+void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
+  for (const bool front : {true, false}) {
+    const EndFit fit = FitLongEnd(curve, front, views);
+    if (!(fit.length > 3 * kMaxBentPx * fit.pixel)) continue;
+    CutEnd(curve, front, [&](const CurveSample& sample) {
+      const double arc_length = fit.ArcLengthTo(sample.position);
+      return arc_length < -kMaxBentPx * fit.pixel ||
+             (fit.PointAt(arc_length) - sample.position).norm() <=
+                 kMaxOffPx * fit.pixel;
+    });
+  }
+}
+
+// Ends that are tied and run past each other are cut half-way.
+void CutOverlaps(const EndTies& ties,
+                 const std::vector<PosedView>& views,
+                 std::vector<Curve>& curves) {
+  const std::vector<Curve> before = curves;
+  for (EndIdx a = 0; a < ties.size(); ++a) {
+    if (!ties[a]) continue;
+    const EndIdx b = *ties[a];
+    const EndFit from = FitLongEnd(before[ItemOf(a)], IsFront(a), views);
+    const EndFit to = FitLongEnd(before[ItemOf(b)], IsFront(b), views);
+    const double overlap = -from.ArcLengthTo(to.position);
+    if (!(overlap > 0)) continue;
+    CutEnd(curves[ItemOf(a)], IsFront(a), [&](const CurveSample& sample) {
+      return from.ArcLengthTo(sample.position) < -overlap / 2;
+    });
+  }
+}
+
+std::vector<Curve> Join(std::vector<Curve> curves,
+                        const EndTies& ties,
+                        const std::vector<PosedView>& views,
+                        const ImageSupport& images) {
+  CutOverlaps(ties, views, curves);
+  return StringTogether(
+      std::move(curves),
+      ties,
+      [&](const CurveSample& from, const CurveSample& to) {
+        const double pixel = PixelSize(from.position, from.support, views);
+        auto filled = Fill(from, to, kFillSpacingPx * pixel);
+        for (CurveSample& sample : filled) {
+          sample.support = images.Find(
+              sample.position, sample.tangent, kMaxSupportDistancePx);
+        }
+        return filled;
+      });
+}
+
 }  // namespace
 
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
+                              const ImageSupport& images,
                               const CurveRefinementOptions& options) {
   if (!(options.max_gap_px > 0)) return curves;
-  std::vector<EndFit> ends;
-  for (const Curve& curve : curves) {
-    ends.push_back(FitEnd(curve, true, views));
-    ends.push_back(FitEnd(curve, false, views));
-  }
-  const EndTies ties =
-      TieCheapestFirst(FindPairs(ends, options), curves.size());
-  return StringTogether(std::move(curves),
-                        ties,
-                        [&](const CurveSample& from, const CurveSample& to) {
-                          const double pixel =
-                              PixelSize(from.position, from.support, views);
-                          return Fill(from, to, kFillSpacingPx * pixel);
-                        });
+  for (Curve& curve : curves) CutBentEnds(views, curve);
+  std::vector<EndPair> pairs =
+      GapFinder(curves, views, images, options).Pairs();
+  EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
+  curves = Join(std::move(curves), ties, views, images);
+
+  pairs = GapFinder(curves, views, images, options).Pairs();
+  std::erase_if(pairs, [](const EndPair& pair) {
+    return ItemOf(pair.a) != ItemOf(pair.b);
+  });
+  ties = TieCheapestFirst(std::move(pairs), curves.size());
+  return Join(std::move(curves), ties, views, images);
 }
 
 }  // namespace curvix

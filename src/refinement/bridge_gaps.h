@@ -8,20 +8,26 @@
 #include <vector>
 
 #include "model/posed_view.h"
+#include "refinement/image_support.h"
 
 namespace curvix {
 
-// Joins open ends that continue each other at their own curvature: a parabola
-// in arc length is fitted to the last 15 px before each end, and carried on
-// over the gap it must come within 1 px plus a tenth of the gap of the other
-// end, at less than 15 degrees from its direction; from both sides. Gaps are at
-// most options.max_gap_px, and no longer than what was fitted. The nearest ends
-// first; ties by the order of curves. The gap is filled with samples on the
-// cubic that fits both ends; they have the sigma and evidence of the weaker end
-// and no support. Curves whose own ends meet so become closed. Pixels as in
-// pixel_size.h.
+// Joins open ends that continue each other at their own curvature: an arc
+// (end_fit.h) is fitted to the last 15 to 60 px before each end, as far as it
+// fits, and carried on over the gap it must come within 1 px plus a tenth of
+// the gap of the other end, at less than 15 degrees from its direction; from
+// both sides. Gaps are no longer than what was fitted, nor than
+// options.max_gap_px, except where the images show the curve in the gap: four
+// fifths of the samples that would fill it have at least half as many 2D edges
+// as the worse supported end. The ends that are missed least come first, 20 px
+// of gap counting as one of miss; ties by the order of curves. Bent last
+// samples and overlaps of up to 6 px are cut off. The gap is filled with
+// samples on the cubic that fits both ends; they have the sigma and evidence of
+// the weaker end, and the 2D edges within 1 px. Curves whose own ends meet so
+// become closed. Pixels as in pixel_size.h.
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
+                              const ImageSupport& images,
                               const CurveRefinementOptions& options);
 
 }  // namespace curvix

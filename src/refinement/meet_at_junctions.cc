@@ -11,100 +11,69 @@
 #include <tuple>
 
 #include "base/angles.h"
-#include "geometry/pixel_size.h"
+#include "refinement/end_fit.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kRoundedPx = 2.5;  // bent by a corner
-constexpr double kFittedPx = 12;    // along which a line is fitted
-constexpr std::size_t kMinNumFitted = 4;
+constexpr double kRoundedPx = 2.5;       // bent by a corner
+constexpr double kShortRoundedPx = 0.5;  // of curves that are hardly longer
+constexpr double kFittedPx = 20;         // along which a line or arc is fitted
 constexpr double kMinCornerDeg = 20;
+constexpr int kNumRounds = 3;
+constexpr double kStepPx = 1.5;
 
-// One open end of a curve and the line on which it continues.
+// One open end of a curve and how it goes on.
 struct CurveEnd {
   std::size_t curve_idx = 0;
   bool at_back = false;
-  Eigen::Vector3d position;   // of the last sample
+  EndFit fit;
+  // The line on which it goes on, where that matters.
   Eigen::Vector3d direction;  // unit, out of the curve
-  Eigen::Vector3d origin;     // on the line, next to the last sample
-  double pixel = 0;           // world units per pixel
-  double length = 0;          // of the fitted samples, world units
+  Eigen::Vector3d origin;     // on the line
+
+  // The tangent of the fit at its point nearest to `point`.
+  CurveEnd Near(const Eigen::Vector3d& point) const {
+    CurveEnd end = *this;
+    const double arc_length = fit.ArcLengthTo(point);
+    end.direction = fit.DirectionAt(arc_length);
+    end.origin = fit.PointAt(arc_length);
+    return end;
+  }
 };
-
-// The direction in which points scatter most.
-Eigen::Vector3d PrincipalDirection(const std::vector<Eigen::Vector3d>& points,
-                                   const Eigen::Vector3d& mean) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points) {
-    scatter += (point - mean) * (point - mean).transpose();
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter)
-      .eigenvectors()
-      .col(2);
-}
-
-std::optional<CurveEnd> FitEnd(const Curve& curve,
-                               std::size_t curve_idx,
-                               bool at_back,
-                               const std::vector<PosedView>& views) {
-  const std::size_t size = curve.samples.size();
-  const auto sample = [&](std::size_t k) -> const CurveSample& {
-    return curve.samples[at_back ? size - 1 - k : k];
-  };
-  CurveEnd end;
-  end.curve_idx = curve_idx;
-  end.at_back = at_back;
-  end.position = sample(0).position;
-  end.pixel = PixelSize(end.position, sample(0).support, views);
-  if (!(end.pixel > 0)) return std::nullopt;
-  std::vector<Eigen::Vector3d> fitted;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  double along = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    if (k > 0) along += (sample(k).position - sample(k - 1).position).norm();
-    if (along > kFittedPx * end.pixel) break;
-    if (along < kRoundedPx * end.pixel) continue;
-    fitted.push_back(sample(k).position);
-    end.length = along;
-    mean += sample(k).position;
-  }
-  if (fitted.size() < kMinNumFitted) return std::nullopt;
-  mean /= static_cast<double>(fitted.size());
-  end.direction = PrincipalDirection(fitted, mean);
-  if (end.direction.dot(end.position - mean) < 0) end.direction *= -1;
-  end.origin = mean + end.direction.dot(end.position - mean) * end.direction;
-  return end;
-}
 
 std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
                               const std::vector<PosedView>& views) {
   std::vector<CurveEnd> ends;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (curves[i].closed) continue;
     for (const bool at_back : {false, true}) {
-      if (auto end = FitEnd(curves[i], i, at_back, views)) {
-        ends.push_back(*end);
+      EndFit fit = FitEnd(curves[i], at_back, {kRoundedPx, kFittedPx}, views);
+      if (!(fit.length > 0)) {
+        fit = FitEnd(curves[i], at_back, {kShortRoundedPx, kFittedPx}, views);
+      }
+      if (fit.length > 0) {
+        ends.push_back({i, at_back, fit, fit.outward, fit.position});
       }
     }
   }
   return ends;
 }
 
+using Members = std::vector<std::size_t>;  // indices of ends
+
 // The point with the least sum of squared distances from the ends' lines. Lines
 // that are all parallel have none.
 std::optional<Eigen::Vector3d> NearestToLines(
-    const std::vector<CurveEnd>& ends,
-    const std::vector<std::size_t>& members) {
+    const std::vector<CurveEnd>& ends) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d base = ends[members.front()].origin;
-  for (const std::size_t i : members) {
-    const Eigen::Vector3d& d = ends[i].direction;
+  const Eigen::Vector3d base = ends.front().origin;
+  for (const CurveEnd& end : ends) {
+    const Eigen::Vector3d& d = end.direction;
     const Eigen::Matrix3d across =
         Eigen::Matrix3d::Identity() - d * d.transpose();
     normal += across;
-    right += across * (ends[i].origin - base);
+    right += across * (end.origin - base);
   }
   // The least eigenvalue of two lines at angle a is 1 - cos a.
   const double least =
@@ -116,36 +85,44 @@ std::optional<Eigen::Vector3d> NearestToLines(
 // Largest distance, in pixels, between the lines and `point`; nullopt if the
 // point is out of reach of an end.
 std::optional<double> GapAt(const std::vector<CurveEnd>& ends,
-                            const std::vector<std::size_t>& members,
                             const Eigen::Vector3d& point,
                             double reach_px) {
   double gap = 0;
-  for (const std::size_t i : members) {
-    const CurveEnd& end = ends[i];
+  for (const CurveEnd& end : ends) {
+    const double reach = std::min(reach_px * end.fit.pixel, end.fit.length);
+    if ((point - end.fit.position).norm() > reach) return std::nullopt;
     const Eigen::Vector3d offset = point - end.origin;
-    const double ahead = offset.dot(end.direction);
-    if (std::abs(ahead) > std::min(reach_px * end.pixel, end.length)) {
-      return std::nullopt;
-    }
-    gap = std::max(gap, (offset - ahead * end.direction).norm() / end.pixel);
+    gap = std::max(gap, end.direction.cross(offset).norm() / end.fit.pixel);
   }
   return gap;
 }
 
 struct Junction {
-  std::vector<std::size_t> members;  // ends
+  Members members;
   Eigen::Vector3d point;
   double gap_px = 0;
 };
 
+// Bent curves meet where their tangents there do: a fixed point.
 std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
-                                     std::vector<std::size_t> members,
+                                     Members members,
                                      const CurveRefinementOptions& options) {
-  const auto point = NearestToLines(ends, members);
-  if (!point) return std::nullopt;
-  const auto gap = GapAt(ends, members, *point, options.junction_reach_px);
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (const std::size_t i : members) {
+    point += ends[i].fit.position / static_cast<double>(members.size());
+  }
+  std::vector<CurveEnd> lines(members.size());
+  for (int round = 0; round < kNumRounds; ++round) {
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      lines[k] = ends[members[k]].Near(point);
+    }
+    const auto nearest = NearestToLines(lines);
+    if (!nearest) return std::nullopt;
+    point = *nearest;
+  }
+  const auto gap = GapAt(lines, point, options.junction_reach_px);
   if (!gap || *gap > options.max_junction_gap_px) return std::nullopt;
-  return Junction{std::move(members), *point, *gap};
+  return Junction{std::move(members), point, *gap};
 }
 
 std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
@@ -154,8 +131,10 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {
       const double reach = 2 * options.junction_reach_px *
-                           std::min(ends[i].pixel, ends[j].pixel);
-      if ((ends[i].position - ends[j].position).norm() > reach) continue;
+                           std::min(ends[i].fit.pixel, ends[j].fit.pixel);
+      if ((ends[i].fit.position - ends[j].fit.position).norm() > reach) {
+        continue;
+      }
       if (auto pair = MakeJunction(ends, {i, j}, options)) {
         pairs.push_back(*std::move(pair));
       }
@@ -183,7 +162,7 @@ std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
     }
     const std::size_t free = junction_of[i] ? j : i;
     const std::size_t idx = junction_of[i] ? *junction_of[i] : *junction_of[j];
-    std::vector<std::size_t> members = junctions[idx].members;
+    Members members = junctions[idx].members;
     members.push_back(free);
     if (auto larger = MakeJunction(ends, std::move(members), options)) {
       junction_of[free] = idx;
@@ -193,23 +172,36 @@ std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
   return junctions;
 }
 
-// Cuts the bent end off and adds the junction.
+// Cuts the bent end off and carries it on to the junction.
 void CarryOn(const CurveEnd& end,
              const Eigen::Vector3d& junction,
              Curve& curve) {
+  const EndFit& fit = end.fit;
   std::vector<CurveSample>& samples = curve.samples;
   if (!end.at_back) std::reverse(samples.begin(), samples.end());
   CurveSample last = samples.back();
-  const double limit =
-      (junction - end.origin).dot(end.direction) - kRoundedPx * end.pixel;
+  const double arrival = fit.ArcLengthTo(junction);
+  const double limit = std::min(arrival, 0.0) - kRoundedPx * fit.pixel;
   while (samples.size() > 2 &&
-         (samples.back().position - end.origin).dot(end.direction) >
-             std::min(limit, -kRoundedPx * end.pixel)) {
+         fit.ArcLengthTo(samples.back().position) > limit) {
     samples.pop_back();
   }
-  last.position = junction;
-  last.tangent = (end.at_back ? 1.0 : -1.0) * end.direction;
-  samples.push_back(std::move(last));
+  const double start = fit.ArcLengthTo(samples.back().position);
+  const int num_steps =
+      std::max(1, static_cast<int>((arrival - start) / (kStepPx * fit.pixel)));
+  const Eigen::Vector3d miss = junction - fit.PointAt(arrival);
+  const double sign = end.at_back ? 1 : -1;
+  for (int k = 1; k <= num_steps; ++k) {
+    const double share = static_cast<double>(k) / num_steps;
+    const double arc_length = start + share * (arrival - start);
+    last.position =
+        k == num_steps
+            ? junction
+            : Eigen::Vector3d(fit.PointAt(arc_length) + share * miss);
+    last.tangent = sign * fit.DirectionAt(arc_length);
+    samples.push_back(last);
+    last.support.clear();
+  }
   if (!end.at_back) std::reverse(samples.begin(), samples.end());
 }
 

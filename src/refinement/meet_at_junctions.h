@@ -13,11 +13,12 @@ namespace curvix {
 
 // Carries curves on to the corners at which they meet. An edge detector rounds
 // corners by its own width, so the last pixels before one are missing or bent:
-// each open end is continued along the line fitted to the samples 2.5 to 12 px
-// before it. Ends whose lines pass each other within
-// options.max_junction_gap_px, at most options.junction_reach_px and the length
-// of the fitted samples ahead of both and at more than 20 degrees, form a
-// junction: the point nearest to all its lines. The curves are cut 2.5 px
+// each open end is continued along the line or arc (end_fit.h) fitted to the
+// samples 2.5 to 20 px before it, or nearly all of a curve too short for that.
+// Ends that so pass each other within options.max_junction_gap_px, at most
+// options.junction_reach_px and the length of the fitted samples from both and
+// at more than 20 degrees, form a junction: the point nearest to all their
+// tangents there. The curves are cut 2.5 px
 // before their ends and carried on to it: samples of one junction are equal to
 // the last bit. Junctions are formed by rising gap, ties by the order of
 // curves; an end belongs to one junction. Pixels as in pixel_size.h.

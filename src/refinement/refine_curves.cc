@@ -6,7 +6,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "geometry/pixel_size.h"
+#include "model/curve_junctions.h"
 #include "refinement/bridge_gaps.h"
+#include "refinement/fit_to_images.h"
+#include "refinement/image_support.h"
 #include "refinement/meet_at_junctions.h"
 #include "refinement/select_curves.h"
 #include "refinement/smooth_curves.h"
@@ -25,6 +29,20 @@ CurveRefinementOptions ForNumViews(CurveRefinementOptions options,
   return options;
 }
 
+std::vector<Curve> DropShortCurves(std::vector<Curve> curves,
+                                   const std::vector<PosedView>& views,
+                                   double min_length_px) {
+  CurveSet set{std::move(curves), {}};
+  IndexJunctions(set);
+  std::erase_if(set.curves, [&](const Curve& curve) {
+    const bool leads_somewhere = curve.start_junction >= 0 &&
+                                 curve.end_junction >= 0 &&
+                                 curve.start_junction != curve.end_junction;
+    return !leads_somewhere && LengthInPixels(curve, views) < min_length_px;
+  });
+  return std::move(set.curves);
+}
+
 }  // namespace
 
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
@@ -40,8 +58,13 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                          num_threads);
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
-  refined = BridgeGaps(std::move(refined), views, options);
+  const ImageSupport images(views, edge_maps, num_threads);
+  refined = BridgeGaps(std::move(refined), views, images, options);
+  refined =
+      FitToImages(std::move(refined), views, edge_maps, options, num_threads);
   refined = MeetAtJunctions(std::move(refined), views, options);
+  refined =
+      DropShortCurves(std::move(refined), views, options.min_length_px);
   if (!options.keep_occluding_contours) return refined;
   for (Curve& contour :
        SmoothCurves(selected.occluding_contours, views, options, num_threads)) {

@@ -13,8 +13,10 @@ namespace curvix {
 
 // Selects (select_curves.h; with fewer than 50 views, n, the least evidence is
 // n / 50 of options.min_evidence, since evidence adds up over views), smooths
-// (smooth_curves.h), closes gaps (bridge_gaps.h), and carries on to corners
-// (meet_at_junctions.h).
+// (smooth_curves.h), closes gaps (bridge_gaps.h), fits to all images
+// (fit_to_images.h), and carries on to corners
+// (meet_at_junctions.h). Then curves shorter than options.min_length_px go,
+// unless they lead from one junction to another.
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
                                 const std::vector<EdgeMap>& edge_maps,

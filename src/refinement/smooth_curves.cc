@@ -3,6 +3,7 @@
 #include "refinement/smooth_curves.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -18,7 +19,10 @@ constexpr double kReachSigmas = 3;
 struct Neighbor {
   double along = 0;
   double weight = 0;
+  double sigma = 0;
   Eigen::Vector3d position;
+
+  Eigen::Vector3d Powers() const { return {1, along, along * along}; }
 };
 
 class Smoother {
@@ -33,19 +37,42 @@ class Smoother {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
     for (const Neighbor& n : neighbors) {
-      const Eigen::Vector3d powers(1, n.along, n.along * n.along);
+      const Eigen::Vector3d powers = n.Powers();
       normal += n.weight * powers * powers.transpose();
       right += n.weight * powers * (n.position - result.position).transpose();
     }
     // Rows: offset, first and half the second derivative.
-    const Eigen::Matrix3d parabola = normal.ldlt().solve(right);
+    const auto factors = normal.ldlt();
+    const Eigen::Matrix3d parabola = factors.solve(right);
     if (!parabola.allFinite() || !(parabola.row(1).norm() > 0)) return result;
+    const Eigen::Vector3d influence = factors.solve(Eigen::Vector3d::UnitX());
+    result.sigma = Sigma(neighbors, influence, parabola, result);
     result.position += parabola.row(0).transpose();
     result.tangent = parabola.row(1).transpose().normalized();
     return result;
   }
 
  private:
+  // Standard deviation of the fitted offset: that of a weighted mean of
+  // independent samples, more if they scatter more than their sigmas say.
+  static double Sigma(const std::vector<Neighbor>& neighbors,
+                      const Eigen::Vector3d& influence,
+                      const Eigen::Matrix3d& parabola,
+                      const CurveSample& sample) {
+    double variance = 0, squares = 0, weights = 0;
+    for (const Neighbor& n : neighbors) {
+      if (!(n.sigma > 0)) return sample.sigma;
+      const Eigen::Vector3d powers = n.Powers();
+      const double share = n.weight * influence.dot(powers) * n.sigma;
+      variance += share * share;
+      const Eigen::Vector3d residual =
+          n.position - sample.position - parabola.transpose() * powers;
+      squares += n.weight * residual.squaredNorm() / (2 * n.sigma * n.sigma);
+      weights += n.weight;
+    }
+    return std::sqrt(variance * std::max(1.0, squares / weights));
+  }
+
   std::vector<Neighbor> Neighbors(std::size_t i) const {
     std::vector<Neighbor> neighbors;
     Add(i, 0, neighbors);
@@ -86,7 +113,8 @@ class Smoother {
       const double precision = bandwidth_ / sample.sigma;
       weight *= precision * precision;
     }
-    neighbors.push_back({along / bandwidth_, weight, sample.position});
+    neighbors.push_back(
+        {along / bandwidth_, weight, sample.sigma, sample.position});
   }
 
   const Curve& curve_;

@@ -4,12 +4,12 @@
 
 #include <curvix/edges.h>
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
 #include "base/grid_index.h"
 #include "geometry/edge_geometry.h"
+#include "geometry/nearest_edge.h"
 #include "model/posed_view.h"
 #include "validation/edge_density.h"
 #include "validation/edge_presence.h"
@@ -25,43 +25,10 @@ struct ViewIndex {
   EdgePresence presence = {};  // may be left out
 };
 
-// Bounds on where an edge may be, relative to a place and direction in the
-// image.
-struct Gate {
-  double normal_px = 1;      // distance from the tangent line
-  double tangential_px = 1;  // distance along it
-  double min_cosine = 0;     // of the angle between the directions
-};
-
-// The edge of `index` inside `gate` that is nearest to `expected`, distances
-// along the tangent counting half; ties: smaller edge index.
 inline std::optional<std::int32_t> NearestEdge(const ViewIndex& index,
                                                const ImageEdge& expected,
                                                const Gate& gate) {
-  std::optional<std::int32_t> nearest;
-  double least = 0;
-  const auto consider = [&](const IndexedEdge& edge) {
-    const Eigen::Vector2d offset =
-        edge.position.cast<double>() - expected.position;
-    const Eigen::Vector2d tangent = edge.tangent.cast<double>();
-    if (std::abs(tangent.dot(expected.tangent)) < gate.min_cosine) return;
-    const double along = offset.dot(tangent);
-    const double across = offset.x() * tangent.y() - offset.y() * tangent.x();
-    if (std::abs(across) > gate.normal_px ||
-        std::abs(along) > gate.tangential_px) {
-      return;
-    }
-    const double distance2 = across * across + 0.25 * along * along;
-    if (!nearest || distance2 < least ||
-        (distance2 == least && edge.edge_idx < *nearest)) {
-      nearest = edge.edge_idx;
-      least = distance2;
-    }
-  };
-  index.grid.VisitAround(expected.position,
-                         std::hypot(gate.normal_px, gate.tangential_px),
-                         consider);
-  return nearest;
+  return NearestEdge(index.grid, expected, gate);
 }
 
 }  // namespace curvix

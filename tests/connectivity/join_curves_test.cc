@@ -8,6 +8,7 @@
 
 #include "connectivity/drop_repeats.h"
 #include "connectivity/trace_curves.h"
+#include "geometry/pixel_size.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {

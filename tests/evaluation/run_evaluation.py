@@ -4,18 +4,19 @@
 docs/evaluation.md.
 
 usage: run_evaluation.py [--program build/bin/colmap_curvix] [--data FOLDER]
-                         [--tables A,B,C] [--scenes WORD,...] [--write FILE]
+                         [--tables A,B,C,D] [--scenes WORD,...] [--write FILE]
                          [--commit HASH]
 
 A  the default and --preset paper, scene by scene
 B  one departure from the paper at a time taken back, means over two scenes
 C  scenes without known curves: time, memory and numbers only
+D  the default on harder copies of scenes with known curves
 
 A scene is a folder below FOLDER ($CURVIX_DATA, else ../shared/data beside the
 source tree) that holds sparse/ and images/, and gt.txt where the curves are
 known. --scenes keeps those whose path contains a WORD. --write puts the tables
 into FILE, between '<!-- table A -->' and '<!-- end of table A -->' and so on.
-Needs Python 3.9 and nothing else. Data is only read.
+Needs Python 3.9; table D also what degrade_scene.py needs. Data is only read.
 """
 import argparse
 import datetime
@@ -23,6 +24,7 @@ import json
 import os
 import pathlib
 import platform
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -53,6 +55,15 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
     ('18 to 21', 'all refinement', ['--CurveRefinement.enabled', '0'])]
 UNDO_SCENES = ['00000006', 'l_bracket']
+
+HARDER = [  # what is worse, script and its arguments
+    ('nothing', None, []),
+    ('25 views', 'degrade_scene.py', ['--views', '25']),
+    ('12 views', 'degrade_scene.py', ['--views', '12']),
+    ('noise of 4 grey levels', 'degrade_scene.py', ['--noise', '4']),
+    ('half resolution', 'degrade_scene.py', ['--half']),
+    ('poses off by 0.5 px', 'disturb_poses.py', ['0.5'])]
+HARDER_SCENES = ['l_bracket', 'flange']
 
 
 def find_scenes(data, words):
@@ -165,6 +176,29 @@ def table_c(program, scenes):
                   'curves', 'CPU s', 'MB'], rows)
 
 
+def evaluate_harder(program, scene, script, flags):
+    """The scores of the default on a harder copy of a scene."""
+    if script is None:
+        return evaluate(program, scene, [])
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder) / scene.name
+        subprocess.run([sys.executable, ROOT / 'tests/evaluation' / script,
+                        scene, copy, *flags], check=True)
+        if not (copy / 'gt.txt').exists():
+            shutil.copy(scene / 'gt.txt', copy)
+        return evaluate(program, copy, [])
+
+
+def table_d(program, scenes):
+    scenes = [s for s in scenes if s[1].name in HARDER_SCENES]
+    rows = []
+    for what, script, flags in HARDER:
+        for name, scene in scenes:
+            scores = evaluate_harder(program, scene, script, flags)
+            rows.append([what, name, *score_cells(scores)])
+    return table(['harder by', 'scene', *score_headings()], rows)
+
+
 def current_commit():
     return subprocess.run(['git', '-C', ROOT, 'rev-parse', '--short', 'HEAD'],
                           capture_output=True, text=True).stdout.strip()
@@ -193,7 +227,7 @@ def main():
         'CURVIX_DATA', ROOT.parent / 'shared/data'))
     parser.add_argument('--commit', default=current_commit(),
                         help='from which the program was built')
-    parser.add_argument('--tables', default='A,B,C')
+    parser.add_argument('--tables', default='A,B,C,D')
     parser.add_argument('--scenes', default='')
     parser.add_argument('--write', type=pathlib.Path)
     arguments = parser.parse_args()
@@ -204,7 +238,7 @@ def main():
     known = [s for s in scenes if (s[1] / 'gt.txt').exists()]
     others = [s for s in scenes if s not in known]
     makers = {'A': (table_a, known), 'B': (table_b, known),
-              'C': (table_c, others)}
+              'C': (table_c, others), 'D': (table_d, known)}
     for letter in arguments.tables.split(','):
         make, its_scenes = makers[letter]
         text = make(arguments.program, its_scenes) + '\n\n' + origin(arguments.commit)

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/edge_geometry.h"
 #include "model/curve_chains.h"
 #include "tests/refinement/drawn_curves.h"
 
@@ -11,8 +12,33 @@ namespace {
 
 constexpr CurveRefinementOptions kOptions = {.max_gap_px = 15};
 
+// In views that show `edges`.
+std::vector<Curve> BridgeIn(const std::vector<PosedView>& views,
+                            const std::vector<Curve>& curves,
+                            const CurveRefinementOptions& options = kOptions,
+                            const std::vector<Edge2d>& edges = {}) {
+  EdgeMap map;
+  map.edges = edges;
+  const std::vector<EdgeMap> maps(views.size(), map);
+  return BridgeGaps(curves, views, ImageSupport(views, maps, 1), options);
+}
+
 std::vector<Curve> Bridge(const std::vector<Curve>& curves) {
-  return BridgeGaps(curves, FrontalViews(), kOptions);
+  return BridgeIn(FrontalViews(), curves);
+}
+
+// The image of the line z = 0 from -60 to 60 px.
+std::vector<Edge2d> ImageOfTheLine() {
+  const PosedView view = FrontalViews()[0];
+  std::vector<Edge2d> edges;
+  for (double x = -60; x <= 60; x += 0.5) {
+    const auto projected = ProjectEdge(view, {InPlane(x, 0), {1, 0, 0}});
+    edges.push_back({projected->position,
+                     static_cast<float>(std::atan2(projected->tangent.y(),
+                                                   projected->tangent.x())),
+                     10});
+  }
+  return edges;
 }
 
 // A circle with gaps, every other arc run through the other way.
@@ -78,7 +104,51 @@ TEST(BridgeGaps, GapsAreLimited) {
   EXPECT_EQ(Bridge(BrokenLine(16)).size(), 2u);
   CurveRefinementOptions options = kOptions;
   options.max_gap_px = 0;
-  EXPECT_EQ(BridgeGaps(BrokenLine(5), FrontalViews(), options).size(), 2u);
+  EXPECT_EQ(BridgeIn(FrontalViews(), BrokenLine(5), options).size(), 2u);
+}
+
+TEST(BridgeGaps, LongGapsAreClosedWhereTheImagesShowThem) {
+  std::vector<Edge2d> edges = ImageOfTheLine();
+  const auto bridged =
+      BridgeIn(FrontalViews(), BrokenLine(25), kOptions, edges);
+  ASSERT_EQ(bridged.size(), 1u);
+  for (const CurveSample& sample : bridged[0].samples) {
+    EXPECT_FALSE(sample.support.empty());
+  }
+  edges.erase(edges.begin() + 130, edges.begin() + 150);  // 5 to 15 px
+  EXPECT_EQ(BridgeIn(FrontalViews(), BrokenLine(25), kOptions, edges).size(),
+            2u);
+}
+
+TEST(BridgeGaps, SmallRingsClose) {
+  const auto whole = Bridge(BrokenCircle(14, 2, 6));
+  ASSERT_EQ(whole.size(), 1u);
+  EXPECT_TRUE(whole[0].closed);
+  for (const CurveSample& sample : whole[0].samples) {
+    EXPECT_NEAR(sample.position.norm(), 14 * kPixel, 0.1 * kPixel);
+  }
+}
+
+TEST(BridgeGaps, BentLastSamplesDoNotMatter) {
+  std::vector<Curve> curves = BrokenLine(8);
+  curves[0].samples.back().position += InPlane(0, 1.2);
+  const auto whole = Bridge(curves);
+  ASSERT_EQ(whole.size(), 1u);
+  for (const CurveSample& sample : whole[0].samples) {
+    EXPECT_NEAR(sample.position.z(), 0, 0.05 * kPixel);
+  }
+}
+
+TEST(BridgeGaps, EndsThatOverlapAreCutHalfWay) {
+  const auto whole = Bridge({Line(InPlane(-60, 0), InPlane(4, 0)),
+                             Line(InPlane(0, 0.5), InPlane(60, 0.5))});
+  ASSERT_EQ(whole.size(), 1u);
+  for (std::size_t k = 1; k < whole[0].samples.size(); ++k) {
+    EXPECT_GT(std::abs(whole[0].samples[k].position.x() -
+                       whole[0].samples[k - 1].position.x()),
+              0.1 * kPixel);
+  }
+  EXPECT_NEAR(Length(whole[0]), 120 * kPixel, 0.5 * kPixel);
 }
 
 TEST(BridgeGaps, NoGapIsLongerThanWhatWasFitted) {
@@ -115,7 +185,7 @@ TEST(BridgeGaps, LinesBesideEachOtherStayApart) {
 
 TEST(BridgeGaps, TheNearestEndIsTaken) {
   std::vector<Curve> curves = BrokenLine(10);
-  curves.push_back(Line(InPlane(6, 0.3), InPlane(40, 0.3)));
+  curves.push_back(Line(InPlane(6, 0.1), InPlane(40, 0.1)));
   const std::vector<Curve> bridged = Bridge(curves);
   ASSERT_EQ(bridged.size(), 2u);
   const auto has_end = [&](const Curve& curve, const Eigen::Vector3d& end) {
@@ -131,8 +201,8 @@ TEST(BridgeGaps, TheNearestEndIsTaken) {
 TEST(BridgeGaps, DoesNotDependOnTheUnit) {
   const double factor = 1000;
   const std::vector<Curve> curves = BrokenCircle(50, 3, 8);
-  const std::vector<Curve> bridged = BridgeGaps(
-      Scaled(curves, factor), Scaled(FrontalViews(), factor), kOptions);
+  const std::vector<Curve> bridged =
+      BridgeIn(Scaled(FrontalViews(), factor), Scaled(curves, factor));
   EXPECT_LT(LargestDistance(bridged, Scaled(Bridge(curves), factor)),
             1e-9 * factor);
 }

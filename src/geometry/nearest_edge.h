@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(c). The edge of a view that a projected edge may be.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "base/grid_index.h"
+#include "geometry/edge_geometry.h"
+
+namespace curvix {
+
+// Bounds on where an edge may be, relative to a place and direction in the
+// image.
+struct Gate {
+  double normal_px = 1;      // distance from the tangent line
+  double tangential_px = 1;  // distance along it
+  double min_cosine = 0;     // of the angle between the directions
+};
+
+// The edge of `grid` inside `gate` that is nearest to `expected`, distances
+// along the tangent counting half; ties: smaller edge index.
+inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
+                                               const ImageEdge& expected,
+                                               const Gate& gate) {
+  std::optional<std::int32_t> nearest;
+  double least = 0;
+  const auto consider = [&](const IndexedEdge& edge) {
+    const Eigen::Vector2d offset =
+        edge.position.cast<double>() - expected.position;
+    const Eigen::Vector2d tangent = edge.tangent.cast<double>();
+    if (std::abs(tangent.dot(expected.tangent)) < gate.min_cosine) return;
+    const double along = offset.dot(tangent);
+    const double across = offset.x() * tangent.y() - offset.y() * tangent.x();
+    if (std::abs(across) > gate.normal_px ||
+        std::abs(along) > gate.tangential_px) {
+      return;
+    }
+    const double distance2 = across * across + 0.25 * along * along;
+    if (!nearest || distance2 < least ||
+        (distance2 == least && edge.edge_idx < *nearest)) {
+      nearest = edge.edge_idx;
+      least = distance2;
+    }
+  };
+  grid.VisitAround(expected.position,
+                   std::hypot(gate.normal_px, gate.tangential_px),
+                   consider);
+  return nearest;
+}
+
+}  // namespace curvix

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "refinement/fit_to_images.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/parallel.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/image_edge.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kMinNumSamples = 6;
+constexpr double kEdgeSigmaPx = 0.15;  // of a 2D edge, across it
+constexpr double kBendSigmaPx = 0.05;
+constexpr double kKinkSigmas = 2;   // from here on bends count less
+constexpr double kStiffness = 1.2;  // of the width of the smoothing
+constexpr double kMinStepPx = 0.2;
+constexpr int kMaxNumIterations = 15;
+
+// A sample and the plane across it in which it moves, in pixels.
+struct Station {
+  Eigen::Vector3d start;
+  Eigen::Matrix<double, 3, 2> axes;  // world units per pixel
+
+  Eigen::Vector3d At(const double* offset) const {
+    return start + axes * Eigen::Vector2d(offset[0], offset[1]);
+  }
+};
+
+// The distance of a sample from one of its 2D edges.
+class EdgeCost : public ceres::SizedCostFunction<1, 2> {
+ public:
+  EdgeCost(const Station& station, const PlaneMeasurement& measured)
+      : station_(station), measured_(measured) {}
+
+  bool Evaluate(double const* const* offsets,
+                double* residual,
+                double** jacobians) const override {
+    const Eigen::Vector3d x = station_.At(offsets[0]) - measured_.center;
+    const double depth = measured_.axis.dot(x);
+    const double distance = measured_.plane.dot(x) / depth;
+    residual[0] = distance / kEdgeSigmaPx;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    const Eigen::Vector2d gradient =
+        station_.axes.transpose() *
+        (measured_.plane - distance * measured_.axis) / depth;
+    Eigen::Map<Eigen::Vector2d>{jacobians[0]} = gradient / kEdgeSigmaPx;
+    return true;
+  }
+
+ private:
+  Station station_;
+  PlaneMeasurement measured_;
+};
+
+using Stretch = std::array<Station, 4>;
+
+// The third derivative of four samples in a row.
+class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
+ public:
+  BendCost(const Stretch& stretch, double stiffness_px, double pixel)
+      : stretch_(stretch) {
+    std::array<double, 4> along = {};
+    for (std::size_t j = 1; j < along.size(); ++j) {
+      const double step = (stretch[j].start - stretch[j - 1].start).norm();
+      along[j] = along[j - 1] + std::max(kMinStepPx, step / pixel);
+    }
+    const double scale = std::pow(stiffness_px, 3) * std::sqrt(along[3] / 3) /
+                         (kBendSigmaPx * pixel);
+    for (std::size_t j = 0; j < along.size(); ++j) {
+      factors_[j] = 6 * scale;
+      for (std::size_t i = 0; i < along.size(); ++i) {
+        if (i != j) factors_[j] /= along[j] - along[i];
+      }
+    }
+  }
+
+  bool Evaluate(double const* const* offsets,
+                double* residuals,
+                double** jacobians) const override {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t j = 0; j < stretch_.size(); ++j) {
+      sum += factors_[j] * (stretch_[j].At(offsets[j]) - stretch_[0].start);
+      if (jacobians == nullptr || jacobians[j] == nullptr) continue;
+      Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>{jacobians[j]} =
+          factors_[j] * stretch_[j].axes;
+    }
+    Eigen::Map<Eigen::Vector3d>{residuals} = sum;
+    return true;
+  }
+
+ private:
+  Stretch stretch_;
+  std::array<double, 4> factors_ = {};
+};
+
+// Ceres' problem of one curve.
+class CurveFitter {
+ public:
+  CurveFitter(Curve curve, double pixel)
+      : curve_(std::move(curve)),
+        pixel_(pixel),
+        offsets_(curve_.samples.size()) {
+    for (const CurveSample& sample : curve_.samples) {
+      Station& station = stations_.emplace_back();
+      station.start = sample.position;
+      station.axes.col(0) = pixel * sample.tangent.unitOrthogonal();
+      station.axes.col(1) = sample.tangent.cross(station.axes.col(0));
+    }
+  }
+
+  void AddEdges(const std::vector<PosedView>& views,
+                const std::vector<EdgeMap>& edge_maps) {
+    for (std::size_t k = 0; k < stations_.size(); ++k) {
+      for (const EdgeRef& ref : curve_.samples[k].support) {
+        const auto v = static_cast<std::size_t>(ref.view_idx);
+        const Edge2d& edge =
+            edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        problem_.AddResidualBlock(
+            new EdgeCost(stations_[k],
+                         MeasurePlane(views[v], ToImageEdge(edge))),
+            new ceres::CauchyLoss(1),
+            offsets_[k].data());
+      }
+    }
+  }
+
+  void AddBends(double stiffness_px) {
+    const std::size_t size = stations_.size();
+    const std::size_t num_bends = curve_.closed ? size : size - 3;
+    for (std::size_t k = 0; k < num_bends; ++k) {
+      Stretch stretch;
+      std::vector<double*> offsets;
+      for (std::size_t j = 0; j < stretch.size(); ++j) {
+        stretch[j] = stations_[(k + j) % size];
+        offsets.push_back(offsets_[(k + j) % size].data());
+      }
+      problem_.AddResidualBlock(new BendCost(stretch, stiffness_px, pixel_),
+                                new ceres::CauchyLoss(kKinkSigmas),
+                                offsets);
+    }
+  }
+
+  Curve Solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = kMaxNumIterations;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    if (!summary.IsSolutionUsable()) return curve_;
+    for (std::size_t k = 0; k < stations_.size(); ++k) {
+      curve_.samples[k].position = stations_[k].At(offsets_[k].data());
+    }
+    SetTangents();
+    return curve_;
+  }
+
+ private:
+  void SetTangents() {
+    const std::size_t size = curve_.samples.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t before = curve_.closed
+                                     ? (k + size - 2) % size
+                                     : std::max<std::size_t>(k, 2) - 2;
+      const std::size_t after =
+          curve_.closed ? (k + 2) % size : std::min(size - 1, k + 2);
+      const Eigen::Vector3d chord =
+          curve_.samples[after].position - curve_.samples[before].position;
+      if (chord.norm() > 0) curve_.samples[k].tangent = chord.normalized();
+    }
+  }
+
+  Curve curve_;
+  double pixel_;  // world units
+  std::vector<Station> stations_;
+  std::vector<std::array<double, 2>> offsets_;
+  ceres::Problem problem_;
+};
+
+}  // namespace
+
+std::vector<Curve> FitToImages(std::vector<Curve> curves,
+                               const std::vector<PosedView>& views,
+                               const std::vector<EdgeMap>& edge_maps,
+                               const CurveRefinementOptions& options,
+                               int num_threads) {
+  if (!(options.smoothing_px > 0)) return curves;
+  std::vector<Curve> fitted(curves.size());
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    fitted[i] = curves[i];
+    if (curves[i].samples.size() < kMinNumSamples) return;
+    const CurveSample& first = curves[i].samples.front();
+    const double pixel = PixelSize(first.position, first.support, views);
+    if (!(pixel > 0)) return;
+    CurveFitter fitter(curves[i], pixel);
+    fitter.AddEdges(views, edge_maps);
+    fitter.AddBends(kStiffness * options.smoothing_px);
+    fitted[i] = fitter.Solve();
+  });
+  return fitted;
+}
+
+}  // namespace curvix
