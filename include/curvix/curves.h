@@ -44,7 +44,7 @@ struct CurveJunction {
 // The index of a curve is its id in every output file.
 struct CurveSet {
   std::vector<Curve> curves;
-  std::vector<CurveJunction> junctions;
+  std::vector<CurveJunction> junctions = {};
 };
 
 // The length of the polyline, closing segment included. World units.

@@ -89,7 +89,7 @@ struct ValidationOptions {
   // Delta theta_p: largest angle of a supporting edge. Degrees, > 0.
   double max_angle_deg = 15.0;
   // M: fewest supporting validation views; >= 1. With kDistance, more than half
-  // of all views will do, hypothesis views included.
+  // of the views on one side will do, hypothesis views included.
   int min_num_support_views = 4;
   // With kDistance: least evidence, see docs/paper_map.md; natural logarithm
   // units, >= 0.

@@ -68,6 +68,7 @@ class ViewSketcher {
         SelectValidators(input_.overlaps, h1, partners);
     view.neighbors =
         NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
+    const std::size_t num_on_this_side = NumOnThisSide(h1);
     for (const int h2 : partners) {
       const auto j = static_cast<std::size_t>(h2);
       auto pair = HypothesisViews::Make(input_.views[i],
@@ -76,7 +77,8 @@ class ViewSketcher {
                                         input_.options);
       if (!pair) continue;
       view.partners.push_back(
-          {*std::move(pair), {FirstViews(h1, h2, view.neighbors), validators}});
+          {*std::move(pair),
+           {FirstViews(h1, h2, view.neighbors), validators, num_on_this_side}});
     }
     return view;
   }
@@ -100,6 +102,20 @@ class ViewSketcher {
   }
 
  private:
+  // View h1, and those near enough in direction to be a partner.
+  std::size_t NumOnThisSide(int h1) const {
+    const double max_angle =
+        DegToRad(input_.options.hypotheses.max_ray_angle_deg);
+    const std::vector<ViewOverlap>& overlaps =
+        input_.overlaps[static_cast<std::size_t>(h1)];
+    return 1 + static_cast<std::size_t>(
+                   std::count_if(overlaps.begin(),
+                                 overlaps.end(),
+                                 [max_angle](const ViewOverlap& overlap) {
+                                   return overlap.ray_angle_rad <= max_angle;
+                                 }));
+  }
+
   // The views next to either in direction, then both.
   static std::vector<std::int32_t> FirstViews(
       int h1, int h2, const std::vector<std::vector<ViewNeighbor>>& neighbors) {

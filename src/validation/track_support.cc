@@ -151,9 +151,9 @@ double SearchReachPx(const ValidationOptions& options) {
 }
 
 std::size_t FewestSupports(const ValidationOptions& options,
-                           std::size_t num_views) {
+                           std::size_t num_on_this_side) {
   return std::min(static_cast<std::size_t>(options.min_num_support_views) + 2,
-                  num_views / 2 + 1);
+                  std::max(kFewestSupports, num_on_this_side / 2 + 1));
 }
 
 bool MayBeSupported(const SpaceEdge& edge,
@@ -199,7 +199,8 @@ std::optional<TrackedEdge> TrackSupport(
         AdjustEdge(tracked.estimate.edge, Measure(support, views), sigma_px);
     tracked.support = std::move(support);
   }
-  if (tracked.support.size() < FewestSupports(options, views.size())) {
+  if (tracked.support.size() <
+      FewestSupports(options, to_ask.num_on_this_side)) {
     return std::nullopt;
   }
   tracked.evidence = Evidence(VotesOf(answers, views), neighbors);

@@ -30,6 +30,9 @@ struct ViewsToAsk {
   // ever tell a wrong hypothesis from a right one.
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> all;  // ascending
+  // How many views look from about the same side as the first hypothesis view,
+  // itself included: the others may see nothing of what it sees.
+  std::size_t num_on_this_side = 0;
 };
 
 // How far from a projected edge its support may be, at most: of an EdgePresence
@@ -37,10 +40,10 @@ struct ViewsToAsk {
 double SearchReachPx(const ValidationOptions& options);
 
 // How many views must support an edge: options.min_num_support_views and the
-// two hypothesis views; where there are few views, more than half of them will
-// do.
+// two hypothesis views, but of few views on one side no more than just over
+// half, and never fewer than four.
 std::size_t FewestSupports(const ValidationOptions& options,
-                           std::size_t num_views);
+                           std::size_t num_on_this_side);
 
 // False only if TrackSupport() would end in its first round whatever the
 // estimate's covariance: a look at each view's `presence`, before the estimate

@@ -74,7 +74,7 @@ class TrackSupportTest : public ::testing::Test {
     return TrackSupport(start,
                         indices_,
                         neighbors_,
-                        {kFirstViews, AllViews()},
+                        {kFirstViews, AllViews(), views_.size()},
                         kSigmaPx,
                         options);
   }
@@ -156,13 +156,14 @@ TEST_F(TrackSupportTest, RejectsWhatTooFewViewsSupport) {
   EXPECT_FALSE(Track(start, options));
 }
 
-TEST(FewestSupports, AreNoMoreThanJustOverHalfOfTheViews) {
+TEST(FewestSupports, AreNoMoreThanJustOverHalfOfTheViewsOnOneSide) {
   ValidationOptions options;
   options.min_num_support_views = 4;
   EXPECT_EQ(FewestSupports(options, 50), 6u);
   EXPECT_EQ(FewestSupports(options, 10), 6u);
   EXPECT_EQ(FewestSupports(options, 9), 5u);
   EXPECT_EQ(FewestSupports(options, 6), 4u);
+  EXPECT_EQ(FewestSupports(options, 3), 4u);
 }
 
 TEST_F(TrackSupportTest, RejectsTooLittleEvidence) {
