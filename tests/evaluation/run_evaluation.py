@@ -9,7 +9,8 @@ usage: run_evaluation.py [--program build/bin/colmap_curvix] [--data FOLDER]
 
 A  the default and --preset paper, scene by scene
 B  one departure from the paper at a time taken back, means over two scenes
-C  scenes without known curves: time, memory and numbers only
+C  scenes without known curves: numbers, time and memory, and how many samples
+   of curves made without every 8th photograph (of few, every 4th) are there
 D  the default on harder copies of scenes with known curves
 
 A scene is a folder below FOLDER ($CURVIX_DATA, else ../shared/data beside the
@@ -161,19 +162,36 @@ def table_b(program, scenes):
     return table(['row', 'taken back', *score_headings()], rows)
 
 
+def evaluate_holdout(program, scene, num_views):
+    """Support and chance in percent, anywhere and expected; median, pixels."""
+    every = '8' if num_views and num_views >= 16 else '4'
+    run = subprocess.run([program, 'evaluate', '--json', '--holdout_every',
+                          every, '--workspace_path', scene],
+                         capture_output=True, text=True)
+    scores = json.loads(run.stdout) if run.returncode == 0 else {}
+    percent = [100 * scores[key] if key in scores else None
+               for key in ('support', 'chance', 'expected_support',
+                           'expected_chance')]
+    return ([cell(value, 1) for value in percent]
+            + [cell(scores.get('median_px'), 2)])
+
+
 def table_c(program, scenes):
     rows = []
     for name, scene in scenes:
         scores = evaluate(program, scene, [])
         report = scores.get('report', {'input': {}, 'result': {}})
-        counts = [report['input'].get('num_views'),
-                  report['result'].get('num_edges_2d'),
-                  report['result'].get('num_edges_3d'),
-                  report['result'].get('num_curves')]
-        rows.append([name, str(scores['code']), *(cell(c, 0) for c in counts),
+        num_views = report['input'].get('num_views')
+        result = report['result']
+        counts = [num_views, result.get('num_edges_2d'),
+                  result.get('num_edges_3d'), result.get('num_curves')]
+        rows.append([name, *(cell(c, 0) for c in counts),
+                     cell(result.get('total_length'), 1),
+                     *evaluate_holdout(program, scene, num_views),
                      cell(scores['cpu'], 0), cell(scores['mb'], 0)])
-    return table(['scene', 'exit code', 'views', '2D edges', '3D edges',
-                  'curves', 'CPU s', 'MB'], rows)
+    return table(['scene', 'views', '2D edges', '3D edges', 'curves', 'length',
+                  'support %', 'chance %', 'expected %', 'chance %',
+                  'median px', 'CPU s', 'MB'], rows)
 
 
 def evaluate_harder(program, scene, script, flags):
