@@ -14,6 +14,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -49,11 +50,19 @@ class InstalledColmap : public testing::Test {
       GTEST_SKIP() << "COLMAP is not installed";
     }
     options_.num_views = 24;
-    options_.width = 400;
-    options_.height = 400;
+    options_.width = 600;
+    options_.height = 600;
     options_.texture = 200;
     const Status status = Synthesize(options_, folder_.path());
     ASSERT_TRUE(status.ok()) << status.message();
+    const Result<ColmapModel> poses =
+        ReadColmapModel(folder_.path() / "sparse/0");
+    ASSERT_TRUE(poses.ok()) << poses.status().message();
+    truth_ = *poses;
+  }
+
+  // The model of the photographs with COLMAP's points, true poses.
+  void TriangulateByColmap() {
     fs::create_directories(folder_.path() / "true");
     // One thread: ids in the database in the order of the names, as ours are.
     Colmap(
@@ -132,6 +141,7 @@ class InstalledColmap : public testing::Test {
 };
 
 TEST_F(InstalledColmap, GivesCurvesAsGoodAsThoseOfTruePoses) {
+  ASSERT_NO_FATAL_FAILURE(TriangulateByColmap());
   const fs::path input = folder_.path() / "sparse/1";
   std::string said;
   ASSERT_TRUE(WriteColmapModel(truth_, input, ColmapFormat::kBinary).ok());
@@ -153,6 +163,8 @@ TEST_F(InstalledColmap, GivesCurvesAsGoodAsThoseOfTruePoses) {
 }
 
 TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
+  std::mt19937 random(1);
+  AddPoints(400, 0.3, random, &truth_);
   ColmapModel model = truth_;
   DisturbPoses(1.5, 5, &model);
   const fs::path input = folder_.path() / "sparse/1";
@@ -177,8 +189,7 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   const auto left = AlignPoses(PosesOf(*refined), PosesOf(model));
   ASSERT_TRUE(left);
   EXPECT_NEAR(left->scale, 1, 1e-6);
-  // How much better varies from run to run: COLMAP's matching is random.
-  EXPECT_LT(MedianShift(*refined, truth_), MedianShift(model, truth_));
+  EXPECT_LT(MedianShift(*refined, truth_), 0.3 * MedianShift(model, truth_));
 
   const fs::path broken =
       folder_.Write("broken/colmap", "#!/bin/sh\necho Aborted\nexit 134\n");

@@ -19,12 +19,38 @@ struct PosedPointsOptions {
   unsigned seed = 1;
 };
 
+// Adds points within 0.7 of the origin, each seen by about half of the views.
+// The points are exact, the 2D points are not.
+inline void AddPoints(std::size_t num_points,
+                      double noise_px,
+                      std::mt19937& random,
+                      ColmapModel* model) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const Camera& camera = model->cameras.front().camera;
+  for (std::size_t i = 0; i < num_points; ++i) {
+    ColmapPoint3D point;
+    point.point3D_id = 5 + 2 * i;
+    for (double& x : point.position) x = unit(random) * 0.7;
+    for (ColmapImage& image : model->images) {
+      const auto pixel = Project(camera, image.cam_from_world, point.position);
+      const double dx = noise_px * normal(random);
+      const double dy = noise_px * normal(random);
+      if (unit(random) < 0 || !pixel) continue;
+      point.track.push_back(
+          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
+      image.points2D.push_back(
+          {pixel->x() + dx, pixel->y() + dy, point.point3D_id});
+    }
+    model->points.push_back(std::move(point));
+  }
+}
+
 // Views around a ball of points at the origin, three units away from it, each
 // point seen by some six of them. The poses and points are exact, the 2D points
 // are not. Ids have gaps.
 inline ColmapModel PosedPoints(const PosedPointsOptions& options) {
   std::mt19937 random(options.seed);
-  std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> unit(-1, 1);
   ColmapModel model;
   model.cameras.push_back({7, options.camera});
@@ -41,23 +67,7 @@ inline ColmapModel PosedPoints(const PosedPointsOptions& options) {
     image.cam_from_world.translation = {0, 0, 3};
     model.images.push_back(std::move(image));
   }
-  for (std::size_t i = 0; i < options.num_points; ++i) {
-    ColmapPoint3D point;
-    point.point3D_id = 5 + 2 * i;
-    for (double& x : point.position) x = unit(random) * 0.7;
-    for (ColmapImage& image : model.images) {
-      const auto pixel =
-          Project(options.camera, image.cam_from_world, point.position);
-      const double dx = options.noise_px * normal(random);
-      const double dy = options.noise_px * normal(random);
-      if (unit(random) < 0 || !pixel) continue;
-      point.track.push_back(
-          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
-      image.points2D.push_back(
-          {pixel->x() + dx, pixel->y() + dy, point.point3D_id});
-    }
-    model.points.push_back(std::move(point));
-  }
+  AddPoints(options.num_points, options.noise_px, random, &model);
   return model;
 }
 
