@@ -4,6 +4,7 @@
 // photographs and gives a COLMAP model; none writes anything.
 #pragma once
 
+#include <curvix/image_size.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "plugin/colmap_model.h"
-#include "plugin/image_size.h"
 
 namespace curvix {
 

@@ -2,13 +2,12 @@
 // Paper: none (engineering).
 #pragma once
 
+#include <curvix/image_size.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-
-#include "plugin/image_size.h"
 
 namespace curvix {
 

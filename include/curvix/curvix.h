@@ -11,6 +11,7 @@
 #include <curvix/file_io.h>
 #include <curvix/fitting.h>
 #include <curvix/holdout.h>
+#include <curvix/image_size.h>
 #include <curvix/option_table.h>
 #include <curvix/options.h>
 #include <curvix/project_curve.h>

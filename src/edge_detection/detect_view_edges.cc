@@ -3,7 +3,6 @@
 #include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -19,28 +18,12 @@
 namespace curvix {
 namespace {
 
-// An image or a mask of the size of its camera.
-Result<GrayImage> LoadOfSize(const std::filesystem::path& path,
-                             const Camera& camera) {
-  Result<GrayImage> image = LoadGrayImage(path);
-  if (!image.ok()) return image.status();
-  if (image->width == camera.width && image->height == camera.height) {
-    return image;
-  }
-  std::ostringstream message;
-  message << "Image " << path.string() << " is " << image->width << " x "
-          << image->height << " pixels, but its camera in the model is "
-          << camera.width << " x " << camera.height
-          << ". Give the images from which the model was made, or export the "
-             "model at the size of these images.";
-  return Status(StatusCode::kInvalidArgument, message.str());
-}
-
 Result<std::int32_t> DropMaskedEdges(const View& view,
                                      const Camera& camera,
                                      std::vector<Edge2d>* edges) {
   if (view.mask_path.empty()) return 0;
-  const Result<GrayImage> mask = LoadOfSize(view.mask_path, camera);
+  const Result<GrayImage> mask =
+      LoadGrayImage(view.mask_path, ImageSize{camera.width, camera.height});
   if (!mask.ok()) return mask.status();
   return DropMaskedEdges(*mask, edges);
 }
@@ -69,7 +52,8 @@ std::int64_t MaxEdges(const EdgeDetectionOptions& options,
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,
                                 const EdgeDetectionOptions& options) {
-  const Result<GrayImage> image = LoadOfSize(view.image_path, camera);
+  const Result<GrayImage> image =
+      LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
   if (!image.ok()) return image.status();
   EdgeMap map;
   map.noise = EstimateNoise(*image);

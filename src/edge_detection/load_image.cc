@@ -9,9 +9,13 @@
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "edge_detection/image_header.h"
 
 namespace curvix {
 namespace {
@@ -48,27 +52,6 @@ Result<Bytes> ReadFile(const std::filesystem::path& path) {
   return bytes;
 }
 
-// Whether a JPEG lacks its end marker, FF D9: decoders fill what is missing
-// with grey and call it a success. Segments are skipped by their lengths, since
-// thumbnails inside them have end markers of their own.
-bool IsTruncatedJpeg(const Bytes& bytes) {
-  if (bytes.size() < 4 || bytes[0] != 0xFF || bytes[1] != 0xD8) return false;
-  std::size_t at = 2;
-  while (at + 1 < bytes.size()) {
-    const std::uint8_t marker = bytes[at + 1];
-    const bool is_marker = bytes[at] == 0xFF && marker >= 0xC0 &&
-                           marker != 0xFF && (marker & 0xF8) != 0xD0;
-    if (!is_marker) {  // coded data, stuffing, restart markers
-      ++at;
-      continue;
-    }
-    if (marker == 0xD9) return false;
-    if (at + 3 >= bytes.size()) return true;
-    at += 2 + (std::size_t{bytes[at + 2]} << 8) + bytes[at + 3];
-  }
-  return true;
-}
-
 // Grey of `channels` values in OpenCV's order: grey; B, G, R; B, G, R, alpha.
 template <typename T>
 float Grey(const T* value, int channels) {
@@ -93,6 +76,7 @@ GrayImage ToGrey(const cv::Mat& image) {
   return gray;
 }
 
+// Empty if it is no image, or if there is not enough memory for it.
 cv::Mat Decode(const Bytes& bytes) {
   try {
     // Unchanged: alpha kept, depth kept, EXIF rotation ignored.
@@ -102,18 +86,52 @@ cv::Mat Decode(const Bytes& bytes) {
   }
 }
 
+std::string_view AsText(const Bytes& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Status WrongSize(const std::filesystem::path& path,
+                 const ImageSize& size,
+                 const ImageSize& expected) {
+  std::ostringstream message;
+  message << "Image " << path.string() << " is " << size.width << " x "
+          << size.height << " pixels, but its camera in the model is "
+          << expected.width << " x " << expected.height
+          << ". Give the images from which the model was made, or export the "
+             "model at the size of these images.";
+  return {StatusCode::kInvalidArgument, message.str()};
+}
+
+Status Broken(const std::filesystem::path& path) {
+  return {StatusCode::kDataLoss,
+          "Image " + path.string() +
+              " is broken, cut short or in an unknown format. Copy it "
+              "again, or convert it to PNG or JPEG."};
+}
+
 }  // namespace
 
-Result<GrayImage> LoadGrayImage(const std::filesystem::path& path) {
+Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
   const Result<Bytes> bytes = ReadFile(path);
   if (!bytes.ok()) return bytes.status();
+  if (const auto size = SizeInHeader(AsText(*bytes))) return *size;
   const cv::Mat image = Decode(*bytes);
-  if (image.empty() || IsTruncatedJpeg(*bytes)) {
-    return Status(StatusCode::kDataLoss,
-                  "Image " + path.string() +
-                      " is broken, cut short or in an unknown format. Copy it "
-                      "again, or convert it to PNG or JPEG.");
+  if (image.empty()) return Broken(path);
+  return ImageSize{image.cols, image.rows};
+}
+
+Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
+                                const std::optional<ImageSize>& expected) {
+  const Result<Bytes> bytes = ReadFile(path);
+  if (!bytes.ok()) return bytes.status();
+  const std::optional<ImageSize> announced = SizeInHeader(AsText(*bytes));
+  if (expected && announced && *announced != *expected) {
+    return WrongSize(path, *announced, *expected);
   }
+  const cv::Mat image = Decode(*bytes);
+  if (image.empty() || IsTruncatedJpeg(AsText(*bytes))) return Broken(path);
+  const ImageSize size = {image.cols, image.rows};
+  if (expected && size != *expected) return WrongSize(path, size, *expected);
   const int channels = image.channels();
   if (channels == 1 || channels == 3 || channels == 4) {
     if (image.depth() == CV_8U) return ToGrey<std::uint8_t>(image);

@@ -2,9 +2,11 @@
 // Paper: none (engineering). Image files to grey levels.
 #pragma once
 
+#include <curvix/image_size.h>
 #include <curvix/status.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "edge_detection/gray_image.h"
 
@@ -18,7 +20,11 @@ namespace curvix {
 // anything else.
 //
 // kNotFound: no such file. kDataLoss: the file is empty, broken or cut short.
-// kUnsupported: another pixel format. The message names the file.
-Result<GrayImage> LoadGrayImage(const std::filesystem::path& path);
+// kUnsupported: another pixel format. kInvalidArgument: not of the `expected`
+// size, which is found out before a PNG, JPEG or TIFF is decoded. The message
+// names the file.
+Result<GrayImage> LoadGrayImage(
+    const std::filesystem::path& path,
+    const std::optional<ImageSize>& expected = std::nullopt);
 
 }  // namespace curvix

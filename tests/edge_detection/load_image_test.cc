@@ -157,6 +157,25 @@ TEST_F(LoadGrayImageTest, NoticesTruncatedFiles) {
   }
 }
 
+TEST_F(LoadGrayImageTest, RefusesOtherSizesBeforeItDecodes) {
+  for (const char* name : {"a.png", "a.jpg", "a.tiff", "a.bmp"}) {
+    const fs::path path = Written(name, Texture(CV_8UC3));
+    EXPECT_EQ(*ReadImageSize(path), (ImageSize{80, 60})) << name;
+    EXPECT_TRUE(LoadGrayImage(path, ImageSize{80, 60}).ok()) << name;
+    const Status status = LoadGrayImage(path, ImageSize{60, 80}).status();
+    EXPECT_EQ(status.code(), StatusCode::kInvalidArgument) << name;
+    EXPECT_THAT(status.message(), HasSubstr("is 80 x 60 pixels"));
+  }
+  // A head without a body, of an image of a terabyte.
+  Bytes head = Contents(folder_ / "a.png");
+  head.resize(33);
+  head[16] = head[20] = 0;
+  head[17] = head[21] = 15;
+  const fs::path path = Written("huge.png", head);
+  EXPECT_EQ(LoadGrayImage(path, ImageSize{80, 60}).status().code(),
+            StatusCode::kInvalidArgument);
+}
+
 TEST_F(LoadGrayImageTest, RefusesOtherPixelFormats) {
   EXPECT_EQ(CodeOf(Written("float.tiff", cv::Mat(4, 4, CV_32FC1, 0.5))),
             StatusCode::kUnsupported);

@@ -82,7 +82,7 @@ TEST_F(HostileImport, MiddleburySaysWhatIsWrong) {
   no_place.replace(no_place.size() - 2, 1, "inf");
   EXPECT_THAT(message("1\n" + no_place), HasSubstr("finite"));
   folder_.Write("c.png", "not an image");
-  EXPECT_THAT(message("1\n" + ParLine("c.png")), HasSubstr("not an image"));
+  EXPECT_THAT(message("1\n" + ParLine("c.png")), HasSubstr("c.png is broken"));
 }
 
 TEST_F(HostileImport, DtuArchivesSayWhatIsWrong) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The size of an image without decoding it.
+// The size of an image without decoding it.
 #pragma once
 
 #include <curvix/status.h>
@@ -12,11 +12,13 @@ struct ImageSize {
   int width = 0;   // pixels
   int height = 0;  // pixels
 
-  bool operator==(const ImageSize&) const = default;
+  friend bool operator==(const ImageSize& a, const ImageSize& b) {
+    return a.width == b.width && a.height == b.height;
+  }
 };
 
 // The size of the image as stored (an EXIF rotation is ignored, as COLMAP
-// does): from the header of PNG and JPEG files, by decoding others.
+// does): from the header of PNG, JPEG and TIFF files, by decoding others.
 // kNotFound: no such file. kDataLoss: not an image.
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
