@@ -40,7 +40,8 @@ Result<List> ReadList(const fs::path& path, const Parse& parse) {
 
 PointsOrError ReadPoints(const fs::path& path, ColmapFormat format) {
   std::error_code error;
-  if (!IsFile(path) || fs::file_size(path, error) == 0) {
+  const bool is_there = fs::exists(path, error);
+  if (!is_there || (IsFile(path) && fs::file_size(path, error) == 0)) {
     return std::vector<ColmapPoint3D>();
   }
   return ReadList<std::vector<ColmapPoint3D>>(

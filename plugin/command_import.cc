@@ -133,10 +133,14 @@ ExitCode RunImport(const Arguments& arguments) {
   if (!status.ok()) return Fail(status, ExitCodeOf(status));
   for (const std::string& note : scene->notes) std::cerr << note << std::endl;
   const std::string path = settings.workspace_path.string();
+  const bool has_links =
+      PolicyOf(settings.copy_policy) == CopyPolicy::kSoftLink;
   std::cout << "Wrote " << Counted(scene->model.images.size(), "photograph")
             << ", " << Counted(scene->model.cameras.size(), "camera") << " and "
             << Counted(scene->model.points.size(), "point") << " to " << path
-            << "\nTry: colmap_curvix --workspace_path " << path << std::endl;
+            << "\nTry: colmap_curvix --workspace_path " << path
+            << (has_links ? " --image_path " + path + "/images" : "")
+            << std::endl;
   return kExitSuccess;
 }
 

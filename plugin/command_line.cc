@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/command_line.h"
 
+#include <curvix/file_io.h>
+
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <fstream>
 #include <map>
 #include <utility>
+
+#include "plugin/project_file.h"
 
 namespace curvix {
 namespace {
@@ -46,6 +49,10 @@ Status UnknownFlag(std::string token,
                                       : "; did you mean '--" + nearest + "'?"));
 }
 
+Status GivenTwice(const std::string& name) {
+  return BadArgument("The option '--" + name + "' is given twice");
+}
+
 // What Boost found, as one value per name.
 Result<Values> Collect(const po::parsed_options& parsed,
                        const std::vector<FlagSection>& sections) {
@@ -62,8 +69,7 @@ Result<Values> Collect(const po::parsed_options& parsed,
     // Only a switch may come without a value.
     const std::string value = option.value.empty() ? "1" : option.value.front();
     if (!values.emplace(option.string_key, value).second) {
-      return BadArgument("The option '--" + option.string_key +
-                         "' is given twice");
+      return GivenTwice(option.string_key);
     }
   }
   return values;
@@ -87,22 +93,37 @@ Result<Values> ReadArguments(const std::vector<std::string>& arguments,
   }
 }
 
+bool IsFlag(const std::string& name, const std::vector<FlagSection>& sections) {
+  for (const FlagSection& section : sections) {
+    for (const Flag& flag : section.flags) {
+      if (flag.name == name) return true;
+    }
+  }
+  return false;
+}
+
+// The entries as one value per name.
+Result<Values> Collect(std::vector<ProjectEntry> entries,
+                       const std::vector<FlagSection>& sections) {
+  Values values;
+  for (ProjectEntry& entry : entries) {
+    if (!IsFlag(entry.name, sections)) return UnknownFlag(entry.name, sections);
+    if (!values.emplace(entry.name, std::move(entry.value)).second) {
+      return GivenTwice(entry.name);
+    }
+  }
+  return values;
+}
+
 Result<Values> ReadProjectFile(const std::filesystem::path& path,
                                const std::vector<FlagSection>& sections) {
-  if (!std::filesystem::is_regular_file(path)) {
-    return Status(StatusCode::kNotFound,
-                  "The project file " + path.string() + " does not exist");
-  }
-  std::ifstream file(path);
-  const std::string where = " (in " + path.string() + ")";
-  try {
-    const Result<Values> values = Collect(
-        po::parse_config_file(file, Describe(sections), true), sections);
-    if (values.ok()) return values;
-    return BadArgument(values.status().message() + where);
-  } catch (const po::error& error) {
-    return BadArgument(error.what() + where);
-  }
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  Result<std::vector<ProjectEntry>> entries = ParseProjectFile(*text);
+  Result<Values> values = entries.ok() ? Collect(*std::move(entries), sections)
+                                       : Result<Values>(entries.status());
+  if (values.ok()) return values;
+  return BadArgument(values.status().message() + " (in " + path.string() + ")");
 }
 
 Status SetFlags(const std::vector<FlagSection>& sections,

@@ -3,6 +3,8 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
+#include <cctype>
 #include <iostream>
 
 #include "plugin/help_text.h"
@@ -40,6 +42,12 @@ ExitCode Fail(const Status& status, ExitCode code) {
   if (message.empty() || (message.back() != '.' && message.back() != '?')) {
     message += '.';
   }
+  // Names come from files, and a terminal obeys control characters.
+  std::replace_if(
+      message.begin(),
+      message.end(),
+      [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; },
+      '?');
   std::cerr << "ERROR: " << message << std::endl;
   return code;
 }

@@ -4,9 +4,11 @@
 
 #include <curvix/file_io.h>
 #include <algorithm>
-#include <sstream>
 #include <system_error>
 #include <utility>
+
+#include "plugin/links.h"
+#include "plugin/project_file.h"
 
 namespace curvix {
 namespace {
@@ -73,12 +75,6 @@ fs::path RootOfModel(const fs::path& model) {
   return {};
 }
 
-bool IsInside(const fs::path& path, const fs::path& folder) {
-  const auto ends =
-      std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
-  return ends.first == folder.end();
-}
-
 // Normalised paths from which images and results are found.
 struct ModelPlace {
   fs::path workspace;
@@ -117,6 +113,21 @@ std::string OtherModelsNote(const fs::path& model) {
          "), which --input_path chooses.";
 }
 
+// The files of the model must not be links to places elsewhere.
+Status CheckModelFiles(const fs::path& workspace, const fs::path& model) {
+  for (const char* list : {"cameras", "images", "points3D"}) {
+    for (const char* extension : {".bin", ".txt"}) {
+      const fs::path file = model / (std::string(list) + extension);
+      if (LiesIn(file, {workspace, model})) continue;
+      return NotFound(file.string() +
+                      " is a link that leads out of the workspace; copy the "
+                      "file, or name the model's folder with --input_path if "
+                      "the link is meant.");
+    }
+  }
+  return {};
+}
+
 Status FindModel(const WorkspacePaths& paths, Workspace* found) {
   if (!paths.input_path.empty()) {
     const Result<ColmapFormat> format = FindColmapFormat(paths.input_path);
@@ -132,6 +143,8 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
         " Name its folder with --input_path.");
   }
   found->model_path = *place;
+  const Status status = CheckModelFiles(paths.workspace_path, *place);
+  if (!status.ok()) return status;
   if (IsNumber(place->filename().string())) {
     const std::string note = OtherModelsNote(*place);
     if (!note.empty()) found->notes.push_back(note);
@@ -139,24 +152,17 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
   return {};
 }
 
-std::string Trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 // The value of image_path in the model's project.ini; empty if there is none.
 fs::path ImagePathOfProject(const fs::path& model) {
   const Result<std::string> text = ReadFile(model / "project.ini");
   if (!text.ok()) return {};
-  std::istringstream lines(*text);
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t equals = line.find('=');
-    if (equals == std::string::npos) continue;
-    if (Trimmed(line.substr(0, equals)) != "image_path") continue;
-    return Trimmed(line.substr(equals + 1));
-  }
-  return {};
+  const auto entries = ParseProjectFile(*text);
+  if (!entries.ok()) return {};
+  const auto entry = std::find_if(
+      entries->begin(), entries->end(), [](const ProjectEntry& candidate) {
+        return candidate.name == "image_path";
+      });
+  return entry == entries->end() ? fs::path() : fs::path(entry->value);
 }
 
 std::vector<fs::path> ImageCandidates(const ModelPlace& place) {
@@ -197,6 +203,7 @@ Status FindImages(const WorkspacePaths& paths, Workspace* found) {
                     " Name it with --image_path.");
   }
   found->image_path = *place;
+  found->image_bounds = {paths.workspace_path, *place};
   return {};
 }
 
@@ -210,6 +217,21 @@ fs::path OutputPath(const WorkspacePaths& paths, const fs::path& model) {
   if (beside) return place.root / "curvix" / place.model.filename();
   if (place.model == place.workspace) return place.workspace / "curvix";
   return place.workspace / "curvix" / place.model.filename();
+}
+
+// Results are not written through links that nobody asked for.
+Status CheckOutputPath(const WorkspacePaths& paths, const fs::path& output) {
+  if (!paths.output_path.empty()) return {};
+  for (fs::path folder = output;; folder = folder.parent_path()) {
+    std::error_code error;
+    if (fs::is_symlink(folder, error)) {
+      return {StatusCode::kInvalidArgument,
+              folder.string() +
+                  " is a link, and the results would go where it leads; name "
+                  "that folder with --output_path if it is meant."};
+    }
+    if (folder.filename() == "curvix") return {};
+  }
 }
 
 // "a, b, c, d, e, ..." with at most five names.
@@ -268,6 +290,20 @@ void NoteMissingMasks(const Workspace& workspace, WorkspaceScene* result) {
                           " and are used whole: " + FirstFive(names) + ".");
 }
 
+// Images must not be links to places elsewhere.
+Status CheckImageFiles(const Workspace& workspace, const Scene& scene) {
+  if (workspace.image_bounds.empty()) return {};
+  for (const View& view : scene.views) {
+    if (LiesIn(view.image_path, workspace.image_bounds)) continue;
+    return NotFound("Image " + view.image_path.string() +
+                    " is a link that leads out of the workspace; copy the "
+                    "image, or give --image_path " +
+                    workspace.image_path.string() +
+                    " if the links in it are meant.");
+  }
+  return {};
+}
+
 constexpr std::size_t kMinViews = 3;
 
 Status TooFewViews(const Workspace& workspace,
@@ -307,6 +343,8 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   if (status.ok()) status = FindMasks(paths, &found);
   if (!status.ok()) return status;
   found.output_path = OutputPath(paths, found.model_path);
+  status = CheckOutputPath(paths, found.output_path);
+  if (!status.ok()) return status;
   return found;
 }
 
@@ -320,6 +358,9 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
   if (result.scene.views.size() < kMinViews) {
     return TooFewViews(
         workspace, result.scene.views.size(), result.missing_images);
+  }
+  if (Status status = CheckImageFiles(workspace, result.scene); !status.ok()) {
+    return status;
   }
   if (!result.missing_images.empty()) {
     result.notes.push_back(

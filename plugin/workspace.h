@@ -32,7 +32,9 @@ struct Workspace {
   std::filesystem::path image_path;
   std::filesystem::path output_path;  // may not exist yet
   std::filesystem::path mask_path;    // absolute; "": there are no masks
-  std::vector<std::string> notes;     // sentences worth telling the user
+  // Folders in which every image must lie, all links followed; none: anywhere.
+  std::vector<std::filesystem::path> image_bounds;
+  std::vector<std::string> notes;  // sentences worth telling the user
 };
 
 // Finds the folders; `paths` wins over what is found. Folders named by numbers
@@ -49,8 +51,11 @@ struct Workspace {
 //    curvix beside sparse. Else <workspace>/curvix if the workspace is the
 //    model, and <workspace>/curvix/<name of the model's folder> if it is not.
 //  * Masks: only those of `paths`.
-// kInvalidArgument if the workspace is not given; kNotFound, with the places
-// that were tried, if a folder is not there.
+// Folders may be links, but what is found and not given must not lead out:
+// model files and images, all links followed, lie in their folder or in the
+// workspace, and curvix/ is no link. kInvalidArgument if the workspace is not
+// given or curvix/ is a link; kNotFound for links that lead out, and, with the
+// places that were tried, if a folder is not there.
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
 
 struct WorkspaceScene {
@@ -63,7 +68,8 @@ struct WorkspaceScene {
 // Reads the model and leaves out the views whose images are not on disk, with a
 // note that names the first five. Images are not opened. Another note counts
 // the views without a mask, if the workspace has masks. Fails if the model
-// cannot be read, or if fewer than three views remain.
+// cannot be read, if fewer than three views remain, or if an image lies outside
+// image_bounds.
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace);
 
 // The scene of a valid model in the folders of the workspace, without the

@@ -87,6 +87,13 @@ TEST_F(CommandLine, ReadsAProjectFileWithSections) {
   EXPECT_EQ(options_.edge_detection.sigma_px, 2);
 }
 
+TEST_F(CommandLine, PathsInAProjectFileMayHoldAnything) {
+  const std::string path =
+      ProjectFile("  # comment = 1\nworkspace_path = /a #1/b=c [d]\t\n");
+  ASSERT_TRUE(Parse({"--project_path", path}).ok());
+  EXPECT_EQ(workspace_path_, "/a #1/b=c [d]");
+}
+
 TEST_F(CommandLine, ArgumentsWinOverTheProjectFile) {
   const std::string path = ProjectFile(
       "workspace_path=from_file\n[Validation]\nmax_angle_deg=7\n"
@@ -108,7 +115,10 @@ TEST_F(CommandLine, ErrorsInTheProjectFileNameIt) {
   EXPECT_THAT(Error({"--project_path", unknown}),
               AllOf(HasSubstr("max_angle_deg"), HasSubstr("project.ini")));
   const std::string broken = ProjectFile("no equals sign\n");
-  EXPECT_THAT(Error({"--project_path", broken}), HasSubstr("project.ini"));
+  EXPECT_THAT(Error({"--project_path", broken}),
+              AllOf(HasSubstr("line 1"), HasSubstr("project.ini")));
+  const std::string twice = ProjectFile("color=red\ncolor=blue\n");
+  EXPECT_THAT(Error({"--project_path", twice}), HasSubstr("given twice"));
   const auto missing = Parse({"--project_path", "/no/such/file.ini"});
   EXPECT_EQ(missing.status().code(), StatusCode::kNotFound);
   EXPECT_THAT(missing.status().message(), HasSubstr("/no/such/file.ini"));
