@@ -44,7 +44,7 @@ class SpawnSetup {
     Check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));
     sigset_t defaults;
     sigemptyset(&defaults);
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) {
       sigaddset(&defaults, signal);
     }
     Check(posix_spawnattr_setsigdefault(&attributes_, &defaults));

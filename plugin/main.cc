@@ -11,7 +11,7 @@
 
 int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);
-  curvix::CatchInterrupts();
+  curvix::CatchSignals();
   try {
     return curvix::RunProgram({argv + std::min(argc, 1), argv + argc});
   } catch (const std::bad_alloc&) {

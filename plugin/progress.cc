@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/progress.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <csignal>
+#include <string_view>
 #include <utility>
 
+#include "plugin/commands.h"
 #include "plugin/text.h"
 
 namespace curvix {
@@ -21,6 +25,23 @@ volatile std::sig_atomic_t interrupted = 0;
 extern "C" void OnInterrupt(int signal) {
   interrupted = 1;
   std::signal(signal, SIG_DFL);
+}
+
+// Libraries abort when they get no memory.
+extern "C" void OnAbort(int /*signal*/) {
+  constexpr std::string_view kSentence =
+      "\nERROR: A library gave up, most likely for want of memory; nothing was "
+      "written. Please report it if there is enough.\n";
+  [[maybe_unused]] const auto written =
+      write(STDERR_FILENO, kSentence.data(), kSentence.size());
+  _exit(kExitInternal);
+}
+
+// A signal that the caller ignores, as nohup does, stays ignored.
+void Catch(int signal) {
+  if (std::signal(signal, OnInterrupt) == SIG_IGN) {
+    std::signal(signal, SIG_IGN);
+  }
 }
 
 double SteadySeconds() {
@@ -40,9 +61,11 @@ std::string Title(std::string stage) {
 
 }  // namespace
 
-void CatchInterrupts() {
-  std::signal(SIGINT, OnInterrupt);
-  std::signal(SIGTERM, OnInterrupt);
+void CatchSignals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) Catch(signal);
+  // A write that fails says so by itself.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  std::signal(SIGABRT, OnAbort);
 }
 
 bool IsInterrupted() { return interrupted != 0; }

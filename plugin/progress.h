@@ -8,9 +8,11 @@
 
 namespace curvix {
 
-// From now on SIGINT (Ctrl-C) and SIGTERM ask the program to stop; a second
-// one ends it at once.
-void CatchInterrupts();
+// From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP ask the program to stop; a
+// second one ends it at once. Writing to a closed pipe, or more than a file may
+// hold, is an error like others and no longer the end. A library that aborts
+// ends the program with a sentence and kExitInternal.
+void CatchSignals();
 bool IsInterrupted();
 
 // One line a stage. On a terminal the line is a bar with the remaining time

@@ -123,7 +123,13 @@ std::optional<EdgeSketch> StageStore::LoadSketch(std::uint64_t key) const {
   return *std::move(sketch);
 }
 
+bool StageStore::IsLink() const {
+  std::error_code error;
+  return fs::is_symlink(folder_, error);
+}
+
 std::string StageStore::MakeFolder() const {
+  if (IsLink()) return folder_.string() + " is a link";
   std::error_code error;
   fs::create_directories(folder_, error);
   return error ? "cannot make " + folder_.string() : "";
@@ -145,6 +151,7 @@ std::string StageStore::Save(std::uint64_t key, const EdgeSketch& sketch) {
 }
 
 void StageStore::Clean() {
+  if (IsLink()) return;
   std::error_code ignored;
   fs::remove(folder_ / kEdgesName, ignored);
   fs::remove(folder_ / kSketchName, ignored);

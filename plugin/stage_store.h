@@ -27,7 +27,8 @@ std::uint64_t EdgesKey(const Scene& scene, const Options& options);
 std::uint64_t SketchKey(const Scene& scene, const Options& options);
 
 // The stages that take long: edges.bin and sketch.bin in a folder. A file
-// that another key was meant for, or that is broken, is as good as none.
+// that another key was meant for, or that is broken, is as good as none. If the
+// folder is a link, nothing is written or removed behind it.
 class StageStore {
  public:
   explicit StageStore(std::filesystem::path folder)
@@ -47,6 +48,7 @@ class StageStore {
   void Clean();
 
  private:
+  bool IsLink() const;
   std::string MakeFolder() const;
 
   std::filesystem::path folder_;

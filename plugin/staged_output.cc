@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -41,13 +41,27 @@ Status CannotWrite(const fs::path& path, const std::string& reason) {
               "); choose another folder with --output_path"};
 }
 
+// In a temporary folder: what was replaced, and the names of what is to go.
+// The first is made when all files are written and Publish() begins.
+constexpr const char* kOlder = ".older";
+constexpr const char* kObsolete = ".obsolete";
+constexpr const char* kUnfinished = ".unfinished-";
+
 std::vector<fs::path> EntryNames(const fs::path& folder) {
   std::vector<fs::path> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename());
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    if (name != kOlder && name != kObsolete) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+bool IsThere(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
 }
 
 // Moves the named files and folders that are there; those moved so far are
@@ -58,10 +72,49 @@ std::error_code MoveEntries(const std::vector<fs::path>& names,
                             std::vector<fs::path>& moved) {
   std::error_code error;
   for (const fs::path& name : names) {
-    if (!fs::exists(from / name, error)) continue;
+    if (!IsThere(from / name)) continue;
     fs::rename(from / name, to / name, error);
     if (error) return error;
     moved.push_back(name);
+  }
+  return {};
+}
+
+// Moves what is in `folder`, in which kOlder is, into `output`. May be called
+// again after a process was killed in it.
+Status MoveIntoPlace(const fs::path& folder, const fs::path& output) {
+  const fs::path older = folder / kOlder;
+  const std::vector<fs::path> names = EntryNames(folder);
+  const std::vector<fs::path> obsolete = EntryNames(folder / kObsolete);
+  std::vector<fs::path> saved;
+  std::vector<fs::path> published;
+  std::error_code error = MoveEntries(obsolete, output, older, saved);
+  if (!error) fs::remove_all(folder / kObsolete, error);
+  if (!error) error = MoveEntries(names, output, older, saved);
+  if (!error) error = MoveEntries(names, folder, output, published);
+  if (!error) return {};
+  std::vector<fs::path> undone;
+  MoveEntries(published, output, folder, undone);
+  MoveEntries(saved, older, output, undone);
+  return CannotWrite(output, error.message());
+}
+
+// Brings what killed processes left in `output` to its end. A link is not
+// ours.
+Status FinishOlderRuns(const fs::path& output) {
+  for (const fs::path& name : EntryNames(output)) {
+    const fs::path folder = output / name;
+    std::error_code error;
+    if (!name.string().starts_with(kUnfinished) ||
+        !fs::is_directory(fs::symlink_status(folder, error))) {
+      continue;
+    }
+    if (IsThere(folder / kOlder)) {
+      const Status status = MoveIntoPlace(folder, output);
+      if (!status.ok()) return status;
+    }
+    fs::remove_all(folder, error);
+    if (error) return CannotWrite(output, error.message());
   }
   return {};
 }
@@ -73,53 +126,63 @@ Result<StagedOutput> StagedOutput::Create(const fs::path& output_path) {
   const fs::path first_created = FirstMissing(output);
   std::error_code error;
   fs::create_directories(output, error);
-  std::string folder = (output / ".unfinished-XXXXXX").string();
-  if (!error && mkdtemp(folder.data()) == nullptr) {
-    error = std::error_code(errno, std::generic_category());
-  }
   if (error) {
     RemoveEmptyFolders(output, first_created);
     return CannotWrite(output, error.message());
   }
-  return StagedOutput(output, folder, first_created);
+  std::optional<FolderLock> lock = FolderLock::Take(output);
+  if (!lock) {
+    return Status(StatusCode::kInvalidArgument,
+                  "another run is writing to " + output.string() +
+                      "; wait for its end, or choose another folder with "
+                      "--output_path");
+  }
+  StagedOutput staged(output, first_created, *std::move(lock));
+  Status status = FinishOlderRuns(output);
+  if (status.ok()) status = staged.MakeFolder();
+  if (!status.ok()) return status;
+  return staged;
 }
 
 StagedOutput::StagedOutput(fs::path output_path,
-                           fs::path folder,
-                           fs::path first_created)
+                           fs::path first_created,
+                           FolderLock lock)
     : output_path_(std::move(output_path)),
-      folder_(std::move(folder)),
-      first_created_(std::move(first_created)) {}
+      first_created_(std::move(first_created)),
+      lock_(std::move(lock)) {}
 
 StagedOutput::StagedOutput(StagedOutput&& other) noexcept
     : output_path_(std::move(other.output_path_)),
       folder_(std::exchange(other.folder_, {})),
-      first_created_(std::exchange(other.first_created_, {})) {}
+      first_created_(std::exchange(other.first_created_, {})),
+      lock_(std::move(other.lock_)) {}
 
 StagedOutput::~StagedOutput() {
-  if (folder_.empty()) return;
   std::error_code ignored;
-  fs::remove_all(folder_, ignored);
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
   RemoveEmptyFolders(output_path_, first_created_);
 }
 
+Status StagedOutput::MakeFolder() {
+  std::string folder =
+      (output_path_ / (std::string(kUnfinished) + "XXXXXX")).string();
+  if (mkdtemp(folder.data()) == nullptr) {
+    return CannotWrite(output_path_, std::generic_category().message(errno));
+  }
+  folder_ = folder;
+  return {};
+}
+
 Status StagedOutput::Publish(const std::vector<fs::path>& obsolete) {
-  const std::vector<fs::path> names = EntryNames(folder_);
-  std::vector<fs::path> replaced = names;
-  replaced.insert(replaced.end(), obsolete.begin(), obsolete.end());
-  const fs::path older = folder_ / "older";
   std::error_code error;
-  fs::create_directory(older, error);
+  for (const fs::path& name : obsolete) {
+    if (IsThere(folder_ / name)) continue;
+    fs::create_directories(folder_ / kObsolete / name, error);
+    if (error) return CannotWrite(output_path_, error.message());
+  }
+  fs::create_directory(folder_ / kOlder, error);
   if (error) return CannotWrite(output_path_, error.message());
-  std::vector<fs::path> saved;
-  std::vector<fs::path> published;
-  error = MoveEntries(replaced, output_path_, older, saved);
-  if (!error) error = MoveEntries(names, folder_, output_path_, published);
-  if (!error) return {};
-  std::vector<fs::path> undone;
-  MoveEntries(published, output_path_, folder_, undone);
-  MoveEntries(saved, older, output_path_, undone);
-  return CannotWrite(output_path_, error.message());
+  return MoveIntoPlace(folder_, output_path_);
 }
 
 }  // namespace curvix

@@ -7,14 +7,21 @@
 #include <filesystem>
 #include <vector>
 
+#include "plugin/folder_lock.h"
+
 namespace curvix {
 
-// A temporary folder inside the output folder. Files are written there and
-// moved into place by Publish(); without it the destructor leaves everything
-// as it was, created folders included.
+// A temporary folder inside the output folder, for its owner alone. Files are
+// written there and moved into place by Publish(); without it the destructor
+// leaves everything as it was, created folders included. While the object
+// lives, no other can be made for the same output folder.
+//
+// A process that is killed leaves its temporary folder behind. The next
+// Create() removes it, or finishes moving the files if Publish() had begun.
 class StagedOutput {
  public:
-  // kInvalidArgument if the output folder cannot be made or written to.
+  // kInvalidArgument if the output folder cannot be made or written to, or if
+  // another run is writing to it.
   static Result<StagedOutput> Create(const std::filesystem::path& output_path);
 
   StagedOutput(StagedOutput&& other) noexcept;
@@ -31,12 +38,15 @@ class StagedOutput {
 
  private:
   StagedOutput(std::filesystem::path output_path,
-               std::filesystem::path folder,
-               std::filesystem::path first_created);
+               std::filesystem::path first_created,
+               FolderLock lock);
+
+  Status MakeFolder();
 
   std::filesystem::path output_path_;
-  std::filesystem::path folder_;         // empty: moved from
+  std::filesystem::path folder_;         // empty: none, or moved from
   std::filesystem::path first_created_;  // empty: the output folder was there
+  FolderLock lock_;
 };
 
 }  // namespace curvix

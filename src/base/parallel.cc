@@ -59,7 +59,12 @@ void ParallelFor(std::size_t n,
           n, static_cast<std::size_t>(ResolveNumThreads(num_threads))) -
       std::min<std::size_t>(n, 1);
   std::vector<std::thread> helpers;
-  for (std::size_t i = 0; i < num_helpers; ++i) helpers.emplace_back(work);
+  helpers.reserve(num_helpers);
+  try {
+    for (std::size_t i = 0; i < num_helpers; ++i) helpers.emplace_back(work);
+  } catch (const std::exception&) {
+    // No memory for another thread: those that there are do the work.
+  }
   work();
   for (std::thread& helper : helpers) helper.join();
   error.Rethrow();

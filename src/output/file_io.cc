@@ -3,8 +3,10 @@
 #include <curvix/file_io.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <system_error>
 
 namespace curvix {
@@ -18,17 +20,23 @@ std::string Reason(int error) {
   return " (" + std::generic_category().message(error) + ")";
 }
 
-Status WriteStream(const fs::path& path, std::string_view bytes) {
+struct Closer {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+Status WriteNewFile(const fs::path& path, std::string_view bytes) {
   errno = 0;
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-  if (!stream) {
+  // "x": fails if anything is there, so that no link is followed.
+  std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "wbx"));
+  if (file == nullptr) {
     return {StatusCode::kInvalidArgument,
             "Cannot create " + path.string() + Reason(errno) +
                 "; check that the folder exists and may be written."};
   }
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();  // sets the failbit when the last bytes do not fit
-  if (!stream) {
+  const std::size_t num_written =
+      std::fwrite(bytes.data(), 1, bytes.size(), file.get());
+  // Closing fails when the last bytes do not fit.
+  if (std::fclose(file.release()) != 0 || num_written != bytes.size()) {
     return {StatusCode::kInvalidArgument,
             "Cannot write " + std::to_string(bytes.size()) + " bytes to " +
                 path.string() + Reason(errno) +
@@ -42,8 +50,9 @@ Status WriteStream(const fs::path& path, std::string_view bytes) {
 Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
   fs::path temporary = path;
   temporary += ".tmp";
-  Status status = WriteStream(temporary, bytes);
   std::error_code error;
+  fs::remove(temporary, error);  // of a program that was killed
+  Status status = WriteNewFile(temporary, bytes);
   if (status.ok()) {
     fs::rename(temporary, path, error);
     if (!error) return {};

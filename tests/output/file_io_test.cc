@@ -39,6 +39,18 @@ TEST_F(FileIo, WritesAndReplacesWholeFiles) {
   EXPECT_EQ(Names(), "target.bin ");
 }
 
+TEST_F(FileIo, DoesNotWriteThroughLinks) {
+  const TemporaryFolder outside;
+  const fs::path victim = outside.Write("victim", "precious");
+  fs::create_symlink(victim, Target());
+  fs::create_symlink(victim, folder_.path() / "target.bin.tmp");
+  ASSERT_TRUE(WriteFileAtomically(Target(), "new").ok());
+  EXPECT_EQ(*ReadFile(victim), "precious");
+  EXPECT_EQ(*ReadFile(Target()), "new");
+  EXPECT_FALSE(fs::is_symlink(Target()));
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
 TEST_F(FileIo, AFullDiskLeavesTheTargetAsItWas) {
   ASSERT_TRUE(WriteFileAtomically(Target(), "old").ok());
   rlimit old_limit;

@@ -101,7 +101,7 @@ TEST_F(Progress, NotesAreLinesOfTheirOwn) {
 TEST_F(Progress, InterruptsAskToStop) {
   ProgressPrinter printer = Printer(false);
   EXPECT_TRUE(printer.Update("stage", 0, 4));
-  CatchInterrupts();
+  CatchSignals();
   ASSERT_EQ(std::raise(SIGINT), 0);
   EXPECT_TRUE(IsInterrupted());
   EXPECT_FALSE(printer.Update("stage", 1, 4));

@@ -64,11 +64,70 @@ TEST(StagedOutput, OlderFilesComeBackWhenOneCannotBeMoved) {
     Write(output->folder() / "a.txt", "new");
     Write(output->folder() / "b.txt", "new");
     // Something stands where the older b.txt is to be kept.
-    fs::create_directories(output->folder() / "older/b.txt/x");
+    fs::create_directories(output->folder() / ".older/b.txt/x");
     EXPECT_EQ(output->Publish().code(), StatusCode::kInvalidArgument);
   }
   EXPECT_EQ(Read(folder.path() / "out/a.txt"), "old");
   EXPECT_EQ(Read(folder.path() / "out/b.txt"), "old");
+}
+
+TEST(StagedOutput, OneAtATime) {
+  const TemporaryFolder folder;
+  {
+    const auto first = StagedOutput::Create(folder.path());
+    ASSERT_TRUE(first.ok());
+    const auto second = StagedOutput::Create(folder.path());
+    EXPECT_EQ(second.status().code(), StatusCode::kInvalidArgument);
+    EXPECT_THAT(second.status().message(), testing::HasSubstr("another run"));
+  }
+  EXPECT_TRUE(StagedOutput::Create(folder.path()).ok());
+}
+
+TEST(StagedOutput, RemovesWhatAKilledRunDidNotFinish) {
+  const TemporaryFolder folder;
+  folder.Write("curves.ply", "old");
+  folder.Write(".unfinished-abc/curves.ply", "half");
+  EXPECT_TRUE(StagedOutput::Create(folder.path()).ok());
+  EXPECT_EQ(Read(folder.path() / "curves.ply"), "old");
+  EXPECT_FALSE(fs::exists(folder.path() / ".unfinished-abc"));
+}
+
+// The run was killed after it had moved a.txt, when b.txt was saved and c.txt
+// was not; sparse/ was to go.
+TEST(StagedOutput, FinishesWhatAKilledRunBeganToPublish) {
+  const TemporaryFolder folder;
+  folder.Write("a.txt", "new");
+  folder.Write("c.txt", "old");
+  folder.Write("sparse/cameras.bin", "old");
+  folder.Write("mine.txt", "mine");
+  const std::string killed = ".unfinished-abc/";
+  folder.Write(killed + "b.txt", "new");
+  folder.Write(killed + "c.txt", "new");
+  folder.Write(killed + ".older/a.txt", "old");
+  folder.Write(killed + ".older/b.txt", "old");
+  fs::create_directories(folder.path() / killed / ".obsolete/sparse");
+  EXPECT_TRUE(StagedOutput::Create(folder.path()).ok());
+  for (const char* name : {"a.txt", "b.txt", "c.txt"}) {
+    EXPECT_EQ(Read(folder.path() / name), "new") << name;
+  }
+  EXPECT_EQ(Read(folder.path() / "mine.txt"), "mine");
+  EXPECT_FALSE(fs::exists(folder.path() / "sparse"));
+  EXPECT_FALSE(fs::exists(folder.path() / ".unfinished-abc"));
+}
+
+TEST(StagedOutput, ReplacesAndRemovesObsoleteOnes) {
+  const TemporaryFolder folder;
+  folder.Write("out/sparse/cameras.bin", "old");
+  folder.Write("out/log", "old");
+  {
+    auto output = StagedOutput::Create(folder.path() / "out");
+    ASSERT_TRUE(output.ok());
+    fs::create_directories(output->folder() / "sparse");
+    Write(output->folder() / "sparse/cameras.bin", "new");
+    EXPECT_TRUE(output->Publish({"sparse", "log"}).ok());
+  }
+  EXPECT_EQ(Read(folder.path() / "out/sparse/cameras.bin"), "new");
+  EXPECT_FALSE(fs::exists(folder.path() / "out/log"));
 }
 
 TEST(StagedOutput, SaysWhereItCannotWrite) {
