@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every file that the program writes, opened by readers of others.
-#include <sys/wait.h>
-
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -14,6 +10,7 @@
 #include "gtest/gtest.h"
 #include "plugin/colmap_model.h"
 #include "plugin/synthesize.h"
+#include "tests/end_to_end/run_program.h"
 #include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
@@ -25,31 +22,8 @@ using testing::HasSubstr;
 
 constexpr int kNotInstalled = 77;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // stdout
-};
-
-Outcome RunInShell(const std::string& command) {
-  Outcome outcome;
-  FILE* const pipe = popen(command.c_str(), "r");
-  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
-    outcome.output += static_cast<char>(c);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  return outcome;
-}
-
 bool IsInstalled(const std::string& program) {
   return RunInShell("command -v " + program).exit_code == 0;
-}
-
-std::string Quoted(const fs::path& path) { return "'" + path.string() + "'"; }
-
-std::string Read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string Source(const std::string& path) {

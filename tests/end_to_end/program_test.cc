@@ -6,10 +6,8 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +17,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "plugin/synthesize.h"
+#include "tests/end_to_end/run_program.h"
 #include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
@@ -31,40 +30,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // stdout and stderr
-};
-
-// Runs the program; `arguments` as in a shell.
-Outcome RunProgram(const std::string& arguments) {
-  const std::string command =
-      std::string("'") + CURVIX_PROGRAM + "' " + arguments + " 2>&1";
-  Outcome outcome;
-  FILE* const pipe = popen(command.c_str(), "r");
-  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
-    outcome.output += static_cast<char>(c);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  return outcome;
-}
-
-std::string Read(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// Every file below `folder` and what is in it.
-std::map<std::string, std::string> Contents(const fs::path& folder) {
-  std::map<std::string, std::string> contents;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    contents[entry.path().lexically_relative(folder).string()] =
-        entry.is_regular_file() ? Read(entry.path()) : "folder";
-  }
-  return contents;
-}
 
 std::vector<std::string> Names(const fs::path& folder) {
   std::vector<std::string> names;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The examples, as a person runs them.
 #include <curvix/curve_io.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -11,6 +9,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "plugin/synthesize.h"
+#include "tests/end_to_end/run_program.h"
 #include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
@@ -19,20 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // stdout and stderr
-};
-
-Outcome RunInShell(const std::string& command) {
-  Outcome outcome;
-  FILE* const pipe = popen(("{ " + command + "; } 2>&1").c_str(), "r");
-  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
-    outcome.output += static_cast<char>(c);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  return outcome;
+// With what it says to stderr.
+Outcome RunAll(const std::string& command) {
+  return RunInShell("{ " + command + "; } 2>&1");
 }
 
 // The number after `name` in `text`.
@@ -55,8 +43,8 @@ Curve Polyline(bool closed, const std::vector<Eigen::Vector3d>& positions) {
 
 TEST(CurvesFromMyEdges, FindsTheHelix) {
   const TemporaryFolder folder;
-  const Outcome outcome = RunInShell("cd '" + folder.path().string() + "' && " +
-                                     CURVIX_EXAMPLE_EDGES);
+  const Outcome outcome =
+      RunAll("cd '" + folder.path().string() + "' && " + CURVIX_EXAMPLE_EDGES);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const double truth = NumberAfter("truth:", outcome.output);
   EXPECT_GT(truth, 9);
@@ -78,8 +66,8 @@ TEST(MeasureCurves, TellsLengthAndDirection) {
                 Polyline(true, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})};
   const fs::path path = folder.path() / "curves.txt";
   ASSERT_TRUE(WriteCurves(path, set, {}).ok());
-  const Outcome outcome = RunInShell(std::string(CURVIX_EXAMPLE_MEASURE) +
-                                     " '" + path.string() + "'");
+  const Outcome outcome =
+      RunAll(std::string(CURVIX_EXAMPLE_MEASURE) + " '" + path.string() + "'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output,
               testing::ContainsRegex(
@@ -90,7 +78,7 @@ TEST(MeasureCurves, TellsLengthAndDirection) {
 
 TEST(MeasureCurves, NamesAFileThatIsNotThere) {
   const Outcome outcome =
-      RunInShell(std::string(CURVIX_EXAMPLE_MEASURE) + " no_such_file.txt");
+      RunAll(std::string(CURVIX_EXAMPLE_MEASURE) + " no_such_file.txt");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, HasSubstr("no_such_file.txt"));
 }
@@ -104,9 +92,9 @@ TEST(CurvesFromWorkspace, ShowsWhatTheCommandLeavesBehind) {
   const fs::path workspace = folder.path() / "my proj";
   ASSERT_TRUE(Synthesize(options, workspace).ok());
   const Outcome outcome =
-      RunInShell("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR
-                 "/examples/01_curves_from_workspace.sh' '" +
-                 workspace.string() + "' --num_threads 1");
+      RunAll("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR
+             "/examples/01_curves_from_workspace.sh' '" +
+             workspace.string() + "' --num_threads 1");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   for (const char* name : {"curves.ply", "curves.txt", "report.json"}) {
     EXPECT_THAT(outcome.output, HasSubstr("curvix/0/" + std::string(name)));
@@ -115,8 +103,8 @@ TEST(CurvesFromWorkspace, ShowsWhatTheCommandLeavesBehind) {
 
 TEST(CurvesFromWorkspace, FailsAsTheProgramFails) {
   const Outcome outcome =
-      RunInShell("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR
-                 "/examples/01_curves_from_workspace.sh' /no/such/folder");
+      RunAll("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR
+             "/examples/01_curves_from_workspace.sh' /no/such/folder");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
 }
 

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Programs as a person calls them, and what they leave in a folder.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+namespace curvix {
+
+struct Outcome {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string output;  // stdout
+};
+
+inline Outcome RunInShell(const std::string& command) {
+  Outcome outcome;
+  FILE* const pipe = popen(command.c_str(), "r");
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) {
+    outcome.output += static_cast<char>(c);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  return outcome;
+}
+
+// Runs the program of the project; `arguments` as in a shell. The output is
+// that to stdout and stderr.
+inline Outcome RunProgram(const std::string& arguments) {
+  return RunInShell(std::string("'") + CURVIX_PROGRAM + "' " + arguments +
+                    " 2>&1");
+}
+
+inline std::string Quoted(const std::filesystem::path& path) {
+  return "'" + path.string() + "'";
+}
+
+inline std::string Read(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Every file below `folder` and what is in it; links are not followed.
+inline std::map<std::string, std::string> Contents(
+    const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> contents;
+  if (!fs::exists(folder)) return contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (entry.is_symlink()) {
+      contents[name] = "link to " + fs::read_symlink(entry.path()).string();
+    } else {
+      contents[name] = entry.is_regular_file() ? Read(entry.path()) : "folder";
+    }
+  }
+  return contents;
+}
+
+}  // namespace curvix
