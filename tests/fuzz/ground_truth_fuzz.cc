@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The true curves that `evaluate` compares with.
+#include "plugin/ground_truth.h"
+
+#include "tests/fuzz/fuzz_target.h"
+
+namespace curvix {
+
+std::vector<std::string> FuzzSeeds() {
+  return {"# x y z\n0 0 0\n1, 2, 3\n",
+          "0 0 0 1 0 0 4 7 9\n+1e3 -2.5 0 0 1 0 5 1 2\n"};
+}
+
+void FuzzReader(std::string_view bytes) {
+  const Result<GroundTruth> truth = ParseGroundTruth(bytes);
+  RequireSentence(truth.status());
+  Require(!truth.ok() || !truth->samples.empty(), "no truth without samples");
+}
+
+}  // namespace curvix

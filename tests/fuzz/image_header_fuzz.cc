@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What PNG, JPEG and TIFF files say about themselves. Decoders are OpenCV's.
+#include "edge_detection/image_header.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/fuzz/fuzz_target.h"
+
+namespace curvix {
+
+std::vector<std::string> FuzzSeeds() {
+  std::vector<std::string> seeds;
+  for (const char* extension : {".png", ".jpg", ".tiff"}) {
+    std::vector<unsigned char> bytes;
+    cv::imencode(extension, cv::Mat(9, 7, CV_8UC3, cv::Scalar(1, 2, 3)), bytes);
+    seeds.emplace_back(bytes.begin(), bytes.end());
+    const auto size = SizeInHeader(seeds.back());
+    Require(size && size->width == 7 && size->height == 9, "sizes are found");
+  }
+  return seeds;
+}
+
+void FuzzReader(std::string_view bytes) {
+  IsTruncatedJpeg(bytes);
+  const std::optional<ImageSize> size = SizeInHeader(bytes);
+  Require(!size || (size->width > 0 && size->height > 0), "sizes are positive");
+}
+
+}  // namespace curvix

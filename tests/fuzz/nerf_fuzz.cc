@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// NeRF's transforms.json.
+#include "plugin/import_nerf.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/plugin/import_fixtures.h"
+#include "tests/plugin/temporary_folder.h"
+
+namespace curvix {
+
+std::vector<std::string> FuzzSeeds() {
+  std::mt19937 random(1);
+  const auto frame = [&](const std::string& path, const std::string& more) {
+    return "{\"file_path\": \"" + path + "\", " + more +
+           "\"transform_matrix\": " +
+           MatrixJson(NerfMatrix(RandomPose(random))) + "}";
+  };
+  return {
+      "{\"fl_x\": 700, \"fl_y\": 710, \"cx\": 310, \"cy\": 245, \"k1\": "
+      "0.1, \"w\": 640, \"h\": 480, \"frames\": [" +
+          frame("./a", "") + "," + frame("b.png", "\"fl_x\": 600, ") + "]}",
+      "{\"camera_angle_x\": 0.7, \"frames\": [" + frame("a.png", "") + "]}",
+      "{\"camera_model\": \"OPENCV_FISHEYE\", \"fl_x\": 500, \"frames\": "
+      "[" +
+          frame("b",
+                "\"camera_intrinsics\": " + MatrixJson(TestCalibration()) +
+                    ", ") +
+          "]}"};
+}
+
+void FuzzReader(std::string_view bytes) {
+  static const TemporaryFolder folder;
+  static const auto photographs = {folder.Write("a.png", PngOfSize(640, 480)),
+                                   folder.Write("b.png", PngOfSize(640, 480))};
+  ImportOptions options;
+  options.image_path = photographs.begin()->parent_path();
+  options.input_path = folder.Write("transforms.json", std::string(bytes));
+  RequireSentence(ImportNerf(options).status());
+}
+
+}  // namespace curvix
