@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rules that every file keeps.
 #include <filesystem>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -53,6 +54,15 @@ TEST(SourceRules, LinesEndCleanly) {
     EXPECT_EQ(text.back(), '\n') << file;
     EXPECT_EQ(text.find('\t'), std::string::npos) << file << ": a tab";
     EXPECT_EQ(text.find(" \n"), std::string::npos) << file << ": space at end";
+  }
+}
+
+// A shell would obey what file names hold.
+TEST(SourceRules, NoShellStartsPrograms) {
+  const std::regex shell(R"(\b(system|popen|exec[lv]p?e?)\s*\()");
+  for (const std::string& file :
+       FilesBelow({"src", "plugin", "include"}, {".h", ".cc"})) {
+    EXPECT_FALSE(std::regex_search(ReadSource(file), shell)) << file;
   }
 }
 
