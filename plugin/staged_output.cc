@@ -80,22 +80,39 @@ std::error_code MoveEntries(const std::vector<fs::path>& names,
   return {};
 }
 
+// Keeps the entry `name` of `output` in `older`. A file stays where it is, too,
+// until something takes its place.
+std::error_code Keep(const fs::path& name,
+                     const fs::path& output,
+                     const fs::path& older) {
+  std::error_code error;
+  fs::create_hard_link(output / name, older / name, error);
+  if (error) fs::rename(output / name, older / name, error);
+  return error;
+}
+
 // Moves what is in `folder`, in which kOlder is, into `output`. May be called
 // again after a process was killed in it.
 Status MoveIntoPlace(const fs::path& folder, const fs::path& output) {
   const fs::path older = folder / kOlder;
-  const std::vector<fs::path> names = EntryNames(folder);
-  const std::vector<fs::path> obsolete = EntryNames(folder / kObsolete);
-  std::vector<fs::path> saved;
+  std::vector<fs::path> kept;
   std::vector<fs::path> published;
-  std::error_code error = MoveEntries(obsolete, output, older, saved);
+  std::error_code error =
+      MoveEntries(EntryNames(folder / kObsolete), output, older, kept);
   if (!error) fs::remove_all(folder / kObsolete, error);
-  if (!error) error = MoveEntries(names, output, older, saved);
-  if (!error) error = MoveEntries(names, folder, output, published);
+  for (const fs::path& name : EntryNames(folder)) {
+    if (!error && IsThere(output / name)) {
+      error = Keep(name, output, older);
+      if (!error) kept.push_back(name);
+    }
+    if (!error) fs::rename(folder / name, output / name, error);
+    if (error) break;
+    published.push_back(name);
+  }
   if (!error) return {};
   std::vector<fs::path> undone;
   MoveEntries(published, output, folder, undone);
-  MoveEntries(saved, older, output, undone);
+  MoveEntries(kept, older, output, undone);
   return CannotWrite(output, error.message());
 }
 

@@ -54,10 +54,12 @@ TEST(BadModels, FilesThatAreNotThereOrNoFiles) {
 TEST(BadModels, FilesThatMayNotBeRead) {
   if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
   std::vector<BadCase> cases;
-  for (const std::string list : {"cameras", "images", "points3D"}) {
-    const std::string file = InModel(list + ".bin");
+  for (const std::string& file : {InModel("cameras.bin"),
+                                  InModel("images.bin"),
+                                  InModel("points3D.bin"),
+                                  std::string("images/view_000.png")}) {
     cases.push_back(
-        {"unreadable " + list,
+        {"unreadable " + file,
          [=](auto& w) { fs::permissions(w.At(file), fs::perms::none); },
          file});
   }
