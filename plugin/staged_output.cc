@@ -127,7 +127,7 @@ Status FinishOlderRuns(const fs::path& output) {
       continue;
     }
     if (IsThere(folder / kOlder)) {
-      const Status status = MoveIntoPlace(folder, output);
+      Status status = MoveIntoPlace(folder, output);
       if (!status.ok()) return status;
     }
     fs::remove_all(folder, error);

@@ -84,12 +84,12 @@ TEST(BadImages, BrokenOnes) {
                      },
                      image});
   }
-  ExpectRefused(cases);
+  ExpectOutcome(cases);
 }
 
 // As large as the camera says, and larger than the memory.
 TEST(BadImages, TooLargeForAnything) {
-  ExpectRefused({"a million by a million",
+  ExpectOutcome({"a million by a million",
                  [](SmallWorkspace& w) {
                    Camera& camera = w.model.cameras[0].camera;
                    camera.width = camera.height = 1 << 20;
@@ -100,7 +100,7 @@ TEST(BadImages, TooLargeForAnything) {
 }
 
 TEST(BadImages, UnusualOnesAreRead) {
-  ExpectRefused(
+  ExpectOutcome(
       {{"grey", Image(".png", 1, CV_8U), "curves", 0},
        {"16 bits", Image(".png", 1, CV_16U), "curves", 0},
        {"16 bits, colour", Image(".tiff", 3, CV_16U), "curves", 0},
@@ -111,7 +111,7 @@ TEST(BadImages, UnusualOnesAreRead) {
 
 TEST(BadImages, NoFiles) {
   const std::string image = "images/view_000.png";
-  ExpectRefused({{"no images/",
+  ExpectOutcome({{"no images/",
                   [](auto& w) { fs::remove_all(w.At("images")); },
                   "No folder of images"},
                  {"images is a file",
@@ -146,7 +146,7 @@ TEST(BadImages, NoFiles) {
 TEST(BadMasks, AreRefused) {
   const std::string argument = "--mask_path ";
   const std::string no_folder = "/no/such/folder";
-  ExpectRefused({{"no folder",
+  ExpectOutcome({{"no folder",
                   [](auto&) {},
                   "--mask_path /no/such/folder",
                   3,
@@ -157,7 +157,7 @@ TEST(BadMasks, AreRefused) {
            {"empty", "", "view_000.png.png"}}) {
     const TemporaryFolder masks;
     masks.Write("view_000.png.png", mask);
-    ExpectRefused({{name + " mask",
+    ExpectOutcome({{name + " mask",
                     [](auto&) {},
                     says,
                     3,
@@ -182,7 +182,7 @@ TEST(PlantedLinks, AreNotFollowed) {
     };
   };
   const std::string out = "is a link that leads out of the workspace";
-  ExpectRefused({{"an image", link("images/view_001.png"), out},
+  ExpectOutcome({{"an image", link("images/view_001.png"), out},
                  {"cameras.bin", link("sparse/0/cameras.bin"), out},
                  {"points3D.bin", link("sparse/0/points3D.bin"), out},
                  {"curvix", output_link("curvix"), "curvix is a link"},
@@ -190,7 +190,7 @@ TEST(PlantedLinks, AreNotFollowed) {
 }
 
 TEST(PlantedLinks, MayLeadToNothing) {
-  ExpectRefused({{"points that are not there",
+  ExpectOutcome({{"points that are not there",
                   [](SmallWorkspace& w) {
                     fs::remove(w.At("sparse/0/points3D.bin"));
                     fs::create_symlink("/no/such",
@@ -233,7 +233,7 @@ TEST(PlantedLinks, DoNotTakeResultsElsewhere) {
 }
 
 TEST(BadProjects, OfColmapAreOverlooked) {
-  ExpectRefused({{"no text",
+  ExpectOutcome({{"no text",
                   [](auto& w) {
                     w.Write("sparse/0/project.ini", std::string(999, '\xff'));
                   },
@@ -266,7 +266,7 @@ TEST(PoorScenes, ShowNothing) {
         [=](ColmapModel& m) { m.cameras[0].camera.params[param] = value; });
   };
   const std::string none = "No curves: ";
-  ExpectRefused({{"all cameras in one place",
+  ExpectOutcome({{"all cameras in one place",
                   poses([](Rigid3& p) { p = Rigid3(); }),
                   none,
                   5},

@@ -35,7 +35,7 @@ inline std::function<void(SmallWorkspace&)> Model(
 // Runs the program: one sentence with `says`, the exit code, nothing under a
 // final name, and the inputs as they were. Exit code 5, "no curves", leaves a
 // report; a run with exit code 0 says what it says and leaves its results.
-inline void ExpectRefused(const BadCase& bad) {
+inline void ExpectOutcome(const BadCase& bad) {
   SCOPED_TRACE(bad.name);
   SmallWorkspace workspace;
   bad.spoil(workspace);
@@ -60,8 +60,8 @@ inline void ExpectRefused(const BadCase& bad) {
   EXPECT_EQ(Contents(workspace.path()), before);
 }
 
-inline void ExpectRefused(const std::vector<BadCase>& cases) {
-  for (const BadCase& bad : cases) ExpectRefused(bad);
+inline void ExpectOutcome(const std::vector<BadCase>& cases) {
+  for (const BadCase& bad : cases) ExpectOutcome(bad);
 }
 
 }  // namespace curvix
