@@ -132,7 +132,7 @@ Status SetFlags(const std::vector<FlagSection>& sections,
     for (const Flag& flag : section.flags) {
       const auto value = values.find(flag.name);
       if (value == values.end()) continue;
-      const Status status = flag.set(value->second);
+      Status status = flag.set(value->second);
       if (!status.ok()) return status;
     }
   }
@@ -212,8 +212,10 @@ Flag ChoiceFlag(std::string name,
   for (const std::string& text : choices) {
     flag.range += (flag.range.empty() ? "" : ", ") + text;
   }
-  flag.set = [choice, choices, name = flag.name, range = flag.range](
-                 const std::string& text) -> Status {
+  flag.set = [choice,
+              choices = std::move(choices),
+              name = flag.name,
+              range = flag.range](const std::string& text) -> Status {
     if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
       return BadArgument(name + " is " + text + "; it must be one of " + range);
     }

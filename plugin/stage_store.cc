@@ -137,14 +137,14 @@ std::string StageStore::MakeFolder() const {
 
 std::string StageStore::Save(std::uint64_t key,
                              const std::vector<EdgeMap>& edge_maps) {
-  if (const std::string why = MakeFolder(); !why.empty()) return why;
+  if (std::string why = MakeFolder(); !why.empty()) return why;
   const Status status = WriteEdgeMaps(folder_ / kEdgesName, key, edge_maps);
   has_saved_ = has_saved_ || status.ok();
   return status.message();
 }
 
 std::string StageStore::Save(std::uint64_t key, const EdgeSketch& sketch) {
-  if (const std::string why = MakeFolder(); !why.empty()) return why;
+  if (std::string why = MakeFolder(); !why.empty()) return why;
   const Status status = WriteEdgeSketch(folder_ / kSketchName, key, sketch);
   has_saved_ = has_saved_ || status.ok();
   return status.message();

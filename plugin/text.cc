@@ -34,7 +34,7 @@ std::string WrapText(const std::string& text, std::size_t indent) {
   return wrapped;
 }
 
-std::string GroupDigits(long long number) {
+std::string GroupDigits(std::int64_t number) {
   std::string text = std::to_string(number);
   const int first = number < 0 ? 1 : 0;
   for (int i = static_cast<int>(text.size()) - 3; i > first; i -= 3) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace curvix {
@@ -17,7 +18,7 @@ inline constexpr char kNoBreak = '\x01';
 std::string WrapText(const std::string& text, std::size_t indent);
 
 // "171204" as "171 204".
-std::string GroupDigits(long long number);
+std::string GroupDigits(std::int64_t number);
 
 // "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
 std::string DurationText(double seconds);

@@ -47,6 +47,7 @@ std::vector<fs::path> NumberedFolders(const fs::path& folder) {
   }
   std::sort(found.begin(), found.end());
   std::vector<fs::path> folders;
+  folders.reserve(found.size());
   for (auto& [number, path] : found) folders.push_back(std::move(path));
   return folders;
 }
@@ -143,7 +144,7 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
         " Name its folder with --input_path.");
   }
   found->model_path = *place;
-  const Status status = CheckModelFiles(paths.workspace_path, *place);
+  Status status = CheckModelFiles(paths.workspace_path, *place);
   if (!status.ok()) return status;
   if (IsNumber(place->filename().string())) {
     const std::string note = OtherModelsNote(*place);
@@ -259,7 +260,7 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
 // "" if there is none.
 fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
   std::error_code error;
-  const fs::path mask = folder / (image_name + ".png");
+  fs::path mask = folder / (image_name + ".png");
   if (fs::is_regular_file(mask, error)) return mask;
   const fs::path same_name = folder / image_name;
   const bool is_png = same_name.extension() == ".png";
