@@ -31,20 +31,20 @@ Eigen::Vector2d Tangent(const Edge2d& edge) {
 }
 
 EdgeNeighbors NeighborsOf(const std::vector<Edge2d>& edges,
-                          const std::vector<Eigen::Vector2d>& tangents,
                           const GridIndex& index,
-                          const EdgeDetectionOptions& options,
+                          double max_distance,
+                          double min_cosine,
                           std::size_t i) {
-  const double min_cosine = std::cos(DegToRad(options.max_neighbor_angle_deg));
-  const double max_distance = options.max_neighbor_distance_px;
+  const Eigen::Vector2d tangent = Tangent(edges[i]);
   Nearest previous{std::nullopt, max_distance};
   Nearest next{std::nullopt, max_distance};
   const auto consider = [&](const IndexedEdge& candidate) {
+    const Eigen::Vector2d other_tangent = candidate.tangent.cast<double>();
     const auto j = static_cast<std::size_t>(candidate.edge_idx);
-    if (j == i || tangents[i].dot(tangents[j]) < min_cosine) return;
+    if (j == i || tangent.dot(other_tangent) < min_cosine) return;
     const Eigen::Vector2d chord = edges[j].position - edges[i].position;
-    const double along = chord.dot(tangents[i]);
-    const double along_other = chord.dot(tangents[j]);
+    const double along = chord.dot(tangent);
+    const double along_other = chord.dot(other_tangent);
     const double distance = chord.norm();
     const double min_along = min_cosine * distance;
     if (along > 0 && along >= min_along && along_other >= min_along) {
@@ -62,14 +62,13 @@ EdgeNeighbors NeighborsOf(const std::vector<Edge2d>& edges,
 
 std::vector<EdgeNeighbors> LinkNeighbors(const std::vector<Edge2d>& edges,
                                          const EdgeDetectionOptions& options) {
-  const GridIndex index(edges, options.max_neighbor_distance_px);
-  std::vector<Eigen::Vector2d> tangents;
-  tangents.reserve(edges.size());
-  for (const Edge2d& edge : edges) tangents.push_back(Tangent(edge));
+  const double max_distance = options.max_neighbor_distance_px;
+  const double min_cosine = std::cos(DegToRad(options.max_neighbor_angle_deg));
+  const GridIndex index(edges, max_distance);
   std::vector<EdgeNeighbors> neighbors;
   neighbors.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    neighbors.push_back(NeighborsOf(edges, tangents, index, options, i));
+    neighbors.push_back(NeighborsOf(edges, index, max_distance, min_cosine, i));
   }
   return neighbors;
 }

@@ -18,6 +18,10 @@
 namespace curvix {
 namespace {
 
+// The weakest edges of a crowded image are dropped before they are oriented and
+// linked: those beyond so many times the limit.
+constexpr std::int64_t kCrowd = 4;
+
 Result<std::int32_t> DropMaskedEdges(const View& view,
                                      const Camera& camera,
                                      std::vector<Edge2d>* edges) {
@@ -58,21 +62,20 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   EdgeMap map;
   map.noise = EstimateNoise(*image);
   const double min_gradient = GradientThreshold(options, map.noise);
-  std::vector<Edge2d> edges =
-      DetectThirdOrderEdges(*image, options, min_gradient);
+  const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
+  std::vector<Edge2d> edges = LocateEdges(*image, options, min_gradient);
   const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
   if (!num_masked.ok()) return num_masked.status();
-  KeptEdges kept = KeepContours(edges,
-                                LinkNeighbors(edges, options),
-                                options,
-                                min_gradient,
-                                MaxEdges(options, image->width, image->height));
+  const std::int32_t num_weakest = DropWeakest(kCrowd * max_edges, &edges);
+  OrientEdges(*image, options, &edges);
+  KeptEdges kept = KeepContours(
+      edges, LinkNeighbors(edges, options), options, min_gradient, max_edges);
   map.edges = std::move(kept.edges);
   // Again, since what was dropped may have stood between two that were not.
   map.neighbors = LinkNeighbors(map.edges, options);
   map.num_dropped_masked = *num_masked;
   map.num_dropped_isolated = kept.num_isolated;
-  map.num_dropped_over_limit = kept.num_over_limit;
+  map.num_dropped_over_limit = num_weakest + kept.num_over_limit;
   return UndistortEdges(std::move(map), camera);
 }
 

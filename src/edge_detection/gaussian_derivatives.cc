@@ -48,59 +48,74 @@ ImageDerivatives::ImageDerivatives(const GrayImage& image, double sigma_px)
   const int reach = 2 * radius_ + 1;
   for (int half_pixels = -reach; half_pixels <= reach; ++half_pixels) {
     const auto g = GaussianDerivatives(half_pixels / 2.0, sigma_px);
-    table_.emplace_back(g[0], g[1], g[2], g[3]);
+    table_.push_back(Eigen::Array4d(g[0], g[1], g[2], g[3]).cast<float>());
   }
+  const auto size = static_cast<std::size_t>(2 * radius_ + 3);
+  x_.weights.resize(size);
+  y_.weights.resize(size);
 }
 
-ImageDerivatives::Filter ImageDerivatives::FilterAt(double position) const {
+void ImageDerivatives::SetFilter(double position, Filter& filter) const {
   // On the half-pixel grid, pixel i is at 2 * i.
   const double on_grid = 2 * position - 1;
   const int cell = static_cast<int>(std::floor(on_grid));
   const std::array<double, 4> cubic = CubicWeights(on_grid - cell);
   const int reach = 2 * radius_ + 1;
-  const int size = 2 * radius_ + 3;
-  const int first = (cell + 1) / 2 - radius_ - 1;
-  Filter filter{first, decltype(Filter::weights)::Zero(size, 12)};
-  for (int i = 0; i < size; ++i) {
-    auto row = filter.weights.row(i);
+  filter.first_pixel = (cell + 1) / 2 - radius_ - 1;
+  int pixel = filter.first_pixel;
+  for (Weights& weights : filter.weights) {
+    weights = {Orders::Zero(), Orders::Zero(), Orders::Zero()};
     for (int k = 0; k < 4; ++k) {
-      const int half_pixels = cell - 1 + k - 2 * (first + i);
+      const int half_pixels = cell - 1 + k - 2 * pixel;
       if (std::abs(half_pixels) > reach) continue;
-      const Orders weights =
-          cubic[static_cast<std::size_t>(k)] *
+      const Orders share =
+          static_cast<float>(cubic[static_cast<std::size_t>(k)]) *
           table_[static_cast<std::size_t>(half_pixels + reach)];
-      const bool on_pixel = half_pixels % 2 == 0;
-      row.segment<4>(on_pixel ? 4 : 0) += weights;
-      if (on_pixel && std::abs(half_pixels) <= 2 * pixel_radius_) {
-        row.tail<4>() += weights;
+      if (half_pixels % 2 != 0) {
+        weights.between += share;
+      } else {
+        weights.on_pixel += share;
+        if (std::abs(half_pixels) <= 2 * pixel_radius_) {
+          weights.near_pixel += share;
+        }
       }
     }
+    ++pixel;
   }
-  return filter;
 }
 
-Eigen::Matrix4d ImageDerivatives::At(const Eigen::Vector2d& position) const {
-  const Filter x = FilterAt(position.x());
-  const Filter y = FilterAt(position.y());
-  Eigen::Matrix4d derivatives = Eigen::Matrix4d::Zero();
-  for (int j = 0; j < y.weights.rows(); ++j) {
-    const int row = std::clamp(y.first_pixel + j, 0, image_.height - 1);
-    Eigen::Matrix<double, 1, 12> along_row =
-        Eigen::Matrix<double, 1, 12>::Zero();
-    for (int i = 0; i < x.weights.rows(); ++i) {
-      const int column = std::clamp(x.first_pixel + i, 0, image_.width - 1);
-      along_row += image_.at(column, row) * x.weights.row(i);
-    }
+ImageDerivatives::Weights ImageDerivatives::AlongRow(int row) const {
+  const int inside = std::clamp(row, 0, image_.height - 1);
+  Weights sum{Orders::Zero(), Orders::Zero(), Orders::Zero()};
+  int column = x_.first_pixel;
+  for (const Weights& weights : x_.weights) {
+    const float value =
+        image_.at(std::clamp(column, 0, image_.width - 1), inside);
+    sum.between += value * weights.between;
+    sum.on_pixel += value * weights.on_pixel;
+    sum.near_pixel += value * weights.near_pixel;
+    ++column;
+  }
+  return sum;
+}
+
+Eigen::Matrix4d ImageDerivatives::At(const Eigen::Vector2d& position) {
+  SetFilter(position.x(), x_);
+  SetFilter(position.y(), y_);
+  Eigen::Array44f derivatives = Eigen::Array44f::Zero();  // column: order in x
+  int row = y_.first_pixel;
+  for (const Weights& across : y_.weights) {
+    const Weights along = AlongRow(row++);
     // Grid points that are pixel centres, on a pixel along both axes, have the
     // shorter filters.
-    const Orders between_x = along_row.head<4>();
-    const Orders on_pixel_x = along_row.segment<4>(4);
-    const auto across = y.weights.row(j);
-    derivatives += across.head<4>().transpose() * (between_x + on_pixel_x) +
-                   across.segment<4>(4).transpose() * between_x +
-                   across.tail<4>().transpose() * along_row.tail<4>();
+    const Orders along_any = along.between + along.on_pixel;
+    for (int order = 0; order < 4; ++order) {
+      derivatives.col(order) += across.between * along_any[order] +
+                                across.on_pixel * along.between[order] +
+                                across.near_pixel * along.near_pixel[order];
+    }
   }
-  return derivatives;
+  return derivatives.matrix().cast<double>();
 }
 
 }  // namespace curvix

@@ -29,7 +29,8 @@ int PixelFilterRadius(double sigma);
 // 1 / (2 sqrt(pi) sigma), that is 1 / (sqrt(8 pi) sigma^2).
 double GradientNoiseGain(double sigma_px);
 
-// Derivatives of a smoothed image at single points.
+// Derivatives of a smoothed image at single points. Keeps its filters between
+// calls: one object per thread.
 class ImageDerivatives {
  public:
   // `image` must outlive this object and is not empty; sigma > 0.
@@ -42,25 +43,32 @@ class ImageDerivatives {
   // a = -0.5). Filters reach GaussianRadius(), those of grid points that are
   // pixel centres PixelFilterRadius(). Beyond its border the image continues
   // with its border values.
-  Eigen::Matrix4d At(const Eigen::Vector2d& position) const;
+  Eigen::Matrix4d At(const Eigen::Vector2d& position);
 
  private:
   // By order of the derivative, 0 to 3.
-  using Orders = Eigen::RowVector4d;
-  // Row i: the weights of pixel first_pixel + i along one axis, as far as they
-  // come from grid points between two pixels (columns 0 to 3), on a pixel (4 to
-  // 7), and on a pixel within PixelFilterRadius() of pixel i (8 to 11).
-  struct Filter {
-    int first_pixel;
-    Eigen::Matrix<double, Eigen::Dynamic, 12, Eigen::RowMajor> weights;
+  using Orders = Eigen::Array4f;
+  // The weights of one pixel along one axis, as far as they come from grid
+  // points between two pixels, on a pixel, and on a pixel within
+  // PixelFilterRadius() of this one.
+  struct Weights {
+    Orders between, on_pixel, near_pixel;
   };
-  Filter FilterAt(double position) const;
+  // `weights[i]` are those of pixel first_pixel + i.
+  struct Filter {
+    int first_pixel = 0;
+    std::vector<Weights> weights;
+  };
+  void SetFilter(double position, Filter& filter) const;
+  // The image's row `row`, or the nearest, weighted.
+  Weights AlongRow(int row) const;
 
   const GrayImage& image_;
   int radius_;
   int pixel_radius_;
   // Gaussian derivatives at x = (row - 2 * radius_ - 1) / 2 pixels.
   std::vector<Orders> table_;
+  Filter x_, y_;  // of the last call
 };
 
 }  // namespace curvix

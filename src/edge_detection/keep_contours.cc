@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <tuple>
 
@@ -77,6 +78,18 @@ void KeepStrongest(std::int64_t min_contour_edges,
 }
 
 }  // namespace
+
+std::int32_t DropWeakest(std::int64_t max_edges, std::vector<Edge2d>* edges) {
+  if (static_cast<std::int64_t>(edges->size()) <= max_edges) return 0;
+  std::vector<float> strengths;
+  strengths.reserve(edges->size());
+  for (const Edge2d& edge : *edges) strengths.push_back(edge.strength);
+  const auto last =
+      strengths.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
+  std::nth_element(strengths.begin(), last, strengths.end(), std::greater<>());
+  return static_cast<std::int32_t>(std::erase_if(
+      *edges, [&](const Edge2d& edge) { return edge.strength < *last; }));
+}
 
 std::vector<std::int32_t> LabelContours(
     const std::vector<EdgeNeighbors>& neighbors) {

@@ -10,6 +10,11 @@
 
 namespace curvix {
 
+// Drops the weakest edges, all but `max_edges` (>= 1) and what is as strong as
+// the last of these; keeps the order of the others. Returns how many it
+// dropped.
+std::int32_t DropWeakest(std::int64_t max_edges, std::vector<Edge2d>* edges);
+
 // The contour of each edge: edges joined by mutual links have the same number.
 // Contours are numbered from 0 in the order of their first edges.
 std::vector<std::int32_t> LabelContours(

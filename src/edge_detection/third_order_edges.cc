@@ -85,19 +85,14 @@ double Sharpness(const Eigen::Matrix4d& d, const Eigen::Vector2d& gradient) {
 
 // Towards the bright side F falls: the edge's normal is -grad F. Where F is
 // flat, the gradient of the image stands in.
-Edge2d OrientEdge(const ImageDerivatives& derivatives,
-                  const Eigen::Vector2d& position) {
-  const Eigen::Matrix4d d = derivatives.At(position);
+void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   const Eigen::Vector2d gradient(d(0, 1), d(1, 0));
   Eigen::Vector2d normal = -GradientOfF(d);
   if (normal.norm() == 0) normal = gradient;
   if (normal.dot(gradient) < 0) normal = -normal;
-  Edge2d edge;
-  edge.position = position;
   edge.angle = static_cast<float>(std::atan2(-normal.x(), normal.y()));
   edge.strength = static_cast<float>(gradient.norm());
   edge.sharpness = static_cast<float>(Sharpness(d, gradient));
-  return edge;
 }
 
 // The edge next to point `i` of the middle row, which is row `grid_row`.
@@ -120,12 +115,11 @@ bool IsInside(const GrayImage& image, const Eigen::Vector2d& p, double border) {
 
 }  // namespace
 
-std::vector<Edge2d> DetectThirdOrderEdges(const GrayImage& image,
-                                          const EdgeDetectionOptions& options,
-                                          double min_gradient) {
+std::vector<Edge2d> LocateEdges(const GrayImage& image,
+                                const EdgeDetectionOptions& options,
+                                double min_gradient) {
   std::vector<Edge2d> edges;
   if (image.width < 2 || image.height < 2) return edges;
-  const ImageDerivatives derivatives(image, options.sigma_px);
   GradientRows gradients(image, options.sigma_px);
   std::array<GradientRow, 3> ring;
   gradients.Compute(0, ring[0]);
@@ -140,12 +134,20 @@ std::vector<Edge2d> DetectThirdOrderEdges(const GrayImage& image,
     for (std::size_t i = 1; i + 1 < magnitude.size(); ++i) {
       if (!(magnitude[i] > min_gradient)) continue;
       const std::optional<Eigen::Vector2d> position = EdgePosition(rows, j, i);
-      if (position && IsInside(image, *position, options.border_px)) {
-        edges.push_back(OrientEdge(derivatives, *position));
-      }
+      if (!position || !IsInside(image, *position, options.border_px)) continue;
+      Edge2d& edge = edges.emplace_back();
+      edge.position = *position;
+      edge.strength = magnitude[i];
     }
   }
   return edges;
+}
+
+void OrientEdges(const GrayImage& image,
+                 const EdgeDetectionOptions& options,
+                 std::vector<Edge2d>* edges) {
+  ImageDerivatives derivatives(image, options.sigma_px);
+  for (Edge2d& edge : *edges) OrientEdge(derivatives.At(edge.position), edge);
 }
 
 }  // namespace curvix

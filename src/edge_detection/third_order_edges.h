@@ -11,20 +11,26 @@
 
 namespace curvix {
 
-// The edges of `image`, in its own (possibly distorted) pixels, row by row on
-// the half-pixel grid. Steps:
+// The places of the edges of `image`, in its own (possibly distorted) pixels,
+// row by row on the half-pixel grid. Steps:
 //  1. Gaussian derivatives (options.sigma_px) at half-pixel sampling; gradient
 //     magnitude; points at or below `min_gradient` (grey levels per pixel) are
 //     done with.
 //  2. Non-maximum suppression along the gradient with a parabola through three
 //     values interpolated between grid neighbours: position. Edges nearer than
 //     options.border_px to the border are dropped.
-//  3. Tangent of the curve F = g^T H g = 0 (g gradient, H Hessian) at that
-//     position, from derivatives up to the third order: orientation. The
-//     strength is the gradient's magnitude there.
-// Images below 2 x 2 pixels have no edges.
-std::vector<Edge2d> DetectThirdOrderEdges(const GrayImage& image,
-                                          const EdgeDetectionOptions& options,
-                                          double min_gradient);
+// The strength is the gradient's magnitude at the grid point; the rest is up to
+// OrientEdges(). Images below 2 x 2 pixels have no edges.
+std::vector<Edge2d> LocateEdges(const GrayImage& image,
+                                const EdgeDetectionOptions& options,
+                                double min_gradient);
+
+// Gives edges of `image` that LocateEdges() found their orientation: the
+// tangent of the curve F = g^T H g = 0 (g gradient, H Hessian) at their
+// position, from derivatives up to the third order. Strength and sharpness are
+// those at the position, too.
+void OrientEdges(const GrayImage& image,
+                 const EdgeDetectionOptions& options,
+                 std::vector<Edge2d>* edges);
 
 }  // namespace curvix

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "edge_detection/third_order_edges.h"
+#include "tests/edge_detection/oriented_edges.h"
 #include "tests/edge_detection/rendered_images.h"
 
 namespace curvix {
@@ -25,7 +25,7 @@ std::vector<EdgeNeighbors> Link(const std::vector<Edge2d>& edges) {
 }
 
 TEST(LinkNeighbors, RunsAlongACircleAllTheWayRoundAndBack) {
-  const std::vector<Edge2d> edges = DetectThirdOrderEdges(
+  const std::vector<Edge2d> edges = OrientedEdges(
       RenderDisc(128, {64.3, 63.8}, 45), EdgeDetectionOptions(), 1);
   const std::vector<EdgeNeighbors> links = Link(edges);
   ASSERT_GT(edges.size(), 500u);

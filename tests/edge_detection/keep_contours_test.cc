@@ -48,6 +48,23 @@ class KeepContoursTest : public ::testing::Test {
   std::vector<EdgeNeighbors> neighbors_;
 };
 
+TEST(DropWeakest, KeepsTheOrderAndWhatIsAsStrongAsTheLast) {
+  std::vector<Edge2d> edges(6);
+  const std::vector<float> strengths = {3, 1, 4, 2, 3, 5};
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    edges[i].strength = strengths[i];
+  }
+  std::vector<Edge2d> all = edges;
+  EXPECT_EQ(DropWeakest(6, &all), 0);
+  EXPECT_EQ(all.size(), 6u);
+  EXPECT_EQ(DropWeakest(3, &edges), 2) << "two of the four are equally strong";
+  ASSERT_EQ(edges.size(), 4u);
+  EXPECT_EQ(edges[0].strength, 3);
+  EXPECT_EQ(edges[1].strength, 4);
+  EXPECT_EQ(edges[2].strength, 3);
+  EXPECT_EQ(edges[3].strength, 5);
+}
+
 std::vector<float> Strengths(const KeptEdges& kept) {
   std::vector<float> strengths;
   for (const Edge2d& edge : kept.edges) {

@@ -20,7 +20,7 @@
 #include "base/angles.h"
 #include "base/grid_index.h"
 #include "edge_detection/curvelets.h"
-#include "edge_detection/third_order_edges.h"
+#include "tests/edge_detection/oriented_edges.h"
 
 namespace curvix {
 namespace {
@@ -67,7 +67,7 @@ std::vector<Edge2d> ReadReference(const fs::path& path) {
 std::vector<Edge2d> DetectLikeReference(const fs::path& image_path) {
   EdgeDetectionOptions options;
   options.border_px = 10;
-  return DetectThirdOrderEdges(RoundedGrey(image_path), options, 1);
+  return OrientedEdges(RoundedGrey(image_path), options, 1);
 }
 
 std::optional<std::size_t> Find(const GridIndex& index,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "tests/edge_detection/oriented_edges.h"
 #include "tests/edge_detection/rendered_images.h"
 
 namespace curvix {
@@ -17,14 +18,14 @@ namespace {
 std::vector<Edge2d> Detect(const GrayImage& image, double min_gradient = 1) {
   EdgeDetectionOptions options;
   options.border_px = 8;
-  return DetectThirdOrderEdges(image, options, min_gradient);
+  return OrientedEdges(image, options, min_gradient);
 }
 
 Eigen::Vector2d BrightSide(const Edge2d& edge) {
   return {-std::sin(edge.angle), std::cos(edge.angle)};
 }
 
-TEST(DetectThirdOrderEdges, LandsOnTheLineAndKeepsItsTangent) {
+TEST(ThirdOrderEdges, LandsOnTheLineAndKeepsItsTangent) {
   for (int degrees = -180; degrees < 180; degrees += 7) {
     for (const double shift : {0.0, 0.13, 0.25, 0.5, 0.77}) {
       const double angle = DegToRad(degrees);
@@ -42,7 +43,7 @@ TEST(DetectThirdOrderEdges, LandsOnTheLineAndKeepsItsTangent) {
   }
 }
 
-TEST(DetectThirdOrderEdges, MeasuresTheGradient) {
+TEST(ThirdOrderEdges, MeasuresTheGradient) {
   const double angle = DegToRad(20);
   const double blur = std::hypot(1.0, kRenderedBlurPx);
   const double expected = (kBright - kDark) / (std::sqrt(2 * kPi) * blur);
@@ -51,7 +52,7 @@ TEST(DetectThirdOrderEdges, MeasuresTheGradient) {
   }
 }
 
-TEST(DetectThirdOrderEdges, FollowsACircleAllTheWayRound) {
+TEST(ThirdOrderEdges, FollowsACircleAllTheWayRound) {
   const Eigen::Vector2d center(64.3, 63.8);
   const double radius = 45;
   const std::vector<Edge2d> edges = Detect(RenderDisc(128, center, radius));
@@ -85,7 +86,7 @@ GrayImage Rotated(const GrayImage& image) {
   return rotated;
 }
 
-TEST(DetectThirdOrderEdges, RotatesWithTheImage) {
+TEST(ThirdOrderEdges, RotatesWithTheImage) {
   GrayImage image = RenderDisc(60, {33.2, 28.7}, 14.6);
   AddNoise(5, 1, image);
   const std::vector<Edge2d> edges = Detect(image, 3);
@@ -105,11 +106,11 @@ TEST(DetectThirdOrderEdges, RotatesWithTheImage) {
   }
 }
 
-TEST(DetectThirdOrderEdges, GoesRowByRowAndStaysOffTheBorder) {
+TEST(ThirdOrderEdges, GoesRowByRowAndStaysOffTheBorder) {
   EdgeDetectionOptions options;
   options.border_px = 7;
   const std::vector<Edge2d> edges =
-      DetectThirdOrderEdges(RenderLine(64, {32, 32}, 1.0), options, 1);
+      OrientedEdges(RenderLine(64, {32, 32}, 1.0), options, 1);
   ASSERT_FALSE(edges.empty());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     EXPECT_GE(edges[i].position.minCoeff(), 7);
@@ -121,22 +122,22 @@ TEST(DetectThirdOrderEdges, GoesRowByRowAndStaysOffTheBorder) {
   }
 }
 
-TEST(DetectThirdOrderEdges, ThresholdsTheGradient) {
+TEST(ThirdOrderEdges, ThresholdsTheGradient) {
   const GrayImage image = RenderLine(64, {32, 32}, 0.3);
   EXPECT_FALSE(Detect(image, 25).empty());
   EXPECT_TRUE(Detect(image, 35).empty());
 }
 
-TEST(DetectThirdOrderEdges, FindsNothingInBlankImages) {
+TEST(ThirdOrderEdges, FindsNothingInBlankImages) {
   for (const float grey : {0.0f, 77.3f, 255.0f}) {
     const GrayImage blank{40, 30, std::vector<float>(1200, grey)};
     EdgeDetectionOptions options;
     options.border_px = 0;
-    EXPECT_TRUE(DetectThirdOrderEdges(blank, options, 0.001).empty());
+    EXPECT_TRUE(OrientedEdges(blank, options, 0.001).empty());
   }
 }
 
-TEST(DetectThirdOrderEdges, SurvivesTinyImages) {
+TEST(ThirdOrderEdges, SurvivesTinyImages) {
   EdgeDetectionOptions options;
   options.border_px = 0;
   for (int width = 0; width <= 4; ++width) {
@@ -145,8 +146,7 @@ TEST(DetectThirdOrderEdges, SurvivesTinyImages) {
       for (int i = 0; i < width * height; ++i) {
         image.pixels.push_back(static_cast<float>(50 * (i % 3)));
       }
-      const std::vector<Edge2d> edges =
-          DetectThirdOrderEdges(image, options, 1);
+      const std::vector<Edge2d> edges = OrientedEdges(image, options, 1);
       if (width < 2 || height < 2) {
         EXPECT_TRUE(edges.empty());
       }
@@ -155,7 +155,7 @@ TEST(DetectThirdOrderEdges, SurvivesTinyImages) {
   }
 }
 
-TEST(DetectThirdOrderEdges, TurnsAtACornerWithoutLosingIt) {
+TEST(ThirdOrderEdges, TurnsAtACornerWithoutLosingIt) {
   const GrayImage corner =
       RenderStep(64, 64, [](const Eigen::Vector2d& p) -> double {
         return std::min(p.x() - 30.2, p.y() - 33.4);
@@ -175,13 +175,12 @@ TEST(DetectThirdOrderEdges, TurnsAtACornerWithoutLosingIt) {
   EXPECT_GT(along_y, 30);
 }
 
-TEST(DetectThirdOrderEdges, WidensWithSigma) {
+TEST(ThirdOrderEdges, WidensWithSigma) {
   EdgeDetectionOptions options;
   options.sigma_px = 2;
   const double angle = DegToRad(33);
   const Eigen::Vector2d normal(-std::sin(angle), std::cos(angle));
-  const auto edges =
-      DetectThirdOrderEdges(RenderLine(80, {40, 40}, angle), options, 1);
+  const auto edges = OrientedEdges(RenderLine(80, {40, 40}, angle), options, 1);
   ASSERT_GT(edges.size(), 80u);
   for (const Edge2d& edge : edges) {
     EXPECT_LT(std::abs(normal.dot(edge.position - Eigen::Vector2d(40, 40))),
