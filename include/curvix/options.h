@@ -51,6 +51,9 @@ struct HypothesisOptions {
   // Smallest and largest angle between the rays of a view pair. Degrees.
   double min_ray_angle_deg = 5.0;
   double max_ray_angle_deg = 60.0;
+  // Where sparse points are: how far beyond their depths edges are looked for,
+  // in shares of the range of the inverse depths; 0 (paper): anywhere.
+  double depth_margin = 0.5;
   // Smallest angle between an edge and its epipolar line. Degrees, >= 0.
   double min_epipolar_angle_deg = 5.0;
   // P: with kUnusedEdges, stop when this share of the edges of every view is

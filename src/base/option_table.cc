@@ -112,6 +112,9 @@ void AddRows(HypothesisOptions& o, Section row) {
       "smallest angle between the rays of a pair of views");
   row("max_ray_angle_deg", &o.max_ray_angle_deg, AboveUpTo(0, 180), "deg", "",
       "largest angle between the rays of a pair of views");
+  row("depth_margin", &o.depth_margin, AtLeast(0), "", "",
+      "how far beyond the depths of a view's sparse points edges are looked "
+      "for, in shares of the range of these; 0: anywhere");
   row("min_epipolar_angle_deg", &o.min_epipolar_angle_deg, Between(0, 90),
       "deg", "",
       "smallest angle between an edge and its epipolar line");

@@ -126,38 +126,33 @@ class Clustering {
   double max_distance_px_, min_doubled_cosine_, sigma_px_;
 };
 
-VirtualEdge MakeVirtualEdge(const Cluster& cluster,
-                            const std::vector<Member>& members,
-                            const Line2& line) {
-  VirtualEdge result;
-  result.edge.position =
-      cluster.center * line.Direction() - line.offset * line.normal;
-  result.edge.tangent = Halved(cluster.direction);
-  if (cluster.size == 1) {
-    result.members = {
-        members[static_cast<std::size_t>(cluster.first)].edge_idx};
-    return result;
-  }
+void Append(const Cluster& cluster,
+            const std::vector<Member>& members,
+            const Line2& line,
+            std::vector<int>& order,
+            VirtualEdges& result) {
   // Members are in order along the line.
-  std::vector<int> order;
-  order.reserve(static_cast<std::size_t>(cluster.size));
+  order.clear();
   for (int i = cluster.first; i >= 0;
        i = members[static_cast<std::size_t>(i)].next) {
     order.push_back(i);
   }
   std::sort(order.begin(), order.end());
-  result.members.reserve(order.size());
+  result.edges.push_back(
+      {{cluster.center * line.Direction() - line.offset * line.normal,
+        Halved(cluster.direction)},
+       result.members.size(),
+       order.size()});
   for (const int i : order) {
     result.members.push_back(members[static_cast<std::size_t>(i)].edge_idx);
   }
-  return result;
 }
 
 }  // namespace
 
-std::vector<VirtualEdge> ClusterEdges(const std::vector<LineEdge>& edges,
-                                      const Line2& line,
-                                      const ConsolidationOptions& options) {
+VirtualEdges ClusterEdges(const std::vector<LineEdge>& edges,
+                          const Line2& line,
+                          const ConsolidationOptions& options) {
   std::vector<Member> members;
   members.reserve(edges.size());
   for (const LineEdge& e : edges) {
@@ -170,8 +165,10 @@ std::vector<VirtualEdge> ClusterEdges(const std::vector<LineEdge>& edges,
       members.begin(), members.end(), [](const Member& a, const Member& b) {
         return std::pair(a.along, a.edge_idx) < std::pair(b.along, b.edge_idx);
       });
-  std::vector<VirtualEdge> result;
-  result.reserve(members.size());
+  VirtualEdges result;
+  result.edges.reserve(members.size());
+  result.members.reserve(members.size());
+  std::vector<int> order;
   Clustering clustering(members, options);
   // Members further apart than clusters may be never come together.
   for (std::size_t begin = 0, end = 0; begin < members.size(); begin = end) {
@@ -183,7 +180,7 @@ std::vector<VirtualEdge> ClusterEdges(const std::vector<LineEdge>& edges,
     }
     for (const Cluster& cluster : clustering.Agglomerate(
              static_cast<int>(begin), static_cast<int>(end))) {
-      result.push_back(MakeVirtualEdge(cluster, members, line));
+      Append(cluster, members, line, order, result);
     }
   }
   return result;

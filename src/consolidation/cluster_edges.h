@@ -4,7 +4,9 @@
 
 #include <curvix/options.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/edge_geometry.h"
@@ -21,7 +23,20 @@ struct LineEdge {
 // A cluster of H2 edges and what stands for it.
 struct VirtualEdge {
   ImageEdge edge;  // centroid; mean direction, weighted by distance from it
-  std::vector<std::int32_t> members;  // edge indices, in order along the line
+  std::size_t first_member = 0;
+  std::size_t num_members = 0;
+};
+
+// The clusters of one line.
+struct VirtualEdges {
+  std::vector<VirtualEdge> edges;  // in order along the line
+  // The edge indices of one cluster after the other, each in order along the
+  // line.
+  std::vector<std::int32_t> members;
+
+  std::span<const std::int32_t> MembersOf(const VirtualEdge& edge) const {
+    return {members.data() + edge.first_member, edge.num_members};
+  }
 };
 
 // Agglomerates edges that lie on `line`: the two clusters with the nearest
@@ -29,11 +44,10 @@ struct VirtualEdge {
 // edge index), as long as they are at most max_cluster_distance_px apart and
 // their mean directions differ by at most max_cluster_angle_deg; a pair that
 // differs more is passed over. Directions are averaged mod 180 degrees. The
-// result is in order along the line; the order of the input makes no
-// difference. O(n log n) plus O(n k) per merge, k the clusters within
-// max_cluster_distance_px of one.
-std::vector<VirtualEdge> ClusterEdges(const std::vector<LineEdge>& edges,
-                                      const Line2& line,
-                                      const ConsolidationOptions& options);
+// order of the input makes no difference. O(n log n) plus O(n k) per merge, k
+// the clusters within max_cluster_distance_px of one.
+VirtualEdges ClusterEdges(const std::vector<LineEdge>& edges,
+                          const Line2& line,
+                          const ConsolidationOptions& options);
 
 }  // namespace curvix

@@ -41,19 +41,4 @@ std::optional<SpaceEdge> TriangulateEdge(const PosedView& view1,
   return SpaceEdge{view1.center + a * ray1, tangent / plane_sine};
 }
 
-std::optional<ImageEdge> ProjectEdge(const PosedView& view,
-                                     const SpaceEdge& edge) {
-  const Eigen::Vector3d x = view.InCamera(edge.position);
-  if (!(x.z() > 0)) return std::nullopt;
-  const Eigen::Vector3d t = view.rotation * edge.tangent;
-  // Derivative of the projection along t; fx and fy may differ.
-  const Eigen::Vector2d tangent(
-      view.calibration(0, 0) * (t.x() * x.z() - x.x() * t.z()),
-      view.calibration(1, 1) * (t.y() * x.z() - x.y() * t.z()));
-  const double length = tangent.norm();
-  // The image of a unit step, relative to that of a step across the ray.
-  if (!(length > 1e-3 * x.z() * view.calibration(0, 0))) return std::nullopt;
-  return ImageEdge{view.Pixel(x), tangent / length};
-}
-
 }  // namespace curvix

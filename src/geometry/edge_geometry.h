@@ -41,8 +41,27 @@ std::optional<SpaceEdge> TriangulateEdge(const PosedView& view1,
                                          double min_ray_angle_rad,
                                          double min_plane_angle_rad);
 
+// The direction in the image of a step along `tangent` (world) from `x_cam`, in
+// front of the camera: not normalised, zero for steps towards the camera.
+inline Eigen::Vector2d TangentInImage(const PosedView& view,
+                                      const Eigen::Vector3d& x_cam,
+                                      const Eigen::Vector3d& tangent) {
+  // The projection's derivative times the squared depth; fx and fy may differ.
+  const Eigen::Vector3d t = view.rotation * tangent;
+  return {view.calibration(0, 0) * (t.x() * x_cam.z() - x_cam.x() * t.z()),
+          view.calibration(1, 1) * (t.y() * x_cam.z() - x_cam.y() * t.z())};
+}
+
 // nullopt behind the camera or when the tangent points at the camera.
-std::optional<ImageEdge> ProjectEdge(const PosedView& view,
-                                     const SpaceEdge& edge);
+inline std::optional<ImageEdge> ProjectEdge(const PosedView& view,
+                                            const SpaceEdge& edge) {
+  const Eigen::Vector3d x = view.InCamera(edge.position);
+  if (!(x.z() > 0)) return std::nullopt;
+  const Eigen::Vector2d tangent = TangentInImage(view, x, edge.tangent);
+  const double length = tangent.norm();
+  // The image of a unit step, relative to that of a step across the ray.
+  if (!(length > 1e-3 * x.z() * view.calibration(0, 0))) return std::nullopt;
+  return ImageEdge{view.Pixel(x), tangent / length};
+}
 
 }  // namespace curvix

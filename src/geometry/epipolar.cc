@@ -2,7 +2,10 @@
 // Paper: Sec. 3, Fig. 3(a).
 #include "geometry/epipolar.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace curvix {
 namespace {
@@ -60,6 +63,25 @@ Line2 EpipolarLine(const Eigen::Matrix3d& fundamental,
   const Eigen::Vector3d line = fundamental * pixel.homogeneous();
   const double length = line.head<2>().norm();
   return {line.head<2>() / length, line.z() / length};
+}
+
+RayProjection::RayProjection(const PosedView& view1, const PosedView& view2)
+    : at_infinity_(view2.calibration * view2.rotation *
+                   view1.rotation.transpose() * view1.calibration.inverse()),
+      epipole_(view2.calibration * view2.InCamera(view1.center)) {}
+
+Interval RayProjection::SeenAlong(const Line2& line,
+                                  const Eigen::Vector2d& pixel,
+                                  double nearest,
+                                  double farthest) const {
+  const Eigen::Vector3d ray = at_infinity_ * pixel.homogeneous();
+  const Eigen::Vector3d near_end = nearest * ray + epipole_;
+  const Eigen::Vector3d far_end = ray + epipole_ / farthest;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!(near_end.z() > 0) || !(far_end.z() > 0)) return {-kInfinity, kInfinity};
+  const double a = line.Direction().dot(near_end.hnormalized());
+  const double b = line.Direction().dot(far_end.hnormalized());
+  return {std::min(a, b), std::max(a, b)};
 }
 
 }  // namespace curvix

@@ -58,4 +58,30 @@ struct Line2 {
 Line2 EpipolarLine(const Eigen::Matrix3d& fundamental,
                    const Eigen::Vector2d& pixel);
 
+struct Interval {
+  double begin = 0;
+  double end = 0;
+
+  bool Contains(double x) const { return begin <= x && x <= end; }
+};
+
+// How view 2 sees the rays of view 1.
+class RayProjection {
+ public:
+  RayProjection(const PosedView& view1, const PosedView& view2);
+
+  // Where view 2 sees what lies on the ray of `pixel` of view 1 between the
+  // depths `nearest` (>= 0) and `farthest` (up to infinity): pixels along the
+  // direction of `line`, its epipolar line. All of the line if an end is not in
+  // front of view 2.
+  Interval SeenAlong(const Line2& line,
+                     const Eigen::Vector2d& pixel,
+                     double nearest,
+                     double farthest) const;
+
+ private:
+  Eigen::Matrix3d at_infinity_;  // pixels of view 1 to those of view 2
+  Eigen::Vector3d epipole_;      // of view 1's centre in view 2
+};
+
 }  // namespace curvix

@@ -24,11 +24,15 @@ struct Gate {
 inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
                                                const ImageEdge& expected,
                                                const Gate& gate) {
+  const double reach =
+      std::sqrt(gate.normal_px * gate.normal_px +
+                gate.tangential_px * gate.tangential_px);
   std::optional<std::int32_t> nearest;
   double least = 0;
   const auto consider = [&](const IndexedEdge& edge) {
     const Eigen::Vector2d offset =
         edge.position.cast<double>() - expected.position;
+    if (std::abs(offset.x()) > reach || std::abs(offset.y()) > reach) return;
     const Eigen::Vector2d tangent = edge.tangent.cast<double>();
     if (std::abs(tangent.dot(expected.tangent)) < gate.min_cosine) return;
     const double along = offset.dot(tangent);
@@ -44,9 +48,7 @@ inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
       least = distance2;
     }
   };
-  grid.VisitAround(expected.position,
-                   std::hypot(gate.normal_px, gate.tangential_px),
-                   consider);
+  grid.VisitAround(expected.position, reach, consider);
   return nearest;
 }
 

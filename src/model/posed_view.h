@@ -25,7 +25,8 @@ struct PosedView {
   }
   // Pixel of a point given in camera coordinates, z > 0.
   Eigen::Vector2d Pixel(const Eigen::Vector3d& x_cam) const {
-    return (calibration * x_cam).hnormalized();
+    return {calibration(0, 0) * x_cam.x() / x_cam.z() + calibration(0, 2),
+            calibration(1, 1) * x_cam.y() / x_cam.z() + calibration(1, 2)};
   }
   bool Contains(const Eigen::Vector2d& pixel) const {
     return pixel.x() >= -margin_px && pixel.y() >= -margin_px &&

@@ -10,6 +10,7 @@ Options PaperOptions() {
   options.hypotheses.view_selection = ViewSelection::kUnusedEdges;
   options.hypotheses.location_tolerance_px = 0.3;
   options.hypotheses.used_edges_to_stop = 0.9;
+  options.hypotheses.depth_margin = 0;
   options.consolidation.max_tangent_shift_px = 3.0;
   options.consolidation.max_turn_deg = 10.0;
   options.consolidation.max_cluster_distance_px = 1.0;

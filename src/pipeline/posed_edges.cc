@@ -36,6 +36,8 @@ PosedEdges::PosedEdges(const Scene& scene,
       views_(input_views_),
       indices_(IndexViews(views_, edge_maps, options.runtime.num_threads)),
       overlaps_(FindOverlaps(views_, scene.points)),
+      depths_(FindDepthRanges(
+          views_, scene.points, options.hypotheses.depth_margin)),
       neighbors_(NeighborsInDirection(overlaps_)),
       motions_(views_.size()) {}
 
@@ -64,6 +66,7 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
       SketchByViews({views_,
                      edge_maps_,
                      overlaps_,
+                     depths_,
                      options,
                      std::max<std::size_t>(1, num_edges / num_asked)},
                     step_done);

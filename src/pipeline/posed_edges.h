@@ -71,6 +71,7 @@ class PosedEdges {
   std::vector<PosedView> views_;  // indices_ points into it
   std::vector<ViewIndex> indices_;
   std::vector<std::vector<ViewOverlap>> overlaps_;
+  std::vector<DepthRange> depths_;
   std::vector<std::vector<ViewNeighbor>> neighbors_;
   std::vector<Rigid3> motions_;
 };

@@ -53,7 +53,8 @@ class PairSketcher {
   H1Result Sketch(const Edge2d& edge1) const {
     H1Result result;
     std::size_t most = 0;
-    for (Hypothesis& hypothesis : hypothesis_views_.Hypothesise(edge1)) {
+    const Hypotheses found = hypothesis_views_.Hypothesise(edge1);
+    for (const Hypothesis& hypothesis : found.hypotheses) {
       ++result.hypotheses;
       std::vector<EdgeRef> support = FindSupport(hypothesis);
       if (static_cast<int>(support.size()) <
@@ -61,8 +62,10 @@ class PairSketcher {
         continue;
       }
       most = std::max(most, support.size());
-      result.validated.push_back(
-          {hypothesis.edge, std::move(support), std::move(hypothesis.members)});
+      const auto members = found.virtual_edges.MembersOf(hypothesis.edge2);
+      result.validated.push_back({hypothesis.edge,
+                                  std::move(support),
+                                  {members.begin(), members.end()}});
     }
     const double least =
         input_.options.validation.min_rival_support * static_cast<double>(most);
@@ -83,7 +86,7 @@ class PairSketcher {
         continue;
       const auto edge_idx = validators_[i]->Find(
           hypothesis.edge1,
-          hypothesis.edge2,
+          hypothesis.edge2.edge,
           *projected,
           DegToRad(input_.options.validation.max_angle_deg));
       if (edge_idx)
@@ -165,6 +168,7 @@ EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
         HypothesisViews::Make(input.views[h1],
                               input.views[h2],
                               input.edge_maps[h2].edges,
+                              input.depths[h1],
                               input.options);
     if (!hypothesis_views) continue;
     const PairSketcher sketcher(input, *pair, *hypothesis_views);

@@ -53,7 +53,8 @@ class ViewSketcher {
           indices_[i].presence = EdgePresence(input.edge_maps[i].edges,
                                               input.views[i].width,
                                               input.views[i].height,
-                                              SearchReachPx(options),
+                                              options.max_distance_px,
+                                              kMaxSupportSlidePx,
                                               DegToRad(options.max_angle_deg));
         });
   }
@@ -74,6 +75,7 @@ class ViewSketcher {
       auto pair = HypothesisViews::Make(input_.views[i],
                                         input_.views[j],
                                         input_.edge_maps[j].edges,
+                                        input_.depths[i],
                                         input_.options);
       if (!pair) continue;
       view.partners.push_back(
@@ -87,7 +89,8 @@ class ViewSketcher {
     H1Result result;
     for (const Partner& partner : view.partners) {
       if (IsSettled(result)) break;
-      for (const Hypothesis& hypothesis : partner.pair.Hypothesise(edge1)) {
+      const Hypotheses found = partner.pair.Hypothesise(edge1);
+      for (const Hypothesis& hypothesis : found.hypotheses) {
         ++result.hypotheses;
         auto tracked = Track(hypothesis, partner, view.neighbors);
         if (!tracked) {
@@ -140,11 +143,11 @@ class ViewSketcher {
     if (!MayBeSupported(hypothesis.edge, indices_, partner.to_ask)) {
       return std::nullopt;
     }
-    const EdgeEstimate start =
-        EstimateAtMeeting(hypothesis.edge,
-                          MeasurePlane(partner.pair.h1(), hypothesis.edge1),
-                          MeasurePlane(partner.pair.h2(), hypothesis.edge2),
-                          sigma_px_);
+    const EdgeEstimate start = EstimateAtMeeting(
+        hypothesis.edge,
+        MeasurePlane(partner.pair.h1(), hypothesis.edge1),
+        MeasurePlane(partner.pair.h2(), hypothesis.edge2.edge),
+        sigma_px_);
     return TrackSupport(start,
                         indices_,
                         neighbors,

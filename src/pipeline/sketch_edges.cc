@@ -37,7 +37,9 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
                        const Options& options,
                        const StepDone& step_done) {
   const auto overlaps = FindOverlaps(views, points);
-  const SketchInput input{views, edge_maps, overlaps, options};
+  const auto depths =
+      FindDepthRanges(views, points, options.hypotheses.depth_margin);
+  const SketchInput input{views, edge_maps, overlaps, depths, options};
   switch (options.hypotheses.view_selection) {
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);

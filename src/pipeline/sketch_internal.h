@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "hypotheses/depth_range.h"
 #include "hypotheses/view_overlap.h"
 #include "pipeline/sketch_edges.h"
 
@@ -13,6 +14,7 @@ struct SketchInput {
   const std::vector<PosedView>& views;
   const std::vector<EdgeMap>& edge_maps;
   const std::vector<std::vector<ViewOverlap>>& overlaps;
+  const std::vector<DepthRange>& depths;  // of each view
   const Options& options;
   // One edge in so many of each view asks for hypotheses, with SketchByViews.
   std::size_t h1_step = 1;

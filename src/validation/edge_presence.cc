@@ -29,22 +29,39 @@ std::uint16_t EdgePresence::BinsAround(double angle_rad, double max_angle_rad) {
 EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
                            int width,
                            int height,
-                           double reach_px,
+                           double normal_px,
+                           double tangential_px,
                            double max_angle_rad)
     : columns_(static_cast<int>(width * kCellsPerPx) + 1),
       rows_(static_cast<int>(height * kCellsPerPx) + 1) {
   cells_.assign(
       static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
-  const double reach = reach_px * (1 + 1e-6) + 1e-3;  // positions are rounded
+  constexpr double kCellPx = 1 / kCellsPerPx;
+  constexpr double kRoundingPx = 1e-3;
   for (const Edge2d& edge : edges) {
     const std::uint16_t bins =
         BinsAround(static_cast<double>(edge.angle), max_angle_rad);
     const Eigen::Vector2d& x = edge.position;
-    const int column_end = Cell(x.x() + reach, columns_);
-    const int row_end = Cell(x.y() + reach, rows_);
-    for (int row = Cell(x.y() - reach, rows_); row <= row_end; ++row) {
-      for (int column = Cell(x.x() - reach, columns_); column <= column_end;
+    const Eigen::Vector2d tangent(std::cos(edge.angle), std::sin(edge.angle));
+    const Eigen::Vector2d normal(-tangent.y(), tangent.x());
+    const Eigen::Vector2d reach = normal_px * normal.cwiseAbs() +
+                                  tangential_px * tangent.cwiseAbs() +
+                                  Eigen::Vector2d::Constant(kRoundingPx);
+    // Half the extent of a cell along any two directions at right angles.
+    const double half_cell = kCellPx / 2 * tangent.lpNorm<1>() + kRoundingPx;
+    const int column_end = Cell(x.x() + reach.x(), columns_);
+    const int row_end = Cell(x.y() + reach.y(), rows_);
+    for (int row = Cell(x.y() - reach.y(), rows_); row <= row_end; ++row) {
+      for (int column = Cell(x.x() - reach.x(), columns_); column <= column_end;
            ++column) {
+        const Eigen::Vector2d offset =
+            kCellPx * Eigen::Vector2d(column + 0.5, row + 0.5) - x;
+        // Cells at the border stand for all beyond it, too.
+        if (!IsAtBorder(column, row) &&
+            (std::abs(offset.dot(normal)) > normal_px + half_cell ||
+             std::abs(offset.dot(tangent)) > tangential_px + half_cell)) {
+          continue;
+        }
         cells_[static_cast<std::size_t>(row) *
                    static_cast<std::size_t>(columns_) +
                static_cast<std::size_t>(column)] |= bins;

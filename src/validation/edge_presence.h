@@ -11,7 +11,7 @@
 
 namespace curvix {
 
-// One bit for each place (cells of 4 x 4 pixels) and direction (16 bins) where
+// One bit for each place (cells of 2 x 2 pixels) and direction (16 bins) where
 // a search would find an edge within its reach. Two bytes per cell, while the
 // edges themselves and their index take many times as much: most questions end
 // in the cache.
@@ -19,12 +19,14 @@ class EdgePresence {
  public:
   // Knows nothing: everything may be found.
   EdgePresence() = default;
-  // For searches up to reach_px (> 0) away, in x and in y, and up to
-  // max_angle_rad off in direction, in an image of `width` x `height`.
+  // For places up to normal_px from an edge across its tangent and
+  // tangential_px along it (> 0), and up to max_angle_rad off in direction, in
+  // an image of `width` x `height`.
   EdgePresence(const std::vector<Edge2d>& edges,
                int width,
                int height,
-               double reach_px,
+               double normal_px,
+               double tangential_px,
                double max_angle_rad);
 
   // False only if no edge is within reach of `pixel` and has a direction like
@@ -39,7 +41,7 @@ class EdgePresence {
   }
 
  private:
-  static constexpr double kCellsPerPx = 0.25;
+  static constexpr double kCellsPerPx = 0.5;
   static constexpr int kNumBins = 16;
 
   static int Cell(double place, int count) {
@@ -57,6 +59,10 @@ class EdgePresence {
     return bin < kNumBins ? bin : kNumBins - 1;
   }
   static std::uint16_t BinsAround(double angle_rad, double max_angle_rad);
+  bool IsAtBorder(int column, int row) const {
+    return column == 0 || row == 0 || column == columns_ - 1 ||
+           row == rows_ - 1;
+  }
 
   int columns_ = 0;
   int rows_ = 0;

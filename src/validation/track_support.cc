@@ -19,7 +19,6 @@ constexpr double kMaxPredictedSigmas = 4.6;
 // The hypothesis views and two more.
 constexpr std::size_t kFewestSupports = 4;
 constexpr double kGateSigmas = 4;
-constexpr double kMaxTangentialPx = 1;
 
 struct Search {
   double sigma_px = 0;
@@ -27,75 +26,68 @@ struct Search {
   double min_cosine = 0;
 };
 
-// What a view shows there.
-struct Answer {
-  std::int32_t view_idx = 0;
+// Where a view shows an estimate.
+struct Prediction {
   ImageEdge projected;
   double expected_px = 0;  // standard deviation of the distance from an edge
-  std::optional<std::int32_t> edge_idx;
 };
 
 // nullopt if the edge is not in the image or not known well enough there.
-std::optional<Answer> Ask(const EdgeEstimate& estimate,
-                          const std::vector<ViewIndex>& views,
-                          std::int32_t view_idx,
-                          const Search& search) {
-  const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
+std::optional<Prediction> Predict(const EdgeEstimate& estimate,
+                                  const ViewIndex& view,
+                                  const Search& search) {
   const auto projected = ProjectEstimate(*view.view, estimate);
   const double limit_px =
       std::max(kMaxPredictedSigmaPx, kMaxPredictedSigmas * search.sigma_px);
   if (!projected || projected->variance_px2 > limit_px * limit_px) {
     return std::nullopt;
   }
-  const double expected_px =
-      std::sqrt(projected->variance_px2 + search.sigma_px * search.sigma_px);
-  const Gate gate{std::min(search.max_distance_px, kGateSigmas * expected_px),
-                  kMaxTangentialPx,
-                  search.min_cosine};
-  Answer answer{view_idx, projected->edge, expected_px, std::nullopt};
-  if (view.presence.MayHave(projected->edge.position,
-                            projected->edge.tangent)) {
-    answer.edge_idx = NearestEdge(view, projected->edge, gate);
-  }
-  return answer;
+  return Prediction{
+      projected->edge,
+      std::sqrt(projected->variance_px2 + search.sigma_px * search.sigma_px)};
 }
 
-// Whether `supports` is true of at least kFewestSupports of the views. Asks no
-// more of them than it takes to know.
-template <typename F>
-bool AtLeastFewest(const std::vector<std::int32_t>& asked, const F& supports) {
-  std::size_t num_supports = 0;
+// False only if FindEdge() would find nothing.
+bool MayShow(const ViewIndex& view, const SpaceEdge& edge) {
+  const Eigen::Vector3d x = view.view->InCamera(edge.position);
+  if (!(x.z() > 0)) return false;
+  const Eigen::Vector2d tangent = TangentInImage(*view.view, x, edge.tangent);
+  if (!(tangent.squaredNorm() > 0)) return false;
+  const Eigen::Vector2d pixel = view.view->Pixel(x);
+  return view.view->Contains(pixel) && view.presence.MayHave(pixel, tangent);
+}
+
+std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
+                                     const ViewIndex& view,
+                                     const Search& search) {
+  if (!MayShow(view, estimate.edge)) return std::nullopt;
+  const auto predicted = Predict(estimate, view, search);
+  if (!predicted) return std::nullopt;
+  return NearestEdge(
+      view,
+      predicted->projected,
+      {std::min(search.max_distance_px, kGateSigmas * predicted->expected_px),
+       kMaxSupportSlidePx,
+       search.min_cosine});
+}
+
+// The support of an estimate in the views of `asked`, ascending; nullopt if it
+// is less than kFewestSupports. Asks no more of them than it takes to know.
+std::optional<std::vector<EdgeRef>> FindSupport(
+    const EdgeEstimate& estimate,
+    const std::vector<ViewIndex>& views,
+    const std::vector<std::int32_t>& asked,
+    const Search& search) {
+  std::vector<EdgeRef> support;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (num_supports + (asked.size() - i) < kFewestSupports) return false;
-    if (supports(asked[i]) && ++num_supports == kFewestSupports) return true;
-  }
-  return false;
-}
-
-// By view index.
-std::vector<Answer> AskAll(const EdgeEstimate& estimate,
-                           const std::vector<ViewIndex>& views,
-                           const std::vector<std::int32_t>& asked,
-                           const Search& search) {
-  std::vector<Answer> answers;
-  answers.reserve(asked.size());
-  for (const std::int32_t view_idx : asked) {
-    if (auto answer = Ask(estimate, views, view_idx, search)) {
-      answers.push_back(*answer);
+    if (support.size() + (asked.size() - i) < kFewestSupports) break;
+    const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
+    if (const auto edge_idx = FindEdge(estimate, view, search)) {
+      support.push_back({asked[i], *edge_idx});
     }
   }
-  std::sort(
-      answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
-        return a.view_idx < b.view_idx;
-      });
-  return answers;
-}
-
-std::vector<EdgeRef> SupportIn(const std::vector<Answer>& answers) {
-  std::vector<EdgeRef> support;
-  for (const Answer& answer : answers) {
-    if (answer.edge_idx) support.push_back({answer.view_idx, *answer.edge_idx});
-  }
+  if (support.size() < kFewestSupports) return std::nullopt;
+  std::sort(support.begin(), support.end());
   return support;
 }
 
@@ -120,35 +112,44 @@ double AngleOf(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-double VoteOf(const Answer& answer, const std::vector<ViewIndex>& views) {
-  if (!answer.edge_idx) return VoteWithoutSupport();
-  const ImageEdge edge = EdgeOf({answer.view_idx, *answer.edge_idx}, views);
-  const ImageEdge& projected = answer.projected;
+double VoteWithSupport(const Prediction& predicted,
+                       const EdgeRef& support,
+                       const std::vector<ViewIndex>& views) {
+  const ImageEdge edge = EdgeOf(support, views);
+  const ImageEdge& projected = predicted.projected;
   const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
   const double angle = AngleOf(projected.tangent);
   const SupportFit fit{normal.dot(projected.position - edge.position),
-                       answer.expected_px,
+                       predicted.expected_px,
                        UndirectedDifference(angle, AngleOf(edge.tangent))};
   return VoteWithSupport(
       fit,
-      views[static_cast<std::size_t>(answer.view_idx)].density.Density(
+      views[static_cast<std::size_t>(support.view_idx)].density.Density(
           projected.position, angle));
 }
 
-Votes VotesOf(const std::vector<Answer>& answers,
-              const std::vector<ViewIndex>& views) {
+// The votes of the views of `asked` (ascending) on an estimate with this
+// support (FindSupport()).
+Votes VotesOf(const EdgeEstimate& estimate,
+              const std::vector<EdgeRef>& support,
+              const std::vector<ViewIndex>& views,
+              const std::vector<std::int32_t>& asked,
+              const Search& search) {
   Votes votes(views.size());
-  for (const Answer& answer : answers) {
-    votes[static_cast<std::size_t>(answer.view_idx)] = VoteOf(answer, views);
+  auto next = support.begin();
+  for (const std::int32_t view_idx : asked) {
+    const auto i = static_cast<std::size_t>(view_idx);
+    const bool supports = next != support.end() && next->view_idx == view_idx;
+    if (const auto predicted = Predict(estimate, views[i], search)) {
+      votes[i] = supports ? VoteWithSupport(*predicted, *next, views)
+                          : VoteWithoutSupport();
+    }
+    if (supports) ++next;
   }
   return votes;
 }
 
 }  // namespace
-
-double SearchReachPx(const ValidationOptions& options) {
-  return std::hypot(options.max_distance_px, kMaxTangentialPx);
-}
 
 std::size_t FewestSupports(const ValidationOptions& options,
                            std::size_t num_on_this_side) {
@@ -159,12 +160,14 @@ std::size_t FewestSupports(const ValidationOptions& options,
 bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
                     const ViewsToAsk& to_ask) {
-  return AtLeastFewest(to_ask.first, [&](std::int32_t view_idx) {
-    const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
-    const auto projected = ProjectEdge(*view.view, edge);
-    return projected &&
-           view.presence.MayHave(projected->position, projected->tangent);
-  });
+  const std::vector<std::int32_t>& asked = to_ask.first;
+  std::size_t num_found = 0;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (num_found + (asked.size() - i) < kFewestSupports) return false;
+    const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
+    if (MayShow(view, edge) && ++num_found == kFewestSupports) return true;
+  }
+  return false;
 }
 
 std::optional<TrackedEdge> TrackSupport(
@@ -177,33 +180,32 @@ std::optional<TrackedEdge> TrackSupport(
   const Search search{sigma_px,
                       options.max_distance_px,
                       std::cos(DegToRad(options.max_angle_deg))};
-  const bool is_worth_it =
-      AtLeastFewest(to_ask.first, [&](std::int32_t view_idx) {
-        const auto answer = Ask(start, views, view_idx, search);
-        return answer && answer->edge_idx;
-      });
-  if (!is_worth_it) return std::nullopt;
+  auto support = FindSupport(start, views, to_ask.first, search);
+  if (!support) return std::nullopt;
   TrackedEdge tracked;
   tracked.estimate = start;
-  std::vector<Answer> answers;
-  for (int round = 0; round < kNumRounds; ++round) {
-    answers = AskAll(tracked.estimate,
-                     views,
-                     round == 0 ? to_ask.first : to_ask.all,
-                     search);
-    std::vector<EdgeRef> support = SupportIn(answers);
-    if (support.size() < kFewestSupports) return std::nullopt;
+  EdgeEstimate asked;  // that led to the support
+  for (int round = 1;; ++round) {
+    tracked.support = *std::move(support);
+    asked = tracked.estimate;
+    tracked.estimate = AdjustEdge(
+        tracked.estimate.edge, Measure(tracked.support, views), sigma_px);
+    if (round == kNumRounds) break;
+    support = FindSupport(tracked.estimate, views, to_ask.all, search);
+    if (!support) return std::nullopt;
     // Settled: further rounds would ask the same views.
-    if (round > 0 && tracked.support == support) break;
-    tracked.estimate =
-        AdjustEdge(tracked.estimate.edge, Measure(support, views), sigma_px);
-    tracked.support = std::move(support);
+    if (*support == tracked.support) {
+      asked = tracked.estimate;
+      break;
+    }
   }
   if (tracked.support.size() <
       FewestSupports(options, to_ask.num_on_this_side)) {
     return std::nullopt;
   }
-  tracked.evidence = Evidence(VotesOf(answers, views), neighbors);
+  tracked.evidence = Evidence(
+      VotesOf(asked, tracked.support, views, to_ask.all, search),
+      neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;
   return tracked;
 }

@@ -35,9 +35,9 @@ struct ViewsToAsk {
   std::size_t num_on_this_side = 0;
 };
 
-// How far from a projected edge its support may be, at most: of an EdgePresence
-// for MayBeSupported().
-double SearchReachPx(const ValidationOptions& options);
+// How far from a projected edge its support may be along the tangent; across it
+// options.max_distance_px. Also the reach of each view's `presence`.
+inline constexpr double kMaxSupportSlidePx = 1;
 
 // How many views must support an edge: options.min_num_support_views and the
 // two hypothesis views, but of few views on one side no more than just over

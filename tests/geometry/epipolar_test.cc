@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -182,6 +183,45 @@ TEST(EpipolarLine, PassesThroughTheImageOfThePointInPixels) {
       EXPECT_NEAR(line.SignedDistance(x2 + 7 * line.Direction()), 0, 1e-8);
     }
   }
+}
+
+TEST(RayProjection, SeesTheDepthsOfARayAndNoOthers) {
+  Random random(5);
+  for (const Rig& rig : Rigs()) {
+    const RayProjection projection(rig.view1, rig.view2);
+    const Matrix3d fundamental = FundamentalMatrix(rig.view1, rig.view2);
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vector3d x = rig.view1.InCamera(RandomPoint(random));
+      const Vector2d pixel = rig.view1.Pixel(x);
+      const Line2 line = EpipolarLine(fundamental, pixel);
+      const double nearest = random.Uniform(2.5, 4);
+      const double farthest = nearest + random.Uniform(0.5, 4);
+      const Interval seen =
+          projection.SeenAlong(line, pixel, nearest, farthest);
+      for (double depth = 2; depth < 9; depth += 0.37) {
+        const Vector3d place = rig.view1.center + depth * rig.view1.Ray(pixel);
+        const Vector3d in_view2 = rig.view2.InCamera(place);
+        if (!(in_view2.z() > 0)) continue;
+        const double along = line.Direction().dot(rig.view2.Pixel(in_view2));
+        EXPECT_EQ(seen.Contains(along), nearest <= depth && depth <= farthest)
+            << rig.name << ", depth " << depth;
+      }
+      const Interval all = projection.SeenAlong(
+          line, pixel, 0, std::numeric_limits<double>::infinity());
+      EXPECT_TRUE(all.begin <= seen.begin && seen.end <= all.end) << rig.name;
+    }
+  }
+}
+
+TEST(RayProjection, SeesAllOfTheLineWhereAnEndIsBehind) {
+  const Matrix3d ahead = Matrix3d::Identity();
+  const PosedView view1 = MakeView(ahead, {0, 0, 0});
+  const PosedView view2 = MakeView(ahead, {0.1, 0, 2});
+  const Vector2d pixel(410, 420);
+  const Line2 line = EpipolarLine(FundamentalMatrix(view1, view2), pixel);
+  const Interval seen =
+      RayProjection(view1, view2).SeenAlong(line, pixel, 1, 5);
+  EXPECT_TRUE(std::isinf(seen.begin) && std::isinf(seen.end));
 }
 
 }  // namespace

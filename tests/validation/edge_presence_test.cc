@@ -14,7 +14,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kReachPx = 1.5;
+constexpr double kNormalPx = 1.5;
+constexpr double kTangentialPx = 0.8;
 
 Edge2d At(double x, double y, double angle_rad) {
   Edge2d edge;
@@ -35,10 +36,17 @@ TEST(EdgePresence, NeverDeniesAnEdgeWithinReach) {
       const double angle = random.Uniform(-kPi, kPi);
       // Also at the border and beyond it.
       const Vector2d place(random.Uniform(-6, 46), random.Uniform(-6, 36));
-      const EdgePresence presence(
-          {At(place.x(), place.y(), angle)}, 40, 30, kReachPx, max_angle);
-      const Vector2d offset(random.Uniform(-kReachPx, kReachPx),
-                            random.Uniform(-kReachPx, kReachPx));
+      const EdgePresence presence({At(place.x(), place.y(), angle)},
+                                  40,
+                                  30,
+                                  kNormalPx,
+                                  kTangentialPx,
+                                  max_angle);
+      const Vector2d tangent = Direction(angle);
+      const Vector2d offset =
+          random.Uniform(-kTangentialPx, kTangentialPx) * tangent +
+          random.Uniform(-kNormalPx, kNormalPx) *
+              Vector2d(-tangent.y(), tangent.x());
       const double turned = angle + random.Uniform(-max_angle, max_angle);
       ASSERT_TRUE(presence.MayHave(place + offset, Direction(turned)))
           << place.transpose() << " " << angle << " " << turned;
@@ -49,7 +57,7 @@ TEST(EdgePresence, NeverDeniesAnEdgeWithinReach) {
 
 TEST(EdgePresence, DeniesFarPlacesAndOtherDirections) {
   const EdgePresence presence(
-      {At(20, 15, 0.3)}, 40, 30, kReachPx, DegToRad(15));
+      {At(20, 15, 0.3)}, 40, 30, kNormalPx, kTangentialPx, DegToRad(15));
   EXPECT_TRUE(presence.MayHave({20, 15}, Direction(0.3)));
   EXPECT_FALSE(presence.MayHave({20, 15}, Direction(0.3 + DegToRad(35))));
   EXPECT_FALSE(presence.MayHave({20, 15}, Direction(0.3 - DegToRad(35))));
@@ -59,7 +67,8 @@ TEST(EdgePresence, DeniesFarPlacesAndOtherDirections) {
 }
 
 TEST(EdgePresence, DeniesAllInAnImageWithoutEdges) {
-  const EdgePresence presence({}, 40, 30, kReachPx, DegToRad(15));
+  const EdgePresence presence(
+      {}, 40, 30, kNormalPx, kTangentialPx, DegToRad(15));
   EXPECT_FALSE(presence.MayHave({20, 15}, {1, 0}));
 }
 
