@@ -71,7 +71,4 @@ Eigen::Vector3d FitPoint(const Bundle& bundle, const BundlePoint& point);
 // The same of every point.
 void FitPoints(Bundle* bundle);
 
-// The median; the mean of the two middle values of an even number. NaN of none.
-double Median(std::vector<double> values);
-
 }  // namespace curvix

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin/median.h"
 #include "plugin/point_index.h"
 #include "plugin/resample_curves.h"
 #include "plugin/smooth_groups.h"
@@ -100,13 +101,6 @@ double FScore(double precision, double recall) {
   return 2 * precision * recall / std::max(precision + recall, 1e-12);
 }
 
-std::optional<double> Median(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return (values[(n - 1) / 2] + values[n / 2]) / 2;
-}
-
 Agreement MeasureAgreement(const Comparison& c, double threshold_mm) {
   Agreement result{threshold_mm};
   result.precision = PercentBelow(c.predicted_mm, threshold_mm);
@@ -142,7 +136,8 @@ std::optional<double> MedianTangentAngle(const Comparison& c) {
     const double cosine = std::abs(c.predicted[i].tangent.dot(tangent));
     angles.push_back(std::acos(std::min(cosine, 1.0)) * 180 / std::acos(-1.0));
   }
-  return Median(std::move(angles));
+  if (angles.empty()) return std::nullopt;
+  return MedianOrNan(std::move(angles));
 }
 
 // The distance of neighbouring samples of the truth.
@@ -152,7 +147,8 @@ std::optional<double> TrueSpacing(const std::vector<TrueSample>& truth) {
     if (truth[i].curve_id != truth[i - 1].curve_id) continue;
     distances.push_back((truth[i].position - truth[i - 1].position).norm());
   }
-  return Median(std::move(distances));
+  if (distances.empty()) return std::nullopt;
+  return MedianOrNan(std::move(distances));
 }
 
 std::size_t MaxVotes(const std::map<std::size_t, std::size_t>& votes) {

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "plugin/median.h"
+
 namespace curvix {
 namespace {
 
@@ -35,7 +37,7 @@ CheckErrors MeasureErrors(const Bundle& poses,
     result.summary.mean_px += error / static_cast<double>(errors.size());
     result.mean_square += error * error / static_cast<double>(errors.size());
   }
-  result.summary.median_px = Median(std::move(errors));
+  result.summary.median_px = MedianOrNan(std::move(errors));
   return result;
 }
 
@@ -59,7 +61,7 @@ std::vector<double> Shifts(const Bundle& before, const Bundle& after) {
   }
   std::vector<double> medians;
   for (std::vector<double>& values : shifts) {
-    medians.push_back(values.empty() ? 0 : Median(std::move(values)));
+    medians.push_back(values.empty() ? 0 : MedianOrNan(std::move(values)));
   }
   return medians;
 }
@@ -72,7 +74,7 @@ double MedianDistance(const Bundle& bundle) {
       distances.push_back((pose * point.position).norm());
     }
   }
-  return Median(std::move(distances));
+  return MedianOrNan(std::move(distances));
 }
 
 void MeasureMoves(const Bundle& before,
@@ -95,7 +97,7 @@ void MeasureMoves(const Bundle& before,
   judgement->max_shift_image_idx =
       before.views[static_cast<std::size_t>(largest - shifts.begin())]
           .image_idx;
-  judgement->median_shift_px = Median(shifts);
+  judgement->median_shift_px = MedianOrNan(shifts);
 }
 
 std::string Number(const char* format, double value) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "plugin/median.h"
 #include "plugin/pose_refiners.h"
 
 namespace curvix {
@@ -199,7 +200,7 @@ std::vector<double> MedianDepths(const Bundle& bundle) {
   }
   std::vector<double> medians;
   for (std::vector<double>& values : depths) {
-    medians.push_back(values.empty() ? 1 : Median(std::move(values)));
+    medians.push_back(values.empty() ? 1 : MedianOrNan(std::move(values)));
   }
   return medians;
 }

@@ -10,6 +10,7 @@
 
 #include "plugin/child_process.h"
 #include "plugin/colmap_model.h"
+#include "plugin/median.h"
 #include "plugin/pose_refiners.h"
 #include "plugin/text.h"
 
@@ -70,7 +71,7 @@ Bundle WithoutOutliers(Bundle bundle) {
       errors.push_back(e);
     }
   }
-  const double limit = kOutlier * Median(errors);
+  const double limit = kOutlier * MedianOrNan(errors);
   auto error = errors.cbegin();
   for (BundlePoint& point : bundle.points) {
     std::erase_if(point.observations,

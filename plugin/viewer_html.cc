@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/median.h"
 #include "plugin/pictures.h"
 #include "plugin/spread_views.h"
 
@@ -91,10 +92,7 @@ double MedianSigma(const Curve& curve) {
   for (const CurveSample& sample : curve.samples) {
     sigmas.push_back(sample.sigma);
   }
-  const auto middle =
-      sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
+  return MedianOrNan(std::move(sigmas));
 }
 
 std::string_view KindOf(const FittedCurve& fitted) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "base/check.h"
@@ -18,6 +19,10 @@ inline double Median(std::vector<double> values) {
       values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+inline double MedianOr(double fallback, std::vector<double> values) {
+  return values.empty() ? fallback : Median(std::move(values));
 }
 
 }  // namespace curvix

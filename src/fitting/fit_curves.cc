@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "base/check.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "fitting/choose_primitives.h"
 #include "fitting/fit_conic.h"
@@ -33,10 +34,7 @@ double UsualSigma(const Curve& curve) {
     const double sigma = kUnknownSigmaSteps * Length(curve) / steps;
     return sigma > 0 ? sigma : 1;
   }
-  const auto middle =
-      known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
-  return *middle;
+  return Median(std::move(known));
 }
 
 CurvePrimitives FitAlone(const Curve& curve,

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 namespace curvix {
@@ -21,14 +22,6 @@ constexpr std::size_t kMinCheckPlaces = 20;
 constexpr std::size_t kMinObservationsPerView = 8;
 constexpr double kMinGain = 0.02;  // of the mean error
 constexpr double kMaxErrorPx = 1;
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 using Error = std::optional<double>;  // nothing: no edge near
 
@@ -115,33 +108,22 @@ void SummarizeErrors(const std::vector<Pair>& pairs, CurvePoses* result) {
     result->after.mean_px += pair.after / static_cast<double>(pairs.size());
   }
   result->num_check_observations = pairs.size();
-  result->before.median_px = Median(std::move(before));
-  result->after.median_px = Median(std::move(after));
+  result->before.median_px = MedianOr(0, std::move(before));
+  result->after.median_px = MedianOr(0, std::move(after));
 }
 
 void MeasureShifts(const std::vector<CurvePlace>& places,
                    const PosedEdges& edges,
                    CurvePoses* result) {
-  std::vector<std::vector<double>> shifts(edges.views().size());
-  for (const CurvePlace& place : places) {
-    for (const EdgeRef& ref : place.support) {
-      const auto i = static_cast<std::size_t>(ref.view_idx);
-      const PosedView& from = edges.input_views()[i];
-      const PosedView& to = edges.views()[i];
-      shifts[i].push_back((to.Pixel(to.InCamera(place.edge.position)) -
-                           from.Pixel(from.InCamera(place.edge.position)))
-                              .norm());
-    }
-  }
   std::vector<double> medians;
-  for (std::vector<double>& values : shifts) {
-    medians.push_back(Median(std::move(values)));
+  for (std::vector<double>& shifts : edges.ShiftsByView(places)) {
+    medians.push_back(MedianOr(0, std::move(shifts)));
   }
   const auto largest = std::max_element(medians.begin(), medians.end());
   result->max_shift_px = *largest;
   result->max_shift_view_idx =
       static_cast<std::size_t>(largest - medians.begin());
-  result->median_shift_px = Median(std::move(medians));
+  result->median_shift_px = MedianOr(0, std::move(medians));
 }
 
 void Decide(CurvePoses* result) {
@@ -174,13 +156,13 @@ std::vector<CurvePlace> TakeCheckPlaces(std::vector<CurvePlace>* places) {
     for (const CurvePlace& place : *places) {
       values.push_back(place.edge.position[axis]);
     }
-    center[axis] = Median(std::move(values));
+    center[axis] = MedianOr(0, std::move(values));
   }
   std::vector<double> distances;
   for (const CurvePlace& place : *places) {
     distances.push_back((place.edge.position - center).norm());
   }
-  const double distance = Median(std::move(distances));
+  const double distance = MedianOr(0, std::move(distances));
   const double cube = distance > 0 ? distance / kCubesPerDistance : 1;
   std::vector<CurvePlace> kept, taken;
   for (CurvePlace& place : *places) {

@@ -155,6 +155,22 @@ double PosedEdges::Distance(const Eigen::Vector3d& position,
   return std::abs(normal.dot(pixel - edge.position));
 }
 
+std::vector<std::vector<double>> PosedEdges::ShiftsByView(
+    const std::vector<CurvePlace>& places) const {
+  std::vector<std::vector<double>> shifts(views_.size());
+  for (const CurvePlace& place : places) {
+    const Eigen::Vector3d& x = place.edge.position;
+    for (const EdgeRef& ref : place.support) {
+      const auto i = static_cast<std::size_t>(ref.view_idx);
+      const PosedView& from = input_views_[i];
+      const PosedView& to = views_[i];
+      shifts[i].push_back(
+          (to.Pixel(to.InCamera(x)) - from.Pixel(from.InCamera(x))).norm());
+    }
+  }
+  return shifts;
+}
+
 SpaceEdge PosedEdges::Adjusted(const CurvePlace& place, double sigma_px) const {
   if (place.support.size() < 2) return place.edge;
   std::vector<PlaneMeasurement> measurements;

@@ -60,6 +60,10 @@ class PosedEdges {
   ImageEdge EdgeOf(const EdgeRef& ref) const;
   // Pixels; of the projection of `position` from the line of the edge.
   double Distance(const Eigen::Vector3d& position, const EdgeRef& ref) const;
+  // Pixels that the supported places have moved by, from the poses of the
+  // scene, in each view.
+  std::vector<std::vector<double>> ShiftsByView(
+      const std::vector<CurvePlace>& places) const;
   // The place with its edge adjusted to its support.
   SpaceEdge Adjusted(const CurvePlace& place, double sigma_px) const;
 

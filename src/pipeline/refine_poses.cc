@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "pipeline/check_input.h"
 #include "pipeline/judge_poses.h"
@@ -42,14 +43,6 @@ constexpr double kGateSigmas = 4;
 constexpr double kTangentSigmaPx = 0.3;
 constexpr double kFirstPriorPx = 10;
 constexpr double kMinPriorPx = 0.02;
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Refiner {
  public:
@@ -153,7 +146,7 @@ class Refiner {
       FindEdges();
       UpdateSigmas();
       AdjustOnce();
-      const double previous = std::exchange(error_px, Median(Distances()));
+      const double previous = std::exchange(error_px, MedianOr(0, Distances()));
       if (round > 1 && error_px > previous * (1 - kMinGainOfRound)) break;
     }
   }
@@ -226,24 +219,13 @@ class Refiner {
 
   // How far pictures have shifted so far: what the typical pose is off by.
   double MedianShift() const {
-    std::vector<std::vector<double>> shifts(edges_.views().size());
-    for (const CurvePlace& place : places_) {
-      for (const EdgeRef& ref : place.support) {
-        const auto i = static_cast<std::size_t>(ref.view_idx);
-        const PosedView& from = edges_.input_views()[i];
-        const PosedView& to = edges_.views()[i];
-        shifts[i].push_back((to.Pixel(to.InCamera(place.edge.position)) -
-                             from.Pixel(from.InCamera(place.edge.position)))
-                                .norm());
-      }
-    }
     std::vector<double> medians;
-    for (std::vector<double>& values : shifts) {
-      if (values.size() >= kMinDistancesPerView) {
-        medians.push_back(Median(std::move(values)));
+    for (std::vector<double>& shifts : edges_.ShiftsByView(places_)) {
+      if (shifts.size() >= kMinDistancesPerView) {
+        medians.push_back(Median(std::move(shifts)));
       }
     }
-    return Median(std::move(medians));
+    return MedianOr(0, std::move(medians));
   }
 
   const Scene& scene_;

@@ -10,6 +10,9 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
+
+#include "base/median.h"
 
 namespace curvix {
 namespace {
@@ -178,11 +181,10 @@ class Solver {
   void AddPrior(const PoseProblem& problem,
                 std::size_t view_idx,
                 std::vector<double> depths) {
-    const auto middle =
-        depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
     auto cost = std::make_unique<PriorCost>(
-        problem.views[view_idx].calibration(0, 0), *middle, problem.prior_px);
+        problem.views[view_idx].calibration(0, 0),
+        Median(std::move(depths)),
+        problem.prior_px);
     problem_.AddResidualBlock(
         new ceres::AutoDiffCostFunction<PriorCost, 6, 6>(cost.release()),
         prior_loss_,

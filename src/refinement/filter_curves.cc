@@ -16,10 +16,6 @@ namespace {
 // How far apart along the curve tangents are compared.
 constexpr double kStraightnessPx = 10;
 
-double MedianOr(double fallback, std::vector<double> values) {
-  return values.empty() ? fallback : Median(std::move(values));
-}
-
 double MedianContrast(const Curve& curve,
                       const std::vector<EdgeMap>& edge_maps) {
   std::vector<double> strengths;

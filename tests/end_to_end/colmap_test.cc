@@ -21,6 +21,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "plugin/child_process.h"
+#include "plugin/median.h"
 #include "plugin/similarity.h"
 #include "plugin/synthesize.h"
 #include "tests/plugin/posed_points.h"
@@ -132,7 +133,7 @@ class InstalledColmap : public testing::Test {
       }
       distances.push_back(least);
     }
-    return Median(distances);
+    return MedianOrNan(distances);
   }
 
   SyntheticOptions options_;

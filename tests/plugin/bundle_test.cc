@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gtest/gtest.h"
+#include "plugin/median.h"
 #include "tests/plugin/posed_points.h"
 
 namespace curvix {
@@ -106,10 +107,10 @@ TEST(Project, SeesNothingBehindTheCamera) {
   EXPECT_EQ(Project(camera, {}, {1, 1, 2})->x(), 320 + 250);
 }
 
-TEST(Median, IsTheMiddle) {
-  EXPECT_EQ(Median({3, 1, 2}), 2);
-  EXPECT_EQ(Median({4, 1, 3, 2}), 2.5);
-  EXPECT_TRUE(std::isnan(Median({})));
+TEST(MedianOrNan, IsTheMiddle) {
+  EXPECT_EQ(MedianOrNan({3, 1, 2}), 2);
+  EXPECT_EQ(MedianOrNan({4, 1, 3, 2}), 2.5);
+  EXPECT_TRUE(std::isnan(MedianOrNan({})));
 }
 
 }  // namespace

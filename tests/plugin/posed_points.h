@@ -8,6 +8,7 @@
 
 #include "plugin/bundle.h"
 #include "plugin/colmap_model.h"
+#include "plugin/median.h"
 
 namespace curvix {
 
@@ -113,7 +114,7 @@ inline double MedianShift(const ColmapModel& model, const ColmapModel& truth) {
       if (a && b) shifts.push_back((*a - *b).norm());
     }
   }
-  return Median(shifts);
+  return MedianOrNan(shifts);
 }
 
 }  // namespace curvix

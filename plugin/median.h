@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace curvix {
+
+// The mean of the two middle values of an even number; NaN of none. `values`
+// must not hold NaN.
+inline double MedianOrNan(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+}  // namespace curvix
