@@ -37,11 +37,18 @@ void Choose(const Overlaps& overlaps,
   chosen.push_back(view_idx);
   std::erase_if(candidates,
                 [&](const Candidate& c) { return c.view_idx == view_idx; });
-  const auto& of_view = overlaps[static_cast<std::size_t>(view_idx)];
-  for (Candidate& candidate : candidates) {
-    if (const ViewOverlap* overlap = Find(of_view, candidate.view_idx)) {
-      candidate.angle_rad =
-          std::min(candidate.angle_rad, overlap->ray_angle_rad);
+  // Both are in the order of views.
+  auto candidate = candidates.begin();
+  for (const ViewOverlap& overlap :
+       overlaps[static_cast<std::size_t>(view_idx)]) {
+    while (candidate != candidates.end() &&
+           candidate->view_idx < overlap.other) {
+      ++candidate;
+    }
+    if (candidate == candidates.end()) return;
+    if (candidate->view_idx == overlap.other) {
+      candidate->angle_rad =
+          std::min(candidate->angle_rad, overlap.ray_angle_rad);
     }
   }
 }
