@@ -125,55 +125,54 @@ const Input& InputOf(benchmark::State& state) {
   return *input;
 }
 
-void Detect(benchmark::State& state) {
+// Runs `stage` on the input of `state` until its time is known.
+template <typename F>
+void Time(benchmark::State& state, const F& stage) {
   const Input& input = InputOf(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(DetectEdges(input.made.scene, kOptions));
-  }
+  for (auto _ : state) benchmark::DoNotOptimize(stage(input));
+}
+
+void Detect(benchmark::State& state) {
+  Time(state, [](const Input& input) {
+    return DetectEdges(input.made.scene, kOptions);
+  });
 }
 
 void Sketch(benchmark::State& state) {
-  const Input& input = InputOf(state);
+  Time(state, [](const Input& input) {
+    return SketchEdges(input.made.scene, input.edge_maps, kOptions);
+  });
   state.counters["hypotheses"] =
-      static_cast<double>(input.sketch.counts.hypotheses);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        SketchEdges(input.made.scene, input.edge_maps, kOptions));
-  }
+      static_cast<double>(InputOf(state).sketch.counts.hypotheses);
 }
 
 void Link(benchmark::State& state) {
-  const Input& input = InputOf(state);
-  state.counters["links"] = static_cast<double>(input.graph.NumLinks());
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(LinkEdges(input.sketch.edges,
-                                       input.edge_maps,
-                                       input.views,
-                                       kOptions.neighborhood,
-                                       1));
-  }
+  Time(state, [](const Input& input) {
+    return LinkEdges(input.sketch.edges,
+                     input.edge_maps,
+                     input.views,
+                     kOptions.neighborhood,
+                     1);
+  });
+  state.counters["links"] =
+      static_cast<double>(InputOf(state).graph.NumLinks());
 }
 
 void Connect(benchmark::State& state) {
-  const Input& input = InputOf(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(GroupEdges(input.sketch.edges,
-                                        input.graph,
-                                        input.views,
-                                        kOptions.connectivity,
-                                        1));
-  }
+  Time(state, [](const Input& input) {
+    return GroupEdges(
+        input.sketch.edges, input.graph, input.views, kOptions.connectivity, 1);
+  });
 }
 
 void Refine(benchmark::State& state) {
-  const Input& input = InputOf(state);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(RefineCurves(input.curves,
-                                          input.views,
-                                          input.edge_maps,
-                                          kOptions.curve_refinement,
-                                          1));
-  }
+  Time(state, [](const Input& input) {
+    return RefineCurves(input.curves,
+                        input.views,
+                        input.edge_maps,
+                        kOptions.curve_refinement,
+                        1);
+  });
 }
 
 void SaveAndLoadStages(benchmark::State& state) {
