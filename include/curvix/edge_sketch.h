@@ -15,7 +15,7 @@ struct SketchCounts {
   std::int64_t h1_edges = 0;     // asked for hypotheses
   std::int64_t hypotheses = 0;   // after consolidation (Sec. 4)
   std::int64_t unsupported = 0;  // hypotheses that other views did not confirm
-  std::int64_t rivals = 0;       // confirmed, but far weaker than another
+  std::int64_t rivals = 0;       // confirmed, but another explains their edges
   std::int64_t used_edges = 0;   // 2D edges that formed or support a 3D edge
 };
 

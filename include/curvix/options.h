@@ -100,6 +100,9 @@ struct ValidationOptions {
   // Hypotheses of one H1 edge with fewer than this share of the best one's
   // support are dropped. 0..1.
   double min_rival_support = 0.6;
+  // With kDistance: fewest supporting edges, those of the hypothesis views
+  // included, that show no stronger 3D edge at another place; >= 0.
+  int min_num_own_views = 3;
 };
 
 // Sec. 5, Fig. 6.

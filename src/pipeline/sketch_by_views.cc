@@ -12,6 +12,7 @@
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
 #include "pipeline/view_indices.h"
+#include "validation/contested_edges.h"
 #include "validation/track_support.h"
 
 namespace curvix {
@@ -69,7 +70,8 @@ class ViewSketcher {
         SelectValidators(input_.overlaps, h1, partners);
     view.neighbors =
         NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
-    const std::size_t num_on_this_side = NumOnThisSide(h1);
+    const std::size_t fewest_supports =
+        FewestSupports(input_.options.validation, NumOnThisSide(h1));
     for (const int h2 : partners) {
       const auto j = static_cast<std::size_t>(h2);
       auto pair = HypothesisViews::Make(input_.views[i],
@@ -80,7 +82,7 @@ class ViewSketcher {
       if (!pair) continue;
       view.partners.push_back(
           {*std::move(pair),
-           {FirstViews(h1, h2, view.neighbors), validators, num_on_this_side}});
+           {FirstViews(h1, h2, view.neighbors), validators, fewest_supports}});
     }
     return view;
   }
@@ -277,6 +279,13 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     }
   }
   sketch.counts.used_edges = used.total();
+  const std::size_t num_confirmed = sketch.edges.size();
+  sketch.edges = DropContested(std::move(sketch.edges),
+                               input.views,
+                               input.edge_maps,
+                               input.options.validation.min_num_own_views);
+  sketch.counts.rivals +=
+      static_cast<std::int64_t>(num_confirmed - sketch.edges.size());
   return sketch;
 }
 

@@ -16,8 +16,10 @@ constexpr int kNumRounds = 4;
 // standard deviations of an edge's location where these are larger.
 constexpr double kMaxPredictedSigmaPx = 0.7;
 constexpr double kMaxPredictedSigmas = 4.6;
-// The hypothesis views and two more.
-constexpr std::size_t kFewestSupports = 4;
+// The hypothesis views and one more.
+constexpr std::size_t kFewestSupports = 3;
+// Fewer hardly ever become enough in later rounds, where more are needed.
+constexpr std::size_t kFewestToGoOn = 4;
 constexpr double kGateSigmas = 4;
 
 struct Search {
@@ -71,22 +73,27 @@ std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
        search.min_cosine});
 }
 
+std::size_t FewestToGoOn(const ViewsToAsk& to_ask) {
+  return std::min(kFewestToGoOn, to_ask.fewest_supports);
+}
+
 // The support of an estimate in the views of `asked`, ascending; nullopt if it
-// is less than kFewestSupports. Asks no more of them than it takes to know.
+// is less than `fewest`. Asks no more of them than it takes to know.
 std::optional<std::vector<EdgeRef>> FindSupport(
     const EdgeEstimate& estimate,
     const std::vector<ViewIndex>& views,
     const std::vector<std::int32_t>& asked,
+    std::size_t fewest,
     const Search& search) {
   std::vector<EdgeRef> support;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (support.size() + (asked.size() - i) < kFewestSupports) break;
+    if (support.size() + (asked.size() - i) < fewest) break;
     const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
     if (const auto edge_idx = FindEdge(estimate, view, search)) {
       support.push_back({asked[i], *edge_idx});
     }
   }
-  if (support.size() < kFewestSupports) return std::nullopt;
+  if (support.size() < fewest) return std::nullopt;
   std::sort(support.begin(), support.end());
   return support;
 }
@@ -161,11 +168,12 @@ bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
                     const ViewsToAsk& to_ask) {
   const std::vector<std::int32_t>& asked = to_ask.first;
+  const std::size_t fewest = FewestToGoOn(to_ask);
   std::size_t num_found = 0;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (num_found + (asked.size() - i) < kFewestSupports) return false;
+    if (num_found + (asked.size() - i) < fewest) return false;
     const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
-    if (MayShow(view, edge) && ++num_found == kFewestSupports) return true;
+    if (MayShow(view, edge) && ++num_found == fewest) return true;
   }
   return false;
 }
@@ -180,7 +188,8 @@ std::optional<TrackedEdge> TrackSupport(
   const Search search{sigma_px,
                       options.max_distance_px,
                       std::cos(DegToRad(options.max_angle_deg))};
-  auto support = FindSupport(start, views, to_ask.first, search);
+  const std::size_t fewest = FewestToGoOn(to_ask);
+  auto support = FindSupport(start, views, to_ask.first, fewest, search);
   if (!support) return std::nullopt;
   TrackedEdge tracked;
   tracked.estimate = start;
@@ -191,7 +200,7 @@ std::optional<TrackedEdge> TrackSupport(
     tracked.estimate = AdjustEdge(
         tracked.estimate.edge, Measure(tracked.support, views), sigma_px);
     if (round == kNumRounds) break;
-    support = FindSupport(tracked.estimate, views, to_ask.all, search);
+    support = FindSupport(tracked.estimate, views, to_ask.all, fewest, search);
     if (!support) return std::nullopt;
     // Settled: further rounds would ask the same views.
     if (*support == tracked.support) {
@@ -199,13 +208,9 @@ std::optional<TrackedEdge> TrackSupport(
       break;
     }
   }
-  if (tracked.support.size() <
-      FewestSupports(options, to_ask.num_on_this_side)) {
-    return std::nullopt;
-  }
+  if (tracked.support.size() < to_ask.fewest_supports) return std::nullopt;
   tracked.evidence = Evidence(
-      VotesOf(asked, tracked.support, views, to_ask.all, search),
-      neighbors);
+      VotesOf(asked, tracked.support, views, to_ask.all, search), neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;
   return tracked;
 }

@@ -30,9 +30,8 @@ struct ViewsToAsk {
   // ever tell a wrong hypothesis from a right one.
   std::vector<std::int32_t> first;
   std::vector<std::int32_t> all;  // ascending
-  // How many views look from about the same side as the first hypothesis view,
-  // itself included: the others may see nothing of what it sees.
-  std::size_t num_on_this_side = 0;
+  // So many of them must support a hypothesis, the hypothesis views included.
+  std::size_t fewest_supports = 3;
 };
 
 // How far from a projected edge its support may be along the tangent; across it
@@ -41,7 +40,9 @@ inline constexpr double kMaxSupportSlidePx = 1;
 
 // How many views must support an edge: options.min_num_support_views and the
 // two hypothesis views, but of few views on one side no more than just over
-// half, and never fewer than four.
+// half, and never fewer than three. `num_on_this_side`: the views that look
+// from about the same side as the first hypothesis view, itself included; the
+// others may see nothing of what it sees.
 std::size_t FewestSupports(const ValidationOptions& options,
                            std::size_t num_on_this_side);
 
@@ -59,10 +60,10 @@ bool MayBeSupported(const SpaceEdge& edge,
 // adjusts the estimate to all support found. The first round asks
 // `to_ask.first` only, and ends as soon as too few of them are left: most
 // hypotheses are wrong, and that shows there. Later rounds ask `to_ask.all`.
-// nullopt as soon as fewer than two views besides the hypothesis views support
-// it, or when in the end fewer than FewestSupports() views do or the
-// evidence is below options.min_evidence. `sigma_px`: standard deviation of an
-// edge's location.
+// nullopt as soon as fewer than four views support it, or fewer than
+// `to_ask.fewest_supports` where these are less, or when in the end fewer than
+// those do or the evidence is below options.min_evidence. `sigma_px`: standard
+// deviation of an edge's location.
 std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,

@@ -109,13 +109,13 @@ WireScene TurnedInPlace() {
   return wires;
 }
 
-// Edges that have nothing to do with each other.
+// Edges that have nothing to do with each other, too few to agree by chance.
 WireScene UnrelatedEdges() {
   WireScene wires = MakeWireScene({CubeCurves()[0]}, 10);
   Random random(7);
   for (EdgeMap& map : wires.edge_maps) {
-    map.edges.resize(200);
-    map.neighbors.assign(200, {});
+    map.edges.resize(60);
+    map.neighbors.assign(60, {});
     for (Edge2d& edge : map.edges) {
       edge.position = {random.Uniform(5, 395), random.Uniform(5, 395)};
       edge.angle = static_cast<float>(random.Uniform(-3.1, 3.1));

@@ -71,12 +71,13 @@ class TrackSupportTest : public ::testing::Test {
 
   std::optional<TrackedEdge> Track(
       const EdgeEstimate& start, const ValidationOptions& options = {}) const {
-    return TrackSupport(start,
-                        indices_,
-                        neighbors_,
-                        {kFirstViews, AllViews(), views_.size()},
-                        kSigmaPx,
-                        options);
+    return TrackSupport(
+        start,
+        indices_,
+        neighbors_,
+        {kFirstViews, AllViews(), FewestSupports(options, views_.size())},
+        kSigmaPx,
+        options);
   }
 
   const std::vector<TestCurve> curves_ = {
@@ -163,7 +164,8 @@ TEST(FewestSupports, AreNoMoreThanJustOverHalfOfTheViewsOnOneSide) {
   EXPECT_EQ(FewestSupports(options, 10), 6u);
   EXPECT_EQ(FewestSupports(options, 9), 5u);
   EXPECT_EQ(FewestSupports(options, 6), 4u);
-  EXPECT_EQ(FewestSupports(options, 3), 4u);
+  EXPECT_EQ(FewestSupports(options, 5), 3u);
+  EXPECT_EQ(FewestSupports(options, 2), 3u);
 }
 
 TEST_F(TrackSupportTest, RejectsTooLittleEvidence) {
