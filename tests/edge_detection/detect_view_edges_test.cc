@@ -91,7 +91,12 @@ TEST(DetectViewEdges, KeepsNoiseOut) {
 // A view of the disc whose mask is black left of `x`.
 Result<EdgeMap> DetectMasked(int x, int mask_size) {
   const ImageFile file(RenderDisc(100, {50, 50}, 30));
-  const fs::path mask_path = fs::path(::testing::TempDir()) / "mask.png";
+  // Tests run side by side.
+  const fs::path mask_path =
+      fs::path(::testing::TempDir()) /
+      (std::string(
+           ::testing::UnitTest::GetInstance()->current_test_info()->name()) +
+       "_mask.png");
   cv::Mat mask(mask_size, mask_size, CV_8UC1, cv::Scalar(255));
   mask.colRange(0, x).setTo(0);
   EXPECT_TRUE(cv::imwrite(mask_path.string(), mask));

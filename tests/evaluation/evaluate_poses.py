@@ -16,6 +16,7 @@ Needs Debian's python3-numpy and python3-scipy. Scenes are only read.
 import argparse
 import json
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -33,14 +34,33 @@ def data_lines(path):
             if not line.startswith('#')]
 
 
-def read_poses(model):
-    """{image name: (rotation matrix, translation)}."""
+def pose_of(numbers):
+    """(rotation matrix, translation) of w, x, y, z and the translation."""
+    w, x, y, z, *translation = numbers
+    return (Rotation.from_quat([x, y, z, w]).as_matrix(),
+            np.array(translation))
+
+
+def read_text_poses(path):
+    """{image name: pose_of}."""
     poses = {}
-    for line in data_lines(model / 'images.txt')[::2]:
+    for line in data_lines(path)[::2]:
         fields = line.split(maxsplit=9)
-        w, x, y, z, *translation = map(float, fields[1:8])
-        poses[fields[9]] = (Rotation.from_quat([x, y, z, w]).as_matrix(),
-                            np.array(translation))
+        poses[fields[9]] = pose_of(map(float, fields[1:8]))
+    return poses
+
+
+def read_binary_poses(path):
+    """{image name: pose_of}."""
+    data = path.read_bytes()
+    poses = {}
+    place = 8
+    for _ in range(*struct.unpack_from('<Q', data)):
+        numbers = struct.unpack_from('<7d', data, place + 4)
+        begin = place + 64
+        end = data.index(0, begin)
+        poses[data[begin:end].decode()] = pose_of(numbers)
+        place = end + 9 + 24 * struct.unpack_from('<Q', data, end + 1)[0]
     return poses
 
 
@@ -64,10 +84,10 @@ def moved(points, motion):
     return np.exp(motion[6]) * turned + motion[3:6]
 
 
-def median_shift(model, true_model, points):
+def median_shift(poses, true_model, points):
     """Pixels, after the similarity that makes the shifts smallest."""
     focal_lengths = read_focal_lengths(true_model)
-    poses, true_poses = read_poses(model), read_poses(true_model)
+    true_poses = read_text_poses(true_model / 'images.txt')
     names = sorted(set(poses) & set(true_poses))
     truth = project([true_poses[n] for n in names], focal_lengths, points)
     ours = [poses[n] for n in names]
@@ -83,7 +103,8 @@ def median_shift(model, true_model, points):
 def run(program, workspace, flags):
     """The folder of the results."""
     subprocess.run([program, '--workspace_path', workspace, '--clean', *flags],
-                   check=True, stdout=subprocess.DEVNULL)
+                   check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
     return workspace / 'curvix/0'
 
 
@@ -105,13 +126,15 @@ def row(program, scene, pixels, seed):
                         scene, copy, str(pixels), '--seed', str(seed)],
                        check=True)
         true_model = scene / 'sparse/0'
-        before = median_shift(copy / 'sparse/0', true_model, points)
+        before = median_shift(read_text_poses(copy / 'sparse/0/images.txt'),
+                              true_model, points)
         unrefined = fv5(program, run(program, copy, [
             '--refiner', 'none', '--refine_poses_with_curves', '0']), truth)
         results = run(program, copy, [])
         report = json.loads((results / 'report.json').read_text())
         accepted = report['pose_refinement_with_curves']['accepted']
-        after = (median_shift(results / 'sparse', true_model, points)
+        after = (median_shift(read_binary_poses(results / 'sparse/images.bin'),
+                              true_model, points)
                  if accepted else before)
         return [scene.name, f'{pixels:g}', f'{before:.3f}', f'{after:.3f}',
                 'yes' if accepted else 'no', f'{unrefined:.1f}',
