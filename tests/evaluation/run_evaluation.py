@@ -55,7 +55,7 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('20', 'gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
     ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
     ('18 to 21', 'all refinement', ['--CurveRefinement.enabled', '0']),
-    ('24', 'one place for each 2D edge',
+    ('25', 'one place for each 2D edge',
      ['--Validation.min_num_own_views', '0'])]
 
 HARDER = [  # what is worse, script and its arguments
