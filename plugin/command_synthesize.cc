@@ -21,7 +21,7 @@ struct Settings {
 // In the order of SyntheticSolid.
 const std::vector<std::string>& Solids() {
   static const std::vector<std::string> names = {
-      "block", "cylinder", "cone", "sphere", "part"};
+      "block", "cylinder", "cone", "sphere", "part", "facade"};
   return names;
 }
 
@@ -40,7 +40,7 @@ FlagSection ImageFlags(Settings* settings) {
                     .field = &o.num_views,
                     .min = 3,
                     .max = 10000,
-                    .help = "photographs, all around the solid"}),
+                    .help = "photographs: all around, or along a facade"}),
            RowFlag({.name = "width",
                     .field = &o.width,
                     .min = 16,
@@ -82,7 +82,11 @@ FlagSection CameraFlags(Settings* settings) {
                     .field = &o.pose_error_px,
                     .max = 100,
                     .unit = "px",
-                    .help = "disturbs the poses that are written"})}};
+                    .help = "disturbs the poses that are written"}),
+           RowFlag({.name = "points_per_view",
+                    .field = &o.points_per_view,
+                    .max = 10000,
+                    .help = "sparse points that each photograph finds"})}};
 }
 
 std::vector<FlagSection> Sections(Settings* settings) {
@@ -96,7 +100,7 @@ std::vector<FlagSection> Sections(Settings* settings) {
                      .field = &o.scale,
                      .min_is_excluded = true,
                      .unit = "world units",
-                     .help = "longest side of the solid"}),
+                     .help = "longest side of the solid, height of a facade"}),
             RowFlag({.name = "seed",
                      .field = &settings->seed,
                      .help = "of the noise, the texture and the pose errors"}),

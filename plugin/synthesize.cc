@@ -54,7 +54,9 @@ Status WriteImage(const RgbImage& image, const fs::path& path) {
   return WriteFileAtomically(path, std::string(png.begin(), png.end()));
 }
 
-ColmapModel ModelOf(const Scene& scene) {
+// As COLMAP would find it: each sight of a point is a 2D point of its image.
+ColmapModel ModelOf(const SyntheticScene& synthetic) {
+  const Scene& scene = synthetic.scene;
   ColmapModel model;
   for (const Camera& camera : scene.cameras) {
     const auto id = static_cast<std::uint32_t>(model.cameras.size() + 1);
@@ -67,6 +69,20 @@ ColmapModel ModelOf(const Scene& scene) {
     image.camera_id = static_cast<std::uint32_t>(view.camera_idx + 1);
     image.name = view.name;
     model.images.push_back(std::move(image));
+  }
+  for (const TruePoint& point : synthetic.points) {
+    ColmapPoint3D point3D;
+    point3D.point3D_id = model.points.size() + 1;
+    point3D.position = point.position;
+    for (const TruePoint::Sight& sight : point.sights) {
+      ColmapImage& image =
+          model.images[static_cast<std::size_t>(sight.view_idx)];
+      point3D.track.push_back(
+          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
+      image.points2D.push_back(
+          {sight.pixel.x(), sight.pixel.y(), point3D.point3D_id});
+    }
+    model.points.push_back(std::move(point3D));
   }
   return model;
 }
@@ -105,8 +121,8 @@ Status Synthesize(const SyntheticOptions& options, const fs::path& workspace) {
     Status status = WriteImage(scene->images[i], path);
     if (!status.ok()) return status;
   }
-  Status status = WriteColmapModel(
-      ModelOf(scene->scene), sparse / "0", ColmapFormat::kBinary);
+  Status status =
+      WriteColmapModel(ModelOf(*scene), sparse / "0", ColmapFormat::kBinary);
   if (!status.ok()) return status;
   return WriteFileAtomically(truth, TruthText(scene->truth));
 }

@@ -11,7 +11,8 @@ namespace curvix {
 
 // Writes MakeSyntheticScene(options) into `workspace`, which is made if needed:
 //   images/view_000.png ...   8-bit RGB
-//   sparse/0/*.bin            the COLMAP model: poses and one camera, no points
+//   sparse/0/*.bin            the COLMAP model: poses, one camera, and the
+//                             sparse points that were asked for
 //   gt.txt                    the exact curves, one sample a row:
 //                             x y z tx ty tz curve_id views_seen views_edge
 // kInvalidArgument, before anything is rendered or written, if an option is out

@@ -18,6 +18,7 @@ enum class SyntheticSolid {
   kCone,      // a truncated cone on a plate
   kSphere,    // a sphere cut by a plane: one circle, and an occluding contour
   kPart,      // a bracket with a hole, a boss and a cone: all of the above
+  kFacade,    // the front of a row of houses, as long as the views need
 };
 
 struct SyntheticOptions {
@@ -35,7 +36,9 @@ struct SyntheticOptions {
   // Root mean square by which the projections of the truth move when the
   // written poses replace those that the images were rendered with, 0 to 100.
   double pose_error_px = 0;
-  double scale = 1;  // longest side of the solid, world units, 1e-6 to 1e6
+  // Longest side of the solid, height of the facade; world units, 1e-6 to 1e6.
+  double scale = 1;
+  int points_per_view = 0;  // sparse points found by each view, 0 to 10000
   std::uint64_t seed = 1;
   int num_threads = 0;  // 0: all cores; the result does not depend on it
 };
@@ -57,8 +60,21 @@ struct TrueSample {
                            // across (1.5 px to both sides, without noise)
 };
 
+// A point of the surface, where exact cameras see it.
+struct TruePoint {
+  struct Sight {
+    int view_idx = 0;
+    Eigen::Vector2d pixel;  // in the image, distortion included
+  };
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  std::vector<Sight> sights;                           // ascending by view
+};
+
 struct SyntheticScene {
-  Scene scene;  // poses as written, views named view_000.png ...
+  // Poses as written, views named view_000.png ..., along the facade in order;
+  // the points are in `points`.
+  Scene scene;
+  std::vector<TruePoint> points;  // seen by two views at least
   std::vector<RgbImage> images;   // one per view, rendered with the exact poses
   std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
 };

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -55,10 +56,10 @@ std::optional<CreaseCurve> Circle(const Vector3d& centre,
   return circle;
 }
 
-// The whole line, as far as it runs within `reach` of the origin.
+// The whole line, as far as it runs within `box`.
 std::optional<CreaseCurve> PlanePlane(const Face& a,
                                       const Face& b,
-                                      double reach) {
+                                      const Eigen::AlignedBox3d& box) {
   const Vector3d along = a.axis.cross(b.axis);
   if (along.norm() < 1e-6) return std::nullopt;
   const double cosine = a.axis.dot(b.axis);
@@ -69,17 +70,30 @@ std::optional<CreaseCurve> PlanePlane(const Face& a,
   const Vector3d nearest =
       ((to_a - to_b * cosine) * a.axis + (to_b - to_a * cosine) * b.axis) /
       (1 - cosine * cosine);
-  line.origin = nearest - reach * line.along;
-  line.length = 2 * reach;
+  double begin = -std::numeric_limits<double>::infinity();
+  double end = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = line.along[axis];
+    const double to_low = box.min()[axis] - nearest[axis];
+    const double to_high = box.max()[axis] - nearest[axis];
+    if (std::abs(step) < 1e-12) {
+      if (to_low > 0 || to_high < 0) return std::nullopt;
+      continue;
+    }
+    begin = std::max(begin, std::min(to_low / step, to_high / step));
+    end = std::min(end, std::max(to_low / step, to_high / step));
+  }
+  if (!(begin < end)) return std::nullopt;
+  line.origin = nearest + begin * line.along;
+  line.length = end - begin;
   return line;
 }
 
 std::optional<CreaseCurve> PlaneRound(const Face& plane,
                                       const Face& round,
-                                      double reach) {
+                                      double tolerance) {
   const Vector3d& size = round.primitive->size;
   const double height = plane.axis.dot(plane.point - round.point);
-  const double tolerance = 1e-6 * reach;
   if (round.primitive->shape == PrimitiveShape::kSphere) {
     const double squared = size.x() * size.x() - height * height;
     return Circle(round.point + height * plane.axis,
@@ -98,10 +112,11 @@ std::optional<CreaseCurve> PlaneRound(const Face& plane,
 
 std::optional<CreaseCurve> Candidate(const Face& a,
                                      const Face& b,
-                                     double reach) {
-  if (a.is_plane && b.is_plane) return PlanePlane(a, b, reach);
-  if (a.is_plane) return PlaneRound(a, b, reach);
-  if (b.is_plane) return PlaneRound(b, a, reach);
+                                     const Eigen::AlignedBox3d& box,
+                                     double tolerance) {
+  if (a.is_plane && b.is_plane) return PlanePlane(a, b, box);
+  if (a.is_plane) return PlaneRound(a, b, tolerance);
+  if (b.is_plane) return PlaneRound(b, a, tolerance);
   return std::nullopt;
 }
 
@@ -109,7 +124,7 @@ std::optional<CreaseCurve> Candidate(const Face& a,
 // nor all of a small disc.
 bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
   constexpr int kNumProbes = 32;
-  const double probe_radius = 1e-5 * solid.radius();
+  const double probe_radius = 1e-5 * solid.detail();
   const Vector3d u = tangent.unitOrthogonal();
   const Vector3d v = tangent.cross(u);
   int num_inside = 0;
@@ -170,7 +185,7 @@ void AppendCreases(const Solid& solid,
   const auto is_crease = [&](double s) {
     return IsCrease(solid, whole.Position(s), whole.Tangent(s));
   };
-  auto stretches = Stretches(whole.length, solid.radius() / 200, is_crease);
+  auto stretches = Stretches(whole.length, solid.detail() / 200, is_crease);
   if (stretches.empty()) return;
   if (whole.is_closed) {
     if (stretches.front() == std::pair(0.0, whole.length)) {
@@ -184,7 +199,7 @@ void AppendCreases(const Solid& solid,
     }
   }
   for (const auto& [begin, end] : stretches) {
-    if (end - begin < 1e-2 * solid.radius()) continue;
+    if (end - begin < 1e-2 * solid.detail()) continue;
     curves.push_back(Part(whole, begin, end));
   }
 }
@@ -216,16 +231,21 @@ std::vector<CreaseCurve> Candidates(const Solid& solid) {
       faces.push_back(MakeFace(primitive, face));
     }
   }
+  const Eigen::Vector3d margin =
+      Eigen::Vector3d::Constant(0.01 * solid.detail());
+  const Eigen::AlignedBox3d box(solid.box().min() - margin,
+                                solid.box().max() + margin);
+  const double tolerance = 1e-6 * solid.detail();
   std::vector<CreaseCurve> candidates;
   const auto is_new = [&](const CreaseCurve& curve) {
     return std::none_of(
         candidates.begin(), candidates.end(), [&](const CreaseCurve& other) {
-          return IsSame(curve, other, 1e-6 * solid.radius());
+          return IsSame(curve, other, tolerance);
         });
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
-      const auto curve = Candidate(faces[i], faces[j], 1.01 * solid.radius());
+      const auto curve = Candidate(faces[i], faces[j], box, tolerance);
       if (curve && is_new(*curve)) candidates.push_back(*curve);
     }
   }

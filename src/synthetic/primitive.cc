@@ -206,8 +206,13 @@ double FarthestDistance(const Primitive& primitive) {
   return farthest;
 }
 
-std::vector<Primitive> Normalized(std::vector<Primitive> primitives,
-                                  double longest_side) {
+double OwnRadius(const Primitive& primitive) {
+  Primitive at_origin = primitive;
+  at_origin.world_from_own = {};
+  return FarthestDistance(at_origin);
+}
+
+Eigen::AlignedBox3d BoundingBox(const std::vector<Primitive>& primitives) {
   Vector3d low = Vector3d::Constant(kInfinity);
   Vector3d high = Vector3d::Constant(-kInfinity);
   for (const Primitive& primitive : primitives) {
@@ -219,12 +224,19 @@ std::vector<Primitive> Normalized(std::vector<Primitive> primitives,
           std::max(high[axis], Support(primitive, Vector3d::Unit(axis)));
     }
   }
-  CURVIX_CHECK((high - low).minCoeff() > 0, "the solid has no volume");
-  const double factor = longest_side / (high - low).maxCoeff();
+  return {low, high};
+}
+
+std::vector<Primitive> Normalized(std::vector<Primitive> primitives,
+                                  double longest_side) {
+  const Eigen::AlignedBox3d box = BoundingBox(primitives);
+  CURVIX_CHECK(box.sizes().minCoeff() > 0, "the solid has no volume");
+  const double factor = longest_side / box.sizes().maxCoeff();
   for (Primitive& primitive : primitives) {
     primitive.size *= factor;
     primitive.world_from_own.translation =
-        factor * (primitive.world_from_own.translation - (low + high) / 2);
+        factor *
+        (primitive.world_from_own.translation - (box.min() + box.max()) / 2);
   }
   return primitives;
 }

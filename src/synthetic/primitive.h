@@ -5,6 +5,7 @@
 #include <curvix/scene.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <limits>
 #include <vector>
 
@@ -65,6 +66,12 @@ Interval Intersect(const Primitive& primitive, const Ray& own_ray);
 
 // The largest distance of the primitive from the world's origin.
 double FarthestDistance(const Primitive& primitive);
+
+// The largest distance of the primitive from the origin of its own frame.
+double OwnRadius(const Primitive& primitive);
+
+// Of the added bodies; empty without any.
+Eigen::AlignedBox3d BoundingBox(const std::vector<Primitive>& primitives);
 
 // The same bodies, moved and scaled so that the bounding box of the added ones
 // is centred on the origin and its longest side is `longest_side`.

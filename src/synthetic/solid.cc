@@ -16,13 +16,19 @@ Solid::Solid(std::vector<Primitive> primitives)
     : primitives_(std::move(primitives)) {
   for (const Primitive& primitive : primitives_) {
     CURVIX_CHECK(primitive.size.allFinite(), "size of a primitive");
+    const double reach = (1 + 1e-9) * OwnRadius(primitive);
     placed_.push_back(
         {primitive.world_from_own.rotation.conjugate().toRotationMatrix(),
-         primitive.world_from_own.translation});
+         primitive.world_from_own.translation,
+         reach * reach});
     if (primitive.is_added) {
       radius_ = std::max(radius_, FarthestDistance(primitive));
     }
   }
+  box_ = BoundingBox(primitives_);
+  Vector3d sides = box_.sizes();
+  std::sort(sides.begin(), sides.end());
+  detail_ = std::min(radius_, sides[1]);
 }
 
 bool Solid::Contains(const Vector3d& world) const {
@@ -30,8 +36,9 @@ bool Solid::Contains(const Vector3d& world) const {
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
     const Primitive& primitive = primitives_[i];
     if (primitive.is_added == is_inside) continue;  // would change nothing
-    const Vector3d own =
-        placed_[i].own_from_world_rotation * (world - placed_[i].origin);
+    const Vector3d offset = world - placed_[i].origin;
+    if (offset.squaredNorm() > placed_[i].squared_reach) continue;
+    const Vector3d own = placed_[i].own_from_world_rotation * offset;
     bool in_primitive = true;
     for (int face = 0; face < NumFaces(primitive.shape) && in_primitive;
          ++face) {
@@ -45,10 +52,15 @@ bool Solid::Contains(const Vector3d& world) const {
 std::vector<Solid::Span> Solid::Spans(const Ray& ray) const {
   std::vector<Span> spans;
   spans.reserve(primitives_.size());
+  const double squared_length = ray.direction.squaredNorm();
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
+    const Vector3d offset = ray.origin - placed_[i].origin;
+    if (offset.cross(ray.direction).squaredNorm() >
+        placed_[i].squared_reach * squared_length) {
+      continue;
+    }
     const Eigen::Matrix3d& rotation = placed_[i].own_from_world_rotation;
-    const Ray own{rotation * (ray.origin - placed_[i].origin),
-                  rotation * ray.direction};
+    const Ray own{rotation * offset, rotation * ray.direction};
     const Interval inside = Intersect(primitives_[i], own);
     if (inside.IsEmpty() || inside.exit <= 0) continue;
     spans.push_back({inside, static_cast<int>(i)});

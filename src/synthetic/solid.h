@@ -28,6 +28,13 @@ class Solid {
   // Largest distance of an added body from the origin.
   double radius() const { return radius_; }
 
+  // Of the added bodies.
+  const Eigen::AlignedBox3d& box() const { return box_; }
+
+  // The size of what there is to see: the radius, or the second longest side of
+  // the box if that is smaller, as of a long row.
+  double detail() const { return detail_; }
+
   bool Contains(const Eigen::Vector3d& world) const;
 
   // The first entry at t > 0 of a ray that starts outside. Ties: the primitive
@@ -38,6 +45,7 @@ class Solid {
   struct Placed {  // primitive frame as matrices: cheaper than quaternions
     Eigen::Matrix3d own_from_world_rotation;
     Eigen::Vector3d origin;
+    double squared_reach;  // nothing of it is further from the origin
   };
   struct Span : Interval {  // the part of a ray inside one primitive
     int primitive_idx = 0;
@@ -48,7 +56,9 @@ class Solid {
 
   std::vector<Primitive> primitives_;
   std::vector<Placed> placed_;
+  Eigen::AlignedBox3d box_;
   double radius_ = 0;
+  double detail_ = 0;
 };
 
 }  // namespace curvix

@@ -2,6 +2,8 @@
 // Paper: none (engineering).
 #include "synthetic/solid_library.h"
 
+#include "synthetic/street.h"
+
 namespace curvix {
 namespace {
 
@@ -96,7 +98,7 @@ std::vector<Primitive> Part() {
           Without(Sphere({0.78, 0.18, top + 0.06}, 0.12), kHoleAlbedo)};
 }
 
-std::vector<Primitive> Primitives(SyntheticSolid solid) {
+std::vector<Primitive> Primitives(SyntheticSolid solid, int num_views) {
   switch (solid) {
     case SyntheticSolid::kBlock:
       return Block();
@@ -106,6 +108,8 @@ std::vector<Primitive> Primitives(SyntheticSolid solid) {
       return Cone();
     case SyntheticSolid::kSphere:
       return CutSphere();
+    case SyntheticSolid::kFacade:
+      return Facade(num_views);
     case SyntheticSolid::kPart:
       break;
   }
@@ -114,8 +118,12 @@ std::vector<Primitive> Primitives(SyntheticSolid solid) {
 
 }  // namespace
 
-Solid MakeSolid(SyntheticSolid solid, double scale) {
-  return Solid(Normalized(Primitives(solid), scale));
+Solid MakeSolid(SyntheticSolid solid, double scale, int num_views) {
+  const std::vector<Primitive> primitives = Primitives(solid, num_views);
+  const Vector3d sides = BoundingBox(primitives).sizes();
+  const double scaled =
+      solid == SyntheticSolid::kFacade ? sides.z() : sides.maxCoeff();
+  return Solid(Normalized(primitives, scale * sides.maxCoeff() / scaled));
 }
 
 }  // namespace curvix

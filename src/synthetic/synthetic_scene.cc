@@ -5,6 +5,7 @@
 #include "synthetic/counter_random.h"
 #include "synthetic/render.h"
 #include "synthetic/solid_library.h"
+#include "synthetic/street.h"
 #include "synthetic/synthetic_truth.h"
 
 #include <curvix/synthetic.h>
@@ -18,7 +19,7 @@ namespace curvix {
 namespace {
 
 // Independent streams of random numbers out of one seed.
-enum Stream : std::uint64_t { kPoses, kTexture, kNoise, kPoseError };
+enum Stream : std::uint64_t { kPoses, kTexture, kNoise, kPoseError, kPoints };
 
 // "noise is -1; it must be >= 0" unless min <= value <= max.
 Status CheckRange(const char* name, double value, double min, double max) {
@@ -42,6 +43,7 @@ Status Check(const SyntheticOptions& options) {
         CheckRange("texture", options.texture, 0, 255),
         CheckRange("pose_error_px", options.pose_error_px, 0, 100),
         CheckRange("scale", options.scale, 1e-6, 1e6),
+        CheckRange("points_per_view", options.points_per_view, 0, 10000),
         CheckRange("num_views * width * height", num_pixels, 0, kMaxPixels)}) {
     if (!status.ok()) return status;
   }
@@ -79,6 +81,13 @@ std::vector<Eigen::Vector3d> EveryFiftieth(
   return points;
 }
 
+std::vector<Rigid3> Poses(const SyntheticOptions& options, const Solid& solid) {
+  const std::uint64_t seed = Mix(options.seed, kPoses);
+  return options.solid == SyntheticSolid::kFacade
+             ? MakeStreetPoses(options.num_views, options.scale, seed)
+             : MakePoses(options.num_views, solid.radius(), seed);
+}
+
 }  // namespace
 
 Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
@@ -86,16 +95,22 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
   Result<Camera> camera = MakeCamera(options);
   if (!camera.ok()) return camera.status();
 
-  const Solid solid = MakeSolid(options.solid, options.scale);
+  const Solid solid =
+      MakeSolid(options.solid, options.scale, options.num_views);
   const SurfaceTexture texture(
       options.texture, options.scale / 18, Mix(options.seed, kTexture));
-  const std::vector<Rigid3> poses =
-      MakePoses(options.num_views, solid.radius(), Mix(options.seed, kPoses));
+  const std::vector<Rigid3> poses = Poses(options, solid);
 
   SyntheticScene scene;
   scene.scene.cameras = {*camera};
   scene.truth = SampleCurves(CreaseCurves(solid), options.scale / 500);
-  const auto points = EveryFiftieth(scene.truth);
+  scene.points = FindTruePoints(solid,
+                                *camera,
+                                poses,
+                                options.points_per_view,
+                                Mix(options.seed, kPoints),
+                                options.num_threads);
+  const auto places = EveryFiftieth(scene.truth);
   scene.scene.views.resize(poses.size());
   scene.images.resize(poses.size());
   std::vector<std::vector<SampleInView>> looks(poses.size());
@@ -109,7 +124,7 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
     view.image_id = static_cast<std::uint32_t>(i + 1);
     view.cam_from_world = Disturbed(poses[i],
                                     *camera,
-                                    points,
+                                    places,
                                     options.pose_error_px,
                                     Mix(Mix(options.seed, kPoseError), i));
   });

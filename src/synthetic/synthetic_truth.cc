@@ -2,9 +2,14 @@
 // Paper: none (engineering).
 #include "synthetic/synthetic_truth.h"
 
+#include "base/parallel.h"
+#include "synthetic/counter_random.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 namespace curvix {
 namespace {
@@ -21,28 +26,54 @@ bool IsHidden(const Solid& solid, const Vector3d& eye, const Vector3d& x) {
   return hit && hit->t < 1 - tolerance;
 }
 
+// Where a point is seen; nullopt: it is hidden or not in the image.
+std::optional<Vector2d> Sight(const Vector3d& x,
+                              const Solid& solid,
+                              const Camera& camera,
+                              const Rigid3& cam_from_world) {
+  const Vector3d in_cam = cam_from_world * x;
+  if (in_cam.z() <= 0) return std::nullopt;
+  const Vector2d pixel = ImageFromIdeal(camera, in_cam.hnormalized());
+  const Vector2d size(camera.width, camera.height);
+  if ((pixel.array() < 0).any() || (pixel.array() >= size.array()).any() ||
+      IsHidden(solid, cam_from_world.Inverse().translation, x)) {
+    return std::nullopt;
+  }
+  return pixel;
+}
+
 SampleInView LookAtSample(const TrueSample& sample,
                           const Solid& solid,
                           const Camera& camera,
                           const Rigid3& cam_from_world,
                           const RenderedImage& image) {
+  const auto pixel = Sight(sample.position, solid, camera, cam_from_world);
+  if (!pixel) return {};
   const Vector3d in_cam = cam_from_world * sample.position;
-  if (in_cam.z() <= 0) return {};
   const Vector2d uv = in_cam.hnormalized();
-  const Vector2d pixel = ImageFromIdeal(camera, uv);
-  const Vector2d size(camera.width, camera.height);
-  if ((pixel.array() < 0).any() || (pixel.array() >= size.array()).any() ||
-      IsHidden(solid, cam_from_world.Inverse().translation, sample.position)) {
-    return {};
-  }
   const Vector3d along = cam_from_world.rotation * sample.tangent;
   const Vector2d tangent = ImageFromIdealJacobian(camera, uv) *
                            (along.head<2>() - along.z() * uv) / in_cam.z();
   if (tangent.norm() == 0) return {true, false};  // seen end on
   const Vector2d across =
       kSideDistancePx * Vector2d(-tangent.y(), tangent.x()).normalized();
-  const double contrast = image.At(pixel + across) - image.At(pixel - across);
+  const double contrast = image.At(*pixel + across) - image.At(*pixel - across);
   return {true, std::abs(contrast) >= kMinContrast};
+}
+
+// Where the ray through a pixel meets the surface.
+std::optional<Vector3d> SurfaceAt(const Vector2d& pixel,
+                                  const Solid& solid,
+                                  const Camera& camera,
+                                  const Rigid3& cam_from_world) {
+  const std::optional<Vector2d> uv = IdealFromImage(camera, pixel);
+  if (!uv) return std::nullopt;
+  const Rigid3 world_from_cam = cam_from_world.Inverse();
+  const Ray ray{world_from_cam.translation,
+                world_from_cam.rotation * uv->homogeneous()};
+  const std::optional<Hit> hit = solid.Trace(ray);
+  if (!hit) return std::nullopt;
+  return ray.origin + hit->t * ray.direction;
 }
 
 }  // namespace
@@ -75,6 +106,32 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
     looks.push_back(LookAtSample(sample, solid, camera, cam_from_world, image));
   }
   return looks;
+}
+
+std::vector<TruePoint> FindTruePoints(const Solid& solid,
+                                      const Camera& camera,
+                                      const std::vector<Rigid3>& poses,
+                                      int num_per_view,
+                                      std::uint64_t seed,
+                                      int num_threads) {
+  const auto num_points = static_cast<std::size_t>(num_per_view);
+  std::vector<TruePoint> points(poses.size() * num_points);
+  ParallelFor(points.size(), num_threads, [&](std::size_t i) {
+    const Vector2d pixel(camera.width * Uniform(Mix(seed, 2 * i)),
+                         camera.height * Uniform(Mix(seed, 2 * i + 1)));
+    const auto position =
+        SurfaceAt(pixel, solid, camera, poses[i / num_points]);
+    if (!position) return;
+    points[i].position = *position;
+    for (std::size_t view = 0; view < poses.size(); ++view) {
+      if (const auto at = Sight(*position, solid, camera, poses[view])) {
+        points[i].sights.push_back({static_cast<int>(view), *at});
+      }
+    }
+  });
+  std::erase_if(points,
+                [](const TruePoint& point) { return point.sights.size() < 2; });
+  return points;
 }
 
 }  // namespace curvix

@@ -116,7 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Solids,
                                            SyntheticSolid::kCylinder,
                                            SyntheticSolid::kCone,
                                            SyntheticSolid::kSphere,
-                                           SyntheticSolid::kPart));
+                                           SyntheticSolid::kPart,
+                                           SyntheticSolid::kFacade));
 
 TEST(CreaseCurvesTest, OfACubeAreItsTwelveSides) {
   const Solid solid({Cube(0.5, {0.1, 0.2, 0.3})});

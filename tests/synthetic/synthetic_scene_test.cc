@@ -141,6 +141,47 @@ TEST(SyntheticSceneTest, BoxCornersAreSeenFromTheSidesTheyFace) {
   EXPECT_GT(num_checked, 400);
 }
 
+TEST(SyntheticSceneTest, PointsAreWhereTheirViewsSeeThem) {
+  SyntheticOptions options = SmallOptions();
+  options.points_per_view = 50;
+  const SyntheticScene scene = Make(options);
+  ASSERT_GT(scene.points.size(), 20u);
+  ASSERT_LE(scene.points.size(), 300u);
+  for (const TruePoint& point : scene.points) {
+    EXPECT_GE(point.sights.size(), 2u);
+    int last = -1;
+    for (const TruePoint::Sight& sight : point.sights) {
+      EXPECT_LT(last, sight.view_idx);
+      last = sight.view_idx;
+      const auto view = static_cast<std::size_t>(sight.view_idx);
+      EXPECT_LT(
+          (Project(scene.scene, view, point.position) - sight.pixel).norm(),
+          1e-6);
+    }
+  }
+}
+
+TEST(SyntheticSceneTest, AFacadeGrowsWithItsViewsWhichSeeAPartOfIt) {
+  SyntheticOptions options = SmallOptions();
+  options.solid = SyntheticSolid::kFacade;
+  options.points_per_view = 10;
+  for (const int num_views : {20, 60}) {
+    options.num_views = num_views;
+    const SyntheticScene scene = Make(options);
+    Eigen::AlignedBox3d box;
+    for (const TrueSample& sample : scene.truth) box.extend(sample.position);
+    EXPECT_NEAR(box.sizes().x(), 0.06 * num_views, 0.3);
+    EXPECT_NEAR(box.sizes().z(), 1, 1e-9);
+    double num_sights = 0;
+    for (const TruePoint& point : scene.points) {
+      num_sights += static_cast<double>(point.sights.size());
+    }
+    const double mean = num_sights / static_cast<double>(scene.points.size());
+    EXPECT_GT(mean, 10);
+    EXPECT_LT(mean, 30);
+  }
+}
+
 TEST(SyntheticSceneTest, NoiseHasTheStandardDeviationAskedFor) {
   SyntheticOptions options = SmallOptions();
   const SyntheticScene clean = Make(options);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). A row of houses, photographed from the street: a
+// scene that grows with the number of its views, each of which sees a part.
+#pragma once
+
+#include "synthetic/primitive.h"
+
+#include <curvix/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+// The front of a row of houses, of height one: it looks along -y and is as long
+// as a walk along it with `num_views` photographs. Ledges run along all of it;
+// doors and windows change from bay to bay.
+std::vector<Primitive> Facade(int num_views);
+
+// cam_from_world of a walk along a facade of this `height`, centred on the
+// origin: two photographs from each place, one from below and one from above,
+// that look ahead, across and back in turns. A place of the facade is in some
+// 20 of them.
+std::vector<Rigid3> MakeStreetPoses(int num_views,
+                                    double height,
+                                    std::uint64_t seed);
+
+}  // namespace curvix
