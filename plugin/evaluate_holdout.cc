@@ -100,15 +100,11 @@ Status RunHoldout(const RunSettings& settings,
   const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
   if (!input.ok()) return input.status();
   for (const std::string& note : input->notes) progress.Note(note);
-  const auto callback = [&progress](
-                            const std::string& stage, int done, int total) {
-    return progress.Update(stage, done, total);
-  };
   const Result<std::vector<EdgeMap>> edge_maps =
-      DetectEdges(input->scene, settings.options, callback);
+      DetectEdges(input->scene, settings.options, progress.Callback());
   if (!edge_maps.ok()) return edge_maps.status();
   const Result<Holdout> holdout = EvaluateHoldout(
-      input->scene, *edge_maps, settings.options, options, callback);
+      input->scene, *edge_maps, settings.options, options, progress.Callback());
   if (!holdout.ok()) return holdout.status();
   progress.Finish();
   PrintHoldout(*holdout, format, out);

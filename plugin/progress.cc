@@ -96,6 +96,12 @@ bool ProgressPrinter::Update(const std::string& stage, int done, int total) {
   return !IsInterrupted();
 }
 
+std::function<bool(const std::string&, int, int)> ProgressPrinter::Callback() {
+  return [this](const std::string& stage, int done, int total) {
+    return Update(stage, done, total);
+  };
+}
+
 void ProgressPrinter::Finish(const std::string& detail) {
   if (stage_.empty()) return;
   if (is_terminal_) stream_ << kEraseLine << Title(stage_) << " ... ";

@@ -29,9 +29,12 @@ class ProgressPrinter {
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
-  // For curvix::Progress. A new `stage` ends the previous one. The bar is
+  // A new `stage` ends the previous one. The bar is
   // redrawn at most ten times a second. False once IsInterrupted().
   bool Update(const std::string& stage, int done, int total);
+
+  // Update(), for curvix::Progress; not to be called after this is gone.
+  std::function<bool(const std::string&, int, int)> Callback();
 
   // Ends the current stage, if any: "Detect edges ... 50 views, 3.1 s".
   void Finish(const std::string& detail = "");
