@@ -22,9 +22,14 @@ struct Command {
 };
 
 ExitCode RunReconstruct(const Arguments& arguments);
+ExitCode RunPartitionCommand(const Arguments& arguments);
+ExitCode RunMergeCommand(const Arguments& arguments);
 ExitCode RunSynthesize(const Arguments& arguments);
 ExitCode RunImport(const Arguments& arguments);
 ExitCode RunEvaluate(const Arguments& arguments);
+
+// Where things are.
+FlagSection PathsSection(RunSettings* settings);
 
 // What `reconstruct` can be told; the preset comes before what it changes.
 std::vector<FlagSection> ReconstructSections(RunSettings* settings);

@@ -51,6 +51,7 @@ class JsonWriter {
     }
     Raw("]");
   }
+  void Reserve(std::size_t num_bytes) { out_.reserve(num_bytes); }
   std::string Take() { return std::move(out_); }
 
  private:
@@ -187,6 +188,19 @@ void PutNode(const CurveNode& node, JsonWriter& w) {
   w.Raw("}");
 }
 
+// Bytes, so that the text need not be moved as it grows.
+std::size_t RoughSize(const CurveSet& curves) {
+  constexpr std::size_t kSampleBytes = 250;
+  constexpr std::size_t kSupportBytes = 30;
+  std::size_t size = 0;
+  for (const Curve& curve : curves.curves) {
+    for (const CurveSample& sample : curve.samples) {
+      size += kSampleBytes + kSupportBytes * sample.support.size();
+    }
+  }
+  return size;
+}
+
 }  // namespace
 
 std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
@@ -236,6 +250,7 @@ std::string JsonText(const std::string& text) {
 
 std::string CurvesJson(const CurveRecord& record) {
   JsonWriter w;
+  w.Reserve(RoughSize(record.curves));
   w.Raw("{\"format\":\"curvix curves\",\"version\":1");
   w.Key("images");
   w.Each(record.scene.views, [&](const View& view) {

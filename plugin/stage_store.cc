@@ -76,17 +76,41 @@ void AddPose(const Rigid3& pose, KeyMaker& key) {
   for (int i = 0; i < 3; ++i) key.Add(pose.translation[i]);
 }
 
-}  // namespace
-
-std::uint64_t EdgesKey(const Scene& scene, const Options& options) {
-  KeyMaker key;
-  AddProgram(key);
+void AddCameras(const Scene& scene, KeyMaker& key) {
   for (const Camera& camera : scene.cameras) {
     key.Add(static_cast<int>(camera.model));
     key.Add(camera.width);
     key.Add(camera.height);
     for (const double param : camera.params) key.Add(param);
   }
+}
+
+// Poses and points.
+void AddGeometry(const Scene& scene, KeyMaker& key) {
+  for (const View& view : scene.views) AddPose(view.cam_from_world, key);
+  for (const ScenePoint& point : scene.points) {
+    for (int i = 0; i < 3; ++i) key.Add(point.position[i]);
+    for (const int view_idx : point.view_idxs) key.Add(view_idx);
+  }
+}
+
+}  // namespace
+
+std::uint64_t SceneKey(const Scene& scene) {
+  KeyMaker key;
+  AddCameras(scene, key);
+  for (const View& view : scene.views) {
+    key.Add(view.name);
+    key.Add(view.camera_idx);
+  }
+  AddGeometry(scene, key);
+  return key.key();
+}
+
+std::uint64_t EdgesKey(const Scene& scene, const Options& options) {
+  KeyMaker key;
+  AddProgram(key);
+  AddCameras(scene, key);
   for (const View& view : scene.views) {
     key.Add(view.camera_idx);
     key.AddFile(fs::absolute(view.image_path));
@@ -99,11 +123,7 @@ std::uint64_t EdgesKey(const Scene& scene, const Options& options) {
 std::uint64_t SketchKey(const Scene& scene, const Options& options) {
   KeyMaker key;
   key.Add(EdgesKey(scene, options));
-  for (const View& view : scene.views) AddPose(view.cam_from_world, key);
-  for (const ScenePoint& point : scene.points) {
-    for (int i = 0; i < 3; ++i) key.Add(point.position[i]);
-    for (const int view_idx : point.view_idxs) key.Add(view_idx);
-  }
+  AddGeometry(scene, key);
   for (const char* section : {"Hypotheses", "Consolidation", "Validation"}) {
     key.AddOptions(options, section);
   }

@@ -17,6 +17,9 @@
 
 namespace curvix {
 
+// Stands for cameras, views and points, not for images.
+std::uint64_t SceneKey(const Scene& scene);
+
 // What the edges of a scene depend on: the program, the images and masks (by
 // path, size and time of last change), the cameras and
 // Options::edge_detection. Not the poses.

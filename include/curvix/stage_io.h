@@ -6,6 +6,7 @@
 
 #include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
+#include <curvix/parts.h>
 #include <curvix/status.h>
 
 #include <cstdint>
@@ -23,14 +24,21 @@ Status WriteEdgeMaps(const std::filesystem::path& path,
 Status WriteEdgeSketch(const std::filesystem::path& path,
                        std::uint64_t key,
                        const EdgeSketch& sketch);
+Status WritePartResult(const std::filesystem::path& path,
+                       std::uint64_t key,
+                       const PartResult& part);
 
 // kNotFound: no file, or one with another key, of another kind or version, or
 // from a machine with the other byte order. kDataLoss: broken or truncated; a
-// checksum tells, and no memory is taken on the word of a count. Indices in it
-// are not checked: they mean something together with a scene only.
+// checksum tells, and no memory is taken on the word of a count. Indices of
+// edge maps and sketches are not checked: they mean something together with a
+// scene only.
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
                                           std::uint64_t key);
 Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,
+                                  std::uint64_t key);
+// Indices in it are checked.
+Result<PartResult> ReadPartResult(const std::filesystem::path& path,
                                   std::uint64_t key);
 
 // A hash of bytes (64-bit FNV-1a), for keys; goes on from `hash`.

@@ -67,31 +67,6 @@ std::vector<Eigen::Vector3d> PlacesOnGrid(const PosedView& view, double depth) {
   return places;
 }
 
-// The places that each view sees.
-std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
-    const std::vector<PosedView>& views,
-    const std::vector<ScenePoint>& points) {
-  std::vector<std::vector<Eigen::Vector3d>> places(views.size());
-  for (const ScenePoint& point : points) {
-    for (const int view_idx : point.view_idxs) {
-      places[static_cast<std::size_t>(view_idx)].push_back(point.position);
-    }
-  }
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    std::vector<Eigen::Vector3d>& seen = places[i];
-    if (seen.size() < kMinNumPoints) {
-      seen = PlacesOnGrid(views[i], WorkingDepth(views, i));
-    } else if (seen.size() > kMaxNumPlaces) {
-      std::vector<Eigen::Vector3d> some;
-      for (std::size_t k = 0; k < kMaxNumPlaces; ++k) {
-        some.push_back(seen[k * seen.size() / kMaxNumPlaces]);
-      }
-      seen = std::move(some);
-    }
-  }
-  return places;
-}
-
 std::optional<ViewOverlap> Overlap(const PosedView& view,
                                    const std::vector<Eigen::Vector3d>& places,
                                    const PosedView& other) {
@@ -117,6 +92,30 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
 }
 
 }  // namespace
+
+std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
+    const std::vector<PosedView>& views,
+    const std::vector<ScenePoint>& points) {
+  std::vector<std::vector<Eigen::Vector3d>> places(views.size());
+  for (const ScenePoint& point : points) {
+    for (const int view_idx : point.view_idxs) {
+      places[static_cast<std::size_t>(view_idx)].push_back(point.position);
+    }
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<Eigen::Vector3d>& seen = places[i];
+    if (seen.size() < kMinNumPoints) {
+      seen = PlacesOnGrid(views[i], WorkingDepth(views, i));
+    } else if (seen.size() > kMaxNumPlaces) {
+      std::vector<Eigen::Vector3d> some;
+      for (std::size_t k = 0; k < kMaxNumPlaces; ++k) {
+        some.push_back(seen[k * seen.size() / kMaxNumPlaces]);
+      }
+      seen = std::move(some);
+    }
+  }
+  return places;
+}
 
 std::vector<std::vector<ViewOverlap>> FindOverlaps(
     const std::vector<PosedView>& views,

@@ -22,11 +22,16 @@ struct ViewOverlap {
   Eigen::Vector3d baseline_across = Eigen::Vector3d::Zero();
 };
 
-// For each view the views that overlap it, by view_idx. The places that a view
-// sees are, where it sees at least eight sparse points, up to 64 of these, else
-// a grid in its image at its working depth: the median, over the other views,
-// of the depth at which its optical axis passes nearest to theirs. Views at one
-// and the same place do not overlap: together they see no depth.
+// The places that each view sees: where it sees at least eight sparse points,
+// up to 64 of these, else a grid in its image at its working depth: the median,
+// over the other views, of the depth at which its optical axis passes nearest
+// to theirs.
+std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
+    const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
+
+// For each view the views that overlap it, by view_idx: those that see some of
+// its places. Views at one and the same place do not overlap: together they see
+// no depth.
 std::vector<std::vector<ViewOverlap>> FindOverlaps(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 

@@ -79,6 +79,18 @@ Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
   return Write(path, EncodePlyEdges(edges));
 }
 
+Status ConcatenateEdges(const fs::path& path,
+                        const std::vector<fs::path>& parts) {
+  std::string rows;
+  for (const fs::path& part : parts) {
+    const Result<std::string> bytes = ReadFile(part);
+    if (!bytes.ok()) return bytes.status();
+    const Status status = AppendPlyEdges(*bytes, rows);
+    if (!status.ok()) return About(part, status);
+  }
+  return Write(path, PlyEdgesOfRows(std::move(rows)));
+}
+
 Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
   if (path.extension() != ".dxf") {
     return About(path,

@@ -28,6 +28,8 @@ constexpr std::string_view kPlyGeometry =
     "property uchar red\n"
     "property uchar green\n"
     "property uchar blue\n";
+constexpr std::string_view kEndOfHeader = "end_header\n";
+constexpr std::size_t kEdgeBytes = 31;  // of edges before they are grouped
 constexpr std::size_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
 
 Status TooManyVertices(std::size_t count) {
@@ -113,6 +115,15 @@ void AppendEdges(const Curve& curve, std::size_t first, std::string& out) {
   }
 }
 
+std::string EdgesHeader(std::size_t num_edges) {
+  std::string header(kPlyStart);
+  header += std::to_string(num_edges);
+  header += kPlyGeometry;
+  header += "property float support\n";
+  header += kEndOfHeader;
+  return header;
+}
+
 }  // namespace
 
 Result<std::string> EncodePlyLines(const CurveSet& curves) {
@@ -140,10 +151,7 @@ Result<std::string> EncodePlyLines(const CurveSet& curves) {
 
 Result<std::string> EncodePlyEdges(const std::vector<Edge3d>& edges) {
   if (edges.size() > kMaxVertices) return TooManyVertices(edges.size());
-  std::string out(kPlyStart);
-  out += std::to_string(edges.size());
-  out += kPlyGeometry;
-  out += "property float support\nend_header\n";
+  std::string out = EdgesHeader(edges.size());
   for (const Edge3d& edge : edges) {
     AppendVector(edge.position, out);
     AppendVector(edge.tangent, out);
@@ -151,6 +159,27 @@ Result<std::string> EncodePlyEdges(const std::vector<Edge3d>& edges) {
     AppendLittleEndian(static_cast<float>(edge.support.size()), out);
   }
   return out;
+}
+
+Status AppendPlyEdges(std::string_view bytes, std::string& rows) {
+  const std::size_t end = bytes.find(kEndOfHeader);
+  if (end != std::string_view::npos) {
+    const std::string_view body = bytes.substr(end + kEndOfHeader.size());
+    if (bytes.substr(0, bytes.size() - body.size()) ==
+            EdgesHeader(body.size() / kEdgeBytes) &&
+        body.size() % kEdgeBytes == 0) {
+      rows += body;
+      return {};
+    }
+  }
+  return {StatusCode::kDataLoss, "it is broken, or was not written by curvix"};
+}
+
+Result<std::string> PlyEdgesOfRows(std::string rows) {
+  const std::size_t num_edges = rows.size() / kEdgeBytes;
+  if (num_edges > kMaxVertices) return TooManyVertices(num_edges);
+  rows.insert(0, EdgesHeader(num_edges));
+  return rows;
 }
 
 }  // namespace curvix

@@ -25,6 +25,11 @@ Result<std::string> EncodePlyLines(const CurveSet& curves);
 // uchar red green blue (by direction), float support. No `element edge`.
 Result<std::string> EncodePlyEdges(const std::vector<Edge3d>& edges);
 
+// Appends the edges of such a file to `rows`, and makes a file of rows again.
+// kDataLoss: it is no such file.
+Status AppendPlyEdges(std::string_view bytes, std::string& rows);
+Result<std::string> PlyEdgesOfRows(std::string rows);
+
 // The curves of any PLY with `element vertex` (x, y, z, of any scalar type) and
 // `element edge` (vertex1, vertex2): ASCII or binary, with whatever further
 // elements and properties. Vertices tx, ty, tz become tangents where present

@@ -3,6 +3,7 @@
 #include <curvix/file_io.h>
 #include <curvix/stage_io.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -16,12 +17,18 @@ namespace fs = std::filesystem;
 // "CVXSTAGE" in the byte order of the machine.
 constexpr std::uint64_t kMagic = 0x4547415453585643;
 constexpr std::uint32_t kVersion = 1;
-enum class Kind : std::uint32_t { kEdgeMaps = 1, kEdgeSketch = 2 };
+enum class Kind : std::uint32_t {
+  kEdgeMaps = 1,
+  kEdgeSketch = 2,
+  kPartResult = 3
+};
 
-constexpr std::size_t kEdge2dBytes = 36;
+constexpr std::size_t kEdge2dBytes = 28;
+constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
 constexpr std::size_t kEdgeMapBytes = 28;  // without edges
 constexpr std::size_t kEdge3dBytes = 72;   // without support
 constexpr std::size_t kEdgeRefBytes = 8;
+constexpr std::size_t kCurveBytes = 10;  // without samples
 
 Status WriteStage(const fs::path& path,
                   Kind kind,
@@ -88,6 +95,24 @@ std::optional<std::int32_t> TakeNeighbor(ByteReader& in) {
   return edge_idx;
 }
 
+void Put(const Edge2d& edge, ByteWriter& out) {
+  out.Put(edge.position.x());
+  out.Put(edge.position.y());
+  out.Put(edge.angle);
+  out.Put(edge.strength);
+  out.Put(edge.sharpness);
+}
+
+Edge2d TakeEdge2d(ByteReader& in) {
+  Edge2d edge;
+  edge.position.x() = in.Take<double>();
+  edge.position.y() = in.Take<double>();
+  edge.angle = in.Take<float>();
+  edge.strength = in.Take<float>();
+  edge.sharpness = in.Take<float>();
+  return edge;
+}
+
 void Put(const EdgeMap& map, ByteWriter& out) {
   out.PutCount(map.edges.size());
   out.Put(map.noise);
@@ -96,11 +121,7 @@ void Put(const EdgeMap& map, ByteWriter& out) {
   out.Put(map.num_dropped_over_limit);
   for (std::size_t i = 0; i < map.edges.size(); ++i) {
     const Edge2d& edge = map.edges[i];
-    out.Put(edge.position.x());
-    out.Put(edge.position.y());
-    out.Put(edge.angle);
-    out.Put(edge.strength);
-    out.Put(edge.sharpness);
+    Put(edge, out);
     out.Put(map.neighbors[i].previous.value_or(-1));
     out.Put(map.neighbors[i].next.value_or(-1));
   }
@@ -108,7 +129,7 @@ void Put(const EdgeMap& map, ByteWriter& out) {
 
 EdgeMap TakeEdgeMap(ByteReader& in) {
   EdgeMap map;
-  const std::size_t num_edges = in.TakeCount(kEdge2dBytes);
+  const std::size_t num_edges = in.TakeCount(kLinkedEdge2dBytes);
   map.noise = in.Take<double>();
   map.num_dropped_masked = in.Take<std::int32_t>();
   map.num_dropped_isolated = in.Take<std::int32_t>();
@@ -116,19 +137,16 @@ EdgeMap TakeEdgeMap(ByteReader& in) {
   map.edges.resize(num_edges);
   map.neighbors.resize(num_edges);
   for (std::size_t i = 0; i < num_edges; ++i) {
-    Edge2d& edge = map.edges[i];
-    edge.position.x() = in.Take<double>();
-    edge.position.y() = in.Take<double>();
-    edge.angle = in.Take<float>();
-    edge.strength = in.Take<float>();
-    edge.sharpness = in.Take<float>();
+    map.edges[i] = TakeEdge2d(in);
     map.neighbors[i].previous = TakeNeighbor(in);
     map.neighbors[i].next = TakeNeighbor(in);
   }
   return map;
 }
 
-void Put(const Edge3d& edge, ByteWriter& out) {
+// Of Edge3d and CurveSample, which have the same fields.
+template <typename Edge>
+void PutEdge(const Edge& edge, ByteWriter& out) {
   Put(edge.position, out);
   Put(edge.tangent, out);
   out.Put(edge.sigma);
@@ -140,8 +158,9 @@ void Put(const Edge3d& edge, ByteWriter& out) {
   }
 }
 
-Edge3d TakeEdge3d(ByteReader& in) {
-  Edge3d edge;
+template <typename Edge>
+Edge TakeEdge(ByteReader& in) {
+  Edge edge;
   edge.position = TakeVector3(in);
   edge.tangent = TakeVector3(in);
   edge.sigma = in.Take<double>();
@@ -152,6 +171,42 @@ Edge3d TakeEdge3d(ByteReader& in) {
     ref.edge_idx = in.Take<std::int32_t>();
   }
   return edge;
+}
+
+void Put(const Curve& curve, ByteWriter& out) {
+  out.PutCount(curve.samples.size());
+  out.Put(static_cast<std::uint8_t>(curve.closed));
+  out.Put(static_cast<std::uint8_t>(curve.is_occluding_contour));
+  for (const CurveSample& sample : curve.samples) PutEdge(sample, out);
+}
+
+Curve TakeCurve(ByteReader& in) {
+  Curve curve;
+  curve.samples.resize(in.TakeCount(kEdge3dBytes));
+  curve.closed = in.Take<std::uint8_t>() != 0;
+  curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
+  for (CurveSample& sample : curve.samples) {
+    sample = TakeEdge<CurveSample>(in);
+  }
+  return curve;
+}
+
+// Whether all edges that the curves name are there.
+bool IsConsistent(const PartResult& part) {
+  const auto is_there = [&](const EdgeRef& ref) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    return ref.view_idx >= 0 && view_idx < part.edge_maps.size() &&
+           ref.edge_idx >= 0 &&
+           static_cast<std::size_t>(ref.edge_idx) <
+               part.edge_maps[view_idx].edges.size();
+  };
+  for (const Curve& curve : part.curves) {
+    for (const CurveSample& sample : curve.samples) {
+      const auto& support = sample.support;
+      if (!std::all_of(support.begin(), support.end(), is_there)) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -169,7 +224,7 @@ Status WriteEdgeMaps(const fs::path& path,
   ByteWriter out;
   std::size_t num_bytes = sizeof(std::uint64_t);
   for (const EdgeMap& map : edge_maps) {
-    num_bytes += kEdgeMapBytes + kEdge2dBytes * map.edges.size();
+    num_bytes += kEdgeMapBytes + kLinkedEdge2dBytes * map.edges.size();
   }
   out.Reserve(num_bytes);
   out.PutCount(edge_maps.size());
@@ -202,7 +257,7 @@ Status WriteEdgeSketch(const fs::path& path,
     out.Put(count);
   }
   out.PutCount(sketch.edges.size());
-  for (const Edge3d& edge : sketch.edges) Put(edge, out);
+  for (const Edge3d& edge : sketch.edges) PutEdge(edge, out);
   return WriteStage(path, Kind::kEdgeSketch, key, out.bytes());
 }
 
@@ -221,9 +276,43 @@ Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
     *count = in.Take<std::int64_t>();
   }
   sketch.edges.resize(in.TakeCount(kEdge3dBytes));
-  for (Edge3d& edge : sketch.edges) edge = TakeEdge3d(in);
+  for (Edge3d& edge : sketch.edges) edge = TakeEdge<Edge3d>(in);
   if (!in.AtEnd()) return Broken(path);
   return sketch;
+}
+
+Status WritePartResult(const fs::path& path,
+                       std::uint64_t key,
+                       const PartResult& part) {
+  ByteWriter out;
+  out.PutCount(part.curves.size());
+  for (const Curve& curve : part.curves) Put(curve, out);
+  out.PutCount(part.edge_maps.size());
+  for (const EdgeMap& map : part.edge_maps) {
+    out.PutCount(map.edges.size());
+    for (const Edge2d& edge : map.edges) Put(edge, out);
+  }
+  out.Put(part.num_own_edges_2d);
+  out.Put(part.num_core_edges_3d);
+  return WriteStage(path, Kind::kPartResult, key, out.bytes());
+}
+
+Result<PartResult> ReadPartResult(const fs::path& path, std::uint64_t key) {
+  const Result<std::string> content = ReadStage(path, Kind::kPartResult, key);
+  if (!content.ok()) return content.status();
+  ByteReader in(*content);
+  PartResult part;
+  part.curves.resize(in.TakeCount(kCurveBytes));
+  for (Curve& curve : part.curves) curve = TakeCurve(in);
+  part.edge_maps.resize(in.TakeCount(sizeof(std::uint64_t)));
+  for (EdgeMap& map : part.edge_maps) {
+    map.edges.resize(in.TakeCount(kEdge2dBytes));
+    for (Edge2d& edge : map.edges) edge = TakeEdge2d(in);
+  }
+  part.num_own_edges_2d = in.Take<std::int64_t>();
+  part.num_core_edges_3d = in.Take<std::int64_t>();
+  if (!in.AtEnd() || !IsConsistent(part)) return Broken(path);
+  return part;
 }
 
 }  // namespace curvix

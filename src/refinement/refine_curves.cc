@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "geometry/pixel_size.h"
-#include "model/curve_junctions.h"
+#include "geometry/loose_curves.h"
 #include "refinement/bridge_gaps.h"
 #include "refinement/fit_to_images.h"
 #include "refinement/image_support.h"
@@ -18,32 +17,20 @@
 namespace curvix {
 namespace {
 
-// Evidence adds up over views, so what can be asked of a curve grows with them:
-// options.min_evidence is for this many or more.
+// options.min_evidence is for this many views or more.
 constexpr double kFullNumViews = 50;
 
 CurveRefinementOptions ForNumViews(CurveRefinementOptions options,
                                    std::size_t num_views) {
-  options.min_evidence *=
-      std::min(1.0, static_cast<double>(num_views) / kFullNumViews);
+  options.min_evidence *= EvidenceShare(num_views);
   return options;
 }
 
-std::vector<Curve> DropShortCurves(std::vector<Curve> curves,
-                                   const std::vector<PosedView>& views,
-                                   double min_length_px) {
-  CurveSet set{std::move(curves), {}};
-  IndexJunctions(set);
-  std::erase_if(set.curves, [&](const Curve& curve) {
-    const bool leads_somewhere = curve.start_junction >= 0 &&
-                                 curve.end_junction >= 0 &&
-                                 curve.start_junction != curve.end_junction;
-    return !leads_somewhere && LengthInPixels(curve, views) < min_length_px;
-  });
-  return std::move(set.curves);
-}
-
 }  // namespace
+
+double EvidenceShare(std::size_t num_views) {
+  return std::min(1.0, static_cast<double>(num_views) / kFullNumViews);
+}
 
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
@@ -64,7 +51,7 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
       FitToImages(std::move(refined), views, edge_maps, options, num_threads);
   refined = MeetAtJunctions(std::move(refined), views, options);
   refined =
-      DropShortCurves(std::move(refined), views, options.min_length_px);
+      DropLooseShortCurves(std::move(refined), views, options.min_length_px);
   if (!options.keep_occluding_contours) return refined;
   for (Curve& contour :
        SmoothCurves(selected.occluding_contours, views, options, num_threads)) {

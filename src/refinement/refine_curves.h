@@ -5,14 +5,18 @@
 #include <curvix/curves.h>
 #include <curvix/options.h>
 
+#include <cstddef>
 #include <vector>
 
 #include "model/posed_view.h"
 
 namespace curvix {
 
-// Selects (select_curves.h; with fewer than 50 views, n, the least evidence is
-// n / 50 of options.min_evidence, since evidence adds up over views), smooths
+// The share of options.min_evidence that is asked for in a scene of so many
+// views, n: n / 50, at most 1, since evidence adds up over views.
+double EvidenceShare(std::size_t num_views);
+
+// Selects (select_curves.h, with EvidenceShare of the least evidence), smooths
 // (smooth_curves.h), closes gaps (bridge_gaps.h), fits to all images
 // (fit_to_images.h), and carries on to corners
 // (meet_at_junctions.h). Then curves shorter than options.min_length_px go,

@@ -56,12 +56,19 @@ std::vector<std::string> FuzzSeeds() {
   std::vector<std::string> seeds = {"0" + *ReadFile(path)};
   Require(WriteEdgeSketch(path, kKey, SomeSketch()).ok(), "written");
   seeds.push_back("1" + *ReadFile(path));
+  PartResult part;
+  part.edge_maps = SomeEdgeMaps();
+  part.curves.resize(1);
+  part.curves[0].samples.resize(2);
+  part.curves[0].samples[1].support = {{0, 1}, {2, 0}};
+  Require(WritePartResult(path, kKey, part).ok(), "written");
+  seeds.push_back("2" + *ReadFile(path));
   return seeds;
 }
 
 void FuzzReader(std::string_view bytes) {
   static const TemporaryFolder folder;
-  const std::size_t kind = TakeChoice(bytes, 2);
+  const std::size_t kind = TakeChoice(bytes, 3);
   const auto path = folder.Write("stage.bin", WithChecksum(std::string(bytes)));
   if (kind == 0) {
     const auto edge_maps = ReadEdgeMaps(path, kKey);
@@ -69,6 +76,8 @@ void FuzzReader(std::string_view bytes) {
     Scene scene;
     scene.views.resize(3);
     if (edge_maps.ok()) RequireSentence(CheckEdgeMaps(scene, *edge_maps));
+  } else if (kind == 2) {
+    RequireSentence(ReadPartResult(path, kKey).status());
   } else {
     const auto sketch = ReadEdgeSketch(path, kKey);
     RequireSentence(sketch.status());

@@ -102,6 +102,47 @@ TEST_F(StageIo, GivesASketchBackBitByBit) {
   }
 }
 
+TEST_F(StageIo, GivesAPartBackBitByBit) {
+  PartResult part;
+  part.edge_maps = SomeEdgeMaps();
+  part.num_own_edges_2d = 17;
+  part.num_core_edges_3d = 5'000'000'000;
+  part.curves.resize(2);
+  part.curves[0].closed = true;
+  part.curves[1].is_occluding_contour = true;
+  CurveSample sample;
+  sample.position = {1.0 / 3, -1e-300, 7};
+  sample.sigma = 0.1;
+  sample.support = {{2, 0}, {2, 3}};
+  part.curves[1].samples = {CurveSample(), sample};
+  ASSERT_TRUE(WritePartResult(path_, kKey, part).ok());
+  const auto read = ReadPartResult(path_, kKey);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_EQ(read->num_own_edges_2d, 17);
+  EXPECT_EQ(read->num_core_edges_3d, 5'000'000'000);
+  EXPECT_EQ(read->edge_maps[2].edges.size(), 4u);
+  ASSERT_EQ(read->curves.size(), 2u);
+  EXPECT_TRUE(read->curves[0].closed);
+  EXPECT_TRUE(read->curves[1].is_occluding_contour);
+  ASSERT_EQ(read->curves[1].samples.size(), 2u);
+  EXPECT_EQ(read->curves[1].samples[1].position, sample.position);
+  EXPECT_EQ(read->curves[1].samples[1].sigma, sample.sigma);
+  EXPECT_EQ(read->curves[1].samples[1].support, sample.support);
+}
+
+TEST_F(StageIo, RefusesAPartThatNamesEdgesThatAreNotThere) {
+  for (const EdgeRef& ref : {EdgeRef{3, 0}, {-1, 0}, {2, 4}, {2, -1}}) {
+    PartResult part;
+    part.edge_maps = SomeEdgeMaps();
+    part.curves.resize(1);
+    part.curves[0].samples.resize(2);
+    part.curves[0].samples[1].support = {ref};
+    ASSERT_TRUE(WritePartResult(path_, kKey, part).ok());
+    EXPECT_EQ(ReadPartResult(path_, kKey).status().code(),
+              StatusCode::kDataLoss);
+  }
+}
+
 TEST_F(StageIo, FindsNothingUnderAnotherKeyOrKind) {
   ASSERT_TRUE(WriteEdgeMaps(path_, kKey, SomeEdgeMaps()).ok());
   EXPECT_EQ(ReadEdgeMaps(path_, kKey + 1).status().code(),

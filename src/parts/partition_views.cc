@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "parts/partition_views.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+#include "parts/regions.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector3d;
+using Places = std::vector<std::vector<Vector3d>>;
+
+// Of its places that must lie in a part, for a view to belong to it.
+constexpr double kMinShare = 0.05;
+
+// Unit; ties and signs do not depend on the order of the points.
+Vector3d LongestDirection(const std::vector<Vector3d>& points) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Vector3d& point : points) {
+    covariance += (point - mean) * (point - mean).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  Vector3d direction = solver.eigenvectors().col(2).normalized();
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  if (direction[largest] < 0) direction = -direction;
+  return direction;
+}
+
+class Partitioner {
+ public:
+  Partitioner(const Places& places, double overlap)
+      : places_(places), overlap_(overlap) {
+    for (const std::vector<Vector3d>& seen : places) {
+      const Vector3d sum =
+          std::accumulate(seen.begin(), seen.end(), Vector3d(0, 0, 0));
+      centers_.push_back(sum / static_cast<double>(seen.size()));
+    }
+  }
+
+  // nullopt if a cut leaves all views on one side.
+  std::optional<ScenePartition> Divide(int num_parts) const {
+    std::vector<int> all(places_.size());
+    std::iota(all.begin(), all.end(), 0);
+    ScenePartition partition;
+    partition.overlap = overlap_;
+    if (!Divide(num_parts, all, all, {}, partition)) return std::nullopt;
+    return partition;
+  }
+
+ private:
+  // `own`: the views to divide. `near`: those that see something around there,
+  // within `borders`. False if there is nothing between which to cut.
+  bool Divide(int num_parts,
+              std::vector<int> own,
+              const std::vector<int>& near,
+              const std::vector<Border>& borders,
+              ScenePartition& partition) const {
+    if (num_parts == 1) {
+      AddPart(std::move(own), near, partition);
+      return true;
+    }
+    std::vector<Vector3d> centers;
+    for (const int i : own) centers.push_back(CenterOf(i));
+    const Vector3d normal = LongestDirection(centers);
+    const auto place = [&](int i) {
+      return std::pair(normal.dot(CenterOf(i)), i);
+    };
+    std::sort(own.begin(), own.end(), [&](int a, int b) {
+      return place(a) < place(b);
+    });
+    const int num_below = num_parts / 2;
+    const std::size_t middle = own.size() *
+                               static_cast<std::size_t>(num_below) /
+                               static_cast<std::size_t>(num_parts);
+    if (middle == 0) return false;
+    const double low = place(own[middle - 1]).first;
+    const double high = place(own[middle]).first;
+    const std::size_t cut_idx = partition.cuts.size();
+    partition.cuts.push_back({normal, (low + high) / 2, 0, 0});
+    for (const bool is_above : {false, true}) {
+      std::vector<Border> more = borders;
+      more.push_back({normal, (low + high) / 2, is_above});
+      const auto split = own.begin() + static_cast<std::ptrdiff_t>(middle);
+      std::vector<int> side(is_above ? split : own.begin(),
+                            is_above ? own.end() : split);
+      const int num_side = is_above ? num_parts - num_below : num_below;
+      const int child = num_side == 1
+                            ? -1 - static_cast<int>(partition.parts.size())
+                            : static_cast<int>(partition.cuts.size());
+      (is_above ? partition.cuts[cut_idx].above
+                : partition.cuts[cut_idx].below) = child;
+      if (!Divide(
+              num_side, std::move(side), Near(near, more), more, partition)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  static void AddPart(std::vector<int> own,
+                      const std::vector<int>& near,
+                      ScenePartition& partition) {
+    std::sort(own.begin(), own.end());
+    ScenePart part;
+    std::set_union(own.begin(),
+                   own.end(),
+                   near.begin(),
+                   near.end(),
+                   std::back_inserter(part.view_idxs));
+    part.own_view_idxs = std::move(own);
+    partition.parts.push_back(std::move(part));
+  }
+
+  // Those of `views` that see enough within the borders and around.
+  std::vector<int> Near(const std::vector<int>& views,
+                        const std::vector<Border>& borders) const {
+    std::vector<int> near;
+    for (const int i : views) {
+      const std::vector<Vector3d>& seen = places_[static_cast<std::size_t>(i)];
+      const auto num_near =
+          std::count_if(seen.begin(), seen.end(), [&](const Vector3d& place) {
+            return DistanceBeyond(borders, place) <= 2 * overlap_;
+          });
+      const auto num_seen = static_cast<double>(seen.size());
+      if (static_cast<double>(num_near) >= kMinShare * num_seen) {
+        near.push_back(i);
+      }
+    }
+    return near;
+  }
+
+  const Vector3d& CenterOf(int view_idx) const {
+    return centers_[static_cast<std::size_t>(view_idx)];
+  }
+
+  const Places& places_;
+  double overlap_;
+  std::vector<Vector3d> centers_;  // of the places of each view
+};
+
+int LargestPart(const ScenePartition& partition) {
+  std::size_t largest = 0;
+  for (const ScenePart& part : partition.parts) {
+    largest = std::max(largest, part.view_idxs.size());
+  }
+  return static_cast<int>(largest);
+}
+
+}  // namespace
+
+std::optional<ScenePartition> PartitionViews(const Places& places,
+                                             double overlap,
+                                             int max_views_per_part) {
+  const Partitioner partitioner(places, overlap);
+  const auto divide = [&](int num_parts) {
+    auto partition = partitioner.Divide(num_parts);
+    if (partition && LargestPart(*partition) > max_views_per_part) {
+      partition.reset();
+    }
+    return partition;
+  };
+  // Doubling, then halving: few attempts for any number of parts.
+  const int num_views = static_cast<int>(places.size());
+  int too_few = 0;
+  int enough = 1;
+  std::optional<ScenePartition> best;
+  while (!(best = divide(enough))) {
+    if (enough == num_views) return std::nullopt;
+    too_few = enough;
+    enough = std::min(2 * enough, num_views);
+  }
+  while (enough - too_few > 1) {
+    const int middle = too_few + (enough - too_few) / 2;
+    if (auto partition = divide(middle)) {
+      best = std::move(partition);
+      enough = middle;
+    } else {
+      too_few = middle;
+    }
+  }
+  return best;
+}
+
+}  // namespace curvix

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). The regions of a partition.
+#pragma once
+
+#include <curvix/parts.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace curvix {
+
+// A cut as the core on one side of it sees it.
+struct Border {
+  Eigen::Vector3d normal;  // unit
+  double offset = 0;
+  bool is_above = false;  // the core is
+};
+
+// The borders of each part's core, which is convex.
+std::vector<std::vector<Border>> CoresOf(const ScenePartition& partition);
+
+// How far `position` is beyond the border of the core that is exceeded most:
+// negative inside it, minus infinity without borders. World units.
+double DistanceBeyond(const std::vector<Border>& core,
+                      const Eigen::Vector3d& position);
+
+}  // namespace curvix

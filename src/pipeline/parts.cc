@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Scenes in parts.
+#include <curvix/parts.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/median.h"
+#include "geometry/posed_views.h"
+#include "hypotheses/view_overlap.h"
+#include "model/curve_junctions.h"
+#include "parts/cut_curves.h"
+#include "parts/join_curves_of_parts.h"
+#include "parts/move_support.h"
+#include "parts/partition_views.h"
+#include "parts/regions.h"
+#include "pipeline/check_input.h"
+#include "refinement/refine_curves.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kOverlapPx = 25;
+
+// The length that a typical view shows on one pixel, world units.
+double TypicalPixel(const std::vector<PosedView>& views,
+                    const std::vector<std::vector<Eigen::Vector3d>>& places) {
+  std::vector<double> pixels;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<double> depths;
+    for (const Eigen::Vector3d& place : places[i]) {
+      depths.push_back(std::max(0.0, views[i].InCamera(place).z()));
+    }
+    pixels.push_back(Median(std::move(depths)) / views[i].calibration(0, 0));
+  }
+  return Median(std::move(pixels));
+}
+
+}  // namespace
+
+Result<ScenePartition> PartitionScene(const Scene& scene,
+                                      int max_views_per_part) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  const std::vector<PosedView> views = MakePosedViews(scene);
+  const auto places = FindPlaces(views, scene.points);
+  std::optional<ScenePartition> partition = PartitionViews(
+      places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
+  if (partition) return *std::move(partition);
+  return Status(StatusCode::kInvalidArgument,
+                "the " + std::to_string(views.size()) +
+                    " views cannot be divided into parts of " +
+                    std::to_string(max_views_per_part) +
+                    " views, because too many of them see the same places; "
+                    "allow more views per part");
+}
+
+Options OptionsForPart(Options options,
+                       std::size_t num_scene_views,
+                       std::size_t num_part_views) {
+  options.curve_refinement.min_evidence *=
+      EvidenceShare(num_scene_views) / EvidenceShare(num_part_views);
+  return options;
+}
+
+PartResult TakePart(const ScenePartition& partition,
+                    int part_idx,
+                    const CurveSet& curves,
+                    const std::vector<EdgeMap>& edge_maps) {
+  const auto cores = CoresOf(partition);
+  PartResult result;
+  result.curves = CutCurves(curves.curves,
+                            cores[static_cast<std::size_t>(part_idx)],
+                            partition.overlap);
+  result.edge_maps = KeepSupport(edge_maps, result.curves);
+  const ScenePart& part = partition.parts[static_cast<std::size_t>(part_idx)];
+  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
+    if (std::binary_search(part.own_view_idxs.begin(),
+                           part.own_view_idxs.end(),
+                           part.view_idxs[i])) {
+      result.num_own_edges_2d +=
+          static_cast<std::int64_t>(edge_maps[i].edges.size());
+    }
+  }
+  return result;
+}
+
+std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
+                                int part_idx,
+                                std::vector<Edge3d> edges) {
+  std::erase_if(edges, [&](const Edge3d& edge) {
+    return OwnerOf(partition, edge.position) != part_idx;
+  });
+  return edges;
+}
+
+Result<JoinedParts> JoinParts(const ScenePartition& partition,
+                              const ReadPart& read,
+                              const Scene& scene,
+                              const Options& options) {
+  JoinedParts joined;
+  joined.edge_maps.resize(scene.views.size());
+  std::vector<std::vector<Curve>> curves_of_parts;
+  for (std::size_t i = 0; i < partition.parts.size(); ++i) {
+    Result<PartResult> part = read(static_cast<int>(i));
+    if (!part.ok()) return part.status();
+    MoveSupport(*part, partition.parts[i].view_idxs, joined.edge_maps);
+    curves_of_parts.push_back(std::move(part->curves));
+    joined.num_edges_2d += part->num_own_edges_2d;
+    joined.num_edges_3d += part->num_core_edges_3d;
+  }
+  joined.curves.curves = JoinCurvesOfParts(
+      partition, std::move(curves_of_parts), MakePosedViews(scene), options);
+  IndexJunctions(joined.curves);
+  return joined;
+}
+
+}  // namespace curvix

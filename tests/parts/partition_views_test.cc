@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parts/partition_views.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "parts/regions.h"
+
+namespace curvix {
+namespace {
+
+using Places = std::vector<std::vector<Eigen::Vector3d>>;
+
+constexpr double kOverlap = 0.5;
+
+// A row of views one apart; each sees 40 places up to three to either side.
+Places Street(int num_views) {
+  Places places;
+  for (int i = 0; i < num_views; ++i) {
+    places.emplace_back();
+    for (int k = 0; k < 40; ++k) {
+      const double x = i + 3 * std::sin(1.7 * k + i);
+      places.back().emplace_back(x, 0.3 * x, std::cos(2.9 * k));
+    }
+  }
+  return places;
+}
+
+TEST(PartitionViews, IsOnePartIfAllViewsFit) {
+  const auto partition = PartitionViews(Street(10), kOverlap, 10);
+  ASSERT_TRUE(partition.has_value());
+  ASSERT_EQ(partition->parts.size(), 1u);
+  EXPECT_TRUE(partition->cuts.empty());
+  EXPECT_EQ(partition->parts[0].view_idxs.size(), 10u);
+  EXPECT_EQ(partition->parts[0].own_view_idxs.size(), 10u);
+  EXPECT_EQ(OwnerOf(*partition, {1e9, -3, 7}), 0);
+}
+
+TEST(PartitionViews, GivesEachViewToOnePartInBalance) {
+  for (const int num_views : {30, 61, 200}) {
+    const auto partition = PartitionViews(Street(num_views), kOverlap, 24);
+    ASSERT_TRUE(partition.has_value()) << num_views;
+    std::vector<int> num_owners(static_cast<std::size_t>(num_views), 0);
+    std::size_t least = 1000, most = 0;
+    for (const ScenePart& part : partition->parts) {
+      EXPECT_LE(part.view_idxs.size(), 24u);
+      EXPECT_TRUE(std::includes(part.view_idxs.begin(),
+                                part.view_idxs.end(),
+                                part.own_view_idxs.begin(),
+                                part.own_view_idxs.end()));
+      least = std::min(least, part.own_view_idxs.size());
+      most = std::max(most, part.own_view_idxs.size());
+      for (const int idx : part.own_view_idxs) {
+        ++num_owners[static_cast<std::size_t>(idx)];
+      }
+    }
+    EXPECT_EQ(num_owners, std::vector<int>(num_owners.size(), 1));
+    EXPECT_LE(most - least, 2u);
+  }
+}
+
+TEST(PartitionViews, GivesEachPlaceToOneCore) {
+  const auto partition = PartitionViews(Street(100), kOverlap, 24);
+  ASSERT_TRUE(partition.has_value());
+  const auto cores = CoresOf(*partition);
+  ASSERT_GT(cores.size(), 3u);
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d place(0.13 * i - 10, std::sin(i), std::cos(3 * i));
+    int num_owners = 0;
+    for (std::size_t k = 0; k < cores.size(); ++k) {
+      if (DistanceBeyond(cores[k], place) > 0) continue;
+      ++num_owners;
+      EXPECT_EQ(OwnerOf(*partition, place), static_cast<int>(k));
+    }
+    EXPECT_EQ(num_owners, 1);
+  }
+}
+
+TEST(PartitionViews, GivesAPartAllViewsThatSeeItsSurroundings) {
+  const Places places = Street(100);
+  const auto partition = PartitionViews(places, kOverlap, 24);
+  ASSERT_TRUE(partition.has_value());
+  const auto cores = CoresOf(*partition);
+  for (std::size_t k = 0; k < cores.size(); ++k) {
+    for (int i = 0; i < 100; ++i) {
+      int num_near = 0;
+      for (const auto& place : places[static_cast<std::size_t>(i)]) {
+        num_near += DistanceBeyond(cores[k], place) <= 2 * kOverlap;
+      }
+      const auto& idxs = partition->parts[k].view_idxs;
+      const bool is_there = std::binary_search(idxs.begin(), idxs.end(), i);
+      EXPECT_EQ(is_there, num_near >= 2) << "part " << k << ", view " << i;
+    }
+  }
+}
+
+TEST(PartitionViews, CannotDivideViewsOfOnePlace) {
+  Places ring(50);
+  for (auto& places : ring) {
+    for (int k = 0; k < 40; ++k) {
+      places.emplace_back(std::cos(k), std::sin(k), 0.1 * k);
+    }
+  }
+  EXPECT_FALSE(PartitionViews(ring, kOverlap, 49).has_value());
+  EXPECT_TRUE(PartitionViews(ring, kOverlap, 50).has_value());
+}
+
+}  // namespace
+}  // namespace curvix

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run_parts.h"
+
+#include <curvix/curve_io.h>
+#include <curvix/file_io.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "plugin/evaluate.h"
+#include "plugin/part_files.h"
+#include "plugin/run_workspace.h"
+#include "plugin/synthesize.h"
+#include "temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kMaxViews = 44;
+
+// A short street in small photographs.
+class RunParts : public testing::Test {
+ protected:
+  // Photographs four by three.
+  void MakeStreet(int width) {
+    SyntheticOptions options;
+    options.solid = SyntheticSolid::kFacade;
+    options.num_views = 48;
+    options.width = width;
+    options.height = width * 3 / 4;
+    options.points_per_view = 10;
+    ASSERT_TRUE(Synthesize(options, street_).ok());
+    settings_.workspace_path = street_;
+    settings_.output_path = parts_;
+    settings_.poses.refiner = "none";
+    settings_.poses.refine_poses_with_curves = false;
+    settings_.options.edge_detection.max_edges_per_megapixel = 60000;
+    Plan();
+  }
+
+  void Plan() {
+    const auto plan = RunPartition(settings_, kMaxViews, progress_);
+    ASSERT_TRUE(plan.ok()) << plan.status().message();
+    num_parts_ = static_cast<int>(plan->parts.size());
+    ASSERT_GE(num_parts_, 2);
+  }
+  void Reconstruct(int part_idx) {
+    const auto part = RunPart(settings_, part_idx, progress_);
+    ASSERT_TRUE(part.ok()) << part.status().message();
+  }
+  void ReconstructAll() {
+    for (int k = 0; k < num_parts_; ++k) Reconstruct(k);
+  }
+  void MergeAll() {
+    const auto merged = RunMerge(settings_, progress_);
+    ASSERT_TRUE(merged.ok()) << merged.status().message();
+  }
+  Status MergeStatus() { return RunMerge(settings_, progress_).status(); }
+
+  Evaluation Evaluate(const fs::path& output) const {
+    const auto curves = ReadCurves(output / "curves.ply", Scene());
+    const auto truth = ReadGroundTruth(street_ / "gt.txt");
+    return *EvaluateCurves(*curves, *truth, EvaluationOptions());
+  }
+
+  TemporaryFolder folder_;
+  const fs::path street_ = folder_.path() / "street";
+  const fs::path one_ = folder_.path() / "one";
+  const fs::path parts_ = folder_.path() / "in parts";
+  RunSettings settings_;
+  std::ostringstream text_;
+  ProgressPrinter progress_{text_, false};
+  int num_parts_ = 0;
+};
+
+TEST_F(RunParts, GiveWhatOneRunGives) {
+  MakeStreet(240);
+  ReconstructAll();
+  MergeAll();
+  RunSettings settings = settings_;
+  settings.output_path = one_;
+  const auto run = RunWorkspace(settings, progress_);
+  ASSERT_TRUE(run.ok()) << run.status().message();
+
+  const Evaluation one = Evaluate(one_);
+  const Evaluation merged = Evaluate(parts_);
+  EXPECT_GT(*one.visible_f_score_5, 50);
+  EXPECT_GT(*merged.visible_f_score_5, *one.visible_f_score_5 - 1.5);
+  EXPECT_NEAR(*merged.duplication, *one.duplication, 0.02);
+  EXPECT_GE(*merged.whole, *one.whole - 3);
+  EXPECT_NEAR(static_cast<double>(merged.num_predicted),
+              static_cast<double>(one.num_predicted),
+              0.04 * static_cast<double>(one.num_predicted));
+  for (const auto& entry : fs::directory_iterator(one_)) {
+    const fs::path name = entry.path().filename();
+    EXPECT_TRUE(name == "stages" || fs::exists(parts_ / name)) << name;
+  }
+}
+
+TEST_F(RunParts, GoOnAfterAPartIsLost) {
+  MakeStreet(120);
+  ReconstructAll();
+  MergeAll();
+  const std::string before = *ReadFile(parts_ / "curves.json");
+
+  // As if it had been killed between two stages.
+  fs::remove(parts_ / "parts/1/part.bin");
+  fs::remove(parts_ / "parts/1/stages/sketch.bin");
+  EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("options: 1;"));
+
+  settings_.options.runtime.num_threads = 1;
+  Plan();  // the same, so the other parts stay
+  Reconstruct(1);
+  MergeAll();
+  EXPECT_EQ(*ReadFile(parts_ / "curves.json"), before);
+
+  const std::string ply = *ReadFile(parts_ / "curves.ply");
+  settings_.output.formats = {"ply"};  // without the edges behind the curves
+  MergeAll();
+  EXPECT_EQ(*ReadFile(parts_ / "curves.ply"), ply);
+
+  settings_.options.validation.max_angle_deg = 14;
+  EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("options: 0, 1"));
+}
+
+TEST_F(RunParts, ReadOnlyTheirOwnImages) {
+  MakeStreet(80);
+  const auto plan = ReadPlan(parts_ / "parts");
+  ASSERT_TRUE(plan.ok());
+  const std::vector<int>& idxs = plan->partition.parts[0].view_idxs;
+  ASSERT_LT(idxs.back(), 47);
+  fs::remove(street_ / "images/view_047.png");
+  const auto record = RunPart(settings_, 0, progress_);
+  ASSERT_TRUE(record.ok()) << record.status().message();
+  EXPECT_EQ(record->input.num_views, static_cast<std::int64_t>(idxs.size()));
+
+  fs::remove(street_ / "images/view_000.png");
+  const Status status = RunPart(settings_, 0, progress_).status();
+  EXPECT_EQ(status.code(), StatusCode::kNotFound);
+  EXPECT_THAT(status.message(), HasSubstr("view_000.png of part 0 is gone"));
+  EXPECT_THAT(RunPart(settings_, 99, progress_).status().message(),
+              HasSubstr("there is no part 99"));
+}
+
+TEST_F(RunParts, NeedASoundPlan) {
+  MakeStreet(80);
+  const fs::path path = parts_ / "parts/plan.json";
+  const std::string text = *ReadFile(path);
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string broken = text;
+    const std::size_t at = broken.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return broken.replace(at, from.size(), to);
+  };
+  for (const std::string& broken :
+       {std::string("{"),
+        text.substr(0, text.size() / 2),
+        replaced("\"part 0\"", "\"part 7\""),
+        replaced("\"part 0\"", "\"part 1\""),
+        replaced("\"part 0\"", "\"cut 0\""),
+        replaced("\"part 0\"", "\"cut -1\""),
+        replaced("\"num_views\": 48", "\"num_views\": 3")}) {
+    ASSERT_TRUE(WriteFileAtomically(path, broken).ok());
+    EXPECT_EQ(MergeStatus().code(), StatusCode::kDataLoss) << broken;
+  }
+  fs::remove(path);
+  for (const Status& status :
+       {RunPart(settings_, 0, progress_).status(), MergeStatus()}) {
+    EXPECT_EQ(status.code(), StatusCode::kNotFound);
+    EXPECT_THAT(status.message(), HasSubstr("colmap_curvix partition"));
+  }
+}
+
+}  // namespace
+}  // namespace curvix
