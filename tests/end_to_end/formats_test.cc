@@ -191,6 +191,7 @@ TEST_F(Formats, ViewerWorksInABrowser) {
   EXPECT_EQ(seen["error"], "");
   EXPECT_EQ(seen["total"], std::to_string(NumCurves()));
   EXPECT_EQ(seen["shownAtFirst"], std::to_string(NumCurves()));
+  EXPECT_EQ(seen["inside"], true) << "the first view cuts curves off";
   EXPECT_EQ(seen["selectedRight"], true);
   EXPECT_THAT(seen["card"].get<std::string>(), HasSubstr("Photographs"));
   EXPECT_GE(seen["photos"], 1);

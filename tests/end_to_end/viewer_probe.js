@@ -7,6 +7,7 @@ setTimeout(() => {
   seen.total = $("total").textContent;
   seen.shownAtFirst = $("shown").textContent;
   paint();
+  seen.inside = curves.every(c => c.x.every((x, i) => x >= 0 && x <= width && c.y[i] >= 0 && c.y[i] <= height));
   const rectangle = canvas.getBoundingClientRect();
   const click = (x, y) => {
     for (const type of ["pointermove", "pointerdown", "pointerup"]) {
