@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -21,6 +22,10 @@ namespace curvix {
 namespace {
 
 constexpr double kUnknownSigmaSteps = 0.05;  // of the distance between samples
+// Next to a corner, edges are bent and ends were moved to meet others: pixels,
+// and times the error that samples share elsewhere.
+constexpr double kBentPx = 4;
+constexpr double kBentFactor = 4;
 
 // The median of the known sigmas, else a share of the distance of samples.
 double UsualSigma(const Curve& curve) {
@@ -37,6 +42,25 @@ double UsualSigma(const Curve& curve) {
   return Median(std::move(known));
 }
 
+// Of each sample, along the curve, to its nearer end; infinite if it is closed.
+std::vector<double> DistancesToEnd(const Curve& curve) {
+  const std::size_t n = curve.samples.size();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<double> distances(n, kInfinity);
+  if (curve.closed) return distances;
+  const auto step = [&](std::size_t i) {
+    return (curve.samples[i + 1].position - curve.samples[i].position).norm();
+  };
+  distances.front() = distances.back() = 0;
+  for (std::size_t i = 1; i < n; ++i) {
+    distances[i] = std::min(distances[i], distances[i - 1] + step(i - 1));
+  }
+  for (std::size_t i = n - 1; i-- > 0;) {
+    distances[i] = std::min(distances[i], distances[i + 1] + step(i));
+  }
+  return distances;
+}
+
 CurvePrimitives FitAlone(const Curve& curve,
                          const std::vector<PosedView>& views,
                          const CurveFittingOptions& options) {
@@ -44,9 +68,12 @@ CurvePrimitives FitAlone(const Curve& curve,
   CurvePrimitives result;
   result.closed = curve.closed;
   const double usual = UsualSigma(curve);
-  for (const CurveSample& s : curve.samples) {
-    const double common =
-        options.common_error_px * PixelSize(s.position, s.support, views);
+  const std::vector<double> to_end = DistancesToEnd(curve);
+  for (std::size_t i = 0; i < curve.samples.size(); ++i) {
+    const CurveSample& s = curve.samples[i];
+    const double pixel = PixelSize(s.position, s.support, views);
+    const double common = options.common_error_px * pixel *
+                          (to_end[i] < kBentPx * pixel ? kBentFactor : 1);
     const double own = s.sigma > 0 ? s.sigma : usual;
     result.samples.push_back({s.position, std::hypot(own, common)});
   }

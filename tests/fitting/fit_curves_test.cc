@@ -2,6 +2,7 @@
 #include <curvix/fitting.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/support/random.h"
+#include "tests/support/test_views.h"
 
 namespace curvix {
 namespace {
@@ -100,6 +102,32 @@ TEST(FitCurves, FindsACircleWhetherItsCurveIsClosedOrNot) {
     EXPECT_NEAR(Length(fit), 0.4 * kPi, 0.005);
     EXPECT_EQ(fit.start, fit.end);
   }
+}
+
+// Curves in pixels of one view, whose last three pixels are bent aside.
+std::string KindWithBentEnds(double length_px, double bow_px) {
+  constexpr double kPixel = 0.01;  // 8 from a camera of focal length 800
+  const Scene scene = ToScene({LookAt({8, 0, 0}, {0, 0, 0})});
+  Curve curve;
+  const int n = static_cast<int>(length_px) + 1;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2.0 * i / (n - 1) - 1;
+    const double to_end = std::min(i, n - 1 - i);
+    const double bent = 0.1 * std::max(0.0, 3 - to_end);
+    CurveSample& sample = curve.samples.emplace_back();
+    sample.position =
+        kPixel * Vector3d(0, t * length_px / 2, bow_px * (1 - t * t) + bent);
+    sample.sigma = 0.03 * kPixel;
+    sample.support = {{0, 0}};
+  }
+  const FittedCurves fitted = FitCurves({{curve}}, scene, {}, 1);
+  return std::string(KindName(fitted.curves.at(0).fits.at(0)));
+}
+
+TEST(FitCurves, TakesTheLastPixelsAsBent) {
+  EXPECT_EQ(KindWithBentEnds(12, 0), "line");
+  EXPECT_EQ(KindWithBentEnds(30, 0), "line");
+  EXPECT_EQ(KindWithBentEnds(30, 2), "arc");
 }
 
 TEST(FitCurves, KeepsACircleWhoseEndsAreBent) {
