@@ -26,8 +26,8 @@ struct SampleRef {
 };
 
 // For the samples near borders, the nearest sample in each other part that is
-// the same place on the same curve: at most options.max_normal_distance_px
-// across and max_angle_deg off in direction, and no further along than a step.
+// the same place on the same curve: at most options.max_normal_distance_px away
+// and max_angle_deg off in direction. Ties: the earlier sample.
 class TwinSamples {
  public:
   TwinSamples(const ScenePartition& partition,

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -21,18 +20,14 @@
 #include "base/grid_index.h"
 #include "edge_detection/curvelets.h"
 #include "tests/edge_detection/oriented_edges.h"
+#include "tests/support/data_folder.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path ReferenceFolder() {
-  const char* data = std::getenv("CURVIX_DATA");
-  const fs::path root =
-      data ? fs::path(data) : fs::path(CURVIX_SOURCE_DIR) / "../shared/data";
-  return root / "toed_reference";
-}
+fs::path ReferenceFolder() { return DataFolder() / "toed_reference"; }
 
 GrayImage RoundedGrey(const fs::path& path) {
   const cv::Mat image = cv::imread(path.string(), cv::IMREAD_UNCHANGED);

@@ -2,8 +2,7 @@
 // Middlebury's *_par.txt.
 #include "plugin/import_middlebury.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/plugin/import_fixtures.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/fuzz/two_photographs.h"
 
 namespace curvix {
 namespace {
@@ -20,12 +19,7 @@ std::vector<std::string> FuzzSeeds() {
 }
 
 void FuzzReader(std::string_view bytes) {
-  static const TemporaryFolder folder;
-  static const auto photographs = {folder.Write("a.png", PngOfSize(640, 480)),
-                                   folder.Write("b.png", PngOfSize(640, 480))};
-  ImportOptions options;
-  options.image_path = photographs.begin()->parent_path();
-  options.input_path = folder.Write("x_par.txt", std::string(bytes));
+  const ImportOptions options = ImportBesidePhotographs("x_par.txt", bytes);
   RequireSentence(ImportMiddlebury(options).status());
 }
 

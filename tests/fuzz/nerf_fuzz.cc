@@ -2,8 +2,7 @@
 // NeRF's transforms.json.
 #include "plugin/import_nerf.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/plugin/import_fixtures.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/fuzz/two_photographs.h"
 
 namespace curvix {
 
@@ -28,12 +27,8 @@ std::vector<std::string> FuzzSeeds() {
 }
 
 void FuzzReader(std::string_view bytes) {
-  static const TemporaryFolder folder;
-  static const auto photographs = {folder.Write("a.png", PngOfSize(640, 480)),
-                                   folder.Write("b.png", PngOfSize(640, 480))};
-  ImportOptions options;
-  options.image_path = photographs.begin()->parent_path();
-  options.input_path = folder.Write("transforms.json", std::string(bytes));
+  const ImportOptions options =
+      ImportBesidePhotographs("transforms.json", bytes);
   RequireSentence(ImportNerf(options).status());
 }
 

@@ -4,23 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "plugin/workspace.h"
 #include "tests/laws/compare_runs.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/random.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path DataFolder() {
-  const char* data = std::getenv("CURVIX_DATA");
-  if (data != nullptr) return data;
-  return fs::path(CURVIX_SOURCE_DIR).parent_path() / "shared" / "data";
-}
 
 // Neighbouring photographs of a ring around a figure, with COLMAP's points.
 class RealScene : public ::testing::Test {

@@ -18,17 +18,12 @@
 
 #include "plugin/evaluate.h"
 #include "tests/plugin/temporary_folder.h"
+#include "tests/support/data_folder.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path DataFolder() {
-  const char* folder = std::getenv("CURVIX_DATA");
-  if (folder != nullptr) return folder;
-  return fs::path(CURVIX_SOURCE_DIR) / ".." / "shared" / "data";
-}
 
 fs::path ScriptPath() { return DataFolder() / ".." / "eval" / "evaluate.py"; }
 

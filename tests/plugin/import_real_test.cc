@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -14,17 +13,12 @@
 #include "plugin/import_dtu.h"
 #include "plugin/import_middlebury.h"
 #include "plugin/import_nerf.h"
+#include "tests/support/data_folder.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path DataFolder() {
-  const char* data = std::getenv("CURVIX_DATA");
-  if (data != nullptr) return data;
-  return fs::path(CURVIX_SOURCE_DIR).parent_path() / "shared" / "data";
-}
 
 ImportOptions From(const std::string& input_path,
                    const std::string& image_path = "") {
