@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Run by CPack on what it installed: the names, the compression and the rights
+# that Debian's policy asks of a package.
+set(usr ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr)
+set(doc ${usr}/share/doc/colmap-curvix)
+file(RENAME ${doc}/LICENSE ${doc}/copyright)
+file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
+execute_process(COMMAND gzip -9n ${doc}/changelog
+                        ${usr}/share/man/man1/colmap_curvix.1
+                COMMAND_ERROR_IS_FATAL ANY)
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/colmap-curvix
+     DESTINATION ${usr}/share/lintian/overrides)
