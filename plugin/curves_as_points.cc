@@ -61,11 +61,11 @@ ColmapModel CurvesAsPoints(const CurveRecord& record) {
                             view.name,
                             {}});
   }
-  for (std::size_t id = 0; id < record.curves.curves.size(); ++id) {
-    for (const CurveSample& sample : record.curves.curves[id].samples) {
+  record.curves.ForEach([&](std::size_t id, const Curve& curve) {
+    for (const CurveSample& sample : curve.samples) {
       AddSample(record, sample, CurveColor(id), model);
     }
-  }
+  });
   return model;
 }
 

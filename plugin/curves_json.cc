@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <utility>
 
 namespace curvix {
 namespace {
@@ -51,8 +52,8 @@ class JsonWriter {
     }
     Raw("]");
   }
-  void Reserve(std::size_t num_bytes) { out_.reserve(num_bytes); }
-  std::string Take() { return std::move(out_); }
+  // What was written since the last time.
+  std::string Take() { return std::exchange(out_, {}); }
 
  private:
   std::string out_;
@@ -142,8 +143,10 @@ void PutSample(const CurveRecord& record,
   w.Raw("}");
 }
 
-void PutCurve(const CurveRecord& record, std::size_t id, JsonWriter& w) {
-  const Curve& curve = record.curves.curves[id];
+void PutCurve(const CurveRecord& record,
+              std::size_t id,
+              const Curve& curve,
+              JsonWriter& w) {
   w.Raw("{\"id\":");
   w.Count(id);
   w.Key("closed");
@@ -188,19 +191,6 @@ void PutNode(const CurveNode& node, JsonWriter& w) {
   w.Raw("}");
 }
 
-// Bytes, so that the text need not be moved as it grows.
-std::size_t RoughSize(const CurveSet& curves) {
-  constexpr std::size_t kSampleBytes = 250;
-  constexpr std::size_t kSupportBytes = 30;
-  std::size_t size = 0;
-  for (const Curve& curve : curves.curves) {
-    for (const CurveSample& sample : curve.samples) {
-      size += kSampleBytes + kSupportBytes * sample.support.size();
-    }
-  }
-  return size;
-}
-
 }  // namespace
 
 std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
@@ -209,8 +199,7 @@ std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
   const View& view = record.scene.views[static_cast<std::size_t>(ref.view_idx)];
   const Camera& camera =
       record.scene.cameras[static_cast<std::size_t>(view.camera_idx)];
-  const Edge2d& edge = record.edge_maps[static_cast<std::size_t>(ref.view_idx)]
-                           .edges[static_cast<std::size_t>(ref.edge_idx)];
+  const Edge2d edge = record.curves.EdgeOf(ref);
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   const Eigen::Vector3d ray =
       calibration.inverse() * edge.position.homogeneous();
@@ -248,9 +237,8 @@ std::string JsonText(const std::string& text) {
   return safe;
 }
 
-std::string CurvesJson(const CurveRecord& record) {
+void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
   JsonWriter w;
-  w.Reserve(RoughSize(record.curves));
   w.Raw("{\"format\":\"curvix curves\",\"version\":1");
   w.Key("images");
   w.Each(record.scene.views, [&](const View& view) {
@@ -261,12 +249,13 @@ std::string CurvesJson(const CurveRecord& record) {
   w.Key("nodes");
   w.Each(record.fitted.nodes, [&](const auto& node) { PutNode(node, w); });
   w.Raw(",\"curves\":[");
-  for (std::size_t id = 0; id < record.curves.curves.size(); ++id) {
+  record.curves.ForEach([&](std::size_t id, const Curve& curve) {
     w.Raw(id > 0 ? ",\n" : "\n");
-    PutCurve(record, id, w);
-  }
+    PutCurve(record, id, curve, w);
+    sink(w.Take());
+  });
   w.Raw("]}\n");
-  return w.Take();
+  sink(w.Take());
 }
 
 }  // namespace curvix

@@ -2,23 +2,23 @@
 // curves.json: everything that is known about the curves.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
+#include <curvix/file_io.h>
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 
 #include <Eigen/Core>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace curvix {
 
 // What a run knows about its curves. All of it outlives the bundle.
 struct CurveRecord {
   const Scene& scene;
-  const std::vector<EdgeMap>& edge_maps;  // one per view
-  const CurveSet& curves;
+  const CurveSource& curves;   // whose 2D edges are known
   const FittedCurves& fitted;  // of `curves`
 };
 
@@ -30,14 +30,15 @@ struct SupportingEdge {
                            // on the bright side
 };
 
-// nullopt if the view has no pixel for it.
+// `ref` supports a sample of the curve that is being shown. nullopt if the view
+// has no pixel for it.
 std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
                                                  const CurveSample& sample,
                                                  const EdgeRef& ref);
 
 // The text of curves.json, as docs/curves.schema.json and
 // docs/output_format.md describe it.
-std::string CurvesJson(const CurveRecord& record);
+void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink);
 
 // `value` with so many digits behind the point at most; JSON's null if it is
 // not finite.

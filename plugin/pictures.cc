@@ -111,7 +111,7 @@ Result<std::string> SmallPinholeJpeg(const View& view,
   return Encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
 }
 
-Result<std::string> OverlayPng(const CurveSet& curves,
+Result<std::string> OverlayPng(const CurveSource& curves,
                                const View& view,
                                const Camera& camera) {
   constexpr double kPhotoShare = 0.55;  // the rest is white
@@ -120,9 +120,9 @@ Result<std::string> OverlayPng(const CurveSet& curves,
   if (!photo.ok()) return photo.status();
   photo->convertTo(*photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));
   const int width = std::max(2, std::max(camera.width, camera.height) / 500);
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
     const auto [red, green, blue] = CurveColor(id);
-    for (const auto& stretch : ProjectCurve(curves.curves[id], view, camera)) {
+    for (const auto& stretch : ProjectCurve(curve, view, camera)) {
       std::vector<cv::Point> line;
       for (const Eigen::Vector2d& p : stretch) {
         line.emplace_back(
@@ -138,7 +138,7 @@ Result<std::string> OverlayPng(const CurveSet& curves,
                     cv::LINE_AA,
                     kSubpixelBits);
     }
-  }
+  });
   return Encode(".png", *photo, {});
 }
 

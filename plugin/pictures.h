@@ -2,7 +2,7 @@
 // Photographs with curves, and small ones.
 #pragma once
 
-#include <curvix/curves.h>
+#include <curvix/curve_source.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
@@ -19,7 +19,7 @@ Result<std::string> SmallPinholeJpeg(const View& view,
 
 // A PNG of the photograph, faded, with the curves drawn over it in their
 // colours where it sees them, hidden ones too. Errors as above.
-Result<std::string> OverlayPng(const CurveSet& curves,
+Result<std::string> OverlayPng(const CurveSource& curves,
                                const View& view,
                                const Camera& camera);
 

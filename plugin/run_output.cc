@@ -18,8 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Status WriteCurveFiles(const Scene& scene,
-                       const std::vector<EdgeMap>& edge_maps,
-                       const CurveSet& curves,
+                       const CurveSource& curves,
                        const fs::path& folder,
                        RunRecord& record) {
   const Stopwatch stopwatch;
@@ -28,10 +27,11 @@ Status WriteCurveFiles(const Scene& scene,
                 scene,
                 record.settings.options.curve_fitting,
                 record.settings.options.runtime.num_threads);
+  if (!curves.status().ok()) return curves.status();
   record.stages.push_back(stopwatch.Read("fit_curves"));
   record.stages.back().counts = CountFits(fitted);
-  Result<std::vector<std::string>> written = WriteResults(
-      {scene, edge_maps, curves, fitted}, record.settings.output, folder);
+  Result<std::vector<std::string>> written =
+      WriteResults({scene, curves, fitted}, record.settings.output, folder);
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());
@@ -42,31 +42,23 @@ Status WriteCurveFiles(const Scene& scene,
 
 }  // namespace
 
-void Summarize(const Reconstruction& reconstruction, ResultSummary& result) {
-  ResultSummary found = SummarizeCurves(reconstruction.curves);
-  found.output_path = std::move(result.output_path);
-  found.files = std::move(result.files);
-  found.num_edges_2d = result.num_edges_2d;
-  found.num_edges_3d = static_cast<std::int64_t>(reconstruction.edges.size());
-  found.why_empty = reconstruction.report.why_empty;
-  result = std::move(found);
-}
-
-Status WriteReconstruction(const Scene& scene,
-                           const std::vector<EdgeMap>& edge_maps,
-                           const Reconstruction& reconstruction,
-                           const fs::path& folder,
-                           RunRecord& record) {
+Status WriteFindings(const Scene& scene,
+                     const Findings& findings,
+                     const fs::path& folder,
+                     RunRecord& record) {
   const Stopwatch stopwatch;
-  Summarize(reconstruction, record.result);
-  Status status;
-  if (!reconstruction.curves.curves.empty()) {
-    status = WriteCurveFiles(
-        scene, edge_maps, reconstruction.curves, folder, record);
+  ResultSummary& result = record.result;
+  findings.curves.ForEach(
+      [&](std::size_t, const Curve& curve) { Count(curve, result); });
+  result.num_edges_3d = findings.num_edges_3d;
+  result.why_empty = findings.why_empty;
+  Status status = findings.curves.status();
+  if (status.ok() && result.num_curves > 0) {
+    status = WriteCurveFiles(scene, findings.curves, folder, record);
   }
-  if (status.ok() && !reconstruction.edges.empty()) {
-    record.result.files.push_back("edges.ply");
-    status = WriteEdges(folder / "edges.ply", reconstruction.edges);
+  if (status.ok() && result.num_edges_3d > 0) {
+    result.files.push_back("edges.ply");
+    status = findings.write_edges(folder / "edges.ply");
   }
   if (!status.ok()) return status;
   record.stages.push_back(stopwatch.Read("write_files"));

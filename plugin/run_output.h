@@ -2,33 +2,37 @@
 // The last step of every run: what was found, in files.
 #pragma once
 
-#include <curvix/edges.h>
-#include <curvix/reconstruct.h>
+#include <curvix/curve_source.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <curvix/stopwatch.h>
 
+#include <cstdint>
 #include <filesystem>
-#include <vector>
+#include <functional>
+#include <string>
 
 #include "plugin/progress.h"
 #include "plugin/run_report.h"
 
 namespace curvix {
 
-// Puts into `result` what was found; the folder, the files and the number of 2D
-// edges stay.
-void Summarize(const Reconstruction& reconstruction, ResultSummary& result);
+// What a run has found.
+struct Findings {
+  const CurveSource& curves;
+  std::int64_t num_edges_3d = 0;
+  std::function<Status(const std::filesystem::path&)> write_edges;  // those
+  std::string why_empty;  // "" when there are curves
+};
 
 // Fits the curves, and writes the files that record.settings asks for into
 // `folder`: those of the curves, if there are any, and edges.ply, if there are
 // 3D edges. Puts into `record` what was found and which files tell of
 // it; the folder and the number of 2D edges are there already.
-Status WriteReconstruction(const Scene& scene,
-                           const std::vector<EdgeMap>& edge_maps,
-                           const Reconstruction& reconstruction,
-                           const std::filesystem::path& folder,
-                           RunRecord& record);
+Status WriteFindings(const Scene& scene,
+                     const Findings& findings,
+                     const std::filesystem::path& folder,
+                     RunRecord& record);
 
 // Writes report.json of a run that began with `since_start`.
 Status WriteReport(const Stopwatch& since_start,

@@ -122,7 +122,8 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
       EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
   if (IsInterrupted()) return Cancelled();
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
-  Summarize({{part.curves, {}}, edges, {}}, record.result);
+  for (const Curve& curve : part.curves) Count(curve, record.result);
+  record.result.num_edges_3d = part.num_core_edges_3d;
   Status status = WriteEdges(folder / kEdgesName, edges);
   if (status.ok()) {
     status = WritePartResult(
@@ -187,16 +188,14 @@ Result<JoinedParts> Join(const PartPlan& plan,
   return joined;
 }
 
-Status WriteEdgesOfParts(const PartPlan& plan,
-                         const fs::path& folder,
-                         const fs::path& output,
-                         ResultSummary& result) {
+// The files of the 3D edges of all parts.
+std::vector<fs::path> EdgesOfParts(const PartPlan& plan,
+                                   const fs::path& folder) {
   std::vector<fs::path> paths;
   for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
     paths.push_back(PartFolder(folder, static_cast<int>(i)) / kEdgesName);
   }
-  result.files.push_back(kEdgesName);
-  return ConcatenateEdges(output / kEdgesName, paths);
+  return paths;
 }
 
 Result<RunRecord> Merge(const RunSettings& settings,
@@ -219,21 +218,20 @@ Result<RunRecord> Merge(const RunSettings& settings,
   Result<JoinedParts> joined =
       Join(*plan, folder, input->scene, progress, record);
   if (!joined.ok()) return joined.status();
-  Reconstruction reconstruction{std::move(joined->curves), {}, {}};
-  if (reconstruction.curves.curves.empty()) {
-    reconstruction.report.why_empty =
-        "no part has any; report.json in the folders of the parts says more";
-  }
   record.result.num_edges_2d = joined->num_edges_2d;
-  Status status = WriteReconstruction(input->scene,
-                                      joined->edge_maps,
-                                      reconstruction,
-                                      output->folder(),
-                                      record);
-  record.result.num_edges_3d = joined->num_edges_3d;
-  if (status.ok()) {
-    status = WriteEdgesOfParts(*plan, folder, output->folder(), record.result);
-  }
+  const CurvesInMemory curves(joined->curves, &joined->edge_maps);
+  Status status = WriteFindings(
+      input->scene,
+      {curves,
+       joined->num_edges_3d,
+       [&](const fs::path& path) {
+         return ConcatenateEdges(path, EdgesOfParts(*plan, folder));
+       },
+       curves.size() > 0 ? ""
+                         : "no part has any; report.json in the folders "
+                           "of the parts says more"},
+      output->folder(),
+      record);
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }

@@ -234,14 +234,16 @@ std::string EmptyText(const RunRecord& record) {
 
 std::string_view ProgramVersion() { return CURVIX_VERSION; }
 
+void Count(const Curve& curve, ResultSummary& result) {
+  ++result.num_curves;
+  if (curve.closed) ++result.num_closed;
+  result.num_samples += static_cast<std::int64_t>(curve.samples.size());
+  result.total_length += Length(curve);
+}
+
 ResultSummary SummarizeCurves(const CurveSet& curves) {
   ResultSummary result;
-  for (const Curve& curve : curves.curves) {
-    ++result.num_curves;
-    if (curve.closed) ++result.num_closed;
-    result.num_samples += static_cast<std::int64_t>(curve.samples.size());
-    result.total_length += Length(curve);
-  }
+  for (const Curve& curve : curves.curves) Count(curve, result);
   return result;
 }
 

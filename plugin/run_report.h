@@ -72,8 +72,10 @@ struct RunRecord {
   StageReport total;  // of the whole run
 };
 
-// The counts of `curves` and their lengths, summed in the order of their ids.
-// The path, the files, the edges and why_empty are left for the caller.
+// Counts a curve in `result`, and adds its length.
+void Count(const Curve& curve, ResultSummary& result);
+
+// All curves, in the order of their ids; the rest is left for the caller.
 ResultSummary SummarizeCurves(const CurveSet& curves);
 
 // report.json, described in docs/output_format.md. Everything that differs

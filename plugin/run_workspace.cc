@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/run_workspace.h"
 
+#include <curvix/curve_io.h>
+#include <curvix/curve_source.h>
 #include <curvix/stopwatch.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -80,8 +83,17 @@ Result<RunRecord> Job::Run() {
 
   Status written = WriteRefinedModel();
   if (written.ok()) {
-    written = WriteReconstruction(
-        *scene, *edge_maps, *reconstruction, staging_, record_);
+    const CurvesInMemory curves(reconstruction->curves, &*edge_maps);
+    written =
+        WriteFindings(*scene,
+                      {curves,
+                       static_cast<std::int64_t>(reconstruction->edges.size()),
+                       [&](const fs::path& path) {
+                         return WriteEdges(path, reconstruction->edges);
+                       },
+                       reconstruction->report.why_empty},
+                      staging_,
+                      record_);
   }
   if (written.ok()) {
     written = WriteReport(since_start_, staging_, progress_, record_);

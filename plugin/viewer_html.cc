@@ -143,11 +143,11 @@ std::string CurveJson(const Curve& curve,
 }
 
 // So many that the size of the curves has kDigits.
-int NumDecimals(const CurveSet& curves) {
+int NumDecimals(const CurveSource& curves) {
   Eigen::AlignedBox3d box;
-  for (const Curve& curve : curves.curves) {
+  curves.ForEach([&](std::size_t, const Curve& curve) {
     for (const CurveSample& sample : curve.samples) box.extend(sample.position);
-  }
+  });
   const double size = box.isEmpty() ? 1 : box.diagonal().norm();
   if (!(size > 0)) return kDigits;
   return std::clamp(
@@ -156,42 +156,37 @@ int NumDecimals(const CurveSet& curves) {
 
 }  // namespace
 
-std::string ViewerHtml(const CurveRecord& record) {
-  const Scene& scene = record.scene;
-  const std::vector<int> with_photo = SpreadViews(scene, kNumPhotos);
-  std::vector<std::string> images(scene.views.size());
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const View& view = scene.views[i];
-    images[i] = ImageJson(
-        view,
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-        std::binary_search(
-            with_photo.begin(), with_photo.end(), static_cast<int>(i)));
-  }
-  std::string json = "{\"images\":[";
-  for (const std::string& image : images) {
-    if (json.back() != '[') json += ",\n";
-    json += image;
-  }
-  json += "],\"nodes\":[";
-  for (const CurveNode& node : record.fitted.nodes) {
-    if (json.back() != '[') json += ',';
-    json +=
-        List(std::vector<double>(node.position.begin(), node.position.end()));
-  }
-  json += "],\"curves\":[";
-  const int num_decimals = NumDecimals(record.curves);
-  for (std::size_t i = 0; i < record.curves.curves.size(); ++i) {
-    if (i > 0) json += ",\n";
-    json += CurveJson(
-        record.curves.curves[i], record.fitted.curves[i], num_decimals);
-  }
-  json += "]}";
+void EncodeViewerHtml(const CurveRecord& record, const ByteSink& sink) {
   const std::string_view page = ViewerTemplate();
   constexpr std::string_view kMark = "@DATA@";
   const std::size_t mark = page.find(kMark);
-  return std::string(page.substr(0, mark)) + json +
-         std::string(page.substr(mark + kMark.size()));
+  sink(page.substr(0, mark));
+  const Scene& scene = record.scene;
+  const std::vector<int> with_photo = SpreadViews(scene, kNumPhotos);
+  sink("{\"images\":[");
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    const View& view = scene.views[i];
+    if (i > 0) sink(",\n");
+    sink(ImageJson(
+        view,
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+        std::binary_search(
+            with_photo.begin(), with_photo.end(), static_cast<int>(i))));
+  }
+  sink("],\"nodes\":[");
+  for (std::size_t i = 0; i < record.fitted.nodes.size(); ++i) {
+    const Eigen::Vector3d& place = record.fitted.nodes[i].position;
+    if (i > 0) sink(",");
+    sink(List(std::vector<double>(place.begin(), place.end())));
+  }
+  sink("],\"curves\":[");
+  const int num_decimals = NumDecimals(record.curves);
+  record.curves.ForEach([&](std::size_t i, const Curve& curve) {
+    if (i > 0) sink(",\n");
+    sink(CurveJson(curve, record.fitted.curves[i], num_decimals));
+  });
+  sink("]}");
+  sink(page.substr(mark + kMark.size()));
 }
 
 }  // namespace curvix

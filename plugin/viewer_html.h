@@ -2,7 +2,6 @@
 // viewer.html: the curves in a browser.
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "plugin/curves_json.h"
@@ -12,7 +11,7 @@ namespace curvix {
 // One page that needs nothing else, with the curves, the cameras and small
 // copies of up to 16 well-spread photographs; those that cannot be read are
 // left out. Names of images cannot break out of the page.
-std::string ViewerHtml(const CurveRecord& record);
+void EncodeViewerHtml(const CurveRecord& record, const ByteSink& sink);
 
 // plugin/viewer/viewer.html: "@DATA@" stands for the data.
 std::string_view ViewerTemplate();

@@ -38,18 +38,32 @@ Status WriteSvg(const CurveRecord& record,
       path, record.curves, *view, CameraOf(record.scene, *view));
 }
 
+// A file of what `encode` gives, if all curves can be read.
+Status WriteText(void encode(const CurveRecord&, const ByteSink&),
+                 const CurveRecord& record,
+                 const fs::path& path) {
+  FileWriter file(path);
+  encode(record, file.Sink());
+  const Status read = record.curves.status();
+  return read.ok() ? file.Finish() : read;
+}
+
+Status WriteModel(const CurveRecord& record, const fs::path& path) {
+  const ColmapModel model = CurvesAsPoints(record);
+  const Status read = record.curves.status();
+  if (!read.ok()) return read;
+  return WriteColmapModel(model, path, ColmapFormat::kBinary);
+}
+
 Status WriteFormat(const CurveRecord& record,
                    const OutputSettings& settings,
                    const std::string& format,
                    const fs::path& path) {
-  if (format == "json") return WriteFileAtomically(path, CurvesJson(record));
-  if (format == "html") return WriteFileAtomically(path, ViewerHtml(record));
+  if (format == "json") return WriteText(EncodeCurvesJson, record, path);
+  if (format == "html") return WriteText(EncodeViewerHtml, record, path);
   if (format == "dxf") return WriteDrawing(path, record.fitted);
   if (format == "svg") return WriteSvg(record, settings.svg_image, path);
-  if (format == "colmap") {
-    return WriteColmapModel(
-        CurvesAsPoints(record), path, ColmapFormat::kBinary);
-  }
+  if (format == "colmap") return WriteModel(record, path);
   return WriteCurves(path, record.curves, record.scene);
 }
 
@@ -60,6 +74,7 @@ Status WriteOverlays(const CurveRecord& record,
     const View& view = record.scene.views[static_cast<std::size_t>(idx)];
     const Result<std::string> png =
         OverlayPng(record.curves, view, CameraOf(record.scene, view));
+    if (!record.curves.status().ok()) return record.curves.status();
     if (!png.ok()) return png.status();
     fs::path path = folder / view.name;
     path += ".png";

@@ -2,6 +2,7 @@
 // Curves and edges to and from files; docs/output_format.md describes each.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/fitting.h>
@@ -18,10 +19,16 @@ namespace curvix {
 // supporting image ids, which is what `scene` is for: it must hold every view
 // that a sample names), .vtp (VTK polylines) or .glb (glTF lines). The file
 // appears whole or not at all.
-// kInvalidArgument for another extension or a path that cannot be written.
+// kInvalidArgument for another extension or a path that cannot be written,
+// kUnsupported for more curves than the format can hold, and curves.status().
 Status WriteCurves(const std::filesystem::path& path,
-                   const CurveSet& curves,
+                   const CurveSource& curves,
                    const Scene& scene);
+inline Status WriteCurves(const std::filesystem::path& path,
+                          const CurveSet& curves,
+                          const Scene& scene) {
+  return WriteCurves(path, CurvesInMemory(curves), scene);
+}
 
 // Reads a line set back: .ply with `element edge`, .obj with `l` lines, or the
 // .txt that WriteCurves writes. Lines of other programs are joined where two of
@@ -52,7 +59,7 @@ Status WriteDrawing(const std::filesystem::path& path,
 // Writes the curves as a view sees them: .svg, in the pixels of its image. What
 // surfaces hide is drawn, too. Errors as WriteCurves.
 Status WriteProjection(const std::filesystem::path& path,
-                       const CurveSet& curves,
+                       const CurveSource& curves,
                        const View& view,
                        const Camera& camera);
 

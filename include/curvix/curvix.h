@@ -4,6 +4,7 @@
 
 #include <curvix/camera_model.h>
 #include <curvix/curve_io.h>
+#include <curvix/curve_source.h>
 #include <curvix/curve_style.h>
 #include <curvix/curves.h>
 #include <curvix/edge_sketch.h>

@@ -3,6 +3,7 @@
 // shared points.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
@@ -97,11 +98,17 @@ struct FittedCurves {
 // lies where its lines and arcs, fitted alone, come nearest to each other, at
 // most ten standard deviations from where the curves meet; then each primitive
 // is fitted again with its ends in the nodes. Same result for any number of
-// threads.
-FittedCurves FitCurves(const CurveSet& curves,
+// threads. If curves.status() is not ok in the end, the result means nothing.
+FittedCurves FitCurves(const CurveSource& curves,
                        const Scene& scene,
                        const CurveFittingOptions& options,
                        int num_threads);
+inline FittedCurves FitCurves(const CurveSet& curves,
+                              const Scene& scene,
+                              const CurveFittingOptions& options,
+                              int num_threads) {
+  return FitCurves(CurvesInMemory(curves), scene, options, num_threads);
+}
 
 // "line", "arc" ("circle" if closed), "ellipse", "spline".
 std::string_view KindName(const CurveFit& fit);

@@ -61,12 +61,12 @@ std::vector<double> DistancesToEnd(const Curve& curve) {
   return distances;
 }
 
-CurvePrimitives FitAlone(const Curve& curve,
-                         const std::vector<PosedView>& views,
-                         const CurveFittingOptions& options) {
+// What the primitives of a curve are fitted to.
+FitSamples MakeSamples(const Curve& curve,
+                       const std::vector<PosedView>& views,
+                       const CurveFittingOptions& options) {
   CURVIX_CHECK(curve.samples.size() >= 2, "a curve has two samples or more");
-  CurvePrimitives result;
-  result.closed = curve.closed;
+  FitSamples samples;
   const double usual = UsualSigma(curve);
   const std::vector<double> to_end = DistancesToEnd(curve);
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
@@ -75,10 +75,49 @@ CurvePrimitives FitAlone(const Curve& curve,
     const double common = options.common_error_px * pixel *
                           (to_end[i] < kBentPx * pixel ? kBentFactor : 1);
     const double own = s.sigma > 0 ? s.sigma : usual;
-    result.samples.push_back({s.position, std::hypot(own, common)});
+    samples.push_back({s.position, std::hypot(own, common)});
   }
-  result.primitives = ChoosePrimitives(result.samples, curve.closed);
+  return samples;
+}
+
+CurvePrimitives FitAlone(const FitSamples& samples, bool closed) {
+  CurvePrimitives result;
+  for (Primitive& primitive : ChoosePrimitives(samples, closed)) {
+    const FitSamples own = SamplesOf(primitive, samples);
+    result.push_back({std::move(primitive), own.front(), own.back()});
+  }
   return result;
+}
+
+// The samples of a curve.
+struct CurveToFit {
+  std::size_t id = 0;
+  bool closed = false;
+  FitSamples samples;
+};
+
+// Calls fit(curve) for each curve, on several threads at once; a bounded number
+// of curves is in memory.
+template <typename Fit>
+void FitEach(const CurveSource& curves,
+             const std::vector<PosedView>& views,
+             const CurveFittingOptions& options,
+             int num_threads,
+             const Fit& fit) {
+  constexpr std::size_t kMaxSamples = 1 << 18;
+  std::vector<CurveToFit> some;
+  std::size_t num_samples = 0;
+  const auto fit_some = [&] {
+    ParallelFor(some.size(), num_threads, [&](std::size_t i) { fit(some[i]); });
+    some.clear();
+    num_samples = 0;
+  };
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    some.push_back({id, curve.closed, MakeSamples(curve, views, options)});
+    num_samples += curve.samples.size();
+    if (num_samples >= kMaxSamples) fit_some();
+  });
+  fit_some();
 }
 
 // One primitive and the nodes at its ends.
@@ -205,20 +244,20 @@ CurveFit MakeFit(const Snapped& snapped) {
 
 }  // namespace
 
-FittedCurves FitCurves(const CurveSet& curves,
+FittedCurves FitCurves(const CurveSource& curves,
                        const Scene& scene,
                        const CurveFittingOptions& options,
                        int num_threads) {
   const std::vector<PosedView> views = MakePosedViews(scene);
-  std::vector<CurvePrimitives> alone(curves.curves.size());
-  ParallelFor(alone.size(), num_threads, [&](std::size_t i) {
-    alone[i] = FitAlone(curves.curves[i], views, options);
+  std::vector<CurvePrimitives> alone(curves.size());
+  FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
+    alone[curve.id] = FitAlone(curve.samples, curve.closed);
   });
   FittedCurves result;
   result.nodes = MeetInNodes(alone);
   std::vector<std::vector<std::pair<int, int>>> node_of(alone.size());
   for (std::size_t i = 0; i < alone.size(); ++i) {
-    node_of[i].assign(alone[i].primitives.size(), {-1, -1});
+    node_of[i].assign(alone[i].size(), {-1, -1});
   }
   for (std::size_t n = 0; n < result.nodes.size(); ++n) {
     for (const CurveNode::End& end : result.nodes[n].ends) {
@@ -231,17 +270,17 @@ FittedCurves FitCurves(const CurveSet& curves,
     return result.nodes[static_cast<std::size_t>(node)].position;
   };
   result.curves.resize(alone.size());
-  ParallelFor(alone.size(), num_threads, [&](std::size_t i) {
-    for (std::size_t f = 0; f < alone[i].primitives.size(); ++f) {
-      const Primitive& primitive = alone[i].primitives[f];
-      const auto [start, end] = node_of[i][f];
+  FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
+    for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {
+      const Primitive& primitive = alone[curve.id][f].primitive;
+      const auto [start, end] = node_of[curve.id][f];
       CurveFit fit = MakeFit({primitive,
-                              SamplesOf(primitive, alone[i].samples),
+                              SamplesOf(primitive, curve.samples),
                               position(start),
                               position(end)});
       fit.start_node = start;
       fit.end_node = end;
-      result.curves[i].fits.push_back(std::move(fit));
+      result.curves[curve.id].fits.push_back(std::move(fit));
     }
   });
   return result;

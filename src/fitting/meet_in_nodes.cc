@@ -19,10 +19,8 @@ using End = CurveNode::End;
 // The sample at an end.
 const FitSample& SampleAt(const End& end,
                           const std::vector<CurvePrimitives>& curves) {
-  const CurvePrimitives& curve = curves[end.curve_idx];
-  const Primitive& primitive = curve.primitives[end.fit_idx];
-  const std::size_t k = end.at_end ? primitive.num_samples - 1 : 0;
-  return curve.samples[(primitive.first_sample + k) % curve.samples.size()];
+  const PrimitiveOfCurve& primitive = curves[end.curve_idx][end.fit_idx];
+  return end.at_end ? primitive.end : primitive.start;
 }
 
 // Ends that share a sample's place, by the first of them.
@@ -30,9 +28,8 @@ std::vector<CurveNode> GroupEnds(const std::vector<CurvePrimitives>& curves) {
   std::map<std::array<double, 3>, std::size_t> node_at;
   std::vector<CurveNode> nodes;
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    const auto& primitives = curves[c].primitives;
-    for (std::size_t f = 0; f < primitives.size(); ++f) {
-      if (primitives[f].closed) continue;
+    for (std::size_t f = 0; f < curves[c].size(); ++f) {
+      if (curves[c][f].primitive.closed) continue;
       for (const bool at_end : {false, true}) {
         const End end{c, f, at_end};
         const Eigen::Vector3d& p = SampleAt(end, curves).position;
@@ -59,7 +56,7 @@ Eigen::Vector3d Nearest(const CurveNode& node,
     bool any = false;
     for (const End& end : node.ends) {
       const auto foot =
-          FootOn(curves[end.curve_idx].primitives[end.fit_idx].shape, point);
+          FootOn(curves[end.curve_idx][end.fit_idx].primitive.shape, point);
       if (!foot) continue;
       any = true;
       const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() -

@@ -11,12 +11,14 @@
 
 namespace curvix {
 
-// The primitives of one curve and what they were chosen for.
-struct CurvePrimitives {
-  bool closed = false;
-  FitSamples samples;
-  std::vector<Primitive> primitives;
+// A primitive of a curve, and its first and last sample.
+struct PrimitiveOfCurve {
+  Primitive primitive;
+  FitSample start;
+  FitSample end;
 };
+
+using CurvePrimitives = std::vector<PrimitiveOfCurve>;
 
 // The nodes, as FitCurves describes them: by their first end.
 std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves);

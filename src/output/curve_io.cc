@@ -3,7 +3,9 @@
 #include <curvix/curve_io.h>
 #include <curvix/file_io.h>
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "output/dxf_drawing.h"
 #include "output/glb_curves.h"
@@ -19,19 +21,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<std::string> Encode(const std::string& extension,
-                           const CurveSet& curves,
-                           const Scene& scene) {
-  if (extension == ".ply") return EncodePlyLines(curves);
-  if (extension == ".pcd") return EncodePcd(ToPointCloud(curves));
-  if (extension == ".obj") return EncodeObjLines(curves);
-  if (extension == ".txt") return EncodeTxtCurves(curves, scene);
-  if (extension == ".vtp") return EncodeVtpCurves(curves);
-  if (extension == ".glb") return EncodeGlbCurves(curves);
-  return Status(StatusCode::kInvalidArgument,
-                "curves are written as .ply, .pcd, .obj, .txt, .vtp or .glb, "
-                "not as \"" +
-                    extension + "\"");
+// kInvalidArgument: another extension than ".ply" and so on.
+Status Encode(const std::string& extension,
+              const CurveSource& curves,
+              const Scene& scene,
+              const ByteSink& sink) {
+  if (extension == ".ply") return EncodePlyLines(curves, sink);
+  if (extension == ".pcd") return EncodePcd(curves, sink);
+  if (extension == ".glb") return EncodeGlbCurves(curves, sink);
+  if (extension == ".obj") {
+    EncodeObjLines(curves, sink);
+  } else if (extension == ".txt") {
+    EncodeTxtCurves(curves, scene, sink);
+  } else if (extension == ".vtp") {
+    EncodeVtpCurves(curves, sink);
+  } else {
+    return {StatusCode::kInvalidArgument,
+            "curves are written as .ply, .pcd, .obj, .txt, .vtp or .glb, "
+            "not as \"" +
+                extension + "\""};
+  }
+  return {};
 }
 
 Result<CurveSet> Decode(const std::string& extension,
@@ -50,17 +60,34 @@ Status About(const fs::path& path, const Status& status) {
   return {status.code(), path.string() + ": " + status.message() + "."};
 }
 
-Status Write(const fs::path& path, const Result<std::string>& bytes) {
-  if (!bytes.ok()) return About(path, bytes.status());
-  return WriteFileAtomically(path, *bytes);
+// A file of what `encode` gives.
+Status Write(const fs::path& path,
+             const std::function<Status(const ByteSink&)>& encode) {
+  FileWriter file(path);
+  if (const Status status = encode(file.Sink()); !status.ok()) {
+    return About(path, status);
+  }
+  return file.Finish();
+}
+
+// The same of curves, all of which can be read.
+Status Write(const fs::path& path,
+             const CurveSource& curves,
+             const std::function<Status(const ByteSink&)>& encode) {
+  FileWriter file(path);
+  const Status status = encode(file.Sink());
+  if (!curves.status().ok()) return curves.status();
+  return status.ok() ? file.Finish() : About(path, status);
 }
 
 }  // namespace
 
 Status WriteCurves(const fs::path& path,
-                   const CurveSet& curves,
+                   const CurveSource& curves,
                    const Scene& scene) {
-  return Write(path, Encode(path.extension().string(), curves, scene));
+  return Write(path, curves, [&](const ByteSink& sink) {
+    return Encode(path.extension().string(), curves, scene, sink);
+  });
 }
 
 Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
@@ -76,19 +103,33 @@ Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
     return About(path,
                  {StatusCode::kInvalidArgument, "edges are written as .ply"});
   }
-  return Write(path, EncodePlyEdges(edges));
+  return Write(
+      path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
 }
 
 Status ConcatenateEdges(const fs::path& path,
                         const std::vector<fs::path>& parts) {
-  std::string rows;
-  for (const fs::path& part : parts) {
-    const Result<std::string> bytes = ReadFile(part);
-    if (!bytes.ok()) return bytes.status();
-    const Status status = AppendPlyEdges(*bytes, rows);
-    if (!status.ok()) return About(part, status);
-  }
-  return Write(path, PlyEdgesOfRows(std::move(rows)));
+  FileWriter file(path);
+  const auto for_each_part =
+      [&](const std::function<void(std::string_view edges)>& take) -> Status {
+    for (const fs::path& part : parts) {
+      const Result<std::string> bytes = ReadFile(part);
+      if (!bytes.ok()) return bytes.status();
+      const Result<std::string_view> edges = FindPlyEdges(*bytes);
+      if (!edges.ok()) return About(part, edges.status());
+      take(*edges);
+    }
+    return {};
+  };
+  std::size_t num_bytes = 0;
+  Status status =
+      for_each_part([&](std::string_view edges) { num_bytes += edges.size(); });
+  if (!status.ok()) return status;
+  const Result<std::string> header = PlyEdgesHeader(num_bytes);
+  if (!header.ok()) return About(path, header.status());
+  file.Append(*header);
+  status = for_each_part(file.Sink());
+  return status.ok() ? file.Finish() : status;
 }
 
 Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
@@ -98,11 +139,14 @@ Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
                   "a drawing of fitted curves is written as .dxf, not as \"" +
                       path.extension().string() + "\""});
   }
-  return Write(path, EncodeDxfDrawing(fitted));
+  return Write(path, [&](const ByteSink& sink) {
+    EncodeDxfDrawing(fitted, sink);
+    return Status();
+  });
 }
 
 Status WriteProjection(const fs::path& path,
-                       const CurveSet& curves,
+                       const CurveSource& curves,
                        const View& view,
                        const Camera& camera) {
   if (path.extension() != ".svg") {
@@ -111,7 +155,10 @@ Status WriteProjection(const fs::path& path,
                   "projected curves are written as .svg, not as \"" +
                       path.extension().string() + "\""});
   }
-  return Write(path, EncodeSvgCurves(curves, view, camera));
+  return Write(path, curves, [&](const ByteSink& sink) {
+    EncodeSvgCurves(curves, view, camera, sink);
+    return Status();
+  });
 }
 
 }  // namespace curvix

@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "base/angles.h"
 
@@ -57,7 +59,8 @@ class Writer {
     std::snprintf(text.data(), text.size(), "%X", next_handle_++);
     Put(5, text.data());
   }
-  std::string Take() { return std::move(out_); }
+  // What was put since the last time.
+  std::string Take() { return std::exchange(out_, {}); }
   int next_handle() const { return next_handle_; }
 
  private:
@@ -371,19 +374,25 @@ std::string Header(int next_handle) {
 
 }  // namespace
 
-std::string EncodeDxfDrawing(const FittedCurves& fitted) {
+void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink) {
   Writer w;
   PutTables(w);
   PutBlocks(w);
+  int next_handle = w.next_handle();
+  for (const FittedCurve& curve : fitted.curves) {
+    next_handle += static_cast<int>(curve.fits.size());
+  }
+  sink(Header(next_handle));
   w.Put(0, "SECTION");
   w.Put(2, "ENTITIES");
   for (const FittedCurve& curve : fitted.curves) {
     for (const CurveFit& fit : curve.fits) PutFit(fit, w);
+    sink(w.Take());
   }
   w.Put(0, "ENDSEC");
   PutObjects(w);
   w.Put(0, "EOF");
-  return Header(w.next_handle()) + w.Take();
+  sink(w.Take());
 }
 
 }  // namespace curvix

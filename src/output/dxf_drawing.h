@@ -2,9 +2,8 @@
 // Paper: none (engineering). Fitted curves for CAD.
 #pragma once
 
+#include <curvix/file_io.h>
 #include <curvix/fitting.h>
-
-#include <string>
 
 namespace curvix {
 
@@ -12,6 +11,6 @@ namespace curvix {
 // entities in model space, in the order of the curves, on one layer per kind
 // (LINES, ARCS, CIRCLES, ELLIPSES, SPLINES). Coordinates are those of the
 // model; no unit is declared.
-std::string EncodeDxfDrawing(const FittedCurves& fitted);
+void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink);
 
 }  // namespace curvix

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <memory>
 #include <system_error>
+#include <utility>
 
 namespace curvix {
 namespace {
@@ -20,49 +20,69 @@ std::string Reason(int error) {
   return " (" + std::generic_category().message(error) + ")";
 }
 
-struct Closer {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
-Status WriteNewFile(const fs::path& path, std::string_view bytes) {
-  errno = 0;
-  // "x": fails if anything is there, so that no link is followed.
-  std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "wbx"));
-  if (file == nullptr) {
-    return {StatusCode::kInvalidArgument,
-            "Cannot create " + path.string() + Reason(errno) +
-                "; check that the folder exists and may be written."};
-  }
-  const std::size_t num_written =
-      std::fwrite(bytes.data(), 1, bytes.size(), file.get());
-  // Closing fails when the last bytes do not fit.
-  if (std::fclose(file.release()) != 0 || num_written != bytes.size()) {
-    return {StatusCode::kInvalidArgument,
-            "Cannot write " + std::to_string(bytes.size()) + " bytes to " +
-                path.string() + Reason(errno) +
-                "; check the free space of the disk and its quota."};
-  }
-  return {};
+Status CannotWrite(const fs::path& path, int error) {
+  return {StatusCode::kInvalidArgument,
+          "Cannot write to " + path.string() + Reason(error) +
+              "; check the free space of the disk and its quota."};
 }
 
 }  // namespace
 
-Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
-  fs::path temporary = path;
-  temporary += ".tmp";
+FileWriter::FileWriter(fs::path path)
+    : path_(std::move(path)), temporary_(path_) {
+  temporary_ += ".tmp";
   std::error_code error;
-  fs::remove(temporary, error);  // of a program that was killed
-  Status status = WriteNewFile(temporary, bytes);
-  if (status.ok()) {
-    fs::rename(temporary, path, error);
-    if (!error) return {};
-    status = {StatusCode::kInvalidArgument,
-              "Cannot rename " + temporary.string() + " to " + path.string() +
-                  " (" + error.message() + "); check that the target is not " +
-                  "a folder and may be replaced."};
+  fs::remove(temporary_, error);  // of a program that was killed
+  errno = 0;
+  // "x": fails if anything is there, so that no link is followed.
+  file_.reset(std::fopen(temporary_.c_str(), "wbx"));
+  if (file_ == nullptr) {
+    status_ = {StatusCode::kInvalidArgument,
+               "Cannot create " + temporary_.string() + Reason(errno) +
+                   "; check that the folder exists and may be written."};
   }
-  fs::remove(temporary, error);
-  return status;
+}
+
+FileWriter::~FileWriter() {
+  if (file_ == nullptr) return;
+  file_.reset();
+  std::error_code error;
+  fs::remove(temporary_, error);
+}
+
+void FileWriter::Append(std::string_view bytes) {
+  if (!status_.ok()) return;
+  errno = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+    status_ = CannotWrite(temporary_, errno);
+  }
+}
+
+Status FileWriter::Finish() {
+  if (file_ == nullptr) return status_;
+  errno = 0;
+  // Closing fails when the last bytes do not fit.
+  if (std::fclose(file_.release()) != 0 && status_.ok()) {
+    status_ = CannotWrite(temporary_, errno);
+  }
+  std::error_code error;
+  if (status_.ok()) {
+    fs::rename(temporary_, path_, error);
+    if (!error) return {};
+    status_ = {StatusCode::kInvalidArgument,
+               "Cannot rename " + temporary_.string() + " to " +
+                   path_.string() + " (" + error.message() +
+                   "); check that the target is not a folder and may be " +
+                   "replaced."};
+  }
+  fs::remove(temporary_, error);
+  return status_;
+}
+
+Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
+  FileWriter file(path);
+  file.Append(bytes);
+  return file.Finish();
 }
 
 Result<std::string> ReadFile(const fs::path& path) {

@@ -7,7 +7,9 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <string>
 
 #include <curvix/curve_style.h>
 #include "output/bytes.h"
@@ -35,53 +37,54 @@ std::string VectorText(const Eigen::Vector3f& v) {
   return text + "]";
 }
 
-// What the JSON part lists, and the bytes that it refers to.
+// What the JSON part lists, and how much it refers to.
 struct Lists {
   std::string accessors;
   std::string primitives;
-  std::string positions;
-  std::string colors;
+  std::size_t num_samples = 0;
 };
+
+Eigen::Vector3f Position(const CurveSample& sample,
+                         const Eigen::Vector3d& middle) {
+  return (sample.position - middle).cast<float>();
+}
 
 void AddCurve(const Curve& curve,
               std::size_t id,
               const Eigen::Vector3d& middle,
               Lists& lists) {
   const std::size_t count = curve.samples.size();
-  const std::size_t position_offset = lists.positions.size();
-  const std::size_t color_offset = lists.colors.size();
   Eigen::AlignedBox3f box;
-  const Rgb color = CurveColor(id);
   for (const CurveSample& sample : curve.samples) {
-    const Eigen::Vector3f p = (sample.position - middle).cast<float>();
-    box.extend(p);
-    for (int i = 0; i < 3; ++i) AppendLittleEndian(p[i], lists.positions);
-    for (const std::uint8_t c : color) AppendLittleEndian(c, lists.colors);
-    AppendLittleEndian(std::uint8_t{255}, lists.colors);
+    box.extend(Position(sample, middle));
   }
   const std::string comma = id > 0 ? "," : "";
   const std::string count_text = std::to_string(count);
-  lists.accessors +=
-      comma +
-      "{\"bufferView\":0,\"componentType\":5126,\"type\":"
-      "\"VEC3\",\"byteOffset\":" +
-      std::to_string(position_offset) + ",\"count\":" + count_text +
-      ",\"min\":" + VectorText(box.min()) +
-      ",\"max\":" + VectorText(box.max()) +
-      "},{\"bufferView\":1,\"componentType\":5121,"
-      "\"normalized\":true,\"type\":\"VEC4\",\"byteOffset\":" +
-      std::to_string(color_offset) + ",\"count\":" + count_text + "}";
+  lists.accessors += comma +
+                     "{\"bufferView\":0,\"componentType\":5126,\"type\":"
+                     "\"VEC3\",\"byteOffset\":" +
+                     std::to_string(kPositionBytes * lists.num_samples) +
+                     ",\"count\":" + count_text +
+                     ",\"min\":" + VectorText(box.min()) +
+                     ",\"max\":" + VectorText(box.max()) +
+                     "},{\"bufferView\":1,\"componentType\":5121,"
+                     "\"normalized\":true,\"type\":\"VEC4\",\"byteOffset\":" +
+                     std::to_string(kColorBytes * lists.num_samples) +
+                     ",\"count\":" + count_text + "}";
   lists.primitives +=
       comma + "{\"attributes\":{\"POSITION\":" + std::to_string(2 * id) +
       ",\"COLOR_0\":" + std::to_string(2 * id + 1) +
       "},\"material\":0,\"mode\":" +
       std::to_string(curve.closed ? kLineLoop : kLineStrip) +
       ",\"extras\":{\"curve_id\":" + std::to_string(id) + "}}";
+  lists.num_samples += count;
 }
 
 std::string Json(const Lists& lists, const Eigen::Vector3d& middle) {
-  const std::string num_positions = std::to_string(lists.positions.size());
-  const std::string num_colors = std::to_string(lists.colors.size());
+  const std::string num_positions =
+      std::to_string(kPositionBytes * lists.num_samples);
+  const std::string num_colors =
+      std::to_string(kColorBytes * lists.num_samples);
   std::string json =
       "{\"asset\":{\"version\":\"2.0\",\"generator\":\"curvix\"},"
       "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
@@ -102,54 +105,80 @@ std::string Json(const Lists& lists, const Eigen::Vector3d& middle) {
           ",\"byteStride\":" + std::to_string(kColorBytes) +
           ",\"target\":34962,\"byteLength\":" + num_colors +
           "}],\"buffers\":[{\"byteLength\":" +
-          std::to_string(lists.positions.size() + lists.colors.size()) + "}]}";
+          std::to_string((kPositionBytes + kColorBytes) * lists.num_samples) +
+          "}]}";
   return json;
 }
 
-Eigen::Vector3d Middle(const CurveSet& curves) {
+Eigen::Vector3d Middle(const CurveSource& curves) {
   Eigen::AlignedBox3d box;
-  for (const Curve& curve : curves.curves) {
+  curves.ForEach([&](std::size_t, const Curve& curve) {
     for (const CurveSample& sample : curve.samples) box.extend(sample.position);
-  }
+  });
   return box.isEmpty() ? Eigen::Vector3d(0, 0, 0) : box.center();
 }
 
-void AppendChunk(std::uint32_t type,
-                 const std::string& data,
-                 std::string& out) {
-  AppendLittleEndian(static_cast<std::uint32_t>(data.size()), out);
-  AppendLittleEndian(type, out);
-  out += data;
+void PutPositions(const CurveSource& curves,
+                  const Eigen::Vector3d& middle,
+                  const ByteSink& sink) {
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    std::string out;
+    for (const CurveSample& sample : curve.samples) {
+      const Eigen::Vector3f p = Position(sample, middle);
+      for (int i = 0; i < 3; ++i) AppendLittleEndian(p[i], out);
+    }
+    sink(out);
+  });
+}
+
+void PutColors(const CurveSource& curves, const ByteSink& sink) {
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    std::string color;
+    for (const std::uint8_t c : CurveColor(id)) AppendLittleEndian(c, color);
+    AppendLittleEndian(std::uint8_t{255}, color);
+    std::string out;
+    for (std::size_t i = 0; i < curve.samples.size(); ++i) out += color;
+    sink(out);
+  });
+}
+
+// Numbers of 32 bits.
+void PutWords(std::initializer_list<std::size_t> words, const ByteSink& sink) {
+  std::string out;
+  for (const std::size_t word : words) {
+    AppendLittleEndian(static_cast<std::uint32_t>(word), out);
+  }
+  sink(out);
 }
 
 }  // namespace
 
-Result<std::string> EncodeGlbCurves(const CurveSet& curves) {
-  constexpr std::uint32_t kMagic = 0x46546C67;  // "glTF"
-  constexpr std::uint32_t kJson = 0x4E4F534A;
-  constexpr std::uint32_t kBinary = 0x004E4942;
+Status EncodeGlbCurves(const CurveSource& curves, const ByteSink& sink) {
+  constexpr std::size_t kMagic = 0x46546C67;  // "glTF"
+  constexpr std::size_t kJson = 0x4E4F534A;
+  constexpr std::size_t kBinary = 0x004E4942;
   const Eigen::Vector3d middle = Middle(curves);
   Lists lists;
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    AddCurve(curves.curves[id], id, middle, lists);
-  }
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    AddCurve(curve, id, middle, lists);
+  });
   std::string json = Json(lists, middle);
   json.append((4 - json.size() % 4) % 4, ' ');
-  const std::string binary = lists.positions + lists.colors;
-  const bool has_binary = !binary.empty();
+  const std::size_t num_binary =
+      (kPositionBytes + kColorBytes) * lists.num_samples;
   const std::size_t size =
-      12 + 8 + json.size() + (has_binary ? 8 + binary.size() : 0);
+      12 + 8 + json.size() + (num_binary > 0 ? 8 + num_binary : 0);
   if (size > std::numeric_limits<std::uint32_t>::max()) {
-    return Status(StatusCode::kUnsupported,
-                  "the curves need more than the 4 GB that GLB can hold");
+    return {StatusCode::kUnsupported,
+            "the curves need more than the 4 GB that GLB can hold"};
   }
-  std::string out;
-  AppendLittleEndian(kMagic, out);
-  AppendLittleEndian(std::uint32_t{2}, out);
-  AppendLittleEndian(static_cast<std::uint32_t>(size), out);
-  AppendChunk(kJson, json, out);
-  if (has_binary) AppendChunk(kBinary, binary, out);
-  return out;
+  PutWords({kMagic, 2, size, json.size(), kJson}, sink);
+  sink(json);
+  if (num_binary == 0) return {};
+  PutWords({num_binary, kBinary}, sink);
+  PutPositions(curves, middle, sink);
+  PutColors(curves, sink);
+  return {};
 }
 
 }  // namespace curvix

@@ -2,10 +2,9 @@
 // Paper: none (engineering). Curves for programs that show glTF.
 #pragma once
 
-#include <curvix/curves.h>
+#include <curvix/curve_source.h>
+#include <curvix/file_io.h>
 #include <curvix/status.h>
-
-#include <string>
 
 namespace curvix {
 
@@ -14,6 +13,6 @@ namespace curvix {
 // the id of a curve in the primitive's extras. Positions are 32-bit floats
 // relative to the node's translation, the middle of the curves, so that far
 // origins lose no digits. kUnsupported beyond 4 GB.
-Result<std::string> EncodeGlbCurves(const CurveSet& curves);
+Status EncodeGlbCurves(const CurveSource& curves, const ByteSink& sink);
 
 }  // namespace curvix

@@ -73,14 +73,12 @@ Status Broken(std::size_t line_number, std::string_view line) {
 
 }  // namespace
 
-std::string EncodeObjLines(const CurveSet& curves) {
-  std::string out =
-      "# 3D curves of curvix: v x y z red green blue, l from to\n";
+void EncodeObjLines(const CurveSource& curves, const ByteSink& sink) {
+  sink("# 3D curves of curvix: v x y z red green blue, l from to\n");
   std::size_t first = 1;
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    const Curve& curve = curves.curves[id];
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
     const std::size_t n = curve.samples.size();
-    out += "o curve_";
+    std::string out = "o curve_";
     AppendNumber(id, out);
     out += '\n';
     for (const CurveSample& sample : curve.samples) {
@@ -91,8 +89,8 @@ std::string EncodeObjLines(const CurveSet& curves) {
     }
     if (curve.closed && n > 2) AppendSegment(first + n - 1, first, out);
     first += n;
-  }
-  return out;
+    sink(out);
+  });
 }
 
 Result<CurveSet> DecodeObjLines(std::string_view bytes) {

@@ -3,10 +3,11 @@
 // docs/output_format.md.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
+#include <curvix/file_io.h>
 #include <curvix/status.h>
 
-#include <string>
 #include <string_view>
 
 namespace curvix {
@@ -14,7 +15,7 @@ namespace curvix {
 // Per curve `o curve_<id>`, `v x y z r g b` per sample (colours in 0..1) and
 // `l a b` per segment, the closing one last. Segments and not polylines:
 // Blender and MeshLab show only the first segment of a longer `l`.
-std::string EncodeObjLines(const CurveSet& curves);
+void EncodeObjLines(const CurveSource& curves, const ByteSink& sink);
 
 // The curves of any OBJ with `v` and `l` (also `l` of many vertices, negative
 // numbers, "a/b" texture references); other statements are skipped. Curves as

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Curves as a PCL point cloud and as PCD.
+// Paper: none (engineering). Curves as PCD.
 #include "output/pcl_lines.h"
 
 #include <pcl/common/io.h>
 #include <pcl/io/pcd_io.h>
 
+#include <array>
 #include <cstring>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include <curvix/curve_style.h>
 
 namespace curvix {
-namespace {
 
-CurvePoint MakePoint(const CurveSample& sample, std::size_t id) {
+CurvePoint ToPoint(const CurveSample& sample, std::size_t id) {
   CurvePoint point{};
   point.getVector3fMap() = sample.position.cast<float>();
   point.data[3] = 1;
@@ -31,34 +33,38 @@ CurvePoint MakePoint(const CurveSample& sample, std::size_t id) {
   return point;
 }
 
-}  // namespace
-
-pcl::PointCloud<CurvePoint> ToPointCloud(const CurveSet& curves) {
-  pcl::PointCloud<CurvePoint> cloud;
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    for (const CurveSample& sample : curves.curves[id].samples) {
-      cloud.push_back(MakePoint(sample, id));
-    }
-  }
-  return cloud;
-}
-
 // PCDWriter::writeBinary would write the same, but needs PCL's io library,
 // which loads VTK; its header is a template and does not.
-std::string EncodePcd(const pcl::PointCloud<CurvePoint>& cloud) {
-  std::string out = pcl::PCDWriter::generateHeader<CurvePoint>(cloud);
-  out += "DATA binary\n";
-  const std::vector<pcl::PCLPointField> fields = pcl::getFields<CurvePoint>();
-  for (const CurvePoint& point : cloud) {
-    std::array<char, sizeof(CurvePoint)> bytes;
-    std::memcpy(bytes.data(), &point, sizeof(CurvePoint));
-    for (const pcl::PCLPointField& field : fields) {
-      const auto size =
-          static_cast<std::size_t>(pcl::getFieldSize(field.datatype));
-      out.append(bytes.data() + field.offset, size);
-    }
+Status EncodePcd(const CurveSource& curves, const ByteSink& sink) {
+  std::size_t num_points = 0;
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    num_points += curve.samples.size();
+  });
+  // PCL takes the largest number for none given.
+  if (num_points >= std::numeric_limits<int>::max()) {
+    return {StatusCode::kUnsupported,
+            "PCL counts points with 32 bits, too few for " +
+                std::to_string(num_points) + " of them; write .txt instead"};
   }
-  return out;
+  sink(pcl::PCDWriter::generateHeader<CurvePoint>(
+           {}, static_cast<int>(num_points)) +
+       "DATA binary\n");
+  const std::vector<pcl::PCLPointField> fields = pcl::getFields<CurvePoint>();
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    std::string out;
+    for (const CurveSample& sample : curve.samples) {
+      const CurvePoint point = ToPoint(sample, id);
+      std::array<char, sizeof(CurvePoint)> bytes;
+      std::memcpy(bytes.data(), &point, sizeof(CurvePoint));
+      for (const pcl::PCLPointField& field : fields) {
+        const auto size =
+            static_cast<std::size_t>(pcl::getFieldSize(field.datatype));
+        out.append(bytes.data() + field.offset, size);
+      }
+    }
+    sink(out);
+  });
+  return {};
 }
 
 }  // namespace curvix

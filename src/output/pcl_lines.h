@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Curves as a PCL point cloud and as PCD;
+// Paper: none (engineering). Curves as the points of PCL, in a PCD file;
 // docs/output_format.md.
 #pragma once
 
-#include <curvix/curves.h>
+#include <curvix/curve_source.h>
+#include <curvix/file_io.h>
+#include <curvix/status.h>
 
 #define PCL_NO_PRECOMPILE  // our own point type
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/register_point_struct.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <string>
 
 namespace curvix {
 
@@ -26,13 +28,14 @@ struct EIGEN_ALIGN16 CurvePoint {
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
-// All samples, curve by curve, in order: one row, dense.
-pcl::PointCloud<CurvePoint> ToPointCloud(const CurveSet& curves);
+// A sample of the curve that has this id.
+CurvePoint ToPoint(const CurveSample& sample, std::size_t id);
 
-// The cloud as a binary PCD file: PCL's own header and field layout. Which
-// samples are neighbours follows from their order and curve_id; whether a curve
-// is closed is not stored.
-std::string EncodePcd(const pcl::PointCloud<CurvePoint>& cloud);
+// All samples, curve by curve, in order, as a binary PCD file of one row: PCL's
+// own header and field layout. Which samples are neighbours follows from their
+// order and curve_id; whether a curve is closed is not stored. More than
+// 2^31 - 1 samples are kUnsupported.
+Status EncodePcd(const CurveSource& curves, const ByteSink& sink);
 
 }  // namespace curvix
 

@@ -2,7 +2,6 @@
 // Paper: none (engineering). Line sets as PLY.
 #include "output/ply_lines.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -51,14 +50,6 @@ void AppendRgb(const Rgb& rgb, std::string& out) {
 // A curve of two samples closes onto the same segment, so it stays open.
 bool HasClosingEdge(const Curve& curve) {
   return curve.closed && curve.samples.size() > 2;
-}
-
-// Nothing is labelled unless the user asked for it.
-bool HasOccludingContours(const CurveSet& curves) {
-  return std::any_of(
-      curves.curves.begin(), curves.curves.end(), [](const Curve& curve) {
-        return curve.is_occluding_contour;
-      });
 }
 
 std::string LinesHeader(std::size_t num_vertices,
@@ -126,60 +117,66 @@ std::string EdgesHeader(std::size_t num_edges) {
 
 }  // namespace
 
-Result<std::string> EncodePlyLines(const CurveSet& curves) {
+Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
   std::size_t num_vertices = 0;
   std::size_t num_edges = 0;
-  for (const Curve& curve : curves.curves) {
+  bool is_labelled = false;  // only if the user asked for it
+  curves.ForEach([&](std::size_t, const Curve& curve) {
     num_vertices += curve.samples.size();
     num_edges += curve.samples.empty() ? 0 : curve.samples.size() - 1;
     num_edges += HasClosingEdge(curve) ? 1 : 0;
-  }
+    is_labelled = is_labelled || curve.is_occluding_contour;
+  });
   if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
 
-  const bool is_labelled = HasOccludingContours(curves);
-  std::string out = LinesHeader(num_vertices, num_edges, is_labelled);
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    AppendVertices(curves.curves[id], id, is_labelled, out);
-  }
+  sink(LinesHeader(num_vertices, num_edges, is_labelled));
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    std::string out;
+    AppendVertices(curve, id, is_labelled, out);
+    sink(out);
+  });
   std::size_t first = 0;
-  for (const Curve& curve : curves.curves) {
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    std::string out;
     AppendEdges(curve, first, out);
     first += curve.samples.size();
-  }
-  return out;
+    sink(out);
+  });
+  return {};
 }
 
-Result<std::string> EncodePlyEdges(const std::vector<Edge3d>& edges) {
+Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink) {
   if (edges.size() > kMaxVertices) return TooManyVertices(edges.size());
-  std::string out = EdgesHeader(edges.size());
+  sink(EdgesHeader(edges.size()));
   for (const Edge3d& edge : edges) {
+    std::string out;
     AppendVector(edge.position, out);
     AppendVector(edge.tangent, out);
     AppendRgb(DirectionColor(edge.tangent), out);
     AppendLittleEndian(static_cast<float>(edge.support.size()), out);
+    sink(out);
   }
-  return out;
+  return {};
 }
 
-Status AppendPlyEdges(std::string_view bytes, std::string& rows) {
+Result<std::string_view> FindPlyEdges(std::string_view bytes) {
   const std::size_t end = bytes.find(kEndOfHeader);
   if (end != std::string_view::npos) {
     const std::string_view body = bytes.substr(end + kEndOfHeader.size());
     if (bytes.substr(0, bytes.size() - body.size()) ==
             EdgesHeader(body.size() / kEdgeBytes) &&
         body.size() % kEdgeBytes == 0) {
-      rows += body;
-      return {};
+      return body;
     }
   }
-  return {StatusCode::kDataLoss, "it is broken, or was not written by curvix"};
+  return Status(StatusCode::kDataLoss,
+                "it is broken, or was not written by curvix");
 }
 
-Result<std::string> PlyEdgesOfRows(std::string rows) {
-  const std::size_t num_edges = rows.size() / kEdgeBytes;
+Result<std::string> PlyEdgesHeader(std::size_t num_bytes_of_edges) {
+  const std::size_t num_edges = num_bytes_of_edges / kEdgeBytes;
   if (num_edges > kMaxVertices) return TooManyVertices(num_edges);
-  rows.insert(0, EdgesHeader(num_edges));
-  return rows;
+  return EdgesHeader(num_edges);
 }
 
 }  // namespace curvix

@@ -2,10 +2,13 @@
 // Paper: none (engineering). Line sets as PLY; docs/output_format.md.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
+#include <curvix/file_io.h>
 #include <curvix/status.h>
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,16 +22,16 @@ namespace curvix {
 // Each curve has its own consecutive vertices, in order, and its edges follow
 // in order too, the closing edge last. More than 2^31 - 1 vertices are
 // kUnsupported.
-Result<std::string> EncodePlyLines(const CurveSet& curves);
+Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink);
 
 // The same vertices for edges before they are grouped: float x y z tx ty tz,
 // uchar red green blue (by direction), float support. No `element edge`.
-Result<std::string> EncodePlyEdges(const std::vector<Edge3d>& edges);
+Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink);
 
-// Appends the edges of such a file to `rows`, and makes a file of rows again.
-// kDataLoss: it is no such file.
-Status AppendPlyEdges(std::string_view bytes, std::string& rows);
-Result<std::string> PlyEdgesOfRows(std::string rows);
+// The edges in such a file, which are of one size, and what must stand before
+// so many of them. kDataLoss: it is no such file.
+Result<std::string_view> FindPlyEdges(std::string_view bytes);
+Result<std::string> PlyEdgesHeader(std::size_t num_bytes_of_edges);
 
 // The curves of any PLY with `element vertex` (x, y, z, of any scalar type) and
 // `element edge` (vertex1, vertex2): ASCII or binary, with whatever further

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <charconv>
+#include <string>
 
 #include <curvix/curve_style.h>
 
@@ -37,23 +38,23 @@ void AppendHexColor(const Rgb& color, std::string& out) {
 
 }  // namespace
 
-std::string EncodeSvgCurves(const CurveSet& curves,
-                            const View& view,
-                            const Camera& camera) {
+void EncodeSvgCurves(const CurveSource& curves,
+                     const View& view,
+                     const Camera& camera,
+                     const ByteSink& sink) {
   const std::string size =
       std::to_string(camera.width) + " " + std::to_string(camera.height);
-  std::string out =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
-      "\" width=\"" + std::to_string(camera.width) + "\" height=\"" +
-      std::to_string(camera.height) +
-      "\" fill=\"none\" stroke-width=\"1.5\" stroke-linecap=\"round\" "
-      "stroke-linejoin=\"round\">\n";
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    out += "<path class=\"curve\" id=\"curve_" + std::to_string(id) +
-           "\" stroke=\"";
+  sink("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
+       "\" width=\"" + std::to_string(camera.width) + "\" height=\"" +
+       std::to_string(camera.height) +
+       "\" fill=\"none\" stroke-width=\"1.5\" stroke-linecap=\"round\" "
+       "stroke-linejoin=\"round\">\n");
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    std::string out = "<path class=\"curve\" id=\"curve_" + std::to_string(id) +
+                      "\" stroke=\"";
     AppendHexColor(CurveColor(id), out);
     out += "\" d=\"";
-    for (const auto& stretch : ProjectCurve(curves.curves[id], view, camera)) {
+    for (const auto& stretch : ProjectCurve(curve, view, camera)) {
       char command = 'M';
       for (const Eigen::Vector2d& point : stretch) {
         out += command;
@@ -63,9 +64,9 @@ std::string EncodeSvgCurves(const CurveSet& curves,
         command = 'L';
       }
     }
-    out += "\"/>\n";
-  }
-  return out + "</svg>\n";
+    sink(out + "\"/>\n");
+  });
+  sink("</svg>\n");
 }
 
 }  // namespace curvix

@@ -2,17 +2,17 @@
 // Paper: none (engineering). Curves as a view sees them.
 #pragma once
 
-#include <curvix/curves.h>
+#include <curvix/curve_source.h>
+#include <curvix/file_io.h>
 #include <curvix/scene.h>
-
-#include <string>
 
 namespace curvix {
 
 // SVG in the pixels of the view: one path per curve in its colour, class
 // "curve", id "curve_<id>"; empty where the view does not see the curve.
-std::string EncodeSvgCurves(const CurveSet& curves,
-                            const View& view,
-                            const Camera& camera);
+void EncodeSvgCurves(const CurveSource& curves,
+                     const View& view,
+                     const Camera& camera,
+                     const ByteSink& sink);
 
 }  // namespace curvix

@@ -144,16 +144,19 @@ Status ReadSamples(const CurveHead& head,
 
 }  // namespace
 
-std::string EncodeTxtCurves(const CurveSet& curves, const Scene& scene) {
+void EncodeTxtCurves(const CurveSource& curves,
+                     const Scene& scene,
+                     const ByteSink& sink) {
   std::string out =
       "# Curves, with two kinds of lines:\n"
       "#   CURVE_ID CLOSED NUM_SAMPLES, then for each of its samples\n"
       "#   X Y Z TX TY TZ SIGMA IMAGE_IDS...\n"
       "# Number of curves: ";
-  AppendNumber(curves.curves.size(), out);
+  AppendNumber(curves.size(), out);
   out += '\n';
-  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-    const Curve& curve = curves.curves[id];
+  sink(out);
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    out.clear();
     AppendNumber(id, out);
     out += curve.closed ? " 1 " : " 0 ";
     AppendNumber(curve.samples.size(), out);
@@ -161,8 +164,8 @@ std::string EncodeTxtCurves(const CurveSet& curves, const Scene& scene) {
     for (const CurveSample& sample : curve.samples) {
       AppendSample(sample, scene, out);
     }
-  }
-  return out;
+    sink(out);
+  });
 }
 
 Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene) {

@@ -3,11 +3,12 @@
 // the manner of COLMAP's points3D.txt; docs/output_format.md.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
+#include <curvix/file_io.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
-#include <string>
 #include <string_view>
 
 namespace curvix {
@@ -18,7 +19,9 @@ namespace curvix {
 //   X Y Z TX TY TZ SIGMA IMAGE_ID...
 // with numbers as short as they can be and still read back exactly, whatever
 // the locale. `scene` turns views into image ids; support must name its views.
-std::string EncodeTxtCurves(const CurveSet& curves, const Scene& scene);
+void EncodeTxtCurves(const CurveSource& curves,
+                     const Scene& scene,
+                     const ByteSink& sink);
 
 // Reads that back. Curves keep their order, whatever ids they carry. An image
 // id becomes support {view, edge 0}; ids that `scene` does not have are left

@@ -5,22 +5,12 @@
 #include <curvix/text_fields.h>
 
 #include <cstddef>
-#include <string_view>
+#include <string>
 
 #include <curvix/curve_style.h>
 
 namespace curvix {
 namespace {
-
-// One <DataArray> whose numbers `append` writes.
-template <typename Append>
-void AppendArray(std::string_view attributes, Append append, std::string& out) {
-  out += "        <DataArray ";
-  out += attributes;
-  out += " format=\"ascii\">\n";
-  append();
-  out += "        </DataArray>\n";
-}
 
 template <typename T>
 void AppendItem(T value, std::string& out) {
@@ -35,116 +25,116 @@ void AppendVector(const Eigen::Vector3d& v, std::string& out) {
   }
 }
 
-// Calls `use` with every sample in order.
-template <typename Use>
-void ForEachSample(const CurveSet& curves, Use use) {
-  for (const Curve& curve : curves.curves) {
-    for (const CurveSample& sample : curve.samples) use(sample);
+// Puts one array after the other; `append` writes the numbers of one curve.
+class ArrayWriter {
+ public:
+  ArrayWriter(const CurveSource& curves, const ByteSink& sink)
+      : curves_(curves), sink_(sink) {}
+
+  template <typename Append>
+  void PerCurve(const std::string& attributes, Append append) const {
+    sink_("        <DataArray " + attributes + " format=\"ascii\">\n");
+    curves_.ForEach([&](std::size_t id, const Curve& curve) {
+      std::string out;
+      append(id, curve, out);
+      sink_(out);
+    });
+    sink_("        </DataArray>\n");
   }
+  template <typename Append>
+  void PerSample(const std::string& attributes, Append append) const {
+    PerCurve(attributes,
+             [&](std::size_t, const Curve& curve, std::string& out) {
+               for (const CurveSample& sample : curve.samples) {
+                 append(sample, out);
+               }
+             });
+  }
+
+ private:
+  const CurveSource& curves_;
+  const ByteSink& sink_;
+};
+
+void PutPointData(const ArrayWriter& arrays, const ByteSink& sink) {
+  sink("      <PointData Vectors=\"tangent\" Scalars=\"support\">\n");
+  arrays.PerSample("type=\"Float64\" Name=\"tangent\" NumberOfComponents=\"3\"",
+                   [](const CurveSample& s, std::string& out) {
+                     AppendVector(s.tangent, out);
+                   });
+  arrays.PerSample(
+      "type=\"Float64\" Name=\"sigma\"",
+      [](const CurveSample& s, std::string& out) { AppendItem(s.sigma, out); });
+  arrays.PerSample("type=\"Int64\" Name=\"support\"",
+                   [](const CurveSample& s, std::string& out) {
+                     AppendItem(s.support.size(), out);
+                   });
+  arrays.PerSample("type=\"Float32\" Name=\"confidence\"",
+                   [](const CurveSample& s, std::string& out) {
+                     AppendItem(Confidence(s.support.size()), out);
+                   });
+  sink("      </PointData>\n");
 }
 
-void AppendPointData(const CurveSet& curves, std::string& out) {
-  const auto array = [&](std::string_view attributes, auto value) {
-    AppendArray(
-        attributes,
-        [&] {
-          ForEachSample(curves,
-                        [&](const auto& s) { AppendItem(value(s), out); });
-        },
-        out);
-  };
-  out += "      <PointData Vectors=\"tangent\" Scalars=\"support\">\n";
-  AppendArray(
-      "type=\"Float64\" Name=\"tangent\" NumberOfComponents=\"3\"",
-      [&] {
-        ForEachSample(curves,
-                      [&](const auto& s) { AppendVector(s.tangent, out); });
-      },
-      out);
-  array("type=\"Float64\" Name=\"sigma\"",
-        [](const CurveSample& s) { return s.sigma; });
-  array("type=\"Int64\" Name=\"support\"",
-        [](const CurveSample& s) { return s.support.size(); });
-  array("type=\"Float32\" Name=\"confidence\"",
-        [](const CurveSample& s) { return Confidence(s.support.size()); });
-  out += "      </PointData>\n";
+void PutCellData(const ArrayWriter& arrays, const ByteSink& sink) {
+  sink("      <CellData Scalars=\"curve_id\">\n");
+  arrays.PerCurve("type=\"Int64\" Name=\"curve_id\"",
+                  [](std::size_t id, const Curve&, std::string& out) {
+                    AppendItem(id, out);
+                  });
+  arrays.PerCurve("type=\"Float64\" Name=\"length\"",
+                  [](std::size_t, const Curve& curve, std::string& out) {
+                    AppendItem(Length(curve), out);
+                  });
+  sink("      </CellData>\n");
 }
 
-void AppendCellData(const CurveSet& curves, std::string& out) {
-  out += "      <CellData Scalars=\"curve_id\">\n";
-  AppendArray(
-      "type=\"Int64\" Name=\"curve_id\"",
-      [&] {
-        for (std::size_t id = 0; id < curves.curves.size(); ++id) {
-          AppendItem(id, out);
-        }
-      },
-      out);
-  AppendArray(
-      "type=\"Float64\" Name=\"length\"",
-      [&] {
-        for (const Curve& curve : curves.curves) AppendItem(Length(curve), out);
-      },
-      out);
-  out += "      </CellData>\n";
-}
-
-void AppendLines(const CurveSet& curves, std::string& out) {
-  out += "      <Lines>\n";
-  AppendArray(
-      "type=\"Int64\" Name=\"connectivity\"",
-      [&] {
-        std::size_t first = 0;
-        for (const Curve& curve : curves.curves) {
-          for (std::size_t i = 0; i < curve.samples.size(); ++i) {
-            AppendItem(first + i, out);
-          }
-          if (curve.closed) AppendItem(first, out);
-          first += curve.samples.size();
-        }
-      },
-      out);
-  AppendArray(
-      "type=\"Int64\" Name=\"offsets\"",
-      [&] {
-        std::size_t end = 0;
-        for (const Curve& curve : curves.curves) {
-          end += curve.samples.size() + (curve.closed ? 1 : 0);
-          AppendItem(end, out);
-        }
-      },
-      out);
-  out += "      </Lines>\n";
+void PutLines(const ArrayWriter& arrays, const ByteSink& sink) {
+  sink("      <Lines>\n");
+  std::size_t first = 0;
+  arrays.PerCurve("type=\"Int64\" Name=\"connectivity\"",
+                  [&](std::size_t, const Curve& curve, std::string& out) {
+                    for (std::size_t i = 0; i < curve.samples.size(); ++i) {
+                      AppendItem(first + i, out);
+                    }
+                    if (curve.closed) AppendItem(first, out);
+                    first += curve.samples.size();
+                  });
+  std::size_t end = 0;
+  arrays.PerCurve("type=\"Int64\" Name=\"offsets\"",
+                  [&](std::size_t, const Curve& curve, std::string& out) {
+                    end += curve.samples.size() + (curve.closed ? 1 : 0);
+                    AppendItem(end, out);
+                  });
+  sink("      </Lines>\n");
 }
 
 }  // namespace
 
-std::string EncodeVtpCurves(const CurveSet& curves) {
+void EncodeVtpCurves(const CurveSource& curves, const ByteSink& sink) {
   std::size_t num_points = 0;
-  for (const Curve& curve : curves.curves) num_points += curve.samples.size();
-  std::string out =
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    num_points += curve.samples.size();
+  });
+  sink(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PolyData>\n"
-      "    <Piece NumberOfPoints=\"";
-  AppendNumber(num_points, out);
-  out += "\" NumberOfVerts=\"0\" NumberOfLines=\"";
-  AppendNumber(curves.curves.size(), out);
-  out += "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n";
-  AppendPointData(curves, out);
-  AppendCellData(curves, out);
-  out += "      <Points>\n";
-  AppendArray(
-      "type=\"Float64\" NumberOfComponents=\"3\"",
-      [&] {
-        ForEachSample(curves,
-                      [&](const auto& s) { AppendVector(s.position, out); });
-      },
-      out);
-  out += "      </Points>\n";
-  AppendLines(curves, out);
-  out += "    </Piece>\n  </PolyData>\n</VTKFile>\n";
-  return out;
+      "    <Piece NumberOfPoints=\"" +
+      std::to_string(num_points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+      std::to_string(curves.size()) +
+      "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
+  const ArrayWriter arrays(curves, sink);
+  PutPointData(arrays, sink);
+  PutCellData(arrays, sink);
+  sink("      <Points>\n");
+  arrays.PerSample("type=\"Float64\" NumberOfComponents=\"3\"",
+                   [](const CurveSample& s, std::string& out) {
+                     AppendVector(s.position, out);
+                   });
+  sink("      </Points>\n");
+  PutLines(arrays, sink);
+  sink("    </Piece>\n  </PolyData>\n</VTKFile>\n");
 }
 
 }  // namespace curvix

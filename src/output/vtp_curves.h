@@ -2,15 +2,14 @@
 // Paper: none (engineering). Curves for VTK and ParaView.
 #pragma once
 
-#include <curvix/curves.h>
-
-#include <string>
+#include <curvix/curve_source.h>
+#include <curvix/file_io.h>
 
 namespace curvix {
 
 // VTK XML PolyData, text: one polyline per curve (a closed one returns to its
 // first point), with point arrays tangent, sigma, support and confidence, and
 // cell arrays curve_id and length.
-std::string EncodeVtpCurves(const CurveSet& curves);
+void EncodeVtpCurves(const CurveSource& curves, const ByteSink& sink);
 
 }  // namespace curvix

@@ -7,7 +7,7 @@
 namespace curvix {
 
 std::vector<std::string> FuzzSeeds() {
-  return {EncodeObjLines(MakeTestCurves()),
+  return {EncodedCurves(EncodeObjLines, MakeTestCurves()),
           "# lines\nv 0 0 0\nv 1 0 0 1 1 1\nv 1 1 0\nvt 0 0\nl -3/1 -2 -1\nl 1 "
           "\\\n3\n"};
 }

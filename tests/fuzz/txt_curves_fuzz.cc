@@ -7,7 +7,7 @@
 namespace curvix {
 
 std::vector<std::string> FuzzSeeds() {
-  return {EncodeTxtCurves(MakeTestCurves(), MakeTestScene())};
+  return {EncodedCurves(EncodeTxtCurves, MakeTestCurves(), MakeTestScene())};
 }
 
 void FuzzReader(std::string_view bytes) {
@@ -15,7 +15,7 @@ void FuzzReader(std::string_view bytes) {
   const Result<CurveSet> curves = DecodeTxtCurves(bytes, scene);
   RequireSentence(curves.status());
   if (!curves.ok()) return;
-  const std::string again = EncodeTxtCurves(*curves, scene);
+  const std::string again = EncodedCurves(EncodeTxtCurves, *curves, scene);
   Require(DecodeTxtCurves(again, scene).ok(), "what is written can be read");
 }
 

@@ -50,6 +50,36 @@ TEST(CurveIo, MessagesNameTheFile) {
   EXPECT_THAT(status.message(), HasSubstr("broken.ply: the PLY header"));
 }
 
+// Curves of which the second cannot be read.
+class BrokenCurves : public CurvesInMemory {
+ public:
+  using CurvesInMemory::CurvesInMemory;
+  void ForEach(const Visit& visit) const override {
+    CurvesInMemory::ForEach([&](std::size_t id, const Curve& curve) {
+      if (id == 0) visit(id, curve);
+    });
+  }
+  Status status() const override {
+    return {StatusCode::kDataLoss, "half of it is gone"};
+  }
+};
+
+TEST(CurveIo, WritesNothingOfCurvesThatCannotBeRead) {
+  const TemporaryFolder folder;
+  const CurveSet set = MakeTestCurves();
+  const BrokenCurves curves(set);
+  for (const char* name : {"ply", "obj", "pcd", "txt", "vtp", "glb"}) {
+    const Status status = WriteCurves(
+        folder.path() / (std::string("a.") + name), curves, MakeTestScene());
+    EXPECT_EQ(status.message(), "half of it is gone") << name;
+  }
+  Camera camera;
+  camera.params = {100, 100, 50, 50};
+  EXPECT_FALSE(
+      WriteProjection(folder.path() / "a.svg", curves, View(), camera).ok());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(CurveStyle, NeighbouringIdsLookDifferent) {
   const auto distance = [](const Rgb& a, const Rgb& b) {
     int sum = 0;

@@ -69,6 +69,25 @@ TEST_F(FileIo, AFullDiskLeavesTheTargetAsItWas) {
   EXPECT_EQ(Names(), "target.bin ");
 }
 
+TEST_F(FileIo, WritesPieceByPiece) {
+  FileWriter file(Target());
+  const ByteSink sink = file.Sink();
+  sink("a");
+  sink("");
+  sink("bc");
+  EXPECT_FALSE(fs::exists(Target()));
+  ASSERT_TRUE(file.Finish().ok());
+  EXPECT_EQ(*ReadFile(Target()), "abc");
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, AFileThatIsNotFinishedLeavesTheTargetAsItWas) {
+  ASSERT_TRUE(WriteFileAtomically(Target(), "old").ok());
+  { FileWriter(Target()).Append("new"); }
+  EXPECT_EQ(*ReadFile(Target()), "old");
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
 TEST_F(FileIo, AReadOnlyFolderLeavesTheTargetAsItWas) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   ASSERT_TRUE(WriteFileAtomically(Target(), "old").ok());

@@ -16,7 +16,7 @@ using ::testing::MatchesRegex;
 
 TEST(ObjLines, CurvesComeBackExactly) {
   const CurveSet curves = MakeTestCurves();
-  const auto read = DecodeObjLines(EncodeObjLines(curves));
+  const auto read = DecodeObjLines(EncodedCurves(EncodeObjLines, curves));
   ASSERT_TRUE(read.ok()) << read.status().message();
   // OBJ has no tangents: chords of the circle are parallel to its tangents,
   // those of the helix nearly so.
@@ -26,17 +26,18 @@ TEST(ObjLines, CurvesComeBackExactly) {
 TEST(ObjLines, WritesSegmentsOfTwoVerticesWithColours) {
   CurveSet curves;
   curves.curves.push_back(MakeTestCurves().curves[2]);
-  EXPECT_THAT(EncodeObjLines(curves),
+  EXPECT_THAT(EncodedCurves(EncodeObjLines, curves),
               MatchesRegex("#[^\n]*\no curve_0\n"
                            "v 0 0 0 [0-9.]+ [0-9.]+ [0-9.]+\n"
                            "v 0.3333333333333333 0 0 [0-9.]+ [0-9.]+ [0-9.]+\n"
                            "l 1 2\n"));
   curves.curves.insert(curves.curves.begin(), MakeTestCurves().curves[1]);
-  EXPECT_THAT(EncodeObjLines(curves), HasSubstr("l 11 12\nl 12 1\no curve_1"));
+  EXPECT_THAT(EncodedCurves(EncodeObjLines, curves),
+              HasSubstr("l 11 12\nl 12 1\no curve_1"));
 }
 
 TEST(ObjLines, EmptySetIsAValidFileWithoutCurves) {
-  const auto read = DecodeObjLines(EncodeObjLines({}));
+  const auto read = DecodeObjLines(EncodedCurves(EncodeObjLines, CurveSet()));
   ASSERT_TRUE(read.ok());
   EXPECT_TRUE(read->curves.empty());
 }

@@ -14,6 +14,7 @@
 #include "output/pcl_lines.h"
 #include "output/ply_lines.h"
 #include "output/txt_curves.h"
+#include "tests/output/test_curves.h"
 #include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
@@ -76,18 +77,21 @@ TEST(OutputFormatPage, ShowsWhatTheWritersWrite) {
   const std::string page = Documentation();
   const CurveSet example = Example();
   EXPECT_THAT(page,
-              HasSubstr(HeaderOf(*EncodePlyLines(example), "end_header\n")));
-  const std::string pcd = EncodePcd(ToPointCloud(example));
+              HasSubstr(HeaderOf(EncodedCurves(EncodePlyLines, example),
+                                 "end_header\n")));
+  const std::string pcd = EncodedCurves(EncodePcd, example);
   const std::size_t fields = pcd.find("FIELDS");
   EXPECT_THAT(page, HasSubstr(pcd.substr(fields, pcd.find("TYPE") - fields)));
-  EXPECT_THAT(page, HasSubstr(EncodeObjLines(example)));
-  EXPECT_THAT(page, HasSubstr(EncodeTxtCurves(example, ExampleScene())));
+  EXPECT_THAT(page, HasSubstr(EncodedCurves(EncodeObjLines, example)));
+  EXPECT_THAT(
+      page, HasSubstr(EncodedCurves(EncodeTxtCurves, example, ExampleScene())));
   std::vector<Edge3d> edges;
   for (const CurveSample& sample : example.curves[0].samples) {
     edges.push_back({sample.position, sample.tangent, sample.support});
   }
-  EXPECT_THAT(page,
-              HasSubstr(HeaderOf(*EncodePlyEdges(edges), "end_header\n")));
+  EXPECT_THAT(
+      page,
+      HasSubstr(HeaderOf(Encoded(EncodePlyEdges, edges), "end_header\n")));
 }
 
 TEST(OutputFormatPage, NumPyReadsThePlyAsThePageSays) {

@@ -12,12 +12,23 @@
 namespace curvix {
 namespace {
 
+// The samples of all curves, as PCL has them.
+pcl::PointCloud<CurvePoint> PointsOf(const CurveSet& curves) {
+  pcl::PointCloud<CurvePoint> cloud;
+  for (std::size_t id = 0; id < curves.curves.size(); ++id) {
+    for (const CurveSample& sample : curves.curves[id].samples) {
+      cloud.push_back(ToPoint(sample, id));
+    }
+  }
+  return cloud;
+}
+
 TEST(PclLines, PclReadsThePcdBackWithTheSameFields) {
   const CurveSet curves = MakeTestCurves();
-  const pcl::PointCloud<CurvePoint> cloud = ToPointCloud(curves);
+  const pcl::PointCloud<CurvePoint> cloud = PointsOf(curves);
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "curves.pcd").string();
-  ASSERT_TRUE(WriteFileAtomically(path, EncodePcd(cloud)).ok());
+  ASSERT_TRUE(WriteFileAtomically(path, EncodedCurves(EncodePcd, curves)).ok());
 
   pcl::PCLPointCloud2 message;
   ASSERT_EQ(pcl::PCDReader().read(path, message), 0);
@@ -45,15 +56,15 @@ TEST(PclLines, PclReadsThePcdBackWithTheSameFields) {
 
 // pcl::PCDWriter is what the bytes must agree with.
 TEST(PclLines, BytesAreThoseOfPclsOwnWriter) {
-  const pcl::PointCloud<CurvePoint> cloud = ToPointCloud(MakeTestCurves());
+  const CurveSet curves = MakeTestCurves();
   const TemporaryFolder folder;
   const std::string path = (folder.path() / "pcl.pcd").string();
-  ASSERT_EQ(pcl::PCDWriter().writeBinary(path, cloud), 0);
-  EXPECT_EQ(*ReadFile(path), EncodePcd(cloud));
+  ASSERT_EQ(pcl::PCDWriter().writeBinary(path, PointsOf(curves)), 0);
+  EXPECT_EQ(*ReadFile(path), EncodedCurves(EncodePcd, curves));
 }
 
 TEST(PclLines, EmptySetIsAValidFileWithoutPoints) {
-  const std::string bytes = EncodePcd(ToPointCloud({}));
+  const std::string bytes = EncodedCurves(EncodePcd, CurveSet());
   EXPECT_NE(bytes.find("POINTS 0\nDATA binary\n"), std::string::npos);
 }
 

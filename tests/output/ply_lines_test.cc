@@ -24,7 +24,7 @@ std::string AsciiPly(const std::string& vertices, const std::string& edges) {
 }
 
 TEST(PlyLines, HeaderNamesExactlyThePropertiesThatViewersAccept) {
-  const std::string bytes = *EncodePlyLines(MakeTestCurves());
+  const std::string bytes = EncodedCurves(EncodePlyLines, MakeTestCurves());
   EXPECT_THAT(
       bytes,
       StartsWith("ply\n"
@@ -51,7 +51,7 @@ TEST(PlyLines, HeaderNamesExactlyThePropertiesThatViewersAccept) {
 
 TEST(PlyLines, RowsFollowTheHeaderInOrder) {
   const CurveSet curves = MakeTestCurves();
-  const std::string bytes = *EncodePlyLines(curves);
+  const std::string bytes = EncodedCurves(EncodePlyLines, curves);
   const std::string end = "end_header\n";
   const char* body = bytes.data() + bytes.find(end) + end.size();
   constexpr std::ptrdiff_t kVertexBytes = 9 * 4 + 3;
@@ -79,9 +79,9 @@ TEST(PlyLines, RowsFollowTheHeaderInOrder) {
 
 TEST(PlyLines, LabelsOccludingContoursWhereThereAreAny) {
   CurveSet curves = MakeTestCurves();
-  const std::size_t unlabelled = EncodePlyLines(curves)->size();
+  const std::size_t unlabelled = EncodedCurves(EncodePlyLines, curves).size();
   curves.curves[1].is_occluding_contour = true;
-  const std::string bytes = *EncodePlyLines(curves);
+  const std::string bytes = EncodedCurves(EncodePlyLines, curves);
   const std::string property = "property uchar occluding\n";
   EXPECT_EQ(bytes.size(), unlabelled + property.size() + 23);
   EXPECT_THAT(bytes,
@@ -97,13 +97,13 @@ TEST(PlyLines, LabelsOccludingContoursWhereThereAreAny) {
 
 TEST(PlyLines, CurvesComeBackInOrderClosedAndOpen) {
   const CurveSet curves = MakeTestCurves();
-  const auto read = DecodePlyLines(*EncodePlyLines(curves));
+  const auto read = DecodePlyLines(EncodedCurves(EncodePlyLines, curves));
   ASSERT_TRUE(read.ok()) << read.status().message();
   ExpectSameGeometry(*read, curves, kFloat, kFloat);
 }
 
 TEST(PlyLines, EmptySetIsAValidFileWithoutCurves) {
-  const std::string bytes = *EncodePlyLines({});
+  const std::string bytes = EncodedCurves(EncodePlyLines, CurveSet());
   EXPECT_THAT(bytes, HasSubstr("element vertex 0\n"));
   const auto read = DecodePlyLines(bytes);
   ASSERT_TRUE(read.ok()) << read.status().message();
@@ -114,7 +114,8 @@ TEST(PlyLines, TwoSamplesCannotClose) {
   CurveSet curves;
   curves.curves.push_back(MakeTestCurves().curves[2]);
   curves.curves[0].closed = true;
-  EXPECT_THAT(*EncodePlyLines(curves), HasSubstr("element edge 1\n"));
+  EXPECT_THAT(EncodedCurves(EncodePlyLines, curves),
+              HasSubstr("element edge 1\n"));
 }
 
 TEST(PlyLines, EdgesArePointsWithDirectionAndSupport) {
@@ -122,7 +123,7 @@ TEST(PlyLines, EdgesArePointsWithDirectionAndSupport) {
   edge.position = {1, 2, 3};
   edge.tangent = {0, -1, 0};
   edge.support = {{0, 5}, {2, 1}};
-  const std::string bytes = *EncodePlyEdges({edge});
+  const std::string bytes = Encoded(EncodePlyEdges, std::vector<Edge3d>{edge});
   EXPECT_THAT(bytes, HasSubstr("element vertex 1\n"));
   EXPECT_THAT(bytes, HasSubstr("property float support\nend_header\n"));
   const char* row = bytes.data() + bytes.size() - (7 * 4 + 3);
@@ -180,7 +181,7 @@ TEST(PlyLines, ReadsBothByteOrdersAlike) {
 }
 
 TEST(PlyLines, EveryTruncationIsReportedAsDataLoss) {
-  const std::string bytes = *EncodePlyLines(MakeTestCurves());
+  const std::string bytes = EncodedCurves(EncodePlyLines, MakeTestCurves());
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto read = DecodePlyLines(std::string_view(bytes).substr(0, size));
     ASSERT_EQ(read.status().code(), StatusCode::kDataLoss) << size;

@@ -2,11 +2,16 @@
 // Small curves for the tests of file formats.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/scene.h>
+#include <curvix/status.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace curvix {
 
@@ -50,6 +55,27 @@ inline Scene MakeTestScene() {
   scene.views[1].image_id = 3;
   scene.views[2].image_id = 4000000000u;
   return scene;
+}
+
+// The bytes that `encode` gives of `things`, the last of which is the sink.
+template <typename Encode, typename... Things>
+std::string Encoded(Encode encode, const Things&... things) {
+  std::string bytes;
+  const auto sink = [&](std::string_view more) { bytes += more; };
+  if constexpr (std::is_void_v<decltype(encode(things..., sink))>) {
+    encode(things..., sink);
+  } else {
+    const Status status = encode(things..., sink);
+    EXPECT_TRUE(status.ok()) << status.message();
+  }
+  return bytes;
+}
+
+template <typename Encode, typename... Things>
+std::string EncodedCurves(Encode encode,
+                          const CurveSet& curves,
+                          const Things&... things) {
+  return Encoded(encode, CurvesInMemory(curves), things...);
 }
 
 // Checks that `actual` has the curves of `expected`, positions within

@@ -16,7 +16,8 @@ using ::testing::EndsWith;
 TEST(TxtCurves, EverythingComesBackExactly) {
   const CurveSet curves = MakeTestCurves();
   const Scene scene = MakeTestScene();
-  const auto read = DecodeTxtCurves(EncodeTxtCurves(curves, scene), scene);
+  const auto read =
+      DecodeTxtCurves(EncodedCurves(EncodeTxtCurves, curves, scene), scene);
   ASSERT_TRUE(read.ok()) << read.status().message();
   ExpectSameGeometry(*read, curves, 0, 0);
   for (std::size_t c = 0; c < curves.curves.size(); ++c) {
@@ -33,7 +34,7 @@ TEST(TxtCurves, LinesAreAsDocumented) {
   curves.curves.push_back(MakeTestCurves().curves[2]);
   curves.curves[0].samples[0].sigma = 0.5;
   curves.curves[0].samples[0].support = {{0, 9}, {2, 4}};
-  EXPECT_THAT(EncodeTxtCurves(curves, MakeTestScene()),
+  EXPECT_THAT(EncodedCurves(EncodeTxtCurves, curves, MakeTestScene()),
               EndsWith("# Number of curves: 1\n"
                        "0 0 2\n"
                        "0 0 0 1 0 0 0.5 7 4000000000\n"
@@ -41,14 +42,16 @@ TEST(TxtCurves, LinesAreAsDocumented) {
 }
 
 TEST(TxtCurves, AnEmptySceneReadsTheGeometryAlone) {
-  const std::string text = EncodeTxtCurves(MakeTestCurves(), MakeTestScene());
+  const std::string text =
+      EncodedCurves(EncodeTxtCurves, MakeTestCurves(), MakeTestScene());
   const auto read = DecodeTxtCurves(text, {});
   ASSERT_TRUE(read.ok());
   EXPECT_TRUE(read->curves[0].samples[3].support.empty());
 }
 
 TEST(TxtCurves, EmptySetIsAValidFileWithoutCurves) {
-  const auto read = DecodeTxtCurves(EncodeTxtCurves({}, {}), {});
+  const auto read =
+      DecodeTxtCurves(EncodedCurves(EncodeTxtCurves, CurveSet(), Scene()), {});
   ASSERT_TRUE(read.ok());
   EXPECT_TRUE(read->curves.empty());
 }
