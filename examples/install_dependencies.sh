@@ -11,8 +11,8 @@ set -euo pipefail
 packages=(
   cmake g++ git ninja-build
   libboost-program-options-dev libceres-dev libeigen3-dev
-  libgoogle-glog-dev libnanoflann-dev libopencv-dev libpcl-dev
-  libzip-dev nlohmann-json3-dev
+  libgoogle-glog-dev libjs-three libnanoflann-dev libopencv-dev
+  libpcl-dev libzip-dev nlohmann-json3-dev
 )
 case "${1:-}" in
   "") ;;

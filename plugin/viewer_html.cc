@@ -158,7 +158,7 @@ int NumDecimals(const CurveSource& curves) {
 
 void EncodeViewerHtml(const CurveRecord& record, const ByteSink& sink) {
   const std::string_view page = ViewerTemplate();
-  constexpr std::string_view kMark = "@DATA@";
+  constexpr std::string_view kMark = "@CURVIX_DATA@";
   const std::size_t mark = page.find(kMark);
   sink(page.substr(0, mark));
   const Scene& scene = record.scene;

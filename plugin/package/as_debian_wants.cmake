@@ -4,6 +4,8 @@
 set(usr ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr)
 set(doc ${usr}/share/doc/colmap-curvix)
 file(RENAME ${doc}/LICENSE ${doc}/copyright)
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../viewer/LICENSE.three three_license)
+file(APPEND ${doc}/copyright "\n${three_license}")
 file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
 execute_process(COMMAND gzip -9n ${doc}/changelog
                         ${usr}/share/man/man1/colmap_curvix.1

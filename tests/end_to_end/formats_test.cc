@@ -90,6 +90,27 @@ class Formats : public testing::Test {
     return outcome.exit_code == 0 ? std::stoi(outcome.output) : 0;
   }
 
+  // What viewer_probe.js saw in a browser with these flags.
+  static json ProbeViewer(const std::string& flags) {
+    const std::string end = "</body>";
+    std::string page = Read(results_ / "viewer.html");
+    page.insert(page.rfind(end),
+                "<script>" + Read(Source("tests/end_to_end/viewer_probe.js")) +
+                    "</script>");
+    const fs::path path = folder_->Write("probed.html", page);
+    const Outcome outcome = RunInShell(
+        "timeout 60 chromium --headless --no-sandbox --window-size=1200,800 "
+        "--virtual-time-budget=3000 --user-data-dir=" +
+        Quoted(folder_->path() / "chromium") + " " + flags +
+        " --dump-dom file://" + path.string() + " 2>/dev/null");
+    const std::string mark = "PROBE";
+    const std::size_t begin = outcome.output.rfind("id=\"probe\"");
+    if (begin == std::string::npos) return {{"error", "not at its end"}};
+    const std::size_t from = outcome.output.find(mark, begin) + mark.size();
+    return json::parse(
+        outcome.output.substr(from, outcome.output.find(mark, from) - from));
+  }
+
   static constexpr char kEvilName[] = "a b'<script>alert(1)<!--&quot;\xff.png";
   static inline TemporaryFolder* folder_ = nullptr;
   static inline fs::path results_;
@@ -165,41 +186,44 @@ TEST_F(Formats, OverlaysAreAsManyAsAskedFor) {
   EXPECT_EQ(count, 3);
 }
 
-TEST_F(Formats, ViewerWorksInABrowser) {
+TEST_F(Formats, ViewerLetsNothingInOrOut) {
   const std::string page = Read(results_ / "viewer.html");
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
-  EXPECT_EQ(page.find("http"), page.find("http-equiv"));  // needs no network
+  EXPECT_THAT(page, HasSubstr("content=\"default-src 'none'; "));
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_THAT(page, HasSubstr("three.js authors"));
+}
+
+TEST_F(Formats, ViewerWorksInABrowser) {
   if (!IsInstalled("chromium")) GTEST_SKIP() << "no chromium";
-  const std::string end = "</body>";
-  std::string probed = page;
-  probed.insert(probed.rfind(end),
-                "<script>" + Read(Source("tests/end_to_end/viewer_probe.js")) +
-                    "</script>");
-  const fs::path path = folder_->Write("probed.html", probed);
-  const Outcome outcome = RunInShell(
-      "timeout 60 chromium --headless --no-sandbox --disable-gpu "
-      "--window-size=1200,800 --virtual-time-budget=3000 "
-      "--user-data-dir=" +
-      Quoted(folder_->path() / "chromium") + " --dump-dom file://" +
-      path.string() + " 2>/dev/null");
-  const std::string mark = "PROBE";
-  const std::size_t begin = outcome.output.rfind("id=\"probe\"");
-  ASSERT_NE(begin, std::string::npos) << "the page does not get to its end";
-  const std::size_t from = outcome.output.find(mark, begin) + mark.size();
-  const json seen = json::parse(
-      outcome.output.substr(from, outcome.output.find(mark, from) - from));
-  EXPECT_EQ(seen["error"], "");
+  const json seen = ProbeViewer(
+      "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader");
+  ASSERT_EQ(seen["error"], "");
+  EXPECT_EQ(seen["missing"], false);
   EXPECT_EQ(seen["total"], std::to_string(NumCurves()));
   EXPECT_EQ(seen["shownAtFirst"], std::to_string(NumCurves()));
   EXPECT_EQ(seen["inside"], true) << "the first view cuts curves off";
+  EXPECT_EQ(seen["drawn"], true);
+  EXPECT_EQ(seen["drawnNowhere"], false);
   EXPECT_EQ(seen["selectedRight"], true);
   EXPECT_THAT(seen["card"].get<std::string>(), HasSubstr("Photographs"));
   EXPECT_GE(seen["photos"], 1);
   EXPECT_EQ(seen["selectedNothing"], "-1");
+  EXPECT_GT(seen["turned"], 0.1);
+  EXPECT_LT(seen["zoomed"], 1);
   EXPECT_EQ(seen["shownLongest"], "1");
   EXPECT_EQ(seen["objects"], 1);
   EXPECT_EQ(seen["plyHead"], "ply\n");
   EXPECT_EQ(seen["jsonCurves"], 1);
+}
+
+TEST_F(Formats, ViewerSaysThatWebGlIsMissing) {
+  if (!IsInstalled("chromium")) GTEST_SKIP() << "no chromium";
+  const json seen = ProbeViewer("--disable-3d-apis");
+  EXPECT_EQ(seen["error"], "");
+  EXPECT_EQ(seen["missing"], true);
+  EXPECT_EQ(seen["shownLongest"], "1");
+  EXPECT_EQ(seen["objects"], 1);
 }
 
 TEST_F(Formats, UnknownOnesAreRefusedWithWhatThereIs) {
