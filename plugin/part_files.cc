@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin/progress.h"
 #include "plugin/stage_store.h"
 
 namespace curvix {
@@ -181,6 +182,33 @@ ColmapModel ModelOfViews(const ColmapModel& model,
   return part;
 }
 
+Status Interrupted() {
+  return {StatusCode::kCancelled, "interrupted; nothing was written"};
+}
+
+Result<PartFile> OpenPart(const PartPlan& plan,
+                          std::size_t part_idx,
+                          const Options& options,
+                          const fs::path& folder) {
+  const int idx = static_cast<int>(part_idx);
+  return PartFile::Open(ResultPath(folder, idx), PartKey(plan, idx, options));
+}
+
+// Names the parts that are not done.
+Status PartsNotDone(const PartPlan& plan,
+                    const Options& options,
+                    const fs::path& folder) {
+  std::string names;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    if (OpenPart(plan, i, options, folder).ok()) continue;
+    names += (names.empty() ? "" : ", ") + std::to_string(i);
+  }
+  return {StatusCode::kNotFound,
+          "these parts are not there, or of other options: " + names +
+              "; run 'colmap_curvix reconstruct' with --part and the options "
+              "of this command for each of them"};
+}
+
 }  // namespace
 
 std::string PlanJson(const ScenePartition& partition, const Scene& scene) {
@@ -263,6 +291,54 @@ std::uint64_t PartKey(const PartPlan& plan,
 
 fs::path PartFolder(const fs::path& folder, int part_idx) {
   return folder / std::to_string(part_idx);
+}
+
+fs::path ResultPath(const fs::path& folder, int part_idx) {
+  return PartFolder(folder, part_idx) / "part.bin";
+}
+
+fs::path EdgesPath(const fs::path& folder, int part_idx) {
+  return PartFolder(folder, part_idx) / "edges.ply";
+}
+
+Result<PartFiles> PartFiles::Open(const PartPlan& plan,
+                                  const Options& options,
+                                  const fs::path& folder) {
+  PartFiles parts;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    Result<PartFile> file = OpenPart(plan, i, options, folder);
+    if (file.status().code() == StatusCode::kNotFound) {
+      return PartsNotDone(plan, options, folder);
+    }
+    if (!file.ok()) return file.status();
+    if (IsInterrupted()) return Interrupted();
+    file->Close();
+    parts.files_.push_back(std::move(file).value());
+  }
+  return parts;
+}
+
+std::int64_t PartFiles::num_edges_2d() const {
+  std::int64_t sum = 0;
+  for (const PartFile& file : files_) sum += file.num_own_edges_2d();
+  return sum;
+}
+
+std::int64_t PartFiles::num_edges_3d() const {
+  std::int64_t sum = 0;
+  for (const PartFile& file : files_) sum += file.num_core_edges_3d();
+  return sum;
+}
+
+std::size_t PartFiles::NumCurves(int part_idx) const {
+  return files_[Idx(part_idx)].num_curves();
+}
+
+Result<TracedCurve> PartFiles::Read(int part_idx, std::size_t curve_idx) {
+  if (IsInterrupted()) return Interrupted();
+  if (Idx(part_idx) != open_) files_[open_].Close();
+  open_ = Idx(part_idx);
+  return files_[open_].Read(curve_idx);
 }
 
 }  // namespace curvix

@@ -13,12 +13,14 @@
 #include <curvix/options.h>
 #include <curvix/parts.h>
 #include <curvix/scene.h>
+#include <curvix/stage_io.h>
 #include <curvix/status.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "plugin/colmap_model.h"
 
@@ -51,5 +53,36 @@ std::uint64_t PartKey(const PartPlan& plan,
 
 std::filesystem::path PartFolder(const std::filesystem::path& folder,
                                  int part_idx);
+// part.bin and edges.ply.
+std::filesystem::path ResultPath(const std::filesystem::path& folder,
+                                 int part_idx);
+std::filesystem::path EdgesPath(const std::filesystem::path& folder,
+                                int part_idx);
+
+// The results of all parts, of which one file is open at a time.
+class PartFiles : public PartResults {
+ public:
+  // Reads all files once, to check them. kNotFound names all parts that are not
+  // there, or not under their keys.
+  static Result<PartFiles> Open(const PartPlan& plan,
+                                const Options& options,
+                                const std::filesystem::path& folder);
+
+  // Of all parts: edges detected, and 3D edges.
+  std::int64_t num_edges_2d() const;
+  std::int64_t num_edges_3d() const;
+
+  std::size_t NumCurves(int part_idx) const override;
+  // kCancelled, too, once the user wants to stop.
+  Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) override;
+
+  PartFiles(PartFiles&&) = default;
+
+ private:
+  PartFiles() = default;
+
+  std::vector<PartFile> files_;
+  std::size_t open_ = 0;  // the one that may be open
+};
 
 }  // namespace curvix

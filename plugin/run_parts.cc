@@ -24,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPartsName = "parts";
-constexpr const char* kResultName = "part.bin";
-constexpr const char* kEdgesName = "edges.ply";
 
 Status Cancelled() {
   return {StatusCode::kCancelled, "interrupted; nothing was written"};
@@ -122,78 +120,26 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
       EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
   if (IsInterrupted()) return Cancelled();
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
-  for (const Curve& curve : part.curves) Count(curve, record.result);
+  for (const TracedCurve& traced : part.curves) {
+    Count(traced.curve, record.result);
+  }
   record.result.num_edges_3d = part.num_core_edges_3d;
-  Status status = WriteEdges(folder / kEdgesName, edges);
+  Status status = WriteEdges(EdgesPath(parts, part_idx), edges);
   if (status.ok()) {
-    status = WritePartResult(
-        folder / kResultName, PartKey(*plan, part_idx, settings.options), part);
+    status = WritePartResult(ResultPath(parts, part_idx),
+                             PartKey(*plan, part_idx, settings.options),
+                             part);
   }
   if (status.ok()) status = WriteReport(since_start, folder, progress, record);
   if (!status.ok()) return status;
   return record;
 }
 
-Result<PartResult> ReadPartOf(const PartPlan& plan,
-                              int part_idx,
-                              const Options& options,
-                              const fs::path& folder) {
-  return ReadPartResult(PartFolder(folder, part_idx) / kResultName,
-                        PartKey(plan, part_idx, options));
-}
-
-// Names the parts that are not done.
-Status PartsNotDone(const PartPlan& plan,
-                    const Options& options,
-                    const fs::path& folder) {
-  std::string names;
-  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    const int part_idx = static_cast<int>(i);
-    if (!ReadPartOf(plan, part_idx, options, folder).ok()) {
-      names += (names.empty() ? "" : ", ") + std::to_string(i);
-    }
-  }
-  return {StatusCode::kNotFound,
-          "these parts are not there, or of other options: " + names +
-              "; run 'colmap_curvix reconstruct' with --part and the options "
-              "of this command for each of them"};
-}
-
-Result<JoinedParts> Join(const PartPlan& plan,
-                         const fs::path& folder,
-                         const Scene& scene,
-                         ProgressPrinter& progress,
-                         RunRecord& record) {
-  const Stopwatch stopwatch;
-  const Options& options = record.settings.options;
-  const int num_parts = static_cast<int>(plan.partition.parts.size());
-  const auto read = [&](int part_idx) -> Result<PartResult> {
-    if (!progress.Update("join_parts", part_idx, num_parts)) return Cancelled();
-    Result<PartResult> part = ReadPartOf(plan, part_idx, options, folder);
-    // They take most of the memory of a merged scene.
-    if (part.ok() && !NeedsEdges(record.settings.output)) {
-      for (EdgeMap& map : part->edge_maps) map = EdgeMap();
-    }
-    return part;
-  };
-  Result<JoinedParts> joined = JoinParts(plan.partition, read, scene, options);
-  if (joined.status().code() == StatusCode::kNotFound) {
-    return PartsNotDone(plan, options, folder);
-  }
-  if (!joined.ok()) return joined;
-  record.stages.push_back(stopwatch.Read("join_parts"));
-  record.stages.back().counts = {
-      {"parts", num_parts},
-      {"curves", static_cast<std::int64_t>(joined->curves.curves.size())}};
-  return joined;
-}
-
 // The files of the 3D edges of all parts.
-std::vector<fs::path> EdgesOfParts(const PartPlan& plan,
-                                   const fs::path& folder) {
+std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
   std::vector<fs::path> paths;
   for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    paths.push_back(PartFolder(folder, static_cast<int>(i)) / kEdgesName);
+    paths.push_back(EdgesPath(folder, static_cast<int>(i)));
   }
   return paths;
 }
@@ -215,21 +161,28 @@ Result<RunRecord> Merge(const RunSettings& settings,
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
 
-  Result<JoinedParts> joined =
-      Join(*plan, folder, input->scene, progress, record);
-  if (!joined.ok()) return joined.status();
-  record.result.num_edges_2d = joined->num_edges_2d;
-  const CurvesInMemory curves(joined->curves, &joined->edge_maps);
+  const Stopwatch since_join;
+  progress.Update("join_parts", 0, 0);
+  Result<PartFiles> parts = PartFiles::Open(*plan, settings.options, folder);
+  if (!parts.ok()) return parts.status();
+  const auto curves =
+      JoinParts(plan->partition, *parts, input->scene, settings.options);
+  if (!curves.ok()) return curves.status();
+  record.stages.push_back(since_join.Read("join_parts"));
+  record.stages.back().counts = {
+      {"parts", static_cast<std::int64_t>(plan->partition.parts.size())},
+      {"curves", static_cast<std::int64_t>((*curves)->size())}};
+  record.result.num_edges_2d = parts->num_edges_2d();
   Status status = WriteFindings(
       input->scene,
-      {curves,
-       joined->num_edges_3d,
+      {**curves,
+       parts->num_edges_3d(),
        [&](const fs::path& path) {
-         return ConcatenateEdges(path, EdgesOfParts(*plan, folder));
+         return ConcatenateEdges(path, EdgesPaths(*plan, folder));
        },
-       curves.size() > 0 ? ""
-                         : "no part has any; report.json in the folders "
-                           "of the parts says more"},
+       (*curves)->size() > 0 ? ""
+                             : "no part has any; report.json in the folders "
+                               "of the parts says more"},
       output->folder(),
       record);
   if (status.ok()) {

@@ -134,15 +134,6 @@ const std::vector<OutputFormat>& OutputFormats() {
   return formats;
 }
 
-bool NeedsEdges(const OutputSettings& settings) {
-  return std::any_of(settings.formats.begin(),
-                     settings.formats.end(),
-                     [](const std::string& format) {
-                       return format == "json" || format == "html" ||
-                              format == "colmap";
-                     });
-}
-
 Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
   std::vector<std::string> known;
   std::string choices;

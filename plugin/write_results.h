@@ -31,9 +31,6 @@ struct OutputFormat {
 // All that there are, in the order in which they are written.
 const std::vector<OutputFormat>& OutputFormats();
 
-// Whether any of the files asked for shows the 2D edges behind the curves.
-bool NeedsEdges(const OutputSettings& settings);
-
 // "ply,dxf" to its parts. kInvalidArgument, with what there is, for another
 // name or none.
 Result<std::vector<std::string>> ParseOutputFormats(const std::string& text);

@@ -8,6 +8,7 @@
 // alike. There curves are joined.
 #pragma once
 
+#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
@@ -18,7 +19,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <vector>
 
 namespace curvix {
@@ -65,14 +66,17 @@ Options OptionsForPart(Options options,
                        std::size_t num_scene_views,
                        std::size_t num_part_views);
 
+// A curve and the 2D edges behind it.
+struct TracedCurve {
+  Curve curve;  // EdgeRef::edge_idx: index into `edges`
+  std::vector<Edge2d> edges;
+};
+
 // What a part gives to its scene.
 struct PartResult {
-  // Those in its core and the overlap around it, cut there. Support: views of
-  // the part, edges of edge_maps.
-  std::vector<Curve> curves;
-  // Of each view of the part, the edges that support the curves, without
-  // neighbours: EdgeMap::neighbors is empty.
-  std::vector<EdgeMap> edge_maps;
+  // Those in its core and the overlap around it, cut there; they name views of
+  // the part.
+  std::vector<TracedCurve> curves;
   // For the report: edges detected in its own views, and 3D edges in its core.
   std::int64_t num_own_edges_2d = 0;
   std::int64_t num_core_edges_3d = 0;
@@ -88,28 +92,28 @@ std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
                                 int part_idx,
                                 std::vector<Edge3d> edges);
 
-// The scene of all parts.
-struct JoinedParts {
-  CurveSet curves;
-  // One per view: the edges that support the curves, without neighbours.
-  std::vector<EdgeMap> edge_maps;
-  std::int64_t num_edges_2d = 0;  // detected in all views
-  std::int64_t num_edges_3d = 0;
+// The curves of PartResult of all parts, wherever they are.
+class PartResults {
+ public:
+  virtual ~PartResults() = default;
+  virtual std::size_t NumCurves(int part_idx) const = 0;
+  virtual Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) = 0;
 };
 
-// Takes the result of a part, by its index; one at a time.
-using ReadPart = std::function<Result<PartResult>(int part_idx)>;
-
-// Each part must have one edge map per view that the partition gives it. Where
-// several parts have drawn a place, that of the owner stays; ends at borders
-// are joined to what goes on there in another part. Curves come in the order of
-// the parts and of the curves in them, by their first piece. Pieces without a
-// continuation go if they are shorter than
-// options.curve_refinement.min_length_px. Errors are those of `read`, the first
-// one.
-Result<JoinedParts> JoinParts(const ScenePartition& partition,
-                              const ReadPart& read,
-                              const Scene& scene,
-                              const Options& options);
+// The curves of the scene, which read those of `parts` again whenever they are
+// shown; partition and parts outlive them. In memory are only a table of the
+// curves and the one that is shown, and before, while they are joined, places
+// and directions of samples near borders.
+//
+// Where several parts have drawn a place, that of the owner stays; ends at
+// borders are joined to what goes on there in another part. Curves come in the
+// order of the parts and of the curves in them, by their first piece. Pieces
+// without a continuation go if they are shorter than
+// options.curve_refinement.min_length_px. Errors are those of `parts`, the
+// first one; kDataLoss if a curve names views or edges that are not there.
+Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,
+                                               PartResults& parts,
+                                               const Scene& scene,
+                                               const Options& options);
 
 }  // namespace curvix

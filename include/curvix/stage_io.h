@@ -9,9 +9,12 @@
 #include <curvix/parts.h>
 #include <curvix/status.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace curvix {
@@ -37,9 +40,33 @@ Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
                                           std::uint64_t key);
 Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,
                                   std::uint64_t key);
-// Indices in it are checked.
-Result<PartResult> ReadPartResult(const std::filesystem::path& path,
-                                  std::uint64_t key);
+
+// A file of WritePartResult, from which curves are read one by one. For one
+// thread.
+class PartFile {
+ public:
+  // Reads the file once to its end, to check it. Errors as above.
+  static Result<PartFile> Open(const std::filesystem::path& path,
+                               std::uint64_t key);
+
+  std::size_t num_curves() const { return offsets_.size() - 1; }
+  std::int64_t num_own_edges_2d() const { return num_own_edges_2d_; }
+  std::int64_t num_core_edges_3d() const { return num_core_edges_3d_; }
+
+  // kDataLoss: the file has changed since. Indices are not checked.
+  Result<TracedCurve> Read(std::size_t curve_idx);
+  // Until the next curve is read, so that of many files few are open.
+  void Close() { stream_.close(); }
+
+ private:
+  explicit PartFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+  std::filesystem::path path_;
+  std::ifstream stream_;
+  std::vector<std::uint64_t> offsets_;  // of the curves, and of the end
+  std::int64_t num_own_edges_2d_ = 0;
+  std::int64_t num_core_edges_3d_ = 0;
+};
 
 // A hash of bytes (64-bit FNV-1a), for keys; goes on from `hash`.
 std::uint64_t HashBytes(std::string_view bytes,

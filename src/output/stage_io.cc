@@ -3,7 +3,8 @@
 #include <curvix/file_io.h>
 #include <curvix/stage_io.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <fstream>
 #include <optional>
 #include <string>
 
@@ -16,19 +17,19 @@ namespace fs = std::filesystem;
 
 // "CVXSTAGE" in the byte order of the machine.
 constexpr std::uint64_t kMagic = 0x4547415453585643;
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 enum class Kind : std::uint32_t {
   kEdgeMaps = 1,
   kEdgeSketch = 2,
   kPartResult = 3
 };
 
+constexpr std::size_t kHeadBytes = 40;
 constexpr std::size_t kEdge2dBytes = 28;
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
 constexpr std::size_t kEdgeMapBytes = 28;  // without edges
 constexpr std::size_t kEdge3dBytes = 72;   // without support
 constexpr std::size_t kEdgeRefBytes = 8;
-constexpr std::size_t kCurveBytes = 10;  // without samples
 
 Status WriteStage(const fs::path& path,
                   Kind kind,
@@ -55,27 +56,65 @@ Status Other(const fs::path& path) {
               "or of another program."};
 }
 
+struct Head {
+  std::uint64_t num_bytes = 0;  // that follow
+  std::uint64_t checksum = 0;   // of these
+};
+
+// The head with which `bytes` begin.
+Result<Head> ReadHead(const fs::path& path,
+                      std::string_view bytes,
+                      Kind kind,
+                      std::uint64_t key) {
+  ByteReader in(bytes);
+  const bool is_stage = in.Take<std::uint64_t>() == kMagic &&
+                        in.Take<std::uint32_t>() == kVersion;
+  const bool is_kind =
+      in.Take<std::uint32_t>() == static_cast<std::uint32_t>(kind);
+  const bool is_key = in.Take<std::uint64_t>() == key;
+  Head head;
+  head.num_bytes = in.Take<std::uint64_t>();
+  head.checksum = in.Take<std::uint64_t>();
+  if (!in.ok()) return Broken(path);
+  if (!is_stage || !is_kind || !is_key) return Other(path);
+  return head;
+}
+
 // The content of the file after its head.
 Result<std::string> ReadStage(const fs::path& path,
                               Kind kind,
                               std::uint64_t key) {
   Result<std::string> bytes = ReadFile(path);
   if (!bytes.ok()) return bytes;
-  ByteReader head(*bytes);
-  const bool is_stage = head.Take<std::uint64_t>() == kMagic &&
-                        head.Take<std::uint32_t>() == kVersion;
-  const bool is_kind =
-      head.Take<std::uint32_t>() == static_cast<std::uint32_t>(kind);
-  const bool is_key = head.Take<std::uint64_t>() == key;
-  const auto size = head.Take<std::uint64_t>();
-  const auto checksum = head.Take<std::uint64_t>();
-  if (!head.ok()) return Broken(path);
-  if (!is_stage || !is_kind || !is_key) return Other(path);
-  if (head.rest().size() != size || HashBytes(head.rest()) != checksum) {
+  const Result<Head> head = ReadHead(path, *bytes, kind, key);
+  if (!head.ok()) return head.status();
+  bytes->erase(0, kHeadBytes);
+  if (bytes->size() != head->num_bytes || HashBytes(*bytes) != head->checksum) {
     return Broken(path);
   }
-  bytes->erase(0, bytes->size() - head.rest().size());
   return bytes;
+}
+
+// Up to so many of the bytes that come next.
+std::string ReadSome(std::istream& in, std::size_t num_bytes) {
+  std::string bytes(num_bytes, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(num_bytes));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+// Whether what follows is what the head says.
+bool HasContent(std::istream& in, const Head& head) {
+  constexpr std::size_t kChunk = 1 << 20;
+  std::uint64_t num_bytes = 0;
+  std::uint64_t hash = HashBytes("");
+  while (in) {
+    const std::string bytes = ReadSome(in, kChunk);
+    num_bytes += bytes.size();
+    hash = HashBytes(bytes, hash);
+  }
+  in.clear();
+  return num_bytes == head.num_bytes && hash == head.checksum;
 }
 
 void Put(const Eigen::Vector3d& x, ByteWriter& out) {
@@ -173,40 +212,27 @@ Edge TakeEdge(ByteReader& in) {
   return edge;
 }
 
-void Put(const Curve& curve, ByteWriter& out) {
-  out.PutCount(curve.samples.size());
+void Put(const TracedCurve& traced, ByteWriter& out) {
+  const Curve& curve = traced.curve;
   out.Put(static_cast<std::uint8_t>(curve.closed));
   out.Put(static_cast<std::uint8_t>(curve.is_occluding_contour));
+  out.PutCount(curve.samples.size());
   for (const CurveSample& sample : curve.samples) PutEdge(sample, out);
+  out.PutCount(traced.edges.size());
+  for (const Edge2d& edge : traced.edges) Put(edge, out);
 }
 
-Curve TakeCurve(ByteReader& in) {
-  Curve curve;
-  curve.samples.resize(in.TakeCount(kEdge3dBytes));
-  curve.closed = in.Take<std::uint8_t>() != 0;
-  curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
-  for (CurveSample& sample : curve.samples) {
+TracedCurve TakeTracedCurve(ByteReader& in) {
+  TracedCurve traced;
+  traced.curve.closed = in.Take<std::uint8_t>() != 0;
+  traced.curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
+  traced.curve.samples.resize(in.TakeCount(kEdge3dBytes));
+  for (CurveSample& sample : traced.curve.samples) {
     sample = TakeEdge<CurveSample>(in);
   }
-  return curve;
-}
-
-// Whether all edges that the curves name are there.
-bool IsConsistent(const PartResult& part) {
-  const auto is_there = [&](const EdgeRef& ref) {
-    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
-    return ref.view_idx >= 0 && view_idx < part.edge_maps.size() &&
-           ref.edge_idx >= 0 &&
-           static_cast<std::size_t>(ref.edge_idx) <
-               part.edge_maps[view_idx].edges.size();
-  };
-  for (const Curve& curve : part.curves) {
-    for (const CurveSample& sample : curve.samples) {
-      const auto& support = sample.support;
-      if (!std::all_of(support.begin(), support.end(), is_there)) return false;
-    }
-  }
-  return true;
+  traced.edges.resize(in.TakeCount(kEdge2dBytes));
+  for (Edge2d& edge : traced.edges) edge = TakeEdge2d(in);
+  return traced;
 }
 
 }  // namespace
@@ -284,35 +310,67 @@ Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
 Status WritePartResult(const fs::path& path,
                        std::uint64_t key,
                        const PartResult& part) {
-  ByteWriter out;
-  out.PutCount(part.curves.size());
-  for (const Curve& curve : part.curves) Put(curve, out);
-  out.PutCount(part.edge_maps.size());
-  for (const EdgeMap& map : part.edge_maps) {
-    out.PutCount(map.edges.size());
-    for (const Edge2d& edge : map.edges) Put(edge, out);
+  ByteWriter head;
+  head.Put(part.num_own_edges_2d);
+  head.Put(part.num_core_edges_3d);
+  head.PutCount(part.curves.size());
+  ByteWriter curves;
+  for (const TracedCurve& curve : part.curves) {
+    const std::size_t begin = curves.bytes().size();
+    Put(curve, curves);
+    head.PutCount(curves.bytes().size() - begin);
   }
-  out.Put(part.num_own_edges_2d);
-  out.Put(part.num_core_edges_3d);
-  return WriteStage(path, Kind::kPartResult, key, out.bytes());
+  return WriteStage(
+      path, Kind::kPartResult, key, head.bytes() + curves.bytes());
 }
 
-Result<PartResult> ReadPartResult(const fs::path& path, std::uint64_t key) {
-  const Result<std::string> content = ReadStage(path, Kind::kPartResult, key);
-  if (!content.ok()) return content.status();
-  ByteReader in(*content);
-  PartResult part;
-  part.curves.resize(in.TakeCount(kCurveBytes));
-  for (Curve& curve : part.curves) curve = TakeCurve(in);
-  part.edge_maps.resize(in.TakeCount(sizeof(std::uint64_t)));
-  for (EdgeMap& map : part.edge_maps) {
-    map.edges.resize(in.TakeCount(kEdge2dBytes));
-    for (Edge2d& edge : map.edges) edge = TakeEdge2d(in);
+Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
+  PartFile file(path);
+  file.stream_.open(path, std::ios::binary);
+  if (!file.stream_) {
+    return Status(StatusCode::kNotFound, "Cannot open " + path.string() + ".");
   }
-  part.num_own_edges_2d = in.Take<std::int64_t>();
-  part.num_core_edges_3d = in.Take<std::int64_t>();
-  if (!in.AtEnd() || !IsConsistent(part)) return Broken(path);
-  return part;
+  const Result<Head> head = ReadHead(
+      path, ReadSome(file.stream_, kHeadBytes), Kind::kPartResult, key);
+  if (!head.ok()) return head.status();
+  if (!HasContent(file.stream_, *head)) return Broken(path);
+
+  constexpr std::size_t kCountsBytes = 24;
+  file.stream_.seekg(kHeadBytes);
+  const std::string counts = ReadSome(file.stream_, kCountsBytes);
+  ByteReader in(counts);
+  file.num_own_edges_2d_ = in.Take<std::int64_t>();
+  file.num_core_edges_3d_ = in.Take<std::int64_t>();
+  const auto num_curves = in.Take<std::uint64_t>();
+  constexpr std::size_t kSizeBytes = 8;
+  if (!in.ok() || num_curves > head->num_bytes / kSizeBytes) {
+    return Broken(path);
+  }
+  const std::string sizes = ReadSome(file.stream_, kSizeBytes * num_curves);
+  in = ByteReader(sizes);
+  std::uint64_t offset = kHeadBytes + kCountsBytes + sizes.size();
+  const std::uint64_t end = kHeadBytes + head->num_bytes;
+  file.offsets_.push_back(offset);
+  for (std::uint64_t i = 0; i < num_curves; ++i) {
+    const auto size = in.Take<std::uint64_t>();
+    if (offset > end || size > end - offset) return Broken(path);
+    file.offsets_.push_back(offset += size);
+  }
+  if (!in.AtEnd() || offset != end) return Broken(path);
+  return file;
+}
+
+Result<TracedCurve> PartFile::Read(std::size_t curve_idx) {
+  if (!stream_.is_open()) stream_.open(path_, std::ios::binary);
+  stream_.clear();
+  const std::uint64_t begin = offsets_.at(curve_idx);
+  const std::uint64_t end = offsets_.at(curve_idx + 1);
+  stream_.seekg(static_cast<std::streamoff>(begin));
+  const std::string bytes = ReadSome(stream_, end - begin);
+  ByteReader in(bytes);
+  TracedCurve curve = TakeTracedCurve(in);
+  if (bytes.size() != end - begin || !in.AtEnd()) return Broken(path_);
+  return curve;
 }
 
 }  // namespace curvix

@@ -2,6 +2,7 @@
 // Paper: none (beyond it).
 #include "parts/twin_samples.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,32 +10,23 @@
 
 #include "base/angles.h"
 #include "base/point_tree.h"
-#include "geometry/pixel_size.h"
 #include "parts/regions.h"
 
 namespace curvix {
 namespace {
 
-const CurveSample& At(const std::vector<Piece>& pieces, const SampleRef& ref) {
-  return pieces[ref.piece].curve.samples[ref.sample];
+const BorderSample& At(const std::vector<Piece>& pieces, const SampleRef& ref) {
+  return pieces[ref.piece].border_samples[ref.border_sample];
 }
 
-// Those within the overlap on either side of a border.
-std::vector<SampleRef> SamplesNearBorders(const ScenePartition& partition,
-                                          const std::vector<Piece>& pieces) {
-  const auto cores = CoresOf(partition);
-  std::vector<SampleRef> near;
+std::vector<SampleRef> AllOf(const std::vector<Piece>& pieces) {
+  std::vector<SampleRef> refs;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto& core = cores[static_cast<std::size_t>(pieces[i].part_idx)];
-    for (std::size_t k = 0; k < pieces[i].curve.samples.size(); ++k) {
-      const SampleRef ref{i, k};
-      if (DistanceBeyond(core, At(pieces, ref).position) >=
-          -partition.overlap) {
-        near.push_back(ref);
-      }
+    for (std::size_t k = 0; k < pieces[i].border_samples.size(); ++k) {
+      refs.push_back({i, k});
     }
   }
-  return near;
+  return refs;
 }
 
 std::vector<Eigen::Vector3d> Positions(const std::vector<Piece>& pieces,
@@ -50,47 +42,37 @@ std::vector<Eigen::Vector3d> Positions(const std::vector<Piece>& pieces,
 
 TwinSamples::TwinSamples(const ScenePartition& partition,
                          const std::vector<Piece>& pieces,
-                         const std::vector<PosedView>& views,
                          const ConnectivityOptions& options)
-    : partition_(partition), pieces_(pieces), twins_(1) {
+    : partition_(partition), pieces_(pieces) {
   for (const Piece& piece : pieces) {
-    twin_idxs_.emplace_back(piece.curve.samples.size(), 0);
+    twins_.emplace_back(piece.border_samples.size());
   }
-  const std::vector<SampleRef> near = SamplesNearBorders(partition, pieces);
-  const PointTree tree(Positions(pieces, near));
+  const std::vector<SampleRef> refs = AllOf(pieces);
+  const PointTree tree(Positions(pieces, refs));
   const double min_cosine = std::cos(DegToRad(options.max_angle_deg));
-  for (const SampleRef& ref : near) {
-    const CurveSample& sample = At(pieces, ref);
+  for (const SampleRef& ref : refs) {
+    const BorderSample& sample = At(pieces, ref);
     const int own_part = pieces[ref.piece].part_idx;
-    const double pixel = PixelSize(sample.position, sample.support, views);
-    const double reach = options.max_normal_distance_px * pixel;
+    const double reach = options.max_normal_distance_px * sample.pixel;
     std::map<int, std::pair<double, SampleRef>> nearest;  // by part
     for (const std::size_t k : tree.Within(sample.position, reach)) {
-      const int part_idx = pieces[near[k].piece].part_idx;
-      const CurveSample& other = At(pieces, near[k]);
+      const int part_idx = pieces[refs[k].piece].part_idx;
+      const BorderSample& other = At(pieces, refs[k]);
       if (part_idx == own_part ||
           std::abs(sample.tangent.dot(other.tangent)) < min_cosine) {
         continue;
       }
       const double distance = (other.position - sample.position).norm();
       const auto [at, is_new] =
-          nearest.try_emplace(part_idx, distance, near[k]);
+          nearest.try_emplace(part_idx, distance, refs[k]);
       if (!is_new && distance < at->second.first) {
-        at->second = {distance, near[k]};
+        at->second = {distance, refs[k]};
       }
     }
-    if (nearest.empty()) continue;
-    twin_idxs_[ref.piece][ref.sample] =
-        static_cast<std::uint32_t>(twins_.size());
-    twins_.emplace_back();
     for (const auto& [part_idx, twin] : nearest) {
-      twins_.back().push_back(twin.second);
+      twins_[ref.piece][ref.border_sample].push_back(twin.second);
     }
   }
-}
-
-const std::vector<SampleRef>& TwinSamples::Of(const SampleRef& ref) const {
-  return twins_[twin_idxs_[ref.piece][ref.sample]];
 }
 
 bool TwinSamples::Stays(const SampleRef& ref) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,12 +12,11 @@
 #include "base/median.h"
 #include "geometry/posed_views.h"
 #include "hypotheses/view_overlap.h"
-#include "model/curve_junctions.h"
 #include "parts/cut_curves.h"
-#include "parts/join_curves_of_parts.h"
-#include "parts/move_support.h"
+#include "parts/joined_curves.h"
 #include "parts/partition_views.h"
 #include "parts/regions.h"
+#include "parts/trace_curve.h"
 #include "pipeline/check_input.h"
 #include "refinement/refine_curves.h"
 
@@ -71,10 +71,11 @@ PartResult TakePart(const ScenePartition& partition,
                     const std::vector<EdgeMap>& edge_maps) {
   const auto cores = CoresOf(partition);
   PartResult result;
-  result.curves = CutCurves(curves.curves,
-                            cores[static_cast<std::size_t>(part_idx)],
-                            partition.overlap);
-  result.edge_maps = KeepSupport(edge_maps, result.curves);
+  for (Curve& curve : CutCurves(curves.curves,
+                                cores[static_cast<std::size_t>(part_idx)],
+                                partition.overlap)) {
+    result.curves.push_back(TraceCurve(std::move(curve), edge_maps));
+  }
   const ScenePart& part = partition.parts[static_cast<std::size_t>(part_idx)];
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     if (std::binary_search(part.own_view_idxs.begin(),
@@ -96,25 +97,14 @@ std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
   return edges;
 }
 
-Result<JoinedParts> JoinParts(const ScenePartition& partition,
-                              const ReadPart& read,
-                              const Scene& scene,
-                              const Options& options) {
-  JoinedParts joined;
-  joined.edge_maps.resize(scene.views.size());
-  std::vector<std::vector<Curve>> curves_of_parts;
-  for (std::size_t i = 0; i < partition.parts.size(); ++i) {
-    Result<PartResult> part = read(static_cast<int>(i));
-    if (!part.ok()) return part.status();
-    MoveSupport(*part, partition.parts[i].view_idxs, joined.edge_maps);
-    curves_of_parts.push_back(std::move(part->curves));
-    joined.num_edges_2d += part->num_own_edges_2d;
-    joined.num_edges_3d += part->num_core_edges_3d;
-  }
-  joined.curves.curves = JoinCurvesOfParts(
-      partition, std::move(curves_of_parts), MakePosedViews(scene), options);
-  IndexJunctions(joined.curves);
-  return joined;
+Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,
+                                               PartResults& parts,
+                                               const Scene& scene,
+                                               const Options& options) {
+  auto joined = std::make_unique<JoinedCurves>(
+      partition, parts, MakePosedViews(scene), options);
+  if (!joined->status().ok()) return joined->status();
+  return std::unique_ptr<CurveSource>(std::move(joined));
 }
 
 }  // namespace curvix

@@ -57,10 +57,10 @@ std::vector<std::string> FuzzSeeds() {
   Require(WriteEdgeSketch(path, kKey, SomeSketch()).ok(), "written");
   seeds.push_back("1" + *ReadFile(path));
   PartResult part;
-  part.edge_maps = SomeEdgeMaps();
-  part.curves.resize(1);
-  part.curves[0].samples.resize(2);
-  part.curves[0].samples[1].support = {{0, 1}, {2, 0}};
+  part.curves.resize(2);
+  part.curves[1].curve.samples.resize(2);
+  part.curves[1].curve.samples[1].support = {{0, 1}, {2, 0}};
+  part.curves[1].edges.resize(2);
   Require(WritePartResult(path, kKey, part).ok(), "written");
   seeds.push_back("2" + *ReadFile(path));
   return seeds;
@@ -77,7 +77,11 @@ void FuzzReader(std::string_view bytes) {
     scene.views.resize(3);
     if (edge_maps.ok()) RequireSentence(CheckEdgeMaps(scene, *edge_maps));
   } else if (kind == 2) {
-    RequireSentence(ReadPartResult(path, kKey).status());
+    auto file = PartFile::Open(path, kKey);
+    RequireSentence(file.status());
+    for (std::size_t i = 0; file.ok() && i < file->num_curves(); ++i) {
+      RequireSentence(file->Read(i).status());
+    }
   } else {
     const auto sketch = ReadEdgeSketch(path, kKey);
     RequireSentence(sketch.status());

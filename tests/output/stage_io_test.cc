@@ -102,45 +102,75 @@ TEST_F(StageIo, GivesASketchBackBitByBit) {
   }
 }
 
-TEST_F(StageIo, GivesAPartBackBitByBit) {
+PartResult SomePart() {
   PartResult part;
-  part.edge_maps = SomeEdgeMaps();
   part.num_own_edges_2d = 17;
   part.num_core_edges_3d = 5'000'000'000;
   part.curves.resize(2);
-  part.curves[0].closed = true;
-  part.curves[1].is_occluding_contour = true;
+  part.curves[0].curve.closed = true;
+  part.curves[1].curve.is_occluding_contour = true;
   CurveSample sample;
   sample.position = {1.0 / 3, -1e-300, 7};
   sample.sigma = 0.1;
   sample.support = {{2, 0}, {2, 3}};
-  part.curves[1].samples = {CurveSample(), sample};
-  ASSERT_TRUE(WritePartResult(path_, kKey, part).ok());
-  const auto read = ReadPartResult(path_, kKey);
-  ASSERT_TRUE(read.ok()) << read.status().message();
-  EXPECT_EQ(read->num_own_edges_2d, 17);
-  EXPECT_EQ(read->num_core_edges_3d, 5'000'000'000);
-  EXPECT_EQ(read->edge_maps[2].edges.size(), 4u);
-  ASSERT_EQ(read->curves.size(), 2u);
-  EXPECT_TRUE(read->curves[0].closed);
-  EXPECT_TRUE(read->curves[1].is_occluding_contour);
-  ASSERT_EQ(read->curves[1].samples.size(), 2u);
-  EXPECT_EQ(read->curves[1].samples[1].position, sample.position);
-  EXPECT_EQ(read->curves[1].samples[1].sigma, sample.sigma);
-  EXPECT_EQ(read->curves[1].samples[1].support, sample.support);
+  part.curves[1].curve.samples = {CurveSample(), sample};
+  part.curves[1].edges = SomeEdgeMaps()[2].edges;
+  return part;
 }
 
-TEST_F(StageIo, RefusesAPartThatNamesEdgesThatAreNotThere) {
-  for (const EdgeRef& ref : {EdgeRef{3, 0}, {-1, 0}, {2, 4}, {2, -1}}) {
-    PartResult part;
-    part.edge_maps = SomeEdgeMaps();
-    part.curves.resize(1);
-    part.curves[0].samples.resize(2);
-    part.curves[0].samples[1].support = {ref};
-    ASSERT_TRUE(WritePartResult(path_, kKey, part).ok());
-    EXPECT_EQ(ReadPartResult(path_, kKey).status().code(),
-              StatusCode::kDataLoss);
+TEST_F(StageIo, GivesAPartBackBitByBit) {
+  const PartResult part = SomePart();
+  ASSERT_TRUE(WritePartResult(path_, kKey, part).ok());
+  auto file = PartFile::Open(path_, kKey);
+  ASSERT_TRUE(file.ok()) << file.status().message();
+  EXPECT_EQ(file->num_own_edges_2d(), 17);
+  EXPECT_EQ(file->num_core_edges_3d(), 5'000'000'000);
+  ASSERT_EQ(file->num_curves(), 2u);
+  // In any order, and after it was closed.
+  const auto second = file->Read(1);
+  file->Close();
+  const auto first = file->Read(0);
+  ASSERT_TRUE(first.ok() && second.ok());
+  EXPECT_TRUE(first->curve.closed);
+  EXPECT_TRUE(first->curve.samples.empty());
+  EXPECT_TRUE(second->curve.is_occluding_contour);
+  ASSERT_EQ(second->curve.samples.size(), 2u);
+  const CurveSample& sample = part.curves[1].curve.samples[1];
+  EXPECT_EQ(second->curve.samples[1].position, sample.position);
+  EXPECT_EQ(second->curve.samples[1].sigma, sample.sigma);
+  EXPECT_EQ(second->curve.samples[1].support, sample.support);
+  ASSERT_EQ(second->edges.size(), 4u);
+  EXPECT_EQ(second->edges[3].position, part.curves[1].edges[3].position);
+  EXPECT_EQ(second->edges[3].angle, part.curves[1].edges[3].angle);
+}
+
+TEST_F(StageIo, NoticesThatAPartIsBroken) {
+  ASSERT_TRUE(WritePartResult(path_, kKey, SomePart()).ok());
+  EXPECT_EQ(PartFile::Open(path_, kKey + 1).status().code(),
+            StatusCode::kNotFound);
+  EXPECT_EQ(PartFile::Open(folder_.path() / "none.bin", kKey).status().code(),
+            StatusCode::kNotFound);
+  const std::string bytes = *ReadFile(path_);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    folder_.Write("stage.bin", bytes.substr(0, size));
+    EXPECT_EQ(PartFile::Open(path_, kKey).status().code(),
+              StatusCode::kDataLoss)
+        << size;
   }
+  folder_.Write("stage.bin", bytes + "x");
+  EXPECT_EQ(PartFile::Open(path_, kKey).status().code(), StatusCode::kDataLoss);
+
+  // Gone once it was checked.
+  folder_.Write("stage.bin", bytes);
+  auto file = PartFile::Open(path_, kKey);
+  ASSERT_TRUE(file.ok());
+  file->Close();
+  folder_.Write("stage.bin", bytes.substr(0, bytes.size() - 1));
+  EXPECT_TRUE(file->Read(0).ok());
+  EXPECT_EQ(file->Read(1).status().code(), StatusCode::kDataLoss);
+  file->Close();
+  std::filesystem::remove(path_);
+  EXPECT_EQ(file->Read(0).status().code(), StatusCode::kDataLoss);
 }
 
 TEST_F(StageIo, FindsNothingUnderAnotherKeyOrKind) {

@@ -124,11 +124,6 @@ TEST_F(RunParts, GoOnAfterAPartIsLost) {
   MergeAll();
   EXPECT_EQ(*ReadFile(parts_ / "curves.json"), before);
 
-  const std::string ply = *ReadFile(parts_ / "curves.ply");
-  settings_.output.formats = {"ply"};  // without the edges behind the curves
-  MergeAll();
-  EXPECT_EQ(*ReadFile(parts_ / "curves.ply"), ply);
-
   settings_.options.validation.max_angle_deg = 14;
   EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
   EXPECT_THAT(MergeStatus().message(), HasSubstr("options: 0, 1"));

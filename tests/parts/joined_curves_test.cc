@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/join_curves_of_parts.h"
+#include "parts/joined_curves.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/angles.h"
+#include "model/curve_chains.h"
 #include "parts/cut_curves.h"
 #include "parts/regions.h"
 #include "tests/support/synthetic_edges.h"
@@ -63,15 +67,52 @@ Curve Circle(double center_x, double radius, double first_rad) {
   return curve;
 }
 
-// What each part has drawn, cut to what it gives.
-Curves Join(const Curves& below, const Curves& above) {
+// Results of parts in memory.
+class PartsInMemory : public PartResults {
+ public:
+  explicit PartsInMemory(std::vector<std::vector<TracedCurve>> curves)
+      : curves_(std::move(curves)) {}
+
+  std::size_t NumCurves(int part_idx) const override {
+    return curves_[static_cast<std::size_t>(part_idx)].size();
+  }
+  Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) override {
+    if (num_reads_left-- == 0) return Status(StatusCode::kDataLoss, "gone");
+    return curves_[static_cast<std::size_t>(part_idx)][curve_idx];
+  }
+
+  int num_reads_left = -1;  // without end
+
+ private:
+  std::vector<std::vector<TracedCurve>> curves_;
+};
+
+// What each part has drawn, cut to what it gives, without support.
+PartsInMemory Parts(const Curves& below, const Curves& above) {
   const ScenePartition partition = Halves();
   const auto cores = CoresOf(partition);
-  return JoinCurvesOfParts(partition,
-                           {CutCurves(below, cores[0], partition.overlap),
-                            CutCurves(above, cores[1], partition.overlap)},
-                           Views(),
-                           Options());
+  std::vector<std::vector<TracedCurve>> parts(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const Curve& curve :
+         CutCurves(i == 0 ? below : above, cores[i], partition.overlap)) {
+      parts[i].push_back({curve, {}});
+    }
+  }
+  return PartsInMemory(std::move(parts));
+}
+
+Curves Join(const Curves& below, const Curves& above) {
+  const ScenePartition partition = Halves();
+  PartsInMemory parts = Parts(below, above);
+  const JoinedCurves joined(partition, parts, Views(), Options());
+  EXPECT_TRUE(joined.status().ok());
+  Curves curves;
+  joined.ForEach([&](std::size_t id, const Curve& curve) {
+    EXPECT_EQ(id, curves.size());
+    curves.push_back(curve);
+  });
+  EXPECT_EQ(joined.size(), curves.size());
+  return curves;
 }
 
 void ExpectEvenSteps(const Curve& curve) {
@@ -84,7 +125,7 @@ void ExpectEvenSteps(const Curve& curve) {
   }
 }
 
-TEST(JoinCurvesOfParts, MakesALineAcrossTheBorderWhole) {
+TEST(JoinedCurves, MakesALineAcrossTheBorderWhole) {
   for (const double shift : {0.0, 0.3, 0.7}) {
     for (const bool is_reversed : {false, true}) {
       const Curve above = is_reversed
@@ -98,7 +139,7 @@ TEST(JoinCurvesOfParts, MakesALineAcrossTheBorderWhole) {
   }
 }
 
-TEST(JoinCurvesOfParts, DrawsALineAlongTheBorderOnce) {
+TEST(JoinedCurves, DrawsALineAlongTheBorderOnce) {
   for (const double x : {-0.4, 0.0, 0.4}) {
     // Each part sees it a little on the other's side, or on its own.
     for (const double error : {-0.2, 0.2}) {
@@ -112,14 +153,14 @@ TEST(JoinCurvesOfParts, DrawsALineAlongTheBorderOnce) {
   }
 }
 
-TEST(JoinCurvesOfParts, FollowsALineThatHugsTheBorder) {
+TEST(JoinedCurves, FollowsALineThatHugsTheBorder) {
   const Curves joined = Join({Line({-2, -80, 0}, {2, 80, 0})},
                              {Line({-2.1, -80, 0}, {2.1, 80, 0}, 0.5)});
   ASSERT_EQ(joined.size(), 1u);
   EXPECT_NEAR(Length(joined[0]), 160 * kPx, 2.5 * kPx);
 }
 
-TEST(JoinCurvesOfParts, ClosesARingAcrossTheBorder) {
+TEST(JoinedCurves, ClosesARingAcrossTheBorder) {
   for (const double center_x : {0.0, 25.0}) {
     const Curves joined =
         Join({Circle(center_x, 40, 0.1)}, {Circle(center_x, 40, 2.5)});
@@ -129,7 +170,7 @@ TEST(JoinCurvesOfParts, ClosesARingAcrossTheBorder) {
   }
 }
 
-TEST(JoinCurvesOfParts, LeavesWhatLiesInOneCoreAsItIs) {
+TEST(JoinedCurves, LeavesWhatLiesInOneCoreAsItIs) {
   const Curve line = Line({-90, 0, 0}, {-40, 0, 0});
   const Curve circle = Circle(70, 20, 0);
   const Curves joined = Join({line}, {circle});
@@ -140,17 +181,17 @@ TEST(JoinCurvesOfParts, LeavesWhatLiesInOneCoreAsItIs) {
   EXPECT_EQ(joined[1].samples[9].position, circle.samples[9].position);
 }
 
-TEST(JoinCurvesOfParts, KeepsWhatOnlyOnePartHasDrawnNearTheBorder) {
+TEST(JoinedCurves, KeepsWhatOnlyOnePartHasDrawnNearTheBorder) {
   const Curves joined = Join({Line({-40, 0, 0}, {15, 0, 0})}, {});
   ASSERT_EQ(joined.size(), 1u);
   EXPECT_NEAR(Length(joined[0]), 55 * kPx, kPx);
 }
 
-TEST(JoinCurvesOfParts, DropsAStubThatGoesOnNowhere) {
+TEST(JoinedCurves, DropsAStubThatGoesOnNowhere) {
   EXPECT_TRUE(Join({Line({20, 0, 0}, {60, 0, 0})}, {}).empty());
 }
 
-TEST(JoinCurvesOfParts, LeavesParallelLinesApart) {
+TEST(JoinedCurves, LeavesParallelLinesApart) {
   const Curves both = {Line({-50, 0, 0}, {50, 0, 0}),
                        Line({-50, 4, 0}, {50, 4, 0})};
   const Curves joined = Join(both, both);
@@ -159,12 +200,74 @@ TEST(JoinCurvesOfParts, LeavesParallelLinesApart) {
   EXPECT_NEAR(Length(joined[1]), 100 * kPx, 2 * kPx);
 }
 
-TEST(JoinCurvesOfParts, LeavesCurvesThatCrossOnTheBorderApart) {
+TEST(JoinedCurves, LeavesCurvesThatCrossOnTheBorderApart) {
   const Curves both = {Line({-50, -50, 0}, {50, 50, 0}),
                        Line({-50, 50, 0}, {50, -50, 0})};
   const Curves joined = Join(both, both);
   ASSERT_EQ(joined.size(), 2u);
   for (const Curve& curve : joined) ExpectEvenSteps(curve);
+}
+
+// Every sample of a line names one edge, which lies where it is.
+TracedCurve Traced(const Curve& line, int view_idx) {
+  TracedCurve traced{line, {}};
+  for (CurveSample& sample : traced.curve.samples) {
+    sample.support = {
+        {view_idx, static_cast<std::int32_t>(traced.edges.size())}};
+    traced.edges.emplace_back().position = sample.position.head<2>();
+  }
+  return traced;
+}
+
+TEST(JoinedCurves, NameTheViewsOfTheSceneAndTheirOwnEdges) {
+  ScenePartition partition = Halves();
+  partition.parts[0].view_idxs = {0, 2, 3};
+  partition.parts[1].view_idxs = {2, 4, 7};
+  const auto cores = CoresOf(partition);
+  const Curve line = Line({-60, 0, 0}, {60, 0, 0});
+  const Curve below = CutCurves({line}, cores[0], partition.overlap).front();
+  const Curve above =
+      CutCurves({Reversed(line)}, cores[1], partition.overlap).front();
+  PartsInMemory parts({{Traced(below, 0)}, {Traced(above, 2)}});
+  const JoinedCurves joined(partition, parts, Views(), Options());
+  ASSERT_EQ(joined.size(), 1u);
+  joined.ForEach([&](std::size_t, const Curve& curve) {
+    EXPECT_NEAR(Length(curve), 120 * kPx, 2 * kPx);
+    for (const CurveSample& sample : curve.samples) {
+      ASSERT_EQ(sample.support.size(), 1u);
+      const EdgeRef& ref = sample.support.front();
+      EXPECT_EQ(ref.view_idx, sample.position.x() < 0 ? 0 : 7);
+      EXPECT_EQ(joined.EdgeOf(ref).position, sample.position.head<2>());
+    }
+  });
+}
+
+TEST(JoinedCurves, RefuseViewsAndEdgesThatAreNotThere) {
+  ScenePartition partition = Halves();
+  partition.parts[0].view_idxs = {0, 2};
+  for (const EdgeRef& ref : {EdgeRef{2, 0}, {-1, 0}, {1, 91}, {1, -1}}) {
+    TracedCurve broken = Traced(Line({-100, 0, 0}, {-10, 0, 0}), 1);
+    broken.curve.samples.back().support = {ref};
+    PartsInMemory parts({{broken}, {}});
+    const JoinedCurves joined(partition, parts, Views(), Options());
+    EXPECT_EQ(joined.status().code(), StatusCode::kDataLoss);
+    EXPECT_EQ(joined.size(), 0u);
+  }
+}
+
+TEST(JoinedCurves, ShowNothingMoreAfterOneThatCannotBeRead) {
+  const ScenePartition partition = Halves();
+  PartsInMemory parts = Parts(
+      {Line({-90, 0, 0}, {-40, 0, 0}), Line({-90, 9, 0}, {-40, 9, 0})}, {});
+  const JoinedCurves joined(partition, parts, Views(), Options());
+  ASSERT_EQ(joined.size(), 2u);
+  parts.num_reads_left = 1;
+  int num_shown = 0;
+  for (int round = 0; round < 2; ++round) {
+    joined.ForEach([&](std::size_t, const Curve&) { ++num_shown; });
+    EXPECT_EQ(num_shown, 1);
+    EXPECT_EQ(joined.status().message(), "gone");
+  }
 }
 
 }  // namespace

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "parts/joined_curves.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "geometry/loose_curves.h"
+#include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
+#include "model/curve_junctions.h"
+#include "parts/regions.h"
+#include "parts/runs.h"
+#include "parts/trace_curve.h"
+
+namespace curvix {
+namespace {
+
+// Shortest step from one stretch to the next, pixels.
+constexpr double kMinStepPx = 0.5;
+
+// The ties among the items of a chain, by their ranks in `items`, which are
+// ascending.
+EndTies TiesAmong(const std::vector<std::size_t>& items, const EndTies& ties) {
+  EndTies among;
+  for (const std::size_t item : items) {
+    for (const EndIdx end : {2 * item, 2 * item + 1}) {
+      std::optional<EndIdx>& tie = among.emplace_back();
+      if (!ties[end]) continue;
+      const auto rank =
+          std::lower_bound(items.begin(), items.end(), ItemOf(*ties[end])) -
+          items.begin();
+      tie = 2 * static_cast<std::size_t>(rank) + *ties[end] % 2;
+    }
+  }
+  return among;
+}
+
+// Takes away what of the second curve lies beside the first, not beyond it.
+void TrimSecond(EndIdx first,
+                EndIdx second,
+                const std::vector<PosedView>& views,
+                std::vector<Curve>& curves) {
+  const Curve& curve = curves[ItemOf(first)];
+  const CurveSample& from =
+      IsFront(first) ? curve.samples.back() : curve.samples.front();
+  const Eigen::Vector3d outward =
+      IsFront(first) ? from.tangent : Eigen::Vector3d(-from.tangent);
+  const double min_step =
+      kMinStepPx * PixelSize(from.position, from.support, views);
+  std::vector<CurveSample>& next = curves[ItemOf(second)].samples;
+  while (next.size() > 2) {
+    const auto nearest = IsFront(second) ? next.end() - 1 : next.begin();
+    if (outward.dot(nearest->position - from.position) >= min_step) break;
+    next.erase(nearest);
+  }
+}
+
+// The places of the ends of a curve, without the rest.
+Curve EndsOf(const Curve& curve) {
+  Curve ends;
+  ends.closed = curve.closed;
+  ends.samples.resize(2);
+  ends.samples.front().position = curve.samples.front().position;
+  ends.samples.back().position = curve.samples.back().position;
+  return ends;
+}
+
+}  // namespace
+
+JoinedCurves::JoinedCurves(const ScenePartition& partition,
+                           PartResults& parts,
+                           std::vector<PosedView> views,
+                           const Options& options)
+    : partition_(partition), parts_(parts), views_(std::move(views)) {
+  pieces_ = ReadPieces();
+  if (!status_.ok()) return;
+  tied_ = TieStretches(partition, pieces_, options.connectivity);
+  for (Piece& piece : pieces_) piece.border_samples = {};
+  chains_ = FollowEnds(tied_.ties);
+  DropLooseShortCurves(options.curve_refinement.min_length_px);
+}
+
+std::vector<Piece> JoinedCurves::ReadPieces() const {
+  const auto cores = CoresOf(partition_);
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < partition_.parts.size(); ++i) {
+    const int part_idx = static_cast<int>(i);
+    for (std::size_t k = 0; k < parts_.NumCurves(part_idx); ++k) {
+      const Result<TracedCurve> traced = Read(part_idx, k);
+      if (!traced.ok()) {
+        status_ = traced.status();
+        return {};
+      }
+      pieces.push_back(MakePiece(
+          part_idx, k, traced->curve, cores[i], partition_.overlap, views_));
+    }
+  }
+  return pieces;
+}
+
+// A curve of a part, which names views of the scene.
+Result<TracedCurve> JoinedCurves::Read(int part_idx,
+                                       std::size_t curve_idx) const {
+  Result<TracedCurve> traced = parts_.Read(part_idx, curve_idx);
+  if (!traced.ok()) return traced;
+  const std::vector<int>& view_idxs =
+      partition_.parts[static_cast<std::size_t>(part_idx)].view_idxs;
+  bool is_sound = !traced->curve.samples.empty();
+  ForEachSupport(traced->curve, [&](EdgeRef& ref) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    const auto edge_idx = static_cast<std::size_t>(ref.edge_idx);
+    if (view_idx >= view_idxs.size() || edge_idx >= traced->edges.size()) {
+      is_sound = false;
+      return;
+    }
+    ref.view_idx = view_idxs[view_idx];
+  });
+  if (is_sound) return traced;
+  return Status(StatusCode::kDataLoss,
+                "a curve of part " + std::to_string(part_idx) +
+                    " names views or edges that are not there; reconstruct "
+                    "this part again");
+}
+
+Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
+  std::vector<std::size_t> items;
+  for (const ChainItem& link : chain.items) items.push_back(link.item);
+  std::sort(items.begin(), items.end());
+  TracedCurve joined;
+  std::vector<Curve> curves;
+  for (const std::size_t item : items) {
+    const Stretch& stretch = tied_.stretches[item];
+    const Piece& piece = pieces_[stretch.piece];
+    Result<TracedCurve> traced = Read(piece.part_idx, piece.curve_idx);
+    if (!traced.ok()) return traced;
+    const auto first_edge = static_cast<std::int32_t>(joined.edges.size());
+    ForEachSupport(traced->curve,
+                   [&](EdgeRef& ref) { ref.edge_idx += first_edge; });
+    joined.edges.insert(
+        joined.edges.end(), traced->edges.begin(), traced->edges.end());
+    curves.push_back(TakeOut(traced->curve, stretch.run));
+  }
+  const EndTies ties = TiesAmong(items, tied_.ties);
+  for (EndIdx end = 0; end < ties.size(); ++end) {
+    if (ties[end] && end < *ties[end]) {
+      TrimSecond(end, *ties[end], views_, curves);
+    }
+  }
+  const Stretch& first = tied_.stretches[chain.items.front().item];
+  joined.curve = StringTogether(std::move(curves), ties, {}).front();
+  joined.curve.is_occluding_contour = pieces_[first.piece].is_occluding_contour;
+  return joined;
+}
+
+void JoinedCurves::DropLooseShortCurves(double min_length_px) {
+  CurveSet ends;
+  std::vector<bool> are_short;
+  ForEach([&](std::size_t, const Curve& curve) {
+    ends.curves.push_back(EndsOf(curve));
+    are_short.push_back(IsShort(curve, views_, min_length_px));
+  });
+  if (!status_.ok()) return;
+  IndexJunctions(ends);
+  std::vector<EndChain> kept;
+  for (std::size_t i = 0; i < chains_.size(); ++i) {
+    if (!are_short[i] || LeadsSomewhere(ends.curves[i])) {
+      kept.push_back(std::move(chains_[i]));
+    }
+  }
+  chains_ = std::move(kept);
+}
+
+void JoinedCurves::ForEach(const Visit& visit) const {
+  for (std::size_t id = 0; status_.ok() && id < chains_.size(); ++id) {
+    Result<TracedCurve> joined = Join(chains_[id]);
+    if (!joined.ok()) {
+      status_ = joined.status();
+      return;
+    }
+    edges_ = std::move(joined->edges);
+    visit(id, joined->curve);
+  }
+}
+
+}  // namespace curvix

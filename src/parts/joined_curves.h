@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Curves across the borders of parts.
+#pragma once
+
+#include <curvix/curve_source.h>
+#include <curvix/options.h>
+#include <curvix/parts.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "model/end_chains.h"
+#include "model/posed_view.h"
+#include "parts/border_samples.h"
+#include "parts/tie_stretches.h"
+
+namespace curvix {
+
+// The curves of JoinParts() in parts.h, for posed views. In memory are what
+// several parts may have drawn (border_samples.h) while it is made, then a
+// table of stretches, and one curve while it is shown.
+//
+// Tied stretches (tie_stretches.h) are one curve. Where the next stretch would
+// step back, its first samples go.
+class JoinedCurves : public CurveSource {
+ public:
+  // Reads each curve twice. Partition and parts outlive it.
+  JoinedCurves(const ScenePartition& partition,
+               PartResults& parts,
+               std::vector<PosedView> views,
+               const Options& options);
+
+  std::size_t size() const override { return chains_.size(); }
+  void ForEach(const Visit& visit) const override;
+  Edge2d EdgeOf(const EdgeRef& ref) const override {
+    return edges_.at(static_cast<std::size_t>(ref.edge_idx));
+  }
+  Status status() const override { return status_; }
+
+ private:
+  Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) const;
+  Result<TracedCurve> Join(const EndChain& chain) const;
+  std::vector<Piece> ReadPieces() const;
+  void DropLooseShortCurves(double min_length_px);
+
+  const ScenePartition& partition_;
+  PartResults& parts_;
+  std::vector<PosedView> views_;
+  std::vector<Piece> pieces_;  // without border samples
+  TiedStretches tied_;
+  std::vector<EndChain> chains_;  // one per curve
+  mutable Status status_;
+  mutable std::vector<Edge2d> edges_;  // of the curve that is shown
+};
+
+}  // namespace curvix

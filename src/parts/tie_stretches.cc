@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "parts/tie_stretches.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "parts/twin_samples.h"
+
+namespace curvix {
+namespace {
+
+// Samples of a stretch that may lie beyond the place at which it is entered.
+constexpr std::size_t kMaxSkipped = 10;
+
+class Tier {
+ public:
+  Tier(const ScenePartition& partition,
+       const std::vector<Piece>& pieces,
+       const ConnectivityOptions& options)
+      : pieces_(pieces), twins_(partition, pieces, options) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      first_stretches_.push_back(stretches_.size());
+      std::vector<bool> stays(pieces[i].num_samples, true);
+      for (std::size_t k = 0; k < pieces[i].border_samples.size(); ++k) {
+        stays[pieces[i].border_samples[k].sample] = twins_.Stays({i, k});
+      }
+      for (const Run& run : RunsOf(stays)) stretches_.push_back({i, run});
+    }
+    first_stretches_.push_back(stretches_.size());
+  }
+
+  // Once.
+  TiedStretches Tie() {
+    std::vector<EndPair> pairs;
+    for (EndIdx end = 0; end < 2 * stretches_.size(); ++end) {
+      if (const auto pair = Continuation(end)) pairs.push_back(*pair);
+    }
+    EndTies ties = TieCheapestFirst(std::move(pairs), stretches_.size());
+    return {std::move(stretches_), std::move(ties)};
+  }
+
+ private:
+  const BorderSample& At(const SampleRef& ref) const {
+    return pieces_[ref.piece].border_samples[ref.border_sample];
+  }
+
+  // The stretch in which a sample of a piece stays.
+  std::optional<std::size_t> StretchOf(std::size_t piece,
+                                       std::size_t sample) const {
+    const auto at = [&](std::size_t idx) {
+      return stretches_.begin() +
+             static_cast<std::ptrdiff_t>(first_stretches_[idx]);
+    };
+    const auto stretch =
+        std::partition_point(at(piece), at(piece + 1), [&](const Stretch& s) {
+          return s.run.end <= sample;
+        });
+    if (stretch == at(piece + 1) || sample < stretch->run.begin) {
+      return std::nullopt;
+    }
+    return static_cast<std::size_t>(stretch - stretches_.begin());
+  }
+
+  // A sample of a piece that does not stay, and so is a border sample.
+  SampleRef RefTo(std::size_t piece, std::size_t sample) const {
+    const std::vector<BorderSample>& border = pieces_[piece].border_samples;
+    const auto found = std::partition_point(
+        border.begin(), border.end(), [&](const BorderSample& s) {
+          return s.sample < sample;
+        });
+    return {piece, static_cast<std::size_t>(found - border.begin())};
+  }
+
+  // The tie from an end of a stretch to that which it runs into.
+  std::optional<EndPair> Continuation(EndIdx end) const {
+    const Stretch& from = stretches_[ItemOf(end)];
+    const Piece& piece = pieces_[from.piece];
+    const std::size_t size = piece.num_samples;
+    const std::size_t last = IsFront(end) ? from.run.end - 1 : from.run.begin;
+    std::size_t num_beyond = IsFront(end) ? size - 1 - last : last;
+    if (piece.closed) num_beyond = size - (from.run.end - from.run.begin);
+    for (std::size_t k = 1; k <= num_beyond; ++k) {
+      const std::size_t step = IsFront(end) ? k : size - k;
+      const std::size_t sample = (last + step) % size;
+      if (const auto own = StretchOf(from.piece, sample)) {
+        return EndPair{
+            static_cast<double>(k), end, 2 * *own + (IsFront(end) ? 1 : 0)};
+      }
+      const SampleRef beyond = RefTo(from.piece, sample);
+      for (const SampleRef& twin : twins_.Of(beyond)) {
+        const std::size_t twin_sample = At(twin).sample;
+        const auto to = StretchOf(twin.piece, twin_sample);
+        if (!to || IsOfOtherKind(from.piece, twin.piece)) continue;
+        const bool runs_on =
+            (At(beyond).tangent.dot(At(twin).tangent) > 0) == IsFront(end);
+        const Run& run = stretches_[*to].run;
+        const std::size_t skipped =
+            runs_on ? twin_sample - run.begin : run.end - 1 - twin_sample;
+        if (skipped > kMaxSkipped) continue;
+        return EndPair{
+            static_cast<double>(k + skipped), end, 2 * *to + (runs_on ? 1 : 0)};
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool IsOfOtherKind(std::size_t a, std::size_t b) const {
+    return pieces_[a].is_occluding_contour != pieces_[b].is_occluding_contour;
+  }
+
+  const std::vector<Piece>& pieces_;
+  const TwinSamples twins_;
+  std::vector<Stretch> stretches_;
+  // Of each piece, and the end.
+  std::vector<std::size_t> first_stretches_;
+};
+
+}  // namespace
+
+TiedStretches TieStretches(const ScenePartition& partition,
+                           const std::vector<Piece>& pieces,
+                           const ConnectivityOptions& options) {
+  return Tier(partition, pieces, options).Tie();
+}
+
+}  // namespace curvix
