@@ -51,7 +51,7 @@ struct ScenePartition {
 // longest direction of these, again and again. A part has all views of which
 // the core and twice the overlap around it hold at least one place in twenty.
 // The overlap is 25 pixels long where a typical view looks. Time: views times
-// log parts; without sparse points, pairs of views.
+// log views.
 // kInvalidArgument if the scene is none, or if so few views are too few to
 // divide it, as where all views see the same.
 Result<ScenePartition> PartitionScene(const Scene& scene,

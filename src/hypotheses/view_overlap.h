@@ -24,14 +24,14 @@ struct ViewOverlap {
 
 // The places that each view sees: where it sees at least eight sparse points,
 // up to 64 of these, else a grid in its image at its working depth: the median,
-// over the other views, of the depth at which its optical axis passes nearest
-// to theirs.
+// over the 64 nearest cameras, of the depth at which its optical axis passes
+// nearest to theirs. Time: views times their logarithm.
 std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 
 // For each view the views that overlap it, by view_idx: those that see some of
 // its places. Views at one and the same place do not overlap: together they see
-// no depth.
+// no depth. Time: pairs that overlap, and some around them.
 std::vector<std::vector<ViewOverlap>> FindOverlaps(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 

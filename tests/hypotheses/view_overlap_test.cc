@@ -150,6 +150,56 @@ TEST(FindOverlaps, FindsNoneBetweenViewsThatLookAwayFromEachOther) {
   }
 }
 
+TEST(FindOverlaps, FindsAllViewsThatSeeAPlaceAndNoOthers) {
+  Random random(5);
+  std::vector<PosedView> views;
+  for (int i = 0; i < 150; ++i) {
+    const Vector3d center(0.3 * i, 0.2 * random.Uniform(), 0);
+    views.push_back(LookAt(
+        center,
+        center + Vector3d(random.Uniform() - 0.5, random.Uniform() - 0.5, 3)));
+  }
+  const auto places = FindPlaces(views, {});
+  const auto overlaps = FindOverlaps(views, {});
+  std::size_t num_overlaps = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t j = 0; j < views.size(); ++j) {
+      const bool is_seen = std::any_of(
+          places[i].begin(), places[i].end(), [&](const Vector3d& place) {
+            const Vector3d x = views[j].InCamera(place);
+            return x.z() > 0 && views[j].Contains(views[j].Pixel(x));
+          });
+      const bool overlap =
+          OverlapOf(overlaps, static_cast<int>(i), static_cast<int>(j))
+              .has_value();
+      EXPECT_EQ(overlap, is_seen && i != j) << i << " " << j;
+      num_overlaps += overlap;
+    }
+  }
+  EXPECT_GT(num_overlaps, 4 * views.size());
+  EXPECT_LT(num_overlaps, views.size() * views.size() * 2 / 3);
+}
+
+TEST(FindPlaces, GuessesTheDepthByTheCamerasAround) {
+  // Two objects far apart, one twice as far from the cameras round it.
+  std::vector<PosedView> views;
+  for (const double radius : {2.0, 4.0}) {
+    const Vector3d center(100 * radius, 0, 0);
+    for (int i = 0; i < 100; ++i) {
+      const double angle = 2 * kPi * i / 100;
+      views.push_back(LookAt(
+          center + radius * Vector3d(std::cos(angle), std::sin(angle), 0.3),
+          center));
+    }
+  }
+  const auto places = FindPlaces(views, {});
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const double distance = (places[i][4] - views[i].center).norm();
+    const double expected = (i < 100 ? 2.0 : 4.0) * std::hypot(1, 0.3);
+    EXPECT_NEAR(distance, expected, 0.1 * expected) << i;
+  }
+}
+
 TEST(FindOverlaps, TakesASingleViewAndNone) {
   EXPECT_TRUE(FindOverlaps({}, {}).empty());
   EXPECT_TRUE(FindOverlaps(RingOfViews(1), {}).front().empty());

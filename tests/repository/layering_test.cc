@@ -127,6 +127,7 @@ std::optional<std::string> WhyNotAngled(const std::string& file,
     return "there is no such public header";
   }
   if (IsSystemHeader(path) || FirstPart(path) == "Eigen" ||
+      path.rfind("unsupported/Eigen/", 0) == 0 ||
       rule.libraries.contains(FirstPart(path))) {
     return std::nullopt;
   }
