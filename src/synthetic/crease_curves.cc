@@ -18,13 +18,13 @@ using Eigen::Vector3d;
 
 // A face of a primitive and its surface in the world.
 struct Face {
-  const Primitive* primitive;
+  const SolidPrimitive* primitive;
   bool is_plane;
   Vector3d point;  // on the plane; base of the frustum; centre of the sphere
   Vector3d axis;   // unit: normal of the plane, axis of the frustum
 };
 
-Face MakeFace(const Primitive& primitive, int face_idx) {
+Face MakeFace(const SolidPrimitive& primitive, int face_idx) {
   const Rigid3& pose = primitive.world_from_own;
   Face face{&primitive, true, pose.translation, Vector3d::UnitZ()};
   Vector3d own_axis = Vector3d::UnitZ();
@@ -226,7 +226,7 @@ bool IsSame(const CreaseCurve& a, const CreaseCurve& b, double tolerance) {
 // The different lines and circles in which faces of the solid may meet.
 std::vector<CreaseCurve> Candidates(const Solid& solid) {
   std::vector<Face> faces;
-  for (const Primitive& primitive : solid.primitives()) {
+  for (const SolidPrimitive& primitive : solid.primitives()) {
     for (int face = 0; face < NumFaces(primitive.shape); ++face) {
       faces.push_back(MakeFace(primitive, face));
     }

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Keeps [enter, exit] of `interval`, both ends on `face` where it cuts.
-void Clip(double enter, double exit, int face, Interval& interval) {
+void Clip(double enter, double exit, int face, RayInterval& interval) {
   if (enter > interval.enter) {
     interval.enter = enter;
     interval.enter_face = face;
@@ -33,7 +33,7 @@ void ClipSlab(double o,
               double low,
               double high,
               int low_face,
-              Interval& interval) {
+              RayInterval& interval) {
   if (d == 0) {
     if (o < low || o > high) Clip(kInfinity, -kInfinity, low_face, interval);
     return;
@@ -45,7 +45,8 @@ void ClipSlab(double o,
 }
 
 // Keeps a t^2 + 2 b t + c <= 0 where that is one interval of `interval`.
-void ClipQuadric(double a, double b, double c, int face, Interval& interval) {
+void ClipQuadric(
+    double a, double b, double c, int face, RayInterval& interval) {
   const double discriminant = b * b - a * c;
   if (discriminant <= 0) {
     if (a > 0 || c > 0) Clip(kInfinity, -kInfinity, face, interval);
@@ -61,7 +62,7 @@ void ClipQuadric(double a, double b, double c, int face, Interval& interval) {
     b > 0 ? Clip(-kInfinity, c / q, face, interval)
           : Clip(c / q, kInfinity, face, interval);
   } else {  // outside the roots: one nappe of a cone each
-    Interval before = interval;
+    RayInterval before = interval;
     Clip(-kInfinity, t0, face, before);
     Clip(t1, kInfinity, face, interval);
     if (before.exit - before.enter > interval.exit - interval.enter) {
@@ -71,7 +72,7 @@ void ClipQuadric(double a, double b, double c, int face, Interval& interval) {
 }
 
 // Largest value of direction . x over the primitive.
-double Support(const Primitive& primitive, const Vector3d& direction) {
+double Support(const SolidPrimitive& primitive, const Vector3d& direction) {
   const Vector3d d = primitive.world_from_own.rotation.conjugate() * direction;
   const Vector3d& size = primitive.size;
   const double base = primitive.world_from_own.translation.dot(direction);
@@ -96,7 +97,9 @@ int NumFaces(PrimitiveShape shape) {
   return shape == PrimitiveShape::kFrustum ? 3 : 1;
 }
 
-double OwnFaceValue(const Primitive& primitive, int face, const Vector3d& x) {
+double OwnFaceValue(const SolidPrimitive& primitive,
+                    int face,
+                    const Vector3d& x) {
   const Vector3d& size = primitive.size;
   switch (primitive.shape) {
     case PrimitiveShape::kBox:
@@ -113,7 +116,7 @@ double OwnFaceValue(const Primitive& primitive, int face, const Vector3d& x) {
   return 0;
 }
 
-double FaceValue(const Primitive& primitive,
+double FaceValue(const SolidPrimitive& primitive,
                  int face_idx,
                  const Vector3d& world) {
   const Rigid3& pose = primitive.world_from_own;
@@ -122,7 +125,9 @@ double FaceValue(const Primitive& primitive,
                       pose.rotation.conjugate() * (world - pose.translation));
 }
 
-Vector3d OwnNormal(const Primitive& primitive, int face, const Vector3d& x) {
+Vector3d OwnNormal(const SolidPrimitive& primitive,
+                   int face,
+                   const Vector3d& x) {
   switch (primitive.shape) {
     case PrimitiveShape::kBox:
       return (face % 2 == 0 ? -1.0 : 1.0) * Vector3d::Unit(face / 2);
@@ -142,11 +147,11 @@ Vector3d OwnNormal(const Primitive& primitive, int face, const Vector3d& x) {
   return Vector3d::UnitZ();
 }
 
-Interval Intersect(const Primitive& primitive, const Ray& own_ray) {
+RayInterval Intersect(const SolidPrimitive& primitive, const Ray& own_ray) {
   const Vector3d& o = own_ray.origin;
   const Vector3d& d = own_ray.direction;
   const Vector3d& size = primitive.size;
-  Interval interval;
+  RayInterval interval;
   switch (primitive.shape) {
     case PrimitiveShape::kBox:
       for (int axis = 0; axis < 3; ++axis) {
@@ -177,7 +182,7 @@ Interval Intersect(const Primitive& primitive, const Ray& own_ray) {
   return interval;
 }
 
-double FarthestDistance(const Primitive& primitive) {
+double FarthestDistance(const SolidPrimitive& primitive) {
   const Vector3d& size = primitive.size;
   const Rigid3& pose = primitive.world_from_own;
   double farthest = 0;
@@ -206,16 +211,16 @@ double FarthestDistance(const Primitive& primitive) {
   return farthest;
 }
 
-double OwnRadius(const Primitive& primitive) {
-  Primitive at_origin = primitive;
+double OwnRadius(const SolidPrimitive& primitive) {
+  SolidPrimitive at_origin = primitive;
   at_origin.world_from_own = {};
   return FarthestDistance(at_origin);
 }
 
-Eigen::AlignedBox3d BoundingBox(const std::vector<Primitive>& primitives) {
+Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives) {
   Vector3d low = Vector3d::Constant(kInfinity);
   Vector3d high = Vector3d::Constant(-kInfinity);
-  for (const Primitive& primitive : primitives) {
+  for (const SolidPrimitive& primitive : primitives) {
     if (!primitive.is_added) continue;
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] =
@@ -227,12 +232,12 @@ Eigen::AlignedBox3d BoundingBox(const std::vector<Primitive>& primitives) {
   return {low, high};
 }
 
-std::vector<Primitive> Normalized(std::vector<Primitive> primitives,
-                                  double longest_side) {
+std::vector<SolidPrimitive> Normalized(std::vector<SolidPrimitive> primitives,
+                                       double longest_side) {
   const Eigen::AlignedBox3d box = BoundingBox(primitives);
   CURVIX_CHECK(box.sizes().minCoeff() > 0, "the solid has no volume");
   const double factor = longest_side / box.sizes().maxCoeff();
-  for (Primitive& primitive : primitives) {
+  for (SolidPrimitive& primitive : primitives) {
     primitive.size *= factor;
     primitive.world_from_own.translation =
         factor *

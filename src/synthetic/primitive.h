@@ -18,7 +18,7 @@ enum class PrimitiveShape {
 };
 
 // A convex body in its own frame, added to or taken out of the solid.
-struct Primitive {
+struct SolidPrimitive {
   PrimitiveShape shape = PrimitiveShape::kBox;
   bool is_added = true;
   double albedo = 1;      // factor on the grey values of its faces
@@ -37,23 +37,23 @@ int NumFaces(PrimitiveShape shape);
 
 // Negative inside, zero on the face, positive outside; world units near the
 // face (exact for planes, spheres and cylinders).
-double FaceValue(const Primitive& primitive,
+double FaceValue(const SolidPrimitive& primitive,
                  int face_idx,
                  const Eigen::Vector3d& world);
 
 // The unit normal of the face out of the primitive, near a point of the face.
 // Primitive frame.
-Eigen::Vector3d OwnNormal(const Primitive& primitive,
+Eigen::Vector3d OwnNormal(const SolidPrimitive& primitive,
                           int face_idx,
                           const Eigen::Vector3d& own);
 
 // Negative inside, as FaceValue, for a point in the primitive's frame.
-double OwnFaceValue(const Primitive& primitive,
+double OwnFaceValue(const SolidPrimitive& primitive,
                     int face_idx,
                     const Eigen::Vector3d& own);
 
 // The part of a ray's line inside a body, and the faces at both ends.
-struct Interval {
+struct RayInterval {
   double enter = -std::numeric_limits<double>::infinity();
   double exit = std::numeric_limits<double>::infinity();
   int enter_face = 0;
@@ -62,20 +62,20 @@ struct Interval {
 };
 
 // For a ray in the primitive's frame; empty where it misses.
-Interval Intersect(const Primitive& primitive, const Ray& own_ray);
+RayInterval Intersect(const SolidPrimitive& primitive, const Ray& own_ray);
 
 // The largest distance of the primitive from the world's origin.
-double FarthestDistance(const Primitive& primitive);
+double FarthestDistance(const SolidPrimitive& primitive);
 
 // The largest distance of the primitive from the origin of its own frame.
-double OwnRadius(const Primitive& primitive);
+double OwnRadius(const SolidPrimitive& primitive);
 
 // Of the added bodies; empty without any.
-Eigen::AlignedBox3d BoundingBox(const std::vector<Primitive>& primitives);
+Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives);
 
 // The same bodies, moved and scaled so that the bounding box of the added ones
 // is centred on the origin and its longest side is `longest_side`.
-std::vector<Primitive> Normalized(std::vector<Primitive> primitives,
-                                  double longest_side);
+std::vector<SolidPrimitive> Normalized(std::vector<SolidPrimitive> primitives,
+                                       double longest_side);
 
 }  // namespace curvix

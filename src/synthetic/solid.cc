@@ -12,9 +12,9 @@ namespace curvix {
 
 using Eigen::Vector3d;
 
-Solid::Solid(std::vector<Primitive> primitives)
+Solid::Solid(std::vector<SolidPrimitive> primitives)
     : primitives_(std::move(primitives)) {
-  for (const Primitive& primitive : primitives_) {
+  for (const SolidPrimitive& primitive : primitives_) {
     CURVIX_CHECK(primitive.size.allFinite(), "size of a primitive");
     const double reach = (1 + 1e-9) * OwnRadius(primitive);
     placed_.push_back(
@@ -34,7 +34,7 @@ Solid::Solid(std::vector<Primitive> primitives)
 bool Solid::Contains(const Vector3d& world) const {
   bool is_inside = false;
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
-    const Primitive& primitive = primitives_[i];
+    const SolidPrimitive& primitive = primitives_[i];
     if (primitive.is_added == is_inside) continue;  // would change nothing
     const Vector3d offset = world - placed_[i].origin;
     if (offset.squaredNorm() > placed_[i].squared_reach) continue;
@@ -61,7 +61,7 @@ std::vector<Solid::Span> Solid::Spans(const Ray& ray) const {
     }
     const Eigen::Matrix3d& rotation = placed_[i].own_from_world_rotation;
     const Ray own{rotation * offset, rotation * ray.direction};
-    const Interval inside = Intersect(primitives_[i], own);
+    const RayInterval inside = Intersect(primitives_[i], own);
     if (inside.IsEmpty() || inside.exit <= 0) continue;
     spans.push_back({inside, static_cast<int>(i)});
   }

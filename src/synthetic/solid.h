@@ -21,9 +21,9 @@ struct Hit {
 // Primitives applied one after the other: each adds its body or takes it away.
 class Solid {
  public:
-  explicit Solid(std::vector<Primitive> primitives);
+  explicit Solid(std::vector<SolidPrimitive> primitives);
 
-  const std::vector<Primitive>& primitives() const { return primitives_; }
+  const std::vector<SolidPrimitive>& primitives() const { return primitives_; }
 
   // Largest distance of an added body from the origin.
   double radius() const { return radius_; }
@@ -47,14 +47,14 @@ class Solid {
     Eigen::Vector3d origin;
     double squared_reach;  // nothing of it is further from the origin
   };
-  struct Span : Interval {  // the part of a ray inside one primitive
+  struct Span : RayInterval {  // the part of a ray inside one primitive
     int primitive_idx = 0;
   };
   std::vector<Span> Spans(const Ray& ray) const;
   bool IsInsideAfter(const std::vector<Span>& spans, double t) const;
   Eigen::Vector3d Normal(const Hit& hit, const Eigen::Vector3d& world) const;
 
-  std::vector<Primitive> primitives_;
+  std::vector<SolidPrimitive> primitives_;
   std::vector<Placed> placed_;
   Eigen::AlignedBox3d box_;
   double radius_ = 0;

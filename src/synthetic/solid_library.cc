@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 constexpr double kBeyond = 0.05;
 constexpr double kHoleAlbedo = 0.8;  // as if less light came in
 
-Primitive Box(const Vector3d& low, const Vector3d& high) {
-  Primitive box;
+SolidPrimitive Box(const Vector3d& low, const Vector3d& high) {
+  SolidPrimitive box;
   box.shape = PrimitiveShape::kBox;
   box.size = (high - low) / 2;
   box.world_from_own.translation = (low + high) / 2;
@@ -24,11 +24,11 @@ Primitive Box(const Vector3d& low, const Vector3d& high) {
 }
 
 // From the centre of the base along `axis`.
-Primitive Frustum(const Vector3d& base,
-                  const Vector3d& axis,
-                  double base_radius,
-                  double top_radius) {
-  Primitive frustum;
+SolidPrimitive Frustum(const Vector3d& base,
+                       const Vector3d& axis,
+                       double base_radius,
+                       double top_radius) {
+  SolidPrimitive frustum;
   frustum.shape = PrimitiveShape::kFrustum;
   frustum.size = {base_radius, top_radius, axis.norm()};
   frustum.world_from_own = {
@@ -36,49 +36,51 @@ Primitive Frustum(const Vector3d& base,
   return frustum;
 }
 
-Primitive Cylinder(const Vector3d& base, const Vector3d& axis, double radius) {
+SolidPrimitive Cylinder(const Vector3d& base,
+                        const Vector3d& axis,
+                        double radius) {
   return Frustum(base, axis, radius, radius);
 }
 
-Primitive Sphere(const Vector3d& centre, double radius) {
-  Primitive sphere;
+SolidPrimitive Sphere(const Vector3d& centre, double radius) {
+  SolidPrimitive sphere;
   sphere.shape = PrimitiveShape::kSphere;
   sphere.size = Vector3d::Constant(radius);
   sphere.world_from_own.translation = centre;
   return sphere;
 }
 
-Primitive Without(Primitive primitive, double albedo = 1) {
+SolidPrimitive Without(SolidPrimitive primitive, double albedo = 1) {
   primitive.is_added = false;
   primitive.albedo = albedo;
   return primitive;
 }
 
 // A hole through a wall between `from` and `to`.
-Primitive Hole(const Vector3d& from, const Vector3d& to, double radius) {
+SolidPrimitive Hole(const Vector3d& from, const Vector3d& to, double radius) {
   const Vector3d beyond = kBeyond * (to - from).normalized();
   return Without(Cylinder(from - beyond, to - from + 2 * beyond, radius),
                  kHoleAlbedo);
 }
 
-std::vector<Primitive> Block() {
+std::vector<SolidPrimitive> Block() {
   return {Box({0, 0, 0}, {1, 0.7, 0.55}),
           Without(Box({0.55, -kBeyond, 0.25}, {1 + kBeyond, 0.8, 0.8}))};
 }
 
-std::vector<Primitive> UprightCylinder() {
+std::vector<SolidPrimitive> UprightCylinder() {
   return {Box({-0.5, -0.5, 0}, {0.5, 0.5, 0.14}),
           Cylinder({0, 0, 0.07}, {0, 0, 0.63}, 0.28)};
 }
 
-std::vector<Primitive> Cone() {
+std::vector<SolidPrimitive> Cone() {
   return {Box({-0.5, -0.4, 0}, {0.5, 0.4, 0.14}),
           Frustum({0, 0, 0.14}, {0, 0, 0.55}, 0.33, 0.14)};
 }
 
-std::vector<Primitive> CutSphere() {
+std::vector<SolidPrimitive> CutSphere() {
   const Vector3d up = Vector3d(-0.35, -0.3, 0.9).normalized();
-  Primitive cut = Box({-1, -1, 0}, {1, 1, 1});
+  SolidPrimitive cut = Box({-1, -1, 0}, {1, 1, 1});
   cut.world_from_own.rotation =
       Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up);
   cut.world_from_own.translation = (0.22 + 0.5) * up;
@@ -87,7 +89,7 @@ std::vector<Primitive> CutSphere() {
 
 // A bracket: base and wall, a hole through the wall, and on the base a boss
 // with a bore, a cone and a round dimple.
-std::vector<Primitive> Part() {
+std::vector<SolidPrimitive> Part() {
   const double top = 0.14;  // of the base
   return {Box({0, 0, 0}, {1, 0.7, top}),
           Box({0, 0, 0}, {0.14, 0.7, 0.6}),
@@ -98,7 +100,7 @@ std::vector<Primitive> Part() {
           Without(Sphere({0.78, 0.18, top + 0.06}, 0.12), kHoleAlbedo)};
 }
 
-std::vector<Primitive> Primitives(SyntheticSolid solid, int num_views) {
+std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
   switch (solid) {
     case SyntheticSolid::kBlock:
       return Block();
@@ -119,7 +121,7 @@ std::vector<Primitive> Primitives(SyntheticSolid solid, int num_views) {
 }  // namespace
 
 Solid MakeSolid(SyntheticSolid solid, double scale, int num_views) {
-  const std::vector<Primitive> primitives = Primitives(solid, num_views);
+  const std::vector<SolidPrimitive> primitives = Primitives(solid, num_views);
   const Vector3d sides = BoundingBox(primitives).sizes();
   const double scaled =
       solid == SyntheticSolid::kFacade ? sides.z() : sides.maxCoeff();

@@ -27,8 +27,8 @@ int NumBays(int num_views) {
 
 double Length(int num_views) { return kBayWidth * NumBays(num_views); }
 
-Primitive Block(const Vector3d& low, const Vector3d& high, bool is_added) {
-  Primitive box;
+SolidPrimitive Block(const Vector3d& low, const Vector3d& high, bool is_added) {
+  SolidPrimitive box;
   box.shape = PrimitiveShape::kBox;
   box.is_added = is_added;
   box.albedo = is_added ? 1 : 0.8;
@@ -38,13 +38,13 @@ Primitive Block(const Vector3d& low, const Vector3d& high, bool is_added) {
 }
 
 // From y = `front` to y = `back`, further into the wall.
-Primitive Round(double x,
-                double z,
-                double radius,
-                double front,
-                double back,
-                bool is_added) {
-  Primitive cylinder;
+SolidPrimitive Round(double x,
+                     double z,
+                     double radius,
+                     double front,
+                     double back,
+                     bool is_added) {
+  SolidPrimitive cylinder;
   cylinder.shape = PrimitiveShape::kFrustum;
   cylinder.is_added = is_added;
   cylinder.albedo = is_added ? 1 : 0.8;
@@ -56,7 +56,7 @@ Primitive Round(double x,
 }
 
 // The bay that begins at x.
-void AddBay(int bay_idx, double x, std::vector<Primitive>& parts) {
+void AddBay(int bay_idx, double x, std::vector<SolidPrimitive>& parts) {
   constexpr double kBefore = -0.2;  // so that no two faces coincide
   // Upstairs: a window; every third is lower.
   const double top = bay_idx % 3 == 2 ? 0.8 : 0.86;
@@ -90,9 +90,10 @@ Rigid3 LookingAt(const Vector3d& centre, const Vector3d& target) {
 
 }  // namespace
 
-std::vector<Primitive> Facade(int num_views) {
+std::vector<SolidPrimitive> Facade(int num_views) {
   const double length = Length(num_views);
-  std::vector<Primitive> parts = {Block({0, 0, 0}, {length, 0.12, 1}, true)};
+  std::vector<SolidPrimitive> parts = {
+      Block({0, 0, 0}, {length, 0.12, 1}, true)};
   for (int i = 0; i < NumBays(num_views); ++i) AddBay(i, i * kBayWidth, parts);
   for (const auto& [low, high, out] :
        {std::array{0.0, 0.07, 0.05}, std::array{0.93, 1.0, 0.06}}) {

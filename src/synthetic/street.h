@@ -15,7 +15,7 @@ namespace curvix {
 // The front of a row of houses, of height one: it looks along -y and is as long
 // as a walk along it with `num_views` photographs. Ledges run along all of it;
 // doors and windows change from bay to bay.
-std::vector<Primitive> Facade(int num_views);
+std::vector<SolidPrimitive> Facade(int num_views);
 
 // cam_from_world of a walk along a facade of this `height`, centred on the
 // origin: two photographs from each place, one from below and one from above,

@@ -55,7 +55,8 @@ TEST_P(OccludingContours, AreLeftOutAndRimsStay) {
   const auto result =
       ReconstructCurves(cylinder.scene, cylinder.edge_maps, Options());
   ASSERT_TRUE(result.ok()) << result.status().message();
-  const Agreement agreement = Compare(result->curves, cylinder.truth, kPixel);
+  const WireAgreement agreement =
+      Compare(result->curves, cylinder.truth, kPixel);
   EXPECT_GT(agreement.accurate, 0.99);
   EXPECT_GT(agreement.found, 0.98);
 }

@@ -27,7 +27,7 @@ TEST(ReconstructCurves, FindsExactCurvesOnce) {
   const auto result =
       ReconstructCurves(wires.scene, wires.edge_maps, Options());
   ASSERT_TRUE(result.ok()) << result.status().message();
-  const Agreement agreement =
+  const WireAgreement agreement =
       Compare(result->curves, wires.truth, 1e-3 * kSize);
   EXPECT_EQ(result->curves.curves.size(), wires.truth.size());
   EXPECT_GT(agreement.accurate, 0.99);
@@ -46,7 +46,7 @@ TEST(ReconstructCurves, FindsExactCurvesAsThePaperDoes) {
   const auto result =
       ReconstructCurves(wires.scene, wires.edge_maps, PaperOptions());
   ASSERT_TRUE(result.ok()) << result.status().message();
-  const Agreement agreement = Compare(result->curves, wires.truth, kPixel);
+  const WireAgreement agreement = Compare(result->curves, wires.truth, kPixel);
   EXPECT_GT(agreement.accurate, 0.99);
   EXPECT_LT(agreement.worst_distance, 2 * kPixel);
   EXPECT_GT(agreement.found, 0.9);

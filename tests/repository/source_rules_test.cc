@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rules that every file keeps.
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -64,6 +65,24 @@ TEST(SourceRules, NoShellStartsPrograms) {
        FilesBelow({"src", "plugin", "include"}, {".h", ".cc"})) {
     EXPECT_FALSE(std::regex_search(ReadSource(file), shell)) << file;
   }
+}
+
+// Of two types with one name, the linker keeps the functions of one.
+TEST(SourceRules, TypesOfHeadersHaveOneName) {
+  const std::regex type(
+      R"(\n(?:struct|class|enum class) (?:\[\[\w+\]\] )?(\w+)[^;{]*\{)");
+  std::map<std::string, std::string> file_of;
+  for (const std::string& file :
+       FilesBelow({"src", "plugin", "include", "tests"}, {".h"})) {
+    const std::string text = ReadSource(file);
+    for (std::sregex_iterator it(text.begin(), text.end(), type), end;
+         it != end;
+         ++it) {
+      const auto [other, is_new] = file_of.emplace((*it)[1], file);
+      EXPECT_TRUE(is_new) << (*it)[1] << ": " << other->second << ", " << file;
+    }
+  }
+  EXPECT_GT(file_of.size(), 100u);
 }
 
 TEST(SourceRules, TheRootHoldsSixFolders) {

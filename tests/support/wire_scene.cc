@@ -85,10 +85,10 @@ double DistanceToCurves(const CurveSet& curves, const Eigen::Vector3d& x) {
   return least;
 }
 
-Agreement Compare(const CurveSet& curves,
-                  const std::vector<TestCurve>& truth,
-                  double tolerance) {
-  Agreement agreement;
+WireAgreement Compare(const CurveSet& curves,
+                      const std::vector<TestCurve>& truth,
+                      double tolerance) {
+  WireAgreement agreement;
   double length = 0;
   int samples = 0, accurate = 0;
   for (const Curve& curve : curves.curves) {

@@ -26,7 +26,7 @@ WireScene MakeWireScene(std::vector<TestCurve> truth, int num_views);
 // A cube of side 2 around the origin and a circle of radius 0.6 inside it.
 std::vector<TestCurve> CubeAndCircle();
 
-struct Agreement {
+struct WireAgreement {
   double worst_distance = 0;  // of a sample from the nearest true curve
   double accurate = 0;        // share of the samples within a tolerance of it
   double found = 0;         // share of the truth within a tolerance of a curve
@@ -34,9 +34,9 @@ struct Agreement {
 };
 
 // Both shares for the same `tolerance`, a distance.
-Agreement Compare(const CurveSet& curves,
-                  const std::vector<TestCurve>& truth,
-                  double tolerance);
+WireAgreement Compare(const CurveSet& curves,
+                      const std::vector<TestCurve>& truth,
+                      double tolerance);
 
 // Distance of x from the nearest segment of the curves; infinite without any.
 double DistanceToCurves(const CurveSet& curves, const Eigen::Vector3d& x);

@@ -25,15 +25,15 @@ std::vector<double> SortedLengths(const std::vector<CreaseCurve>& curves) {
   return lengths;
 }
 
-Primitive Cube(double half, const Eigen::Vector3d& centre) {
-  Primitive cube;
+SolidPrimitive Cube(double half, const Eigen::Vector3d& centre) {
+  SolidPrimitive cube;
   cube.size.setConstant(half);
   cube.world_from_own.translation = centre;
   return cube;
 }
 
-Primitive Pin(double radius, double height) {
-  Primitive pin;
+SolidPrimitive Pin(double radius, double height) {
+  SolidPrimitive pin;
   pin.shape = PrimitiveShape::kFrustum;
   pin.size = {radius, radius, height};
   return pin;
@@ -42,7 +42,7 @@ Primitive Pin(double radius, double height) {
 // Faces of the solid's primitives whose surface x lies on.
 int NumFacesAt(const Solid& solid, const Eigen::Vector3d& x) {
   int num_faces = 0;
-  for (const Primitive& primitive : solid.primitives()) {
+  for (const SolidPrimitive& primitive : solid.primitives()) {
     for (int face = 0; face < NumFaces(primitive.shape); ++face) {
       num_faces += std::abs(FaceValue(primitive, face, x)) < 1e-9;
     }
@@ -142,7 +142,8 @@ TEST(CreaseCurvesTest, OfFlushBodiesRunOnWithoutASeam) {
 }
 
 TEST(CreaseCurvesTest, OfAPinWithoutAQuarterAreArcsAndSegments) {
-  Primitive quarter = Cube(0.5, {0.5, 0.5, 1});  // of the pin, above z = 0.5
+  SolidPrimitive quarter =
+      Cube(0.5, {0.5, 0.5, 1});  // of the pin, above z = 0.5
   quarter.is_added = false;
   const Solid solid({Pin(0.3, 1), quarter});
   std::vector<double> arcs;

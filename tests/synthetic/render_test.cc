@@ -34,7 +34,7 @@ float PixelAt(const RenderedImage& image, int x, int y) {
 // A wide box behind the plane z = 0, its right side through (x, 0) and turned
 // by `angle` in the image.
 Solid WallUpTo(double x, double angle) {
-  Primitive box;
+  SolidPrimitive box;
   box.size = {20, 20, 1};
   box.world_from_own.rotation =
       Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
@@ -69,7 +69,7 @@ TEST(RenderTest, PixelsOnAStraightEdgeAddUpToItsExactPosition) {
 }
 
 TEST(RenderTest, PixelsOfADiscAddUpToItsExactArea) {
-  Primitive disc;  // widens away from its face: the side is out of sight
+  SolidPrimitive disc;  // widens away from its face: the side is out of sight
   disc.shape = PrimitiveShape::kFrustum;
   disc.size = {1.2345, 0.1, 2};
   disc.world_from_own.translation = {0.031, -0.017, 0};
@@ -95,7 +95,7 @@ TEST(RenderTest, PixelsOfADiscAddUpToItsExactArea) {
 }
 
 TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
-  Primitive box;
+  SolidPrimitive box;
   box.size = {1, 1, 1};
   const Solid solid({box});
   std::vector<double> greys;
