@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What must not change the curves of photographs.
+#include <curvix/file_io.h>
 #include <curvix/reconstruct.h>
+#include <curvix/stage_io.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 
 #include "plugin/workspace.h"
 #include "tests/laws/compare_runs.h"
+#include "tests/plugin/temporary_folder.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/random.h"
 
@@ -48,6 +52,21 @@ class RealScene : public ::testing::Test {
   std::vector<EdgeMap> edge_maps_;
   Reconstruction expected_;
 };
+
+TEST_F(RealScene, ThreadsMakeNoDifferenceToItsEdges) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "edges";
+  const auto edges_in_bytes = [&](int num_threads) {
+    Options options;
+    options.runtime.num_threads = num_threads;
+    EXPECT_TRUE(WriteEdgeMaps(file, 0, *DetectEdges(scene_, options)).ok());
+    return *ReadFile(file);
+  };
+  const std::string expected = edges_in_bytes(1);
+  for (const int num_threads : {1, 2, 3, 8}) {
+    EXPECT_TRUE(edges_in_bytes(num_threads) == expected) << num_threads;
+  }
+}
 
 TEST_F(RealScene, ThreadsMakeNoDifference) {
   for (const int num_threads : {2, 3, 8}) {

@@ -258,15 +258,15 @@ class FakeColmap : public testing::Test {
   PoseRefinementSettings settings_;
 };
 
-TEST_F(FakeColmap, GetsStableOptionsAndAModelOfItsOwn) {
-  Run("echo \"$@\"; ls \"$3\"");
+TEST_F(FakeColmap, GetsStableOptionsAndAModelInAPrivateFolder) {
+  Run("echo \"$@\"; ls \"$3\"; stat -c %a \"$3/..\"");
   std::ifstream log(folder_.path() / "log");
   const std::string text(std::istreambuf_iterator<char>(log), {});
   EXPECT_THAT(text,
               AllOf(HasSubstr("--BundleAdjustment.refine_focal_length 0 "
                               "--BundleAdjustment.refine_principal_point 0 "
                               "--BundleAdjustment.refine_extra_params 0\n"),
-                    HasSubstr("cameras.bin\nimages.bin\npoints3D.bin\n")));
+                    HasSubstr("cameras.bin\nimages.bin\npoints3D.bin\n700\n")));
   const ColmapModel written = Written();
   EXPECT_EQ(written.images.size(), model_.images.size());
   EXPECT_LT(written.points.size(), model_.points.size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/staged_output.h"
 
+#include <sys/stat.h>
+
 #include <fstream>
 #include <iterator>
 
@@ -33,6 +35,15 @@ TEST(StagedOutput, NothingIsLeftWithoutPublish) {
     EXPECT_TRUE(fs::exists(folder.path() / "a/b"));
   }
   EXPECT_TRUE(IsEmpty(folder.path()));
+}
+
+TEST(StagedOutput, IsPrivateUntilPublished) {
+  const TemporaryFolder folder;
+  const mode_t old_mask = umask(0);
+  const auto output = StagedOutput::Create(folder.path() / "out");
+  umask(old_mask);
+  ASSERT_TRUE(output.ok());
+  EXPECT_EQ(fs::status(output->folder()).permissions(), fs::perms::owner_all);
 }
 
 TEST(StagedOutput, PublishesEveryFileAndKeepsStrangers) {
