@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Counts the lines of each folder of src/, and of plugin/, that the tests reach
-# (Debian: lcov). Takes a debug build, in build-coverage.
+# (Debian: lcov). Builds in build-coverage, at -O1: the tests compute a lot.
 #
 #   tests/coverage.sh [build target ...: everything] [-- ctest arguments]
 set -euo pipefail

@@ -33,7 +33,8 @@ TEST(CurveIo, ExtensionChoosesTheFormat) {
 TEST(CurveIo, OtherExtensionsAreRefused) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.stl";
-  EXPECT_EQ(WriteCurves(path, {}, {}).code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(WriteCurves(path, CurveSet(), {}).code(),
+            StatusCode::kInvalidArgument);
   EXPECT_EQ(WriteEdges(path, {}).code(), StatusCode::kInvalidArgument);
   EXPECT_FALSE(std::filesystem::exists(path));
   ASSERT_TRUE(WriteFileAtomically(path, "solid").ok());
