@@ -137,7 +137,7 @@ fs::path FindInPath(const std::string& name) {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path program = fs::absolute(fs::path(folder) / name);
+    fs::path program = fs::absolute(fs::path(folder) / name);
     if (IsProgram(program)) return program;
   }
   return {};

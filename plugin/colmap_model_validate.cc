@@ -61,7 +61,7 @@ std::string WrongImages(const ColmapModel& model) {
   std::set<std::uint32_t> ids;
   std::set<std::string_view> names;
   for (const ColmapImage& image : model.images) {
-    const std::string wrong = WrongImage(image);
+    std::string wrong = WrongImage(image);
     if (!wrong.empty()) return wrong;
     if (!ids.insert(image.image_id).second) {
       return "two images have the id " + std::to_string(image.image_id) +

@@ -270,9 +270,9 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
     if (!more.ok()) return more.status();
     values->merge(*more);  // keeps what is there already
   }
-  const Status missing = CheckRequired(sections, *values);
+  Status missing = CheckRequired(sections, *values);
   if (!missing.ok()) return missing;
-  const Status status = SetFlags(sections, *values);
+  Status status = SetFlags(sections, *values);
   if (!status.ok()) return status;
   return Request::kRun;
 }

@@ -236,7 +236,7 @@ std::size_t CountCurves(const std::vector<CurveStep>& steps) {
 Result<Evaluation> EvaluateCurves(const CurveSet& curves,
                                   const GroundTruth& truth,
                                   const EvaluationOptions& options) {
-  const Status status = Check(curves, truth, options);
+  Status status = Check(curves, truth, options);
   if (!status.ok()) return status;
   Comparison c;
   c.predicted = Resample(curves, options.step);

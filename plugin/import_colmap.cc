@@ -44,17 +44,17 @@ Result<ImportedScene> ImportColmapImages(const ImportOptions& options) {
   }
   std::vector<std::string> names;
   for (const ColmapImage& image : model->images) {
-    const Status status = CheckImageName(image.name, options.input_path);
+    Status status = CheckImageName(image.name, options.input_path);
     if (!status.ok()) return status;
     names.push_back(image.name);
   }
   if (names.empty()) return SceneOfViews({}, options.input_path);
-  const Status status = CheckImagesExist(names, *folder);
+  Status status = CheckImagesExist(names, *folder);
   if (!status.ok()) return status;
   ImportedScene scene;
   for (const ColmapImage& image : model->images) {
     const fs::path file = *folder / image.name;
-    const Status right = CheckSize(file, cameras.at(image.camera_id));
+    Status right = CheckSize(file, cameras.at(image.camera_id));
     if (!right.ok()) return right;
     scene.image_files.push_back(file);
   }

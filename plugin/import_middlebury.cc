@@ -113,7 +113,7 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   if (!lines.ok()) return lines.status();
   std::vector<std::string> names;
   for (const ParLine& line : *lines) {
-    const Status status = CheckImageName(line.name, file);
+    Status status = CheckImageName(line.name, file);
     if (!status.ok()) return status;
     names.push_back(line.name);
   }
@@ -121,7 +121,7 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   const Result<fs::path> folder = FindImageFolder(
       options.image_path, {base, base / "images"}, names.front());
   if (!folder.ok()) return folder.status();
-  const Status status = CheckImagesExist(names, *folder);
+  Status status = CheckImagesExist(names, *folder);
   if (!status.ok()) return status;
   const Result<std::vector<ImportedView>> views =
       ViewsOf(*lines, *folder, options.first_pixel.value_or(0));

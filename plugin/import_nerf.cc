@@ -82,7 +82,7 @@ Result<std::vector<std::string>> FindNames(const json& frames,
   for (const json& frame : frames) {
     const std::string path = FilePathOf(frame);
     const std::string last = fs::path(path).filename().string();
-    const Status status = CheckImageName(path, source);
+    Status status = CheckImageName(path, source);
     std::string name = status.ok() ? FindName(root, path) : "";
     if (by_last_part && name.empty() && CheckImageName(last, source).ok()) {
       name = FindName(root, last);

@@ -196,10 +196,10 @@ Result<fs::path> FindColmap(const fs::path& given) {
                       kHowToInstall);
   }
   if (const char* const folder = std::getenv("COLMAP_EXE_PATH")) {
-    const fs::path program = fs::absolute(fs::path(folder) / "colmap");
+    fs::path program = fs::absolute(fs::path(folder) / "colmap");
     if (IsProgram(program)) return program;
   }
-  const fs::path program = FindInPath("colmap");
+  fs::path program = FindInPath("colmap");
   if (!program.empty()) return program;
   return Status(StatusCode::kNotFound,
                 std::string("COLMAP is not installed; ") + kHowToInstall);
@@ -246,7 +246,7 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   const fs::path output = scratch.path() / "output";
   std::error_code error;
   fs::create_directory(output, error);
-  const Status written = WriteColmapModel(
+  Status written = WriteColmapModel(
       ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
   if (!written.ok()) return written;
   const Result<ChildEnd> end = RunChildProcess(
@@ -257,7 +257,7 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
        run.timeout_s,
        keep_going});
   if (!end.ok()) return end.status();
-  const Status ended = CheckEnd(*end, run.timeout_s);
+  Status ended = CheckEnd(*end, run.timeout_s);
   if (!ended.ok()) return ended;
   return BundleFromColmap(bundle, output);
 }

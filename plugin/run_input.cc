@@ -55,7 +55,7 @@ Result<Workspace> FindInput(const RunSettings& settings) {
                                                settings.output_path,
                                                settings.mask_path});
   if (!workspace.ok()) return workspace;
-  const Status usable = CheckOutputPath(*workspace);
+  Status usable = CheckOutputPath(*workspace);
   if (!usable.ok()) return usable;
   return workspace;
 }

@@ -101,7 +101,7 @@ Result<RunRecord> Job::Run() {
   if (!written.ok()) return written;
   if (IsInterrupted()) return Cancelled();
   // Those of an earlier run would tell of other poses.
-  const Status published = output->Publish({"sparse", "bundle_adjuster.log"});
+  Status published = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!published.ok()) return published;
   return std::move(record_);
 }

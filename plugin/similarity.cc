@@ -24,7 +24,7 @@ Points Centers(const std::vector<Rigid3>& poses) {
 
 // The points around their mean; all zero if they coincide.
 Points Centered(const Points& points) {
-  const Points centered = points.colwise() - points.rowwise().mean();
+  Points centered = points.colwise() - points.rowwise().mean();
   const double size = points.cwiseAbs().maxCoeff();
   if (centered.cwiseAbs().maxCoeff() > kCoincident * size) return centered;
   return Points::Zero(3, points.cols());

@@ -79,7 +79,7 @@ Status WriteOverlays(const CurveRecord& record,
     fs::path path = folder / view.name;
     path += ".png";
     fs::create_directories(path.parent_path());
-    const Status status = WriteFileAtomically(path, *png);
+    Status status = WriteFileAtomically(path, *png);
     if (!status.ok()) return status;
   }
   return {};
@@ -179,13 +179,13 @@ Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
                   format.name) == settings.formats.end()) {
       continue;
     }
-    const Status status =
+    Status status =
         WriteFormat(record, settings, format.name, folder / format.file);
     if (!status.ok()) return status;
     files.emplace_back(format.file);
   }
   if (settings.num_overlays > 0) {
-    const Status status =
+    Status status =
         WriteOverlays(record, settings.num_overlays, folder / "overlays");
     if (!status.ok()) return status;
     files.emplace_back("overlays/");

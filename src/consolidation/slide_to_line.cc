@@ -45,13 +45,13 @@ std::optional<ImageEdge> SlideToLine(const ImageEdge& edge,
                                      const Line2& line,
                                      double location_tolerance_px,
                                      const ConsolidationOptions& options) {
-  if (const auto slid = Slide(edge, line, options.max_tangent_shift_px)) {
+  if (auto slid = Slide(edge, line, options.max_tangent_shift_px)) {
     return slid;
   }
   const ImageEdge turned{
       edge.position,
       TurnTowardsNormal(edge.tangent, line, DegToRad(options.max_turn_deg))};
-  if (const auto slid = Slide(turned, line, options.max_tangent_shift_px)) {
+  if (auto slid = Slide(turned, line, options.max_tangent_shift_px)) {
     return slid;
   }
   const double distance = line.SignedDistance(edge.position);

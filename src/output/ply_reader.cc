@@ -193,7 +193,7 @@ Status Broken(const PlyElement& element, std::uint64_t row) {
 }  // namespace
 
 Result<PlyHeader> TakePlyHeader(std::string_view& bytes) {
-  const Status not_ply(StatusCode::kDataLoss, "the file is not PLY");
+  Status not_ply(StatusCode::kDataLoss, "the file is not PLY");
   if (TakeLine(bytes) != "ply") return not_ply;
   PlyHeader header;
   while (!bytes.empty()) {

@@ -149,7 +149,7 @@ Curve MakeCurve(const LineGraph& graph, const Path& path) {
 }  // namespace
 
 Result<CurveSet> JoinPolylines(const LineGraph& graph) {
-  const Status status = Check(graph);
+  Status status = Check(graph);
   if (!status.ok()) return status;
   const Edges edges = DistinctEdges(graph);
   CurveSet curves;

@@ -181,7 +181,7 @@ Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene) {
       return Broken(lines.number(), "a curve (CURVE_ID CLOSED NUM_SAMPLES)");
     }
     Curve curve;
-    const Status status = ReadSamples(*head, views, lines, curve);
+    Status status = ReadSamples(*head, views, lines, curve);
     if (!status.ok()) return status;
     curves.curves.push_back(std::move(curve));
   }

@@ -105,7 +105,7 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
   RunRecorder run(progress);
   run.Begin("detect_edges");
   std::vector<EdgeMap> edge_maps(scene.views.size());
-  const Status status = run.ForEach(
+  Status status = run.ForEach(
       edge_maps.size(), options.runtime.num_threads, [&](std::size_t i) {
         const View& view = scene.views[i];
         auto detected = DetectViewEdges(

@@ -33,12 +33,12 @@ class LoadGrayImageTest : public ::testing::Test {
   ~LoadGrayImageTest() override { fs::remove_all(folder_); }
 
   fs::path Written(const std::string& name, const cv::Mat& image) const {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     EXPECT_TRUE(cv::imwrite(path.string(), image));
     return path;
   }
   fs::path Written(const std::string& name, const Bytes& bytes) const {
-    const fs::path path = folder_ / name;
+    fs::path path = folder_ / name;
     std::ofstream(path, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path;

@@ -33,7 +33,7 @@ class TemporaryFolder {
   // Writes a file, with its folders, and returns its path.
   std::filesystem::path Write(const std::string& name,
                               const std::string& text) const {
-    const std::filesystem::path path = path_ / name;
+    std::filesystem::path path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream(path, std::ios::binary) << text;
     return path;
