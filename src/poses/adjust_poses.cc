@@ -111,7 +111,6 @@ class Solver {
       : offsets_(problem.samples.size(), Offset{}) {
     for (const Rigid3& motion : start) motions_.push_back(ToMotion(motion));
     std::vector<std::vector<double>> depths(problem.views.size());
-    auto* const loss = new ceres::CauchyLoss(1);  // problem_ owns it
     for (std::size_t i = 0; i < problem.samples.size(); ++i) {
       const PoseSample& sample = problem.samples[i];
       for (const PoseSample::Observation& seen : sample.observations) {
@@ -121,7 +120,7 @@ class Solver {
             view, sample.edge, seen.edge, problem.sigmas_px[view_idx]);
         problem_.AddResidualBlock(
             new ceres::AutoDiffCostFunction<EdgeCost, 1, 6, 2>(cost.release()),
-            loss,
+            &loss_,
             motions_[view_idx].data(),
             offsets_[i].data());
         depths[view_idx].push_back(view.InCamera(sample.edge.position).z());
@@ -181,22 +180,28 @@ class Solver {
   void AddPrior(const PoseProblem& problem,
                 std::size_t view_idx,
                 std::vector<double> depths) {
-    auto cost = std::make_unique<PriorCost>(
-        problem.views[view_idx].calibration(0, 0),
-        Median(std::move(depths)),
-        problem.prior_px);
+    auto cost =
+        std::make_unique<PriorCost>(problem.views[view_idx].calibration(0, 0),
+                                    Median(std::move(depths)),
+                                    problem.prior_px);
     problem_.AddResidualBlock(
         new ceres::AutoDiffCostFunction<PriorCost, 6, 6>(cost.release()),
-        prior_loss_,
+        &prior_loss_,
         motions_[view_idx].data());
+  }
+
+  static ceres::Problem::Options LossesAreNotOwned() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
   }
 
   // Neither may be resized once problem_ points into them.
   std::vector<Motion> motions_;
   std::vector<Offset> offsets_;
-  ceres::Problem problem_;
-  ceres::LossFunction* const prior_loss_ =
-      new ceres::CauchyLoss(kPriorLossScale);
+  ceres::CauchyLoss loss_{1};
+  ceres::CauchyLoss prior_loss_{kPriorLossScale};
+  ceres::Problem problem_{LossesAreNotOwned()};
 };
 
 }  // namespace

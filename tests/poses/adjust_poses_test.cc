@@ -74,6 +74,18 @@ TEST(AdjustPoses, BringsAMovedCameraBack) {
   }
 }
 
+TEST(AdjustPoses, LeavesPosesAloneWithoutSamples) {
+  const std::vector<PosedView> views = RingOfViews(3);
+  const std::vector<double> sigmas(views.size(), 0.2);
+  const std::vector<PoseSample> none;
+  const std::vector<Rigid3> start(views.size());
+  const AdjustedPoses adjusted =
+      AdjustPoses({views, sigmas, none}, start, KeepGoing);
+  ASSERT_EQ(adjusted.new_cam_from_cam.size(), views.size());
+  EXPECT_EQ(adjusted.new_cam_from_cam[1].translation, start[1].translation);
+  EXPECT_TRUE(adjusted.positions.empty());
+}
+
 TEST(AdjustPoses, StopsWhenAsked) {
   std::vector<PosedView> views = RingOfViews(8);
   const std::vector<PoseSample> samples = ExactSamples(views);
