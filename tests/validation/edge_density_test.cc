@@ -89,6 +89,13 @@ TEST(EdgeDensity, IsPositiveEverywhereAndFiniteOutside) {
   }
 }
 
+// Compilers differ in which argument of a call they draw first.
+Vector2d AnyPixel(Random& random) {
+  const double y = random.Uniform(0, kSizePx);
+  const double x = random.Uniform(0, kSizePx);
+  return {x, y};
+}
+
 struct Chance {
   double measured = 0;  // share of random hypotheses that find an edge
   double expected = 0;  // 1 - exp(-2 gate density)
@@ -100,8 +107,9 @@ Chance Measure(const std::function<double(Random&)>& contour_angle,
   Random random(5);
   std::vector<Edge2d> edges;
   for (int i = 0; i < 1500; ++i) {
-    const Vector2d from(random.Uniform(0, kSizePx), random.Uniform(0, kSizePx));
-    AppendContour(from, contour_angle(random), random.Uniform(20, 100), edges);
+    const Vector2d from = AnyPixel(random);
+    const double length_px = random.Uniform(20, 100);
+    AppendContour(from, contour_angle(random), length_px, edges);
   }
   ViewIndex index;
   index.grid = GridIndex(edges, 4);
@@ -110,7 +118,7 @@ Chance Measure(const std::function<double(Random&)>& contour_angle,
   const int count = 20000;
   Chance chance;
   for (int i = 0; i < count; ++i) {
-    const Vector2d p(random.Uniform(0, kSizePx), random.Uniform(0, kSizePx));
+    const Vector2d p = AnyPixel(random);
     const double angle = hypothesis_angle(random);
     const ImageEdge expected{p, {std::cos(angle), std::sin(angle)}};
     if (NearestEdge(index, expected, gate)) chance.measured += 1.0 / count;
