@@ -55,7 +55,9 @@ struct CurveFit {
   double max_residual = 0;
   double inlier_share = 0;
   // Standard deviation of the primitive's position across itself, averaged
-  // along it, and (kArc) of its radius. World units.
+  // along it, and (kArc) of its radius, from the errors of samples as if they
+  // were independent, and from options.common_error_px, which all share. World
+  // units.
   double sigma = 0;
   double radius_sigma = 0;
 };

@@ -72,10 +72,10 @@ FitSamples MakeSamples(const Curve& curve,
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& s = curve.samples[i];
     const double pixel = PixelSize(s.position, s.support, views);
-    const double common = options.common_error_px * pixel *
-                          (to_end[i] < kBentPx * pixel ? kBentFactor : 1);
+    const double common = options.common_error_px * pixel;
+    const double bent = to_end[i] < kBentPx * pixel ? kBentFactor : 1;
     const double own = s.sigma > 0 ? s.sigma : usual;
-    samples.push_back({s.position, std::hypot(own, common)});
+    samples.push_back({s.position, std::hypot(own, bent * common), common});
   }
   return samples;
 }
@@ -175,7 +175,8 @@ struct Draw {
       while (fit.end_angle <= fit.start_angle) fit.end_angle += 2 * kPi;
     }
     if (fit.kind == FitKind::kArc) {
-      fit.radius_sigma = RadiusSigma(conic, snapped.samples);
+      fit.radius_sigma = std::hypot(RadiusSigma(conic, snapped.samples),
+                                    SharedSigma(snapped.samples));
     }
     return conic;
   }
@@ -229,7 +230,8 @@ void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
   // Each sample measures two directions across.
   const double share =
       static_cast<double>(NumParameters(fit)) / (2 * std::max(inliers, 1.0));
-  fit.sigma = std::sqrt(variance / n * std::min(1.0, share));
+  fit.sigma = std::hypot(std::sqrt(variance / n * std::min(1.0, share)),
+                         SharedSigma(samples));
 }
 
 CurveFit MakeFit(const Snapped& snapped) {

@@ -11,11 +11,20 @@ namespace curvix {
 
 struct FitSample {
   Eigen::Vector3d position;
-  double sigma = 0;  // > 0
+  double sigma = 0;   // > 0
+  double common = 0;  // of it, what all samples of a curve share; >= 0
 };
 
 // Part of a curve, in order.
 using FitSamples = std::vector<FitSample>;
+
+// Standard deviation of a primitive from what its samples share, which does not
+// fall with their number: a circle whose edges all lie inside is too small.
+inline double SharedSigma(const FitSamples& samples) {
+  double sum = 0;
+  for (const FitSample& s : samples) sum += s.common;
+  return sum / static_cast<double>(samples.size());
+}
 
 // From here on, in standard deviations, a sample is an outlier.
 constexpr double kOutlierSigmas = 3;

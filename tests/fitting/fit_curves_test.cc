@@ -130,6 +130,31 @@ TEST(FitCurves, TakesTheLastPixelsAsBent) {
   EXPECT_EQ(KindWithBentEnds(30, 2), "arc");
 }
 
+// Edges that all lie a tenth of a pixel inside make a circle too small, however
+// many they are.
+TEST(FitCurves, KnowsThatErrorsAreShared) {
+  constexpr double kPixel = 0.01;
+  constexpr double kShared = 0.1 * kPixel;
+  const Scene scene = ToScene({LookAt({8, 0, 0}, {0, 0, 0})});
+  for (const int n : {100, 1000}) {
+    Curve curve;
+    curve.closed = true;
+    for (int i = 0; i < n; ++i) {
+      const double t = 2 * kPi * i / n;
+      CurveSample& sample = curve.samples.emplace_back();
+      sample.position = (0.5 - kShared) * Vector3d(0, std::cos(t), std::sin(t));
+      sample.sigma = 0.03 * kPixel;
+      sample.support = {{0, 0}};
+    }
+    const FittedCurves fitted = FitCurves({{curve}}, scene, {}, 1);
+    const CurveFit& fit = fitted.curves.at(0).fits.at(0);
+    EXPECT_EQ(KindName(fit), "circle");
+    EXPECT_NEAR(fit.major.norm(), 0.5, 1.1 * fit.radius_sigma);
+    EXPECT_NEAR(fit.radius_sigma, kShared, 0.1 * kShared);
+    EXPECT_NEAR(fit.sigma, kShared, 0.1 * kShared);
+  }
+}
+
 TEST(FitCurves, KeepsACircleWhoseEndsAreBent) {
   Curve curve =
       Sample([](double t) { return OnEllipse(0.2, 0.2, 6 * t); }, 100);
