@@ -89,17 +89,11 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
          shifts + (poses.accepted ? "" : ", refused");
 }
 
-Result<CurvePoseRefinement> RefineModelWithCurves(
-    const ColmapModel& model,
-    const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps,
-    const Options& options,
-    const Progress& progress) {
-  Result<CurvePoses> refined =
-      RefinePosesWithCurves(scene, edge_maps, options, progress);
-  if (!refined.ok()) return refined.status();
+CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
+                                        const Scene& scene,
+                                        CurvePoses refined) {
   CurvePoseRefinement result;
-  result.record.poses = *std::move(refined);
+  result.record.poses = std::move(refined);
   CurvePoses& poses = result.record.poses;
   result.record.largest_shift_image =
       scene.views[poses.max_shift_view_idx].name;

@@ -4,15 +4,11 @@
 // its unit, and the points of the model have a say, too.
 #pragma once
 
-#include <curvix/edges.h>
-#include <curvix/options.h>
 #include <curvix/refine_poses.h>
 #include <curvix/scene.h>
-#include <curvix/status.h>
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "plugin/colmap_model.h"
 #include "plugin/pose_judgement.h"
@@ -40,14 +36,11 @@ struct CurvePoseRefinement {
 // words. The errors are mean ones, of places that were held out.
 std::string CurvePosesText(const CurvePoseRecord& record);
 
-// Refines the poses of `model` by RefinePosesWithCurves(). `scene` is that of
-// the model, without the views whose images are missing. Refused, too, if
-// points no longer fit: if their mean error rises by more than 1 %.
-Result<CurvePoseRefinement> RefineModelWithCurves(
-    const ColmapModel& model,
-    const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps,
-    const Options& options,
-    const Progress& progress);
+// What RefinePosesWithCurves() has made of `scene` for `model`. The scene is
+// that of the model, without the views whose images are missing. Refused, too,
+// if points no longer fit: if their mean error rises by more than 1 %.
+CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
+                                        const Scene& scene,
+                                        CurvePoses refined);
 
 }  // namespace curvix

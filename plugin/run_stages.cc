@@ -3,6 +3,7 @@
 
 #include <curvix/stopwatch.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -31,8 +32,39 @@ Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {
   StageCounts counts = CountEdges(*edge_maps);
   record_.result.num_edges_2d = counts.front().second;
   counts.insert(counts.begin(), {"views", record_.input.num_views});
-  FinishStage(stopwatch.Read("detect_edges"), std::move(counts), is_resumed);
+  std::string text = CountsText(counts);
+  FinishStage(stopwatch.Read("detect_edges"),
+              std::move(counts),
+              std::move(text),
+              is_resumed);
   return edge_maps;
+}
+
+Result<CurvePoseRefinement> RunStages::RefinePosesWithCurves(
+    const ColmapModel& model,
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps) {
+  const Stopwatch stopwatch;
+  progress_.Update("refine_poses_with_curves", 0, 0);
+  const Options& options = record_.settings.options;
+  const std::uint64_t key = SketchKey(scene, options);
+  std::optional<CurvePoses> poses = store_.LoadCurvePoses(key);
+  const bool is_resumed = poses.has_value();
+  if (!is_resumed) {
+    Result<CurvePoses> refined = curvix::RefinePosesWithCurves(
+        scene, edge_maps, options, progress_.Callback());
+    if (!refined.ok()) return refined.status();
+    poses = std::move(refined).value();
+    Save(key, *poses);
+  }
+  CurvePoseRefinement result =
+      ModelWithCurvePoses(model, scene, *std::move(poses));
+  record_.curve_poses = result.record;
+  FinishStage(stopwatch.Read("refine_poses_with_curves"),
+              {},
+              CurvePosesText(result.record),
+              is_resumed);
+  return result;
 }
 
 Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
@@ -49,16 +81,16 @@ Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
     if (!sketch.ok()) return sketch;
     Save(key, *sketch);
   }
-  FinishStage(stopwatch.Read("sketch_edges"), CountsOf(*sketch), is_resumed);
+  FinishStage(
+      stopwatch.Read("sketch_edges"), CountsOf(*sketch), "", is_resumed);
   return sketch;
 }
 
 void RunStages::FinishStage(StageReport report,
                             StageCounts counts,
+                            std::string text,
                             bool is_resumed) {
   if (is_resumed) record_.resumed_stages.push_back(report.name);
-  const bool tells_counts = report.name == "detect_edges";
-  std::string text = tells_counts ? CountsText(counts) : "";
   if (is_resumed) {
     text += std::string(text.empty() ? "" : ", ") + "as an earlier run left it";
   }

@@ -10,8 +10,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
+#include "plugin/colmap_model.h"
+#include "plugin/curve_poses.h"
 #include "plugin/progress.h"
 #include "plugin/run_counts.h"
 #include "plugin/run_report.h"
@@ -29,6 +32,11 @@ class RunStages {
             RunRecord& record);
 
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
+  // For `model`, whose views with images `scene` has.
+  Result<CurvePoseRefinement> RefinePosesWithCurves(
+      const ColmapModel& model,
+      const Scene& scene,
+      const std::vector<EdgeMap>& edge_maps);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
 
@@ -38,7 +46,10 @@ class RunStages {
  private:
   Result<EdgeSketch> Sketch(const Scene& scene,
                             const std::vector<EdgeMap>& edge_maps);
-  void FinishStage(StageReport report, StageCounts counts, bool is_resumed);
+  void FinishStage(StageReport report,
+                   StageCounts counts,
+                   std::string text,
+                   bool is_resumed);
   template <typename T>
   void Save(std::uint64_t key, const T& result);
 

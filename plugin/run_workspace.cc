@@ -42,7 +42,8 @@ class Job {
   Result<Scene> RefinePoses(const WorkspaceScene& input);
   Result<Scene> RefinePosesWithCurves(const WorkspaceScene& input,
                                       const Scene& scene,
-                                      const std::vector<EdgeMap>& edge_maps);
+                                      const std::vector<EdgeMap>& edge_maps,
+                                      RunStages& stages);
   Status WriteRefinedModel();
 
   void Note(const std::vector<std::string>& notes) {
@@ -74,7 +75,7 @@ Result<RunRecord> Job::Run() {
   const Result<std::vector<EdgeMap>> edge_maps = stages.Detect(*scene);
   if (!edge_maps.ok()) return edge_maps.status();
   if (record_.settings.poses.refine_poses_with_curves) {
-    scene = RefinePosesWithCurves(*input, *scene, *edge_maps);
+    scene = RefinePosesWithCurves(*input, *scene, *edge_maps, stages);
     if (!scene.ok()) return scene.status();
   }
   const Result<Reconstruction> reconstruction =
@@ -131,21 +132,13 @@ Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
 }
 
 // The same with the edges of the views, which stay where they are.
-Result<Scene> Job::RefinePosesWithCurves(
-    const WorkspaceScene& input,
-    const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps) {
-  const Stopwatch stopwatch;
-  Result<CurvePoseRefinement> refined =
-      RefineModelWithCurves(refined_model_ ? *refined_model_ : input.model,
-                            scene,
-                            edge_maps,
-                            record_.settings.options,
-                            progress_.Callback());
-  if (!refined.ok()) return refined.status();
-  record_.curve_poses = std::move(refined->record);
-  record_.stages.push_back(stopwatch.Read("refine_poses_with_curves"));
-  progress_.Finish(CurvePosesText(*record_.curve_poses));
+Result<Scene> Job::RefinePosesWithCurves(const WorkspaceScene& input,
+                                         const Scene& scene,
+                                         const std::vector<EdgeMap>& edge_maps,
+                                         RunStages& stages) {
+  Result<CurvePoseRefinement> refined = stages.RefinePosesWithCurves(
+      refined_model_ ? *refined_model_ : input.model, scene, edge_maps);
+  if (!refined.ok()) return stages.KeptStages(refined.status());
   if (!refined->model) return scene;
   refined_model_ = std::move(refined->model);
   return MakeScene(workspace_, *refined_model_, input.missing_images);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 
 #include "plugin/run_report.h"
 
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEdgesName = "edges.bin";
 constexpr const char* kSketchName = "sketch.bin";
+constexpr const char* kCurvePosesName = "curve_poses.bin";
 
 // Hashes one thing after the other; texts with their end.
 class KeyMaker {
@@ -94,6 +96,12 @@ void AddGeometry(const Scene& scene, KeyMaker& key) {
   }
 }
 
+template <typename T>
+std::optional<T> ValueOf(Result<T> result) {
+  if (!result.ok()) return std::nullopt;
+  return std::move(result).value();
+}
+
 }  // namespace
 
 std::uint64_t SceneKey(const Scene& scene) {
@@ -132,15 +140,15 @@ std::uint64_t SketchKey(const Scene& scene, const Options& options) {
 
 std::optional<std::vector<EdgeMap>> StageStore::LoadEdges(
     std::uint64_t key) const {
-  auto edge_maps = ReadEdgeMaps(folder_ / kEdgesName, key);
-  if (!edge_maps.ok()) return std::nullopt;
-  return *std::move(edge_maps);
+  return ValueOf(ReadEdgeMaps(folder_ / kEdgesName, key));
 }
 
 std::optional<EdgeSketch> StageStore::LoadSketch(std::uint64_t key) const {
-  auto sketch = ReadEdgeSketch(folder_ / kSketchName, key);
-  if (!sketch.ok()) return std::nullopt;
-  return *std::move(sketch);
+  return ValueOf(ReadEdgeSketch(folder_ / kSketchName, key));
+}
+
+std::optional<CurvePoses> StageStore::LoadCurvePoses(std::uint64_t key) const {
+  return ValueOf(ReadCurvePoses(folder_ / kCurvePosesName, key));
 }
 
 bool StageStore::IsLink() const {
@@ -155,26 +163,38 @@ std::string StageStore::MakeFolder() const {
   return error ? "cannot make " + folder_.string() : "";
 }
 
-std::string StageStore::Save(std::uint64_t key,
-                             const std::vector<EdgeMap>& edge_maps) {
+template <typename T>
+std::string StageStore::SaveBy(Status write(const fs::path&,
+                                            std::uint64_t,
+                                            const T&),
+                               const char* name,
+                               std::uint64_t key,
+                               const T& result) {
   if (std::string why = MakeFolder(); !why.empty()) return why;
-  const Status status = WriteEdgeMaps(folder_ / kEdgesName, key, edge_maps);
+  const Status status = write(folder_ / name, key, result);
   has_saved_ = has_saved_ || status.ok();
   return status.message();
 }
 
+std::string StageStore::Save(std::uint64_t key,
+                             const std::vector<EdgeMap>& edge_maps) {
+  return SaveBy(WriteEdgeMaps, kEdgesName, key, edge_maps);
+}
+
 std::string StageStore::Save(std::uint64_t key, const EdgeSketch& sketch) {
-  if (std::string why = MakeFolder(); !why.empty()) return why;
-  const Status status = WriteEdgeSketch(folder_ / kSketchName, key, sketch);
-  has_saved_ = has_saved_ || status.ok();
-  return status.message();
+  return SaveBy(WriteEdgeSketch, kSketchName, key, sketch);
+}
+
+std::string StageStore::Save(std::uint64_t key, const CurvePoses& poses) {
+  return SaveBy(WriteCurvePoses, kCurvePosesName, key, poses);
 }
 
 void StageStore::Clean() {
   if (IsLink()) return;
   std::error_code ignored;
-  fs::remove(folder_ / kEdgesName, ignored);
-  fs::remove(folder_ / kSketchName, ignored);
+  for (const char* name : {kEdgesName, kSketchName, kCurvePosesName}) {
+    fs::remove(folder_ / name, ignored);
+  }
   fs::remove(folder_, ignored);
 }
 

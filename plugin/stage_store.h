@@ -6,6 +6,7 @@
 #include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
+#include <curvix/refine_poses.h>
 #include <curvix/scene.h>
 
 #include <cstdint>
@@ -26,10 +27,11 @@ std::uint64_t SceneKey(const Scene& scene);
 std::uint64_t EdgesKey(const Scene& scene, const Options& options);
 
 // What its 3D edge sketch depends on: that, and the poses, the points and the
-// options of hypotheses, consolidation and validation.
+// options of hypotheses, consolidation and validation. Poses refined with
+// curves depend on the same, of the scene before.
 std::uint64_t SketchKey(const Scene& scene, const Options& options);
 
-// The stages that take long: edges.bin and sketch.bin in a folder. A file
+// The stages that take long: files in a folder. A file
 // that another key was meant for, or that is broken, is as good as none. If the
 // folder is a link, nothing is written or removed behind it.
 class StageStore {
@@ -39,10 +41,12 @@ class StageStore {
 
   std::optional<std::vector<EdgeMap>> LoadEdges(std::uint64_t key) const;
   std::optional<EdgeSketch> LoadSketch(std::uint64_t key) const;
+  std::optional<CurvePoses> LoadCurvePoses(std::uint64_t key) const;
 
   // A sentence why it could not be saved, or "": a run can do without.
   std::string Save(std::uint64_t key, const std::vector<EdgeMap>& edge_maps);
   std::string Save(std::uint64_t key, const EdgeSketch& sketch);
+  std::string Save(std::uint64_t key, const CurvePoses& poses);
 
   // Whether anything was saved.
   bool has_saved() const { return has_saved_; }
@@ -53,6 +57,13 @@ class StageStore {
  private:
   bool IsLink() const;
   std::string MakeFolder() const;
+  template <typename T>
+  std::string SaveBy(Status write(const std::filesystem::path&,
+                                  std::uint64_t,
+                                  const T&),
+                     const char* name,
+                     std::uint64_t key,
+                     const T& result);
 
   std::filesystem::path folder_;
   bool has_saved_ = false;

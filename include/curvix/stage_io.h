@@ -7,6 +7,7 @@
 #include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/parts.h>
+#include <curvix/refine_poses.h>
 #include <curvix/status.h>
 
 #include <cstddef>
@@ -27,6 +28,9 @@ Status WriteEdgeMaps(const std::filesystem::path& path,
 Status WriteEdgeSketch(const std::filesystem::path& path,
                        std::uint64_t key,
                        const EdgeSketch& sketch);
+Status WriteCurvePoses(const std::filesystem::path& path,
+                       std::uint64_t key,
+                       const CurvePoses& poses);
 Status WritePartResult(const std::filesystem::path& path,
                        std::uint64_t key,
                        const PartResult& part);
@@ -39,6 +43,8 @@ Status WritePartResult(const std::filesystem::path& path,
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
                                           std::uint64_t key);
 Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,
+                                  std::uint64_t key);
+Result<CurvePoses> ReadCurvePoses(const std::filesystem::path& path,
                                   std::uint64_t key);
 
 // A file of WritePartResult, from which curves are read one by one. For one

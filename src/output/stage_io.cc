@@ -1,130 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Results of stages to and from files.
-#include <curvix/file_io.h>
 #include <curvix/stage_io.h>
 
 #include <cstddef>
-#include <fstream>
+#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "output/byte_stream.h"
+#include "output/stage_file.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
 
-// "CVXSTAGE" in the byte order of the machine.
-constexpr std::uint64_t kMagic = 0x4547415453585643;
-constexpr std::uint32_t kVersion = 2;
-enum class Kind : std::uint32_t {
-  kEdgeMaps = 1,
-  kEdgeSketch = 2,
-  kPartResult = 3
-};
-
-constexpr std::size_t kHeadBytes = 40;
-constexpr std::size_t kEdge2dBytes = 28;
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
 constexpr std::size_t kEdgeMapBytes = 28;  // without edges
-constexpr std::size_t kEdge3dBytes = 72;   // without support
-constexpr std::size_t kEdgeRefBytes = 8;
+constexpr std::size_t kPoseBytes = 56;
 
-Status WriteStage(const fs::path& path,
-                  Kind kind,
-                  std::uint64_t key,
-                  const std::string& content) {
-  ByteWriter file;
-  file.Put(kMagic);
-  file.Put(kVersion);
-  file.Put(static_cast<std::uint32_t>(kind));
-  file.Put(key);
-  file.PutCount(content.size());
-  file.Put(HashBytes(content));
-  return WriteFileAtomically(path, file.bytes() + content);
+void Put(const Rigid3& pose, ByteWriter& out) {
+  for (int i = 0; i < 4; ++i) out.Put(pose.rotation.coeffs()[i]);
+  Put(pose.translation, out);
 }
 
-Status Broken(const fs::path& path) {
-  return {StatusCode::kDataLoss,
-          path.string() + " is broken or truncated; remove it."};
+Rigid3 TakePose(ByteReader& in) {
+  Rigid3 pose;
+  for (int i = 0; i < 4; ++i) pose.rotation.coeffs()[i] = in.Take<double>();
+  pose.translation = TakeVector3(in);
+  return pose;
 }
 
-Status Other(const fs::path& path) {
-  return {StatusCode::kNotFound,
-          path.string() + " is the result of another input, of other options " +
-              "or of another program."};
+void Put(const std::string& text, ByteWriter& out) {
+  out.PutCount(text.size());
+  for (const char c : text) out.Put(c);
 }
 
-struct Head {
-  std::uint64_t num_bytes = 0;  // that follow
-  std::uint64_t checksum = 0;   // of these
-};
-
-// The head with which `bytes` begin.
-Result<Head> ReadHead(const fs::path& path,
-                      std::string_view bytes,
-                      Kind kind,
-                      std::uint64_t key) {
-  ByteReader in(bytes);
-  const bool is_stage = in.Take<std::uint64_t>() == kMagic &&
-                        in.Take<std::uint32_t>() == kVersion;
-  const bool is_kind =
-      in.Take<std::uint32_t>() == static_cast<std::uint32_t>(kind);
-  const bool is_key = in.Take<std::uint64_t>() == key;
-  Head head;
-  head.num_bytes = in.Take<std::uint64_t>();
-  head.checksum = in.Take<std::uint64_t>();
-  if (!in.ok()) return Broken(path);
-  if (!is_stage || !is_kind || !is_key) return Other(path);
-  return head;
-}
-
-// The content of the file after its head.
-Result<std::string> ReadStage(const fs::path& path,
-                              Kind kind,
-                              std::uint64_t key) {
-  Result<std::string> bytes = ReadFile(path);
-  if (!bytes.ok()) return bytes;
-  const Result<Head> head = ReadHead(path, *bytes, kind, key);
-  if (!head.ok()) return head.status();
-  bytes->erase(0, kHeadBytes);
-  if (bytes->size() != head->num_bytes || HashBytes(*bytes) != head->checksum) {
-    return Broken(path);
-  }
-  return bytes;
-}
-
-// Up to so many of the bytes that come next.
-std::string ReadSome(std::istream& in, std::size_t num_bytes) {
-  std::string bytes(num_bytes, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(num_bytes));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
-}
-
-// Whether what follows is what the head says.
-bool HasContent(std::istream& in, const Head& head) {
-  constexpr std::size_t kChunk = 1 << 20;
-  std::uint64_t num_bytes = 0;
-  std::uint64_t hash = HashBytes("");
-  while (in) {
-    const std::string bytes = ReadSome(in, kChunk);
-    num_bytes += bytes.size();
-    hash = HashBytes(bytes, hash);
-  }
-  in.clear();
-  return num_bytes == head.num_bytes && hash == head.checksum;
-}
-
-void Put(const Eigen::Vector3d& x, ByteWriter& out) {
-  for (int i = 0; i < 3; ++i) out.Put(x[i]);
-}
-
-Eigen::Vector3d TakeVector3(ByteReader& in) {
-  Eigen::Vector3d x;
-  for (int i = 0; i < 3; ++i) x[i] = in.Take<double>();
-  return x;
+std::string TakeText(ByteReader& in) {
+  std::string text(in.TakeCount(1), '\0');
+  for (char& c : text) c = in.Take<char>();
+  return text;
 }
 
 // -1: none.
@@ -132,24 +46,6 @@ std::optional<std::int32_t> TakeNeighbor(ByteReader& in) {
   const auto edge_idx = in.Take<std::int32_t>();
   if (edge_idx == -1) return std::nullopt;
   return edge_idx;
-}
-
-void Put(const Edge2d& edge, ByteWriter& out) {
-  out.Put(edge.position.x());
-  out.Put(edge.position.y());
-  out.Put(edge.angle);
-  out.Put(edge.strength);
-  out.Put(edge.sharpness);
-}
-
-Edge2d TakeEdge2d(ByteReader& in) {
-  Edge2d edge;
-  edge.position.x() = in.Take<double>();
-  edge.position.y() = in.Take<double>();
-  edge.angle = in.Take<float>();
-  edge.strength = in.Take<float>();
-  edge.sharpness = in.Take<float>();
-  return edge;
 }
 
 void Put(const EdgeMap& map, ByteWriter& out) {
@@ -183,66 +79,7 @@ EdgeMap TakeEdgeMap(ByteReader& in) {
   return map;
 }
 
-// Of Edge3d and CurveSample, which have the same fields.
-template <typename Edge>
-void PutEdge(const Edge& edge, ByteWriter& out) {
-  Put(edge.position, out);
-  Put(edge.tangent, out);
-  out.Put(edge.sigma);
-  out.Put(edge.evidence);
-  out.PutCount(edge.support.size());
-  for (const EdgeRef& ref : edge.support) {
-    out.Put(ref.view_idx);
-    out.Put(ref.edge_idx);
-  }
-}
-
-template <typename Edge>
-Edge TakeEdge(ByteReader& in) {
-  Edge edge;
-  edge.position = TakeVector3(in);
-  edge.tangent = TakeVector3(in);
-  edge.sigma = in.Take<double>();
-  edge.evidence = in.Take<double>();
-  edge.support.resize(in.TakeCount(kEdgeRefBytes));
-  for (EdgeRef& ref : edge.support) {
-    ref.view_idx = in.Take<std::int32_t>();
-    ref.edge_idx = in.Take<std::int32_t>();
-  }
-  return edge;
-}
-
-void Put(const TracedCurve& traced, ByteWriter& out) {
-  const Curve& curve = traced.curve;
-  out.Put(static_cast<std::uint8_t>(curve.closed));
-  out.Put(static_cast<std::uint8_t>(curve.is_occluding_contour));
-  out.PutCount(curve.samples.size());
-  for (const CurveSample& sample : curve.samples) PutEdge(sample, out);
-  out.PutCount(traced.edges.size());
-  for (const Edge2d& edge : traced.edges) Put(edge, out);
-}
-
-TracedCurve TakeTracedCurve(ByteReader& in) {
-  TracedCurve traced;
-  traced.curve.closed = in.Take<std::uint8_t>() != 0;
-  traced.curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
-  traced.curve.samples.resize(in.TakeCount(kEdge3dBytes));
-  for (CurveSample& sample : traced.curve.samples) {
-    sample = TakeEdge<CurveSample>(in);
-  }
-  traced.edges.resize(in.TakeCount(kEdge2dBytes));
-  for (Edge2d& edge : traced.edges) edge = TakeEdge2d(in);
-  return traced;
-}
-
 }  // namespace
-
-std::uint64_t HashBytes(std::string_view bytes, std::uint64_t hash) {
-  for (const char c : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  }
-  return hash;
-}
 
 Status WriteEdgeMaps(const fs::path& path,
                      std::uint64_t key,
@@ -255,17 +92,18 @@ Status WriteEdgeMaps(const fs::path& path,
   out.Reserve(num_bytes);
   out.PutCount(edge_maps.size());
   for (const EdgeMap& map : edge_maps) Put(map, out);
-  return WriteStage(path, Kind::kEdgeMaps, key, out.bytes());
+  return WriteStage(path, StageKind::kEdgeMaps, key, out.bytes());
 }
 
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const fs::path& path,
                                           std::uint64_t key) {
-  const Result<std::string> content = ReadStage(path, Kind::kEdgeMaps, key);
+  const Result<std::string> content =
+      ReadStage(path, StageKind::kEdgeMaps, key);
   if (!content.ok()) return content.status();
   ByteReader in(*content);
   std::vector<EdgeMap> edge_maps(in.TakeCount(kEdgeMapBytes));
   for (EdgeMap& map : edge_maps) map = TakeEdgeMap(in);
-  if (!in.AtEnd()) return Broken(path);
+  if (!in.AtEnd()) return BrokenStage(path);
   return edge_maps;
 }
 
@@ -284,11 +122,12 @@ Status WriteEdgeSketch(const fs::path& path,
   }
   out.PutCount(sketch.edges.size());
   for (const Edge3d& edge : sketch.edges) PutEdge(edge, out);
-  return WriteStage(path, Kind::kEdgeSketch, key, out.bytes());
+  return WriteStage(path, StageKind::kEdgeSketch, key, out.bytes());
 }
 
 Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
-  const Result<std::string> content = ReadStage(path, Kind::kEdgeSketch, key);
+  const Result<std::string> content =
+      ReadStage(path, StageKind::kEdgeSketch, key);
   if (!content.ok()) return content.status();
   ByteReader in(*content);
   EdgeSketch sketch;
@@ -303,74 +142,65 @@ Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
   }
   sketch.edges.resize(in.TakeCount(kEdge3dBytes));
   for (Edge3d& edge : sketch.edges) edge = TakeEdge<Edge3d>(in);
-  if (!in.AtEnd()) return Broken(path);
+  if (!in.AtEnd()) return BrokenStage(path);
   return sketch;
 }
 
-Status WritePartResult(const fs::path& path,
+Status WriteCurvePoses(const fs::path& path,
                        std::uint64_t key,
-                       const PartResult& part) {
-  ByteWriter head;
-  head.Put(part.num_own_edges_2d);
-  head.Put(part.num_core_edges_3d);
-  head.PutCount(part.curves.size());
-  ByteWriter curves;
-  for (const TracedCurve& curve : part.curves) {
-    const std::size_t begin = curves.bytes().size();
-    Put(curve, curves);
-    head.PutCount(curves.bytes().size() - begin);
+                       const CurvePoses& poses) {
+  ByteWriter out;
+  out.PutCount(poses.cam_from_world.size());
+  for (const Rigid3& pose : poses.cam_from_world) Put(pose, out);
+  out.Put(static_cast<std::uint8_t>(poses.accepted));
+  Put(poses.reason, out);
+  for (const std::size_t count : {poses.num_samples,
+                                  poses.num_check_samples,
+                                  poses.num_check_observations,
+                                  poses.num_views_moved,
+                                  poses.max_shift_view_idx}) {
+    out.PutCount(count);
   }
-  return WriteStage(
-      path, Kind::kPartResult, key, head.bytes() + curves.bytes());
+  for (const double error : {poses.before.mean_px,
+                             poses.before.median_px,
+                             poses.after.mean_px,
+                             poses.after.median_px,
+                             poses.median_shift_px,
+                             poses.max_shift_px}) {
+    out.Put(error);
+  }
+  return WriteStage(path, StageKind::kCurvePoses, key, out.bytes());
 }
 
-Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
-  PartFile file(path);
-  file.stream_.open(path, std::ios::binary);
-  if (!file.stream_) {
-    return Status(StatusCode::kNotFound, "Cannot open " + path.string() + ".");
+Result<CurvePoses> ReadCurvePoses(const fs::path& path, std::uint64_t key) {
+  const Result<std::string> content =
+      ReadStage(path, StageKind::kCurvePoses, key);
+  if (!content.ok()) return content.status();
+  ByteReader in(*content);
+  CurvePoses poses;
+  poses.cam_from_world.resize(in.TakeCount(kPoseBytes));
+  for (Rigid3& pose : poses.cam_from_world) pose = TakePose(in);
+  poses.accepted = in.Take<std::uint8_t>() != 0;
+  poses.reason = TakeText(in);
+  for (std::size_t* count : {&poses.num_samples,
+                             &poses.num_check_samples,
+                             &poses.num_check_observations,
+                             &poses.num_views_moved,
+                             &poses.max_shift_view_idx}) {
+    *count = static_cast<std::size_t>(in.Take<std::uint64_t>());
   }
-  const Result<Head> head = ReadHead(
-      path, ReadSome(file.stream_, kHeadBytes), Kind::kPartResult, key);
-  if (!head.ok()) return head.status();
-  if (!HasContent(file.stream_, *head)) return Broken(path);
-
-  constexpr std::size_t kCountsBytes = 24;
-  file.stream_.seekg(kHeadBytes);
-  const std::string counts = ReadSome(file.stream_, kCountsBytes);
-  ByteReader in(counts);
-  file.num_own_edges_2d_ = in.Take<std::int64_t>();
-  file.num_core_edges_3d_ = in.Take<std::int64_t>();
-  const auto num_curves = in.Take<std::uint64_t>();
-  constexpr std::size_t kSizeBytes = 8;
-  if (!in.ok() || num_curves > head->num_bytes / kSizeBytes) {
-    return Broken(path);
+  for (double* error : {&poses.before.mean_px,
+                        &poses.before.median_px,
+                        &poses.after.mean_px,
+                        &poses.after.median_px,
+                        &poses.median_shift_px,
+                        &poses.max_shift_px}) {
+    *error = in.Take<double>();
   }
-  const std::string sizes = ReadSome(file.stream_, kSizeBytes * num_curves);
-  in = ByteReader(sizes);
-  std::uint64_t offset = kHeadBytes + kCountsBytes + sizes.size();
-  const std::uint64_t end = kHeadBytes + head->num_bytes;
-  file.offsets_.push_back(offset);
-  for (std::uint64_t i = 0; i < num_curves; ++i) {
-    const auto size = in.Take<std::uint64_t>();
-    if (offset > end || size > end - offset) return Broken(path);
-    file.offsets_.push_back(offset += size);
+  if (!in.AtEnd() || poses.max_shift_view_idx >= poses.cam_from_world.size()) {
+    return BrokenStage(path);
   }
-  if (!in.AtEnd() || offset != end) return Broken(path);
-  return file;
-}
-
-Result<TracedCurve> PartFile::Read(std::size_t curve_idx) {
-  if (!stream_.is_open()) stream_.open(path_, std::ios::binary);
-  stream_.clear();
-  const std::uint64_t begin = offsets_.at(curve_idx);
-  const std::uint64_t end = offsets_.at(curve_idx + 1);
-  stream_.seekg(static_cast<std::streamoff>(begin));
-  const std::string bytes = ReadSome(stream_, end - begin);
-  ByteReader in(bytes);
-  TracedCurve curve = TakeTracedCurve(in);
-  if (bytes.size() != end - begin || !in.AtEnd()) return Broken(path_);
-  return curve;
+  return poses;
 }
 
 }  // namespace curvix

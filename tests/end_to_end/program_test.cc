@@ -219,7 +219,9 @@ TEST_F(ProgramRun, GoesOnFromTheStagesThatALateOptionLeavesAsTheyWere) {
   const std::string late = "--CurveRefinement.smoothing_px 2";
   const std::string middle = "--Validation.max_angle_deg 14";
   EXPECT_THAT(resumed(""), IsEmpty());
-  EXPECT_THAT(resumed(late), ElementsAre("detect_edges", "sketch_edges"));
+  EXPECT_THAT(
+      resumed(late),
+      ElementsAre("detect_edges", "refine_poses_with_curves", "sketch_edges"));
   auto from_stages = Contents(results_);
   EXPECT_THAT(resumed(late + " --clean"), IsEmpty());
   EXPECT_FALSE(fs::exists(results_ / "stages"));
@@ -249,9 +251,11 @@ TEST_F(ProgramRun, DoesNotGoOnFromOtherOrBrokenStages) {
     return report["run"]["resumed_stages"].size();
   };
   EXPECT_EQ(resumed(), 0u);
-  EXPECT_EQ(resumed(), 2u);
+  EXPECT_EQ(resumed(), 3u);
   fs::resize_file(results_ / "stages/sketch.bin", 1000);
-  EXPECT_EQ(resumed(), 1u);
+  EXPECT_EQ(resumed(), 2u);
+  fs::resize_file(results_ / "stages/curve_poses.bin", 100);
+  EXPECT_EQ(resumed(), 2u);
   const fs::path image = fs::directory_iterator(workspace_ / "images")->path();
   fs::last_write_time(image, fs::file_time_type::clock::now());
   EXPECT_EQ(resumed(), 0u);

@@ -63,12 +63,17 @@ std::vector<std::string> FuzzSeeds() {
   part.curves[1].edges.resize(2);
   Require(WritePartResult(path, kKey, part).ok(), "written");
   seeds.push_back("2" + *ReadFile(path));
+  CurvePoses poses;
+  poses.cam_from_world.resize(2);
+  poses.reason = "they are";
+  Require(WriteCurvePoses(path, kKey, poses).ok(), "written");
+  seeds.push_back("3" + *ReadFile(path));
   return seeds;
 }
 
 void FuzzReader(std::string_view bytes) {
   static const TemporaryFolder folder;
-  const std::size_t kind = TakeChoice(bytes, 3);
+  const std::size_t kind = TakeChoice(bytes, 4);
   const auto path = folder.Write("stage.bin", WithChecksum(std::string(bytes)));
   if (kind == 0) {
     const auto edge_maps = ReadEdgeMaps(path, kKey);
@@ -76,6 +81,8 @@ void FuzzReader(std::string_view bytes) {
     Scene scene;
     scene.views.resize(3);
     if (edge_maps.ok()) RequireSentence(CheckEdgeMaps(scene, *edge_maps));
+  } else if (kind == 3) {
+    RequireSentence(ReadCurvePoses(path, kKey).status());
   } else if (kind == 2) {
     auto file = PartFile::Open(path, kKey);
     RequireSentence(file.status());

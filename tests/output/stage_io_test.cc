@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -100,6 +101,56 @@ TEST_F(StageIo, GivesASketchBackBitByBit) {
     EXPECT_EQ(read->edges[i].evidence, sketch.edges[i].evidence);
     EXPECT_EQ(read->edges[i].support, sketch.edges[i].support);
   }
+}
+
+CurvePoses SomePoses() {
+  CurvePoses poses;
+  poses.cam_from_world.resize(3);
+  poses.cam_from_world[1].rotation =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
+  poses.cam_from_world[1].translation = {1.0 / 3, -1e-300, 7};
+  poses.accepted = true;
+  poses.reason = "they are better";
+  poses.num_samples = 1;
+  poses.num_check_samples = 2;
+  poses.num_check_observations = 3;
+  poses.before = {0.4, 0.3};
+  poses.after = {0.2, 0.1};
+  poses.num_views_moved = 4;
+  poses.median_shift_px = 0.5;
+  poses.max_shift_px = 0.6;
+  poses.max_shift_view_idx = 2;
+  return poses;
+}
+
+TEST_F(StageIo, GivesPosesBackBitByBit) {
+  const CurvePoses poses = SomePoses();
+  ASSERT_TRUE(WriteCurvePoses(path_, kKey, poses).ok());
+  const auto read = ReadCurvePoses(path_, kKey);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  ASSERT_EQ(read->cam_from_world.size(), 3u);
+  EXPECT_EQ(read->cam_from_world[1].rotation.coeffs(),
+            poses.cam_from_world[1].rotation.coeffs());
+  EXPECT_EQ(read->cam_from_world[1].translation,
+            poses.cam_from_world[1].translation);
+  EXPECT_TRUE(read->accepted);
+  EXPECT_EQ(read->reason, poses.reason);
+  EXPECT_EQ(read->num_samples, 1u);
+  EXPECT_EQ(read->num_check_samples, 2u);
+  EXPECT_EQ(read->num_check_observations, 3u);
+  EXPECT_EQ(read->num_views_moved, 4u);
+  EXPECT_EQ(read->max_shift_view_idx, 2u);
+  EXPECT_EQ(read->before.mean_px, 0.4);
+  EXPECT_EQ(read->before.median_px, 0.3);
+  EXPECT_EQ(read->after.mean_px, 0.2);
+  EXPECT_EQ(read->after.median_px, 0.1);
+  EXPECT_EQ(read->median_shift_px, 0.5);
+  EXPECT_EQ(read->max_shift_px, 0.6);
+
+  CurvePoses broken = poses;
+  broken.max_shift_view_idx = 3;
+  ASSERT_TRUE(WriteCurvePoses(path_, kKey, broken).ok());
+  EXPECT_EQ(ReadCurvePoses(path_, kKey).status().code(), StatusCode::kDataLoss);
 }
 
 PartResult SomePart() {

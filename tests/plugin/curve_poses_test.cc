@@ -37,32 +37,34 @@ class CurvePosesOfAModel : public testing::Test {
     scene_ = SceneFromColmapModel(model_, "images");
   }
 
+  CurvePoseRefinement RefineModel() const {
+    const auto poses =
+        RefinePosesWithCurves(scene_, wires_.edge_maps, Options());
+    return ModelWithCurvePoses(model_, scene_, *poses);
+  }
+
   WireScene wires_;
   ColmapModel model_;
   Scene scene_;
 };
 
 TEST_F(CurvePosesOfAModel, AreThoseOfTheInputsWorld) {
-  const auto refined =
-      RefineModelWithCurves(model_, scene_, wires_.edge_maps, Options(), {});
-  ASSERT_TRUE(refined.ok()) << refined.status().message();
-  ASSERT_TRUE(refined->model) << refined->record.poses.reason;
-  const auto left = AlignPoses(PosesOf(*refined->model), PosesOf(model_));
+  const CurvePoseRefinement refined = RefineModel();
+  ASSERT_TRUE(refined.model) << refined.record.poses.reason;
+  const auto left = AlignPoses(PosesOf(*refined.model), PosesOf(model_));
   ASSERT_TRUE(left);
   EXPECT_NEAR(left->scale, 1, 1e-6);
-  EXPECT_NEAR(refined->record.scale_removed, 1, 1e-2);
-  EXPECT_FALSE(refined->record.points);
-  EXPECT_THAT(CurvePosesText(refined->record), HasSubstr("12 views, "));
+  EXPECT_NEAR(refined.record.scale_removed, 1, 1e-2);
+  EXPECT_FALSE(refined.record.points);
+  EXPECT_THAT(CurvePosesText(refined.record), HasSubstr("12 views, "));
 }
 
 TEST_F(CurvePosesOfAModel, LeaveOutViewsThatAreMissing) {
   scene_ = SceneFromColmapModel(model_, "images", {scene_.views[5].name});
   wires_.edge_maps.erase(wires_.edge_maps.begin() + 5);
-  const auto refined =
-      RefineModelWithCurves(model_, scene_, wires_.edge_maps, Options(), {});
-  ASSERT_TRUE(refined.ok()) << refined.status().message();
-  ASSERT_TRUE(refined->model) << refined->record.poses.reason;
-  EXPECT_EQ(refined->model->images[5].cam_from_world.translation,
+  const CurvePoseRefinement refined = RefineModel();
+  ASSERT_TRUE(refined.model) << refined.record.poses.reason;
+  EXPECT_EQ(refined.model->images[5].cam_from_world.translation,
             model_.images[5].cam_from_world.translation);
 }
 
