@@ -138,12 +138,13 @@ Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
     const Piece& piece = pieces_[stretch.piece];
     Result<TracedCurve> traced = Read(piece.part_idx, piece.curve_idx);
     if (!traced.ok()) return traced;
-    const auto first_edge = static_cast<std::int32_t>(joined.edges.size());
-    ForEachSupport(traced->curve,
-                   [&](EdgeRef& ref) { ref.edge_idx += first_edge; });
-    joined.edges.insert(
-        joined.edges.end(), traced->edges.begin(), traced->edges.end());
     curves.push_back(TakeOut(traced->curve, stretch.run));
+    joined.edges.reserve(joined.edges.size() + traced->edges.size());
+    ForEachSupport(curves.back(), [&](EdgeRef& ref) {
+      joined.edges.push_back(
+          traced->edges[static_cast<std::size_t>(ref.edge_idx)]);
+      ref.edge_idx = static_cast<std::int32_t>(joined.edges.size() - 1);
+    });
   }
   const EndTies ties = TiesAmong(items, tied_.ties);
   for (EndIdx end = 0; end < ties.size(); ++end) {
@@ -177,6 +178,7 @@ void JoinedCurves::DropLooseShortCurves(double min_length_px) {
 
 void JoinedCurves::ForEach(const Visit& visit) const {
   for (std::size_t id = 0; status_.ok() && id < chains_.size(); ++id) {
+    edges_ = std::vector<Edge2d>();  // before there are others
     Result<TracedCurve> joined = Join(chains_[id]);
     if (!joined.ok()) {
       status_ = joined.status();
