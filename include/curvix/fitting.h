@@ -56,8 +56,8 @@ struct CurveFit {
   double inlier_share = 0;
   // Standard deviation of the primitive's position across itself, averaged
   // along it, and (kArc) of its radius, from the errors of samples as if they
-  // were independent, and from options.common_error_px, which all share. World
-  // units.
+  // were independent, and, of all but lines, from options.common_error_px,
+  // which they share. World units.
   double sigma = 0;
   double radius_sigma = 0;
 };

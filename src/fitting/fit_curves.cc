@@ -230,8 +230,9 @@ void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
   // Each sample measures two directions across.
   const double share =
       static_cast<double>(NumParameters(fit)) / (2 * std::max(inliers, 1.0));
-  fit.sigma = std::hypot(std::sqrt(variance / n * std::min(1.0, share)),
-                         SharedSigma(samples));
+  const double shared = fit.kind == FitKind::kLine ? 0 : SharedSigma(samples);
+  fit.sigma =
+      std::hypot(std::sqrt(variance / n * std::min(1.0, share)), shared);
 }
 
 CurveFit MakeFit(const Snapped& snapped) {

@@ -18,8 +18,9 @@ struct FitSample {
 // Part of a curve, in order.
 using FitSamples = std::vector<FitSample>;
 
-// Standard deviation of a primitive from what its samples share, which does not
-// fall with their number: a circle whose edges all lie inside is too small.
+// Standard deviation of a bent primitive from what its samples share, which
+// does not fall with their number: a circle whose edges all lie inside is too
+// small.
 inline double SharedSigma(const FitSamples& samples) {
   double sum = 0;
   for (const FitSample& s : samples) sum += s.common;

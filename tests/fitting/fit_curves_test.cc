@@ -132,7 +132,7 @@ TEST(FitCurves, TakesTheLastPixelsAsBent) {
 
 // Edges that all lie a tenth of a pixel inside make a circle too small, however
 // many they are.
-TEST(FitCurves, KnowsThatErrorsAreShared) {
+TEST(FitCurves, KnowsThatErrorsOfBentCurvesAreShared) {
   constexpr double kPixel = 0.01;
   constexpr double kShared = 0.1 * kPixel;
   const Scene scene = ToScene({LookAt({8, 0, 0}, {0, 0, 0})});
