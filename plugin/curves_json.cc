@@ -126,6 +126,8 @@ void PutSample(const CurveRecord& record,
   w.Vector(sample.tangent);
   w.Key("sigma");
   w.Number(sample.sigma);
+  w.Key("covariance");
+  w.Each(Triangle(sample.covariance), [&](double entry) { w.Number(entry); });
   w.Key("support");
   w.Each(sample.support, [&](const EdgeRef& ref) {
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);

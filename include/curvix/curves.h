@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -13,10 +14,13 @@ namespace curvix {
 struct CurveSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit, along the curve
-  double sigma = 0;     // standard deviation across the curve, world units;
-                        // 0: not estimated
+  double sigma = 0;     // standard deviation across the curve, of each of the
+                        // two axes, world units; 0: not estimated
   double evidence = 0;  // of Edge3d: how strongly the views support it
   std::vector<EdgeRef> support;  // at most one 2D edge per view, ascending
+  // Of the position, across the curve; its trace is 2 sigma^2. World units
+  // squared; 0: not estimated.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
 // A polyline of at least two samples. If `closed`, the last sample is followed
@@ -46,6 +50,11 @@ struct CurveSet {
   std::vector<Curve> curves;
   std::vector<CurveJunction> junctions = {};
 };
+
+// The entries xx, xy, xz, yy, yz, zz of a symmetric matrix.
+inline std::array<double, 6> Triangle(const Eigen::Matrix3d& m) {
+  return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
+}
 
 // The length of the polyline, closing segment included. World units.
 inline double Length(const Curve& curve) {

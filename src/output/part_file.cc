@@ -13,6 +13,18 @@
 namespace curvix {
 namespace {
 
+constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48;
+
+Eigen::Matrix3d TakeSymmetric(ByteReader& in) {
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) {
+      matrix(row, column) = matrix(column, row) = in.Take<double>();
+    }
+  }
+  return matrix;
+}
+
 namespace fs = std::filesystem;
 
 // Up to so many of the bytes that come next.
@@ -42,7 +54,10 @@ void Put(const TracedCurve& traced, ByteWriter& out) {
   out.Put(static_cast<std::uint8_t>(curve.closed));
   out.Put(static_cast<std::uint8_t>(curve.is_occluding_contour));
   out.PutCount(curve.samples.size());
-  for (const CurveSample& sample : curve.samples) PutEdge(sample, out);
+  for (const CurveSample& sample : curve.samples) {
+    PutEdge(sample, out);
+    for (const double entry : Triangle(sample.covariance)) out.Put(entry);
+  }
   out.PutCount(traced.edges.size());
   for (const Edge2d& edge : traced.edges) Put(edge, out);
 }
@@ -51,9 +66,10 @@ TracedCurve TakeTracedCurve(ByteReader& in) {
   TracedCurve traced;
   traced.curve.closed = in.Take<std::uint8_t>() != 0;
   traced.curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
-  traced.curve.samples.resize(in.TakeCount(kEdge3dBytes));
+  traced.curve.samples.resize(in.TakeCount(kCurveSampleBytes));
   for (CurveSample& sample : traced.curve.samples) {
     sample = TakeEdge<CurveSample>(in);
+    sample.covariance = TakeSymmetric(in);
   }
   traced.edges.resize(in.TakeCount(kEdge2dBytes));
   for (Edge2d& edge : traced.edges) edge = TakeEdge2d(in);

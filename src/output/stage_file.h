@@ -82,7 +82,7 @@ inline Edge2d TakeEdge2d(ByteReader& in) {
   return edge;
 }
 
-// Of Edge3d and CurveSample, which have the same fields.
+// What Edge3d and CurveSample have in common.
 template <typename Edge>
 void PutEdge(const Edge& edge, ByteWriter& out) {
   Put(edge.position, out);

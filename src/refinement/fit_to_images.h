@@ -22,8 +22,8 @@ namespace curvix {
 // the losses are Cauchy's: a wrong 2D edge hardly pulls, and a kink that the
 // images show stays. So noise goes on lengths of some b and curvature stays.
 // Tangents become those of the samples five in a row. Curves of fewer than six
-// samples stay; smoothing_px = 0 returns the input. Sigmas stay as they
-// are. Pixels in space as in pixel_size.h.
+// samples stay; smoothing_px = 0 returns the input. Pixels in space as in
+// pixel_size.h.
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,

@@ -8,6 +8,7 @@
 
 #include "geometry/loose_curves.h"
 #include "refinement/bridge_gaps.h"
+#include "refinement/estimate_covariances.h"
 #include "refinement/fit_to_images.h"
 #include "refinement/image_support.h"
 #include "refinement/meet_at_junctions.h"
@@ -52,12 +53,14 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   refined = MeetAtJunctions(std::move(refined), views, options);
   refined =
       DropLooseShortCurves(std::move(refined), views, options.min_length_px);
-  if (!options.keep_occluding_contours) return refined;
-  for (Curve& contour :
-       SmoothCurves(selected.occluding_contours, views, options, num_threads)) {
-    refined.push_back(std::move(contour));
+  if (options.keep_occluding_contours) {
+    for (Curve& contour : SmoothCurves(
+             selected.occluding_contours, views, options, num_threads)) {
+      refined.push_back(std::move(contour));
+    }
   }
-  return refined;
+  return EstimateCovariances(
+      std::move(refined), views, edge_maps, options, num_threads);
 }
 
 }  // namespace curvix

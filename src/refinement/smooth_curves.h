@@ -14,9 +14,7 @@ namespace curvix {
 // Moves each sample onto a parabola in arc length fitted to the samples around
 // it, with weights that fall off as a Gaussian of standard deviation
 // options.smoothing_px (0: nothing moves) and with the samples' variance, and
-// turns its tangent to the parabola's. Its sigma becomes that of the fitted
-// place: of a weighted mean of samples with independent errors, more where they
-// scatter more than their sigmas say. Ends are fitted from one side; closed
+// turns its tangent to the parabola's. Ends are fitted from one side; closed
 // curves go round. Curves of fewer than five samples stay as they are.
 std::vector<Curve> SmoothCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,

@@ -30,6 +30,7 @@ inline void ExpectIdentical(const Reconstruction& a, const Reconstruction& b) {
       ASSERT_EQ(one.samples[i].position, other.samples[i].position);
       ASSERT_EQ(one.samples[i].tangent, other.samples[i].tangent);
       ASSERT_EQ(one.samples[i].sigma, other.samples[i].sigma);
+      ASSERT_EQ(one.samples[i].covariance, other.samples[i].covariance);
       ASSERT_EQ(one.samples[i].support, other.samples[i].support);
     }
   }

@@ -163,6 +163,7 @@ PartResult SomePart() {
   CurveSample sample;
   sample.position = {1.0 / 3, -1e-300, 7};
   sample.sigma = 0.1;
+  sample.covariance << 1, 0.2, -0.3, 0.2, 5, 1e-300, -0.3, 1e-300, 7;
   sample.support = {{2, 0}, {2, 3}};
   part.curves[1].curve.samples = {CurveSample(), sample};
   part.curves[1].edges = SomeEdgeMaps()[2].edges;
@@ -189,6 +190,7 @@ TEST_F(StageIo, GivesAPartBackBitByBit) {
   const CurveSample& sample = part.curves[1].curve.samples[1];
   EXPECT_EQ(second->curve.samples[1].position, sample.position);
   EXPECT_EQ(second->curve.samples[1].sigma, sample.sigma);
+  EXPECT_EQ(second->curve.samples[1].covariance, sample.covariance);
   EXPECT_EQ(second->curve.samples[1].support, sample.support);
   ASSERT_EQ(second->edges.size(), 4u);
   EXPECT_EQ(second->edges[3].position, part.curves[1].edges[3].position);

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/edge_geometry.h"
 #include "tests/refinement/drawn_curves.h"
 #include "tests/support/random.h"
 
@@ -26,22 +25,9 @@ SeenCurve See(Curve curve) {
     seen.views.push_back(LookAt(
         {4 * std::sin(angle), -8, 1.5 * std::cos(2 * angle)}, {0, 0, 0}));
   }
-  seen.edge_maps.resize(seen.views.size());
-  for (CurveSample& sample : curve.samples) {
-    sample.support.clear();
-    for (std::size_t v = 0; v < seen.views.size(); ++v) {
-      const auto projected =
-          ProjectEdge(seen.views[v], {sample.position, sample.tangent});
-      std::vector<Edge2d>& edges = seen.edge_maps[v].edges;
-      sample.support.push_back({static_cast<std::int32_t>(v),
-                                static_cast<std::int32_t>(edges.size())});
-      edges.push_back({projected->position,
-                       static_cast<float>(std::atan2(projected->tangent.y(),
-                                                     projected->tangent.x())),
-                       10});
-    }
-  }
-  seen.truth = std::move(curve);
+  std::vector<Curve> curves = {std::move(curve)};
+  seen.edge_maps = SupportByEdges(seen.views, curves);
+  seen.truth = std::move(curves[0]);
   return seen;
 }
 

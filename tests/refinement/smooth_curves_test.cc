@@ -73,35 +73,12 @@ TEST(SmoothCurves, SurerSamplesCountMore) {
   EXPECT_LT(DistanceFromLine(Smooth({curve})[0]), 1e-3 * pulled);
 }
 
-// Root mean square, in standard deviations, of the errors of the middle.
-double NormalisedError(const Curve& curve) {
-  double sum = 0;
-  const std::size_t size = curve.samples.size();
-  for (std::size_t k = 8; k + 8 < size; ++k) {
-    const CurveSample& sample = curve.samples[k];
-    sum += sample.position.tail<2>().squaredNorm() /
-           (2 * sample.sigma * sample.sigma);
-  }
-  return std::sqrt(sum / static_cast<double>(size - 16));
-}
-
-TEST(SmoothCurves, ErrorsAreAsLargeAsTheirSigmasSay) {
-  const Curve line = Line(InPlane(-500, 0), InPlane(500, 0));
-  for (const double claimed : {1.0, 0.3}) {  // of the true sigma
-    Curve noisy = WithNoise(line, 0.3);
-    const double spread = DistanceFromLine(noisy) * kPixel / std::sqrt(2.0);
-    for (CurveSample& sample : noisy.samples) sample.sigma = claimed * spread;
-    const Curve smooth = Smooth({noisy})[0];
-    EXPECT_NEAR(NormalisedError(smooth), 1, 0.3) << claimed;
-    EXPECT_LT(smooth.samples[500].sigma, 0.7 * spread);
-  }
-}
-
 TEST(SmoothCurves, LeavesTheRestOfASampleAlone) {
   const Curve noisy = WithNoise(LongLine(), 0.3);
   const Curve smooth = Smooth({noisy})[0];
   ASSERT_EQ(smooth.samples.size(), noisy.samples.size());
   for (std::size_t k = 0; k < smooth.samples.size(); ++k) {
+    EXPECT_EQ(smooth.samples[k].sigma, noisy.samples[k].sigma);
     EXPECT_EQ(smooth.samples[k].evidence, noisy.samples[k].evidence);
     EXPECT_EQ(smooth.samples[k].support, noisy.samples[k].support);
   }
