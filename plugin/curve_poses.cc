@@ -84,7 +84,7 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
   char shifts[64];
   std::snprintf(
       shifts, sizeof(shifts), ", shifts up to %.2f px", poses.max_shift_px);
-  return GroupDigits(static_cast<long long>(poses.num_views_moved)) +
+  return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
          " views, " + Errors(poses.before.mean_px, poses.after.mean_px) +
          shifts + (poses.accepted ? "" : ", refused");
 }

@@ -156,7 +156,7 @@ std::string PoseRefinementText(const PoseRefinementRecord& record) {
                 record.judgement->after.mean_px,
                 record.judgement->max_shift_px);
   return RefinerName(record) + ", " +
-         GroupDigits(static_cast<long long>(record.num_views)) + " views, " +
+         GroupDigits(static_cast<std::int64_t>(record.num_views)) + " views, " +
          errors + (record.accepted ? "" : ", refused");
 }
 
@@ -208,7 +208,7 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   record.num_points = input.points.size();
   if (record.num_points < kMinPointsToRefine || record.num_views < 3) {
     Keep("the model has " +
-             GroupDigits(static_cast<long long>(record.num_points)) +
+             GroupDigits(static_cast<std::int64_t>(record.num_points)) +
              " points to refine them with, and at least " +
              std::to_string(kMinPointsToRefine) + " in 3 views are needed",
          "Poses are used as they are: ",
