@@ -17,10 +17,11 @@ case "${1:-}" in
     tests=(base_parallel_test laws_reconstruction_laws_test
       pipeline_reconstruct_test pipeline_refine_poses_test
       end_to_end_program_test)
+    export TSAN_OPTIONS="halt_on_error=1:suppressions=$PWD/tests/thread_sanitizer.supp"
     cmake --preset tsan --log-level=NOTICE
     cmake --build --preset tsan --target "${tests[@]}"
     for test in "${tests[@]}"; do
-      TSAN_OPTIONS=halt_on_error=1 "build-tsan/tests/$test"
+      "build-tsan/tests/$test"
     done
     ;;
   *)
