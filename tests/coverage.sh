@@ -21,12 +21,12 @@ ctest --preset coverage --parallel "$(nproc)" --timeout 1800 "$@"
 
 lcov --quiet --capture --directory "$build" --base-directory . --no-external \
   --output-file "$build/coverage.info"
-awk -F: -v root="$PWD/" '
-  /^SF:/ { parts = split(substr($2, length(root) + 1), part, "/")
+awk -F '[:,]' -v root="$PWD/" '
+  /^SF:/ { file = substr($2, length(root) + 1); parts = split(file, part, "/")
            folder = part[1] == "src" && parts > 2 ? "src/" part[2] : part[1] }
-  /^LF:/ { lines[folder] += $2 }
-  /^LH:/ { reached[folder] += $2 }
-  END { for (f in lines) if (f ~ /^(src|plugin)/)
+  /^DA:/ { line = file ":" $2; of[line] = folder; times[line] += $3 }
+  END { for (l in of) { ++lines[of[l]]; if (times[l] > 0) ++reached[of[l]] }
+        for (f in lines) if (f ~ /^(src|plugin)/)
           printf "%-22s %6d of %6d lines  %5.1f %%\n",
                  f, reached[f], lines[f], 100 * reached[f] / lines[f] }
 ' "$build/coverage.info" | sort
