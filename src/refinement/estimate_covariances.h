@@ -20,8 +20,9 @@ namespace curvix {
 //   s^2 A^-1 (sum_vw rho_vw a_v a_w^T) A^-1,  A = sum_v a_v a_v^T,
 // where a_v is how fast the distance in view v grows, in pixels per world unit,
 // rho_vw the correlation of two views, which falls with the angle between their
-// rays, and s the standard deviation of the mean distances; where few views see
-// the stretch, s leans on that of all curves together.
+// rays, and s the standard deviation of the mean distances, robustly (Huber's,
+// for Cauchy's loss); where few views see the stretch, s leans on that of all
+// curves together.
 //
 // What all views have in common, as when all poses are off alike, is not in
 // it. Samples without two views that cross stay as they are.
