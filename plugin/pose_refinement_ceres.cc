@@ -277,7 +277,6 @@ class BundleProblem {
 
  private:
   void AddObservations() {
-    auto* const loss = new ceres::CauchyLoss(kLossScalePx);  // problem_ owns it
     for (std::size_t i = 0; i < bundle_.points.size(); ++i) {
       for (const BundleObservation& seen : bundle_.points[i].observations) {
         const BundleView& view = bundle_.views[seen.view_idx];
@@ -291,7 +290,7 @@ class BundleProblem {
                                                free_params_[view.camera_idx],
                                                view.cam_from_world,
                                                seen.pixel);
-        problem_.AddResidualBlock(cost.release(), loss, blocks);
+        problem_.AddResidualBlock(cost.release(), &loss_, blocks);
       }
     }
   }
@@ -306,13 +305,20 @@ class BundleProblem {
     }
   }
 
+  static ceres::Problem::Options LossesAreNotOwned() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+
   const Bundle& bundle_;
   // None of these may be resized once problem_ points into them.
   std::vector<Vector6d> motions_;
   std::vector<Eigen::Vector3d> positions_;
   std::vector<std::vector<std::size_t>> free_params_;
   std::vector<std::vector<double>> camera_values_;
-  ceres::Problem problem_;
+  ceres::CauchyLoss loss_{kLossScalePx};
+  ceres::Problem problem_{LossesAreNotOwned()};
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "plugin/pose_refiners.h"
 #include "plugin/similarity.h"
 #include "tests/plugin/posed_points.h"
 #include "tests/plugin/temporary_folder.h"
@@ -151,6 +152,18 @@ TEST(RefineWithCeres, RefinesSharedIntrinsicsIfAsked) {
   EXPECT_EQ(params[1], 320);
   EXPECT_EQ(params[2], 240);
   EXPECT_NEAR(params[3], -0.1, 0.02);
+}
+
+TEST(RefineWithCeres, LeavesPosesAloneWithoutPoints) {
+  Bundle bundle;
+  bundle.cameras = {{CameraModel::kPinhole, 640, 480, {500, 510, 320, 240}}};
+  bundle.views.resize(2);
+  bundle.views[1].cam_from_world.translation = {1, 2, 3};
+  const Result<Bundle> refined =
+      RefineWithCeres(bundle, false, [] { return true; });
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  EXPECT_EQ(refined->views[1].cam_from_world.translation,
+            bundle.views[1].cam_from_world.translation);
 }
 
 TEST(RefinePoses, KeepsPosesThatAreGood) {
