@@ -107,13 +107,16 @@ TEST(RefinePosesWithCurves, KeepsTheScaleOfTheWorld) {
 
 TEST(RefinePosesWithCurves, DoesNotDependOnTheNumberOfThreads) {
   const Scene disturbed = Disturbed(Wires().scene, 1);
-  const CurvePoses one = Refine(disturbed, 1);
-  const CurvePoses three = Refine(disturbed, 3);
-  for (std::size_t i = 0; i < one.cam_from_world.size(); ++i) {
-    const Rigid3& a = one.cam_from_world[i];
-    const Rigid3& b = three.cam_from_world[i];
-    EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs());
-    EXPECT_EQ(a.translation, b.translation);
+  const CurvePoses expected = Refine(disturbed, 1);
+  for (const int num_threads : {2, 3, 8}) {
+    SCOPED_TRACE(num_threads);
+    const CurvePoses refined = Refine(disturbed, num_threads);
+    for (std::size_t i = 0; i < expected.cam_from_world.size(); ++i) {
+      const Rigid3& a = expected.cam_from_world[i];
+      const Rigid3& b = refined.cam_from_world[i];
+      EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs());
+      EXPECT_EQ(a.translation, b.translation);
+    }
   }
 }
 
