@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <sstream>
 #include <system_error>
 #include <thread>
@@ -112,7 +111,7 @@ Result<ChildEnd> RunChildProcess(const ChildProcess& child) {
   if (error != 0) {
     return Status(StatusCode::kExternalTool,
                   "cannot start " + child.program.string() + " (" +
-                      std::strerror(error) + ")");
+                      std::generic_category().message(error) + ")");
   }
   ChildEnd end{Wait(pid, child), 0};
   // Before the child is reaped: until then its number is that of no other
