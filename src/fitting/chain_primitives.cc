@@ -107,32 +107,43 @@ std::vector<std::size_t> SearchJoints(const FitSamples& curve,
   return joints;
 }
 
+// Moves inner joint k by `step`, to the side where its two links fit better, if
+// they do.
+void MoveJoint(const FitSamples& curve,
+               double parameter_cost,
+               std::size_t step,
+               std::size_t k,
+               std::vector<std::size_t>& joints) {
+  const std::size_t before = joints[k - 1];
+  const std::size_t here = joints[k];
+  const std::size_t after = joints[k + 1];
+  const auto cost = [&](std::size_t joint) {
+    return FitLink(Part(curve, before, joint), parameter_cost, true)
+               .Total(parameter_cost) +
+           FitLink(Part(curve, joint, after), parameter_cost, true)
+               .Total(parameter_cost);
+  };
+  double least = cost(here);
+  for (const std::size_t there : {here - std::min(step, here), here + step}) {
+    const bool has_room =
+        there >= before + kMinSamples - 1 && there + kMinSamples - 1 <= after;
+    const double moved = has_room ? cost(there) : kInfinity;
+    if (moved < least) {
+      least = moved;
+      joints[k] = there;
+    }
+  }
+}
+
 // Moves each inner joint by ever smaller steps to where its two links fit best.
 void MoveJoints(const FitSamples& curve,
                 double parameter_cost,
                 std::vector<std::size_t>& joints) {
-  const auto cost = [&](std::size_t k, std::size_t joint) {
-    return FitLink(Part(curve, joints[k - 1], joint), parameter_cost, true)
-               .Total(parameter_cost) +
-           FitLink(Part(curve, joint, joints[k + 1]), parameter_cost, true)
-               .Total(parameter_cost);
-  };
   for (std::size_t step = curve.size() / kMaxPlaces + kSamplesPerPlace;
        step > 0;
        step /= 2) {
     for (std::size_t k = 1; k + 1 < joints.size(); ++k) {
-      double least = cost(k, joints[k]);
-      const std::size_t here = joints[k];
-      for (const std::size_t there :
-           {here - std::min(step, here), here + step}) {
-        const bool has_room = there >= joints[k - 1] + kMinSamples - 1 &&
-                              there + kMinSamples - 1 <= joints[k + 1];
-        const double moved = has_room ? cost(k, there) : kInfinity;
-        if (moved < least) {
-          least = moved;
-          joints[k] = there;
-        }
-      }
+      MoveJoint(curve, parameter_cost, step, k, joints);
     }
   }
 }

@@ -244,13 +244,13 @@ std::optional<Conic> FitEllipse(const FitSamples& samples) {
   return Refine(*rough, samples, false);
 }
 
-Conic FitThrough(Conic conic,
+Conic FitThrough(const Conic& conic,
                  const FitSamples& samples,
                  const std::vector<Eigen::Vector3d>& points) {
   constexpr int kNumSteps = 5;
   constexpr double kConstraint = 1e4;  // times the weight of all samples
   const bool is_circle = conic.a == conic.b;
-  const Conic free = conic;
+  Conic moved = conic;
   for (int step = 0; step < kNumSteps; ++step) {
     std::vector<Target> targets;
     double sum = 0;
@@ -258,15 +258,15 @@ Conic FitThrough(Conic conic,
       targets.push_back(
           {s.position,
            RobustWeight(
-               SquaredDistance(free, s.position), s.sigma, kNumRounds - 1)});
+               SquaredDistance(conic, s.position), s.sigma, kNumRounds - 1)});
       sum += targets.back().weight;
     }
     for (const Eigen::Vector3d& p : points) {
       targets.push_back({p, kConstraint * sum});
     }
-    if (!Step(targets, is_circle, conic)) return free;
+    if (!Step(targets, is_circle, moved)) return conic;
   }
-  return Ordered(conic);
+  return Ordered(moved);
 }
 
 double RadiusSigma(const Conic& circle, const FitSamples& samples) {

@@ -22,7 +22,7 @@ std::optional<Conic> FitEllipse(const FitSamples& samples);
 
 // Moves `conic` to fit `samples` as well as it can while it passes through
 // `points`, to about a hundredth of a standard deviation. A circle stays one.
-Conic FitThrough(Conic conic,
+Conic FitThrough(const Conic& conic,
                  const FitSamples& samples,
                  const std::vector<Eigen::Vector3d>& points);
 
