@@ -28,7 +28,7 @@ constexpr double kMaxNumSteps = 1e8;
 struct Comparison {
   std::vector<CurveStep> predicted;
   std::vector<TrueSample> truth;
-  std::vector<char> visible;           // per true sample
+  std::vector<bool> visible;           // per true sample
   std::vector<double> predicted_mm;    // distances predicted -> true
   std::vector<double> true_mm;         // distances true -> predicted
   std::vector<std::size_t> true_idxs;  // the nearest, per predicted sample

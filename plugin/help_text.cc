@@ -122,8 +122,9 @@ std::string OptionsMarkdown() {
     const std::size_t dot = rows[i].name.find('.');
     const std::string section =
         dot == std::string::npos ? "Runtime" : rows[i].name.substr(0, dot);
-    if (section != previous)
+    if (section != previous) {
       text += "\n## " + section + "\n\n" + kMarkdownTable;
+    }
     previous = section;
     text += MarkdownRow(rows[i], paper_rows[i]);
   }

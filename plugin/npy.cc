@@ -89,7 +89,7 @@ std::optional<Header> ParseHeader(std::string_view text) {
 std::optional<Header> TakeHeader(std::string_view& bytes) {
   constexpr std::string_view kMagic = "\x93NUMPY";
   if (!bytes.starts_with(kMagic) || bytes.size() < 12) return std::nullopt;
-  const int version = bytes[6];
+  const char version = bytes[6];
   if (version < 1 || version > 3) return std::nullopt;
   const std::size_t begin = version == 1 ? 10 : 12;
   const std::size_t size =

@@ -18,10 +18,12 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
   }
   StageCounts counts = {{"edges", num_edges}};
   if (num_masked > 0) counts.emplace_back("dropped by masks", num_masked);
-  if (num_isolated > 0)
+  if (num_isolated > 0) {
     counts.emplace_back("dropped as isolated", num_isolated);
-  if (num_over_limit > 0)
+  }
+  if (num_over_limit > 0) {
     counts.emplace_back("dropped over limit", num_over_limit);
+  }
   return counts;
 }
 

@@ -50,7 +50,7 @@ Status WriteText(void encode(const CurveRecord&, const ByteSink&),
 
 Status WriteModel(const CurveRecord& record, const fs::path& path) {
   const ColmapModel model = CurvesAsPoints(record);
-  const Status read = record.curves.status();
+  Status read = record.curves.status();
   if (!read.ok()) return read;
   return WriteColmapModel(model, path, ColmapFormat::kBinary);
 }

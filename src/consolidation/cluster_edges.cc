@@ -77,8 +77,9 @@ class Clustering {
     for (std::size_t i = 0; i < clusters_.size(); ++i) {
       for (std::size_t j = i + 1; j < clusters_.size(); ++j) {
         const double distance = clusters_[j].center - clusters_[i].center;
-        if (distance > best_distance || (best && distance == best_distance))
+        if (distance > best_distance || (best && distance == best_distance)) {
           break;
+        }
         if (clusters_[i].direction.dot(clusters_[j].direction) <
             min_doubled_cosine_) {
           continue;

@@ -53,8 +53,9 @@ Status TakeEdges(const PlyElement& element,
                  std::string_view& body,
                  LineGraph& graph) {
   const auto columns = FindScalars(element, {"vertex1", "vertex2"});
-  if (!columns)
+  if (!columns) {
     return NoColumns("scalar properties vertex1, vertex2 of an edge");
+  }
   const auto rows = TakePlyRows(element, format, *columns, body);
   if (!rows.ok()) return rows.status();
   for (std::size_t i = 0; i < rows->size(); i += 2) {

@@ -82,15 +82,17 @@ class PairSketcher {
     for (std::size_t i = 0; i < validators_.size(); ++i) {
       if (!validators_[i]) continue;
       const auto projected = ProjectEdge(input_.views[i], hypothesis.edge);
-      if (!projected || !input_.views[i].Contains(projected->position))
+      if (!projected || !input_.views[i].Contains(projected->position)) {
         continue;
+      }
       const auto edge_idx = validators_[i]->Find(
           hypothesis.edge1,
           hypothesis.edge2.edge,
           *projected,
           DegToRad(input_.options.validation.max_angle_deg));
-      if (edge_idx)
+      if (edge_idx) {
         support.push_back({static_cast<std::int32_t>(i), *edge_idx});
+      }
     }
     return support;
   }

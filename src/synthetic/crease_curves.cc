@@ -157,8 +157,9 @@ std::vector<std::pair<double, double>> Stretches(double length,
     const double s = length * i / num_steps;
     const double previous = length * (i - 1) / num_steps;
     const bool crease = is_crease(s);
-    if (crease && !was_crease)
+    if (crease && !was_crease) {
       stretches.push_back({boundary(s, previous), length});
+    }
     if (!crease && was_crease) stretches.back().second = boundary(previous, s);
     was_crease = crease;
   }

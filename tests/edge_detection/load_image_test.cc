@@ -68,8 +68,9 @@ StatusCode CodeOf(const fs::path& path) {
 
 TEST_F(LoadGrayImageTest, KeepsGrey) {
   cv::Mat image(2, 3, CV_8UC1);
-  for (int i = 0; i < 6; ++i)
+  for (int i = 0; i < 6; ++i) {
     image.at<std::uint8_t>(i / 3, i % 3) = static_cast<std::uint8_t>(40 * i);
+  }
   const Result<GrayImage> gray = LoadGrayImage(Written("a b.png", image));
   ASSERT_TRUE(gray.ok()) << gray.status().message();
   EXPECT_EQ(gray->width, 3);

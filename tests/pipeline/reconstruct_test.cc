@@ -191,8 +191,9 @@ TEST(ReconstructCurves, TellsProgressStageByStage) {
                         Options(),
                         [&](const std::string& stage, int done, int total) {
                           EXPECT_LE(done, total);
-                          if (stages.empty() || stages.back() != stage)
+                          if (stages.empty() || stages.back() != stage) {
                             stages.push_back(stage);
+                          }
                           return true;
                         });
   ASSERT_TRUE(result.ok());
