@@ -73,11 +73,11 @@ void ImageDerivatives::SetFilter(double position, Filter& filter) const {
           table_[static_cast<std::size_t>(half_pixels + reach)];
       if (half_pixels % 2 != 0) {
         weights.between += share;
-      } else {
-        weights.on_pixel += share;
-        if (std::abs(half_pixels) <= 2 * pixel_radius_) {
-          weights.near_pixel += share;
-        }
+        continue;
+      }
+      weights.on_pixel += share;
+      if (std::abs(half_pixels) <= 2 * pixel_radius_) {
+        weights.near_pixel += share;
       }
     }
     ++pixel;
