@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace curvix {
 
@@ -34,9 +33,9 @@ SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
         {wedge->center, wedge->half_width, static_cast<std::int32_t>(i)});
     max_half_width_ = std::max(max_half_width_, wedge->half_width);
   }
-  std::sort(
+  std::stable_sort(
       entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-        return std::tie(a.angle, a.edge_idx) < std::tie(b.angle, b.edge_idx);
+        return a.angle < b.angle;
       });
 }
 

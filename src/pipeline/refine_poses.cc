@@ -185,14 +185,15 @@ class Refiner {
   // Where few edges are found, the search becomes wider.
   void UpdateSigmas() {
     const std::vector<std::vector<double>> distances = DistancesByView();
-    for (std::size_t i = 0; i < sigmas_px_.size(); ++i) {
-      const double sigma_px =
-          distances[i].size() < kMinDistancesPerView
-              ? 2 * sigmas_px_[i]
-              : kSigmaPerSpread *
-                    FitSpread(distances[i], kGateSigmas * sigmas_px_[i]);
-      sigmas_px_[i] = std::clamp(sigma_px, kMinSigmaPx, kMaxSigmaPx);
-    }
+    ParallelFor(
+        sigmas_px_.size(), options_.runtime.num_threads, [&](std::size_t i) {
+          const double sigma_px =
+              distances[i].size() < kMinDistancesPerView
+                  ? 2 * sigmas_px_[i]
+                  : kSigmaPerSpread *
+                        FitSpread(distances[i], kGateSigmas * sigmas_px_[i]);
+          sigmas_px_[i] = std::clamp(sigma_px, kMinSigmaPx, kMaxSigmaPx);
+        });
   }
 
   void AdjustOnce() {

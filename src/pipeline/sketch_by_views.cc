@@ -72,17 +72,22 @@ class ViewSketcher {
         NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
     const std::size_t fewest_supports =
         FewestSupports(input_.options.validation, NumOnThisSide(h1));
-    for (const int h2 : partners) {
-      const auto j = static_cast<std::size_t>(h2);
-      auto pair = HypothesisViews::Make(input_.views[i],
-                                        input_.views[j],
-                                        input_.edge_maps[j].edges,
-                                        input_.depths[i],
-                                        input_.options);
-      if (!pair) continue;
-      view.partners.push_back(
-          {*std::move(pair),
-           {FirstViews(h1, h2, view.neighbors), validators, fewest_supports}});
+    std::vector<std::optional<HypothesisViews>> pairs(partners.size());
+    ParallelFor(
+        pairs.size(), input_.options.runtime.num_threads, [&](std::size_t k) {
+          const auto j = static_cast<std::size_t>(partners[k]);
+          pairs[k] = HypothesisViews::Make(input_.views[i],
+                                           input_.views[j],
+                                           input_.edge_maps[j].edges,
+                                           input_.depths[i],
+                                           input_.options);
+        });
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (!pairs[k]) continue;
+      view.partners.push_back({*std::move(pairs[k]),
+                               {FirstViews(h1, partners[k], view.neighbors),
+                                validators,
+                                fewest_supports}});
     }
     return view;
   }

@@ -21,7 +21,7 @@ namespace {
 constexpr double kPriorLossScale = 3;
 // Edges are looked up anew after each solution, so none need be exact.
 constexpr int kMaxNumIterations = 10;
-constexpr double kFunctionTolerance = 1e-4;
+constexpr double kFunctionTolerance = 1e-3;
 
 // A small motion of a camera in its own frame: rotation vector, translation.
 using Motion = std::array<double, 6>;

@@ -21,7 +21,7 @@ struct EdgesAround {
 // edges that are not the sample's outvote nobody: they do not agree with each
 // other on a shift. Zero unless another shift is clearly better. Pixels; ties:
 // smaller y, then smaller x.
-Eigen::Vector2d FindShift(const std::vector<EdgesAround> &samples,
+Eigen::Vector2d FindShift(const std::vector<EdgesAround>& samples,
                           double reach_px);
 
-} // namespace curvix
+}  // namespace curvix

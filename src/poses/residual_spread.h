@@ -12,6 +12,6 @@ namespace curvix {
 // fitted by expectation maximisation. Of three starts the likeliest end counts;
 // an end narrower than its start's would be counts only if it explains most of
 // what it could by chance. At least 0.05. `distances_px` not empty.
-double FitSpread(const std::vector<double> &distances_px, double gate_px);
+double FitSpread(const std::vector<double>& distances_px, double gate_px);
 
-} // namespace curvix
+}  // namespace curvix
