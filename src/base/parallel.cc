@@ -41,14 +41,31 @@ int ResolveNumThreads(int requested) {
 void ParallelFor(std::size_t n,
                  int num_threads,
                  const std::function<void(std::size_t)>& f) {
+  ParallelForWhile(
+      n,
+      num_threads,
+      [&](std::size_t i) {
+        f(i);
+        return true;
+      },
+      [](std::size_t) { return true; });
+}
+
+void ParallelForWhile(std::size_t n,
+                      int num_threads,
+                      const std::function<bool(std::size_t)>& f,
+                      const std::function<bool(std::size_t)>& keep_going) {
   FirstError error;
   // Handing out indices one by one balances uneven work; which thread computes
   // a slot has no influence on what is written there.
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  std::atomic<std::size_t> num_ended = 0;
+  const auto work = [&](bool may_ask) {
     for (std::size_t i = next++; i < n; i = next++) {
       try {
-        f(i);
+        if (!f(i)) next = n;
+        ++num_ended;
+        if (may_ask && !keep_going(num_ended)) next = n;
       } catch (...) {
         error.Keep(i, std::current_exception());
       }
@@ -61,11 +78,13 @@ void ParallelFor(std::size_t n,
   std::vector<std::thread> helpers;
   helpers.reserve(num_helpers);
   try {
-    for (std::size_t i = 0; i < num_helpers; ++i) helpers.emplace_back(work);
+    for (std::size_t i = 0; i < num_helpers; ++i) {
+      helpers.emplace_back(work, false);
+    }
   } catch (const std::exception&) {
     // No memory for another thread: those that there are do the work.
   }
-  work();
+  work(true);
   for (std::thread& helper : helpers) helper.join();
   error.Rethrow();
 }

@@ -21,6 +21,15 @@ void ParallelFor(std::size_t n,
                  int num_threads,
                  const std::function<void(std::size_t)>& f);
 
+// The same, until a call returns false or keep_going does: no further index is
+// handed out then. All smaller ones have been, and are finished. keep_going is
+// asked by the calling thread only, after each of its own calls: it is given
+// the number of calls that have ended.
+void ParallelForWhile(std::size_t n,
+                      int num_threads,
+                      const std::function<bool(std::size_t)>& f,
+                      const std::function<bool(std::size_t)>& keep_going);
+
 // The parts, one after the other.
 template <typename T>
 std::vector<T> Concatenate(std::vector<std::vector<T>> parts) {

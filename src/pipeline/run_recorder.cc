@@ -2,8 +2,6 @@
 // Paper: none (engineering).
 #include "pipeline/run_recorder.h"
 
-#include <algorithm>
-
 #include "base/parallel.h"
 
 namespace curvix {
@@ -59,23 +57,22 @@ StepDone RunRecorder::Steps() {
 Status RunRecorder::ForEach(std::size_t n,
                             int num_threads,
                             const std::function<Status(std::size_t)>& f) {
-  // In batches, so that progress is told from this thread only.
-  const std::size_t batch =
-      static_cast<std::size_t>(ResolveNumThreads(num_threads)) * 2;
   std::vector<Status> statuses(n);
-  for (std::size_t begin = 0; begin < n; begin += batch) {
-    const std::size_t end = std::min(n, begin + batch);
-    ParallelFor(end - begin, num_threads, [&](std::size_t i) {
-      statuses[begin + i] = f(begin + i);
-    });
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!statuses[i].ok()) return statuses[i];
-    }
-    if (!Tell(static_cast<int>(end), static_cast<int>(n))) {
-      return CancelledStatus();
-    }
+  ParallelForWhile(
+      n,
+      num_threads,
+      [&](std::size_t i) {
+        statuses[i] = f(i);
+        return statuses[i].ok();
+      },
+      [&](std::size_t done) {
+        return Tell(static_cast<int>(done), static_cast<int>(n));
+      });
+  for (const Status& status : statuses) {
+    if (!status.ok()) return status;
   }
-  return {};
+  const auto total = static_cast<int>(n);
+  return Tell(total, total) ? Status() : CancelledStatus();
 }
 
 Status RunRecorder::CancelledStatus() const {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,6 +33,48 @@ TEST(ParallelFor, RethrowsTheExceptionOfTheSmallestIndex) {
       FAIL() << "no exception";
     } catch (const std::runtime_error& error) {
       EXPECT_STREQ(error.what(), "7");
+    }
+  }
+}
+
+// How many of the first indices were visited, if no later one was.
+std::size_t NumVisited(const std::vector<int>& visits) {
+  const auto end = std::find(visits.begin(), visits.end(), 0);
+  EXPECT_EQ(std::count(end, visits.end(), 1), 0) << "a gap";
+  return static_cast<std::size_t>(end - visits.begin());
+}
+
+TEST(ParallelForWhile, EndsOnceTheCallingThreadIsToldTo) {
+  for (const int num_threads : {1, 4}) {
+    std::vector<int> visits(100000, 0);
+    std::size_t last = 0;
+    ParallelForWhile(
+        visits.size(),
+        num_threads,
+        [&](std::size_t i) { return visits[i] = 1, true; },
+        [&](std::size_t num_ended) {
+          EXPECT_GT(num_ended, last);
+          last = num_ended;
+          return num_ended < 10;
+        });
+    EXPECT_GE(NumVisited(visits), last);
+    if (num_threads == 1) {  // of four, it may come too late to do any
+      EXPECT_EQ(NumVisited(visits), 10U);
+    }
+  }
+}
+
+TEST(ParallelForWhile, EndsOnceACallSaysSo) {
+  for (const int num_threads : {1, 4}) {
+    std::vector<int> visits(100000, 0);
+    ParallelForWhile(
+        visits.size(),
+        num_threads,
+        [&](std::size_t i) { return visits[i] = 1, i != 20; },
+        [](std::size_t) { return true; });
+    EXPECT_GT(NumVisited(visits), 20U);
+    if (num_threads == 1) {
+      EXPECT_EQ(NumVisited(visits), 21U);
     }
   }
 }
