@@ -89,8 +89,9 @@ bool ParseHeaderLine(std::string_view line, PlyHeader& header) {
   }
   if (keyword == "element") {
     std::optional<PlyElement> element = ParseElement(line);
-    if (element) header.elements.push_back(*std::move(element));
-    return element.has_value();
+    if (!element) return false;
+    header.elements.push_back(*std::move(element));
+    return true;
   }
   if (keyword == "property" && !header.elements.empty()) {
     std::optional<PlyProperty> property = ParseProperty(line);

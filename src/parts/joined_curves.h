@@ -22,7 +22,7 @@ namespace curvix {
 //
 // Tied stretches (tie_stretches.h) are one curve. Where the next stretch would
 // step back, its first samples go.
-class JoinedCurves : public CurveSource {
+class JoinedCurves final : public CurveSource {
  public:
   // Reads each curve twice. Partition and parts outlive it.
   JoinedCurves(const ScenePartition& partition,

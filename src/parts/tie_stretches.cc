@@ -89,20 +89,29 @@ class Tier {
         return EndPair{
             static_cast<double>(k), end, 2 * *own + (IsFront(end) ? 1 : 0)};
       }
-      const SampleRef beyond = RefTo(from.piece, sample);
-      for (const SampleRef& twin : twins_.Of(beyond)) {
-        const std::size_t twin_sample = At(twin).sample;
-        const auto to = StretchOf(twin.piece, twin_sample);
-        if (!to || IsOfOtherKind(from.piece, twin.piece)) continue;
-        const bool runs_on =
-            (At(beyond).tangent.dot(At(twin).tangent) > 0) == IsFront(end);
-        const Run& run = stretches_[*to].run;
-        const std::size_t skipped =
-            runs_on ? twin_sample - run.begin : run.end - 1 - twin_sample;
-        if (skipped > kMaxSkipped) continue;
-        return EndPair{
-            static_cast<double>(k + skipped), end, 2 * *to + (runs_on ? 1 : 0)};
-      }
+      const auto across = TieAcross(end, k, RefTo(from.piece, sample));
+      if (across) return across;
+    }
+    return std::nullopt;
+  }
+
+  // The tie to a stretch of another piece, which has a twin of the k-th sample
+  // beyond `end`.
+  std::optional<EndPair> TieAcross(EndIdx end,
+                                   std::size_t k,
+                                   const SampleRef& beyond) const {
+    for (const SampleRef& twin : twins_.Of(beyond)) {
+      const std::size_t sample = At(twin).sample;
+      const auto to = StretchOf(twin.piece, sample);
+      if (!to || IsOfOtherKind(beyond.piece, twin.piece)) continue;
+      const bool runs_on =
+          (At(beyond).tangent.dot(At(twin).tangent) > 0) == IsFront(end);
+      const Run& run = stretches_[*to].run;
+      const std::size_t skipped =
+          runs_on ? sample - run.begin : run.end - 1 - sample;
+      if (skipped > kMaxSkipped) continue;
+      return EndPair{
+          static_cast<double>(k + skipped), end, 2 * *to + (runs_on ? 1 : 0)};
     }
     return std::nullopt;
   }

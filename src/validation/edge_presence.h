@@ -55,7 +55,7 @@ class EdgePresence {
     return t.y() < 0 || (t.y() == 0 && t.x() < 0) ? 1 + share : 1 - share;
   }
   static int Bin(const Eigen::Vector2d& tangent) {
-    const int bin = static_cast<int>(DiamondAngle(tangent) * (kNumBins / 2));
+    const int bin = static_cast<int>(DiamondAngle(tangent) * kNumBins / 2);
     return bin < kNumBins ? bin : kNumBins - 1;
   }
   static std::uint16_t BinsAround(double angle_rad, double max_angle_rad);

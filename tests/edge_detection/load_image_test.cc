@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/plugin/temporary_folder.h"
+
 namespace curvix {
 namespace {
 
@@ -22,29 +24,19 @@ using Bytes = std::vector<char>;
 
 class LoadGrayImageTest : public ::testing::Test {
  protected:
-  LoadGrayImageTest()
-      : folder_(
-            fs::path(::testing::TempDir()) /
-            (std::string("load_image_") +
-             ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~LoadGrayImageTest() override { fs::remove_all(folder_); }
-
   fs::path Written(const std::string& name, const cv::Mat& image) const {
-    fs::path path = folder_ / name;
+    fs::path path = folder_.path() / name;
     EXPECT_TRUE(cv::imwrite(path.string(), image));
     return path;
   }
   fs::path Written(const std::string& name, const Bytes& bytes) const {
-    fs::path path = folder_ / name;
+    fs::path path = folder_.path() / name;
     std::ofstream(path, std::ios::binary)
         .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return path;
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 Bytes Contents(const fs::path& path) {
@@ -137,8 +129,8 @@ TEST_F(LoadGrayImageTest, IgnoresTheExifRotation) {
 }
 
 TEST_F(LoadGrayImageTest, ExplainsWhatIsMissing) {
-  EXPECT_EQ(CodeOf(folder_ / "nowhere.png"), StatusCode::kNotFound);
-  EXPECT_EQ(CodeOf(folder_), StatusCode::kNotFound) << "a folder";
+  EXPECT_EQ(CodeOf(folder_.path() / "nowhere.png"), StatusCode::kNotFound);
+  EXPECT_EQ(CodeOf(folder_.path()), StatusCode::kNotFound) << "a folder";
   EXPECT_EQ(CodeOf(Written("empty.png", Bytes())), StatusCode::kDataLoss);
   EXPECT_EQ(CodeOf(Written("text.png", Bytes{'h', 'e', 'l', 'l', 'o'})),
             StatusCode::kDataLoss);
@@ -147,7 +139,7 @@ TEST_F(LoadGrayImageTest, ExplainsWhatIsMissing) {
 TEST_F(LoadGrayImageTest, NoticesTruncatedFiles) {
   for (const char* name : {"whole.png", "whole.jpg"}) {
     const Bytes whole = Contents(Written(name, Texture(CV_8UC3)));
-    ASSERT_TRUE(LoadGrayImage(folder_ / name).ok());
+    ASSERT_TRUE(LoadGrayImage(folder_.path() / name).ok());
     for (const std::size_t tenths : {1u, 5u, 9u}) {
       const auto size = static_cast<std::ptrdiff_t>(whole.size() * tenths / 10);
       EXPECT_EQ(CodeOf(Written(std::string("cut_") + name,
@@ -168,7 +160,7 @@ TEST_F(LoadGrayImageTest, RefusesOtherSizesBeforeItDecodes) {
     EXPECT_THAT(status.message(), HasSubstr("is 80 x 60 pixels"));
   }
   // A head without a body, of an image of a terabyte.
-  Bytes head = Contents(folder_ / "a.png");
+  Bytes head = Contents(folder_.path() / "a.png");
   head.resize(33);
   head[16] = head[20] = 0;
   head[17] = head[21] = 15;

@@ -20,7 +20,7 @@ struct BadCase {
   std::function<void(SmallWorkspace&)> spoil;
   std::string says;  // part of the one sentence
   int exit_code = 3;
-  std::string arguments = "";  // further ones
+  std::string arguments = {};  // further ones
 };
 
 // A change of the model that is written then.
