@@ -8,6 +8,8 @@
 #include <cmath>
 #include <span>
 
+#include "geometry/axes_across.h"
+
 namespace curvix {
 namespace {
 
@@ -79,8 +81,9 @@ Eigen::Vector3d FitTangent(const EdgeEstimate& estimate,
 }
 
 void SetAxes(EdgeEstimate& estimate) {
-  estimate.across1 = estimate.edge.tangent.unitOrthogonal();
-  estimate.across2 = estimate.edge.tangent.cross(estimate.across1);
+  const AcrossAxes axes = AxesAcross(estimate.edge.tangent);
+  estimate.across1 = axes.col(0);
+  estimate.across2 = axes.col(1);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "geometry/axes_across.h"
 
 namespace curvix {
 namespace {
@@ -43,14 +44,6 @@ Rigid3 FromMotion(const Motion& motion) {
   return rigid;
 }
 
-// Two unit vectors across the tangent.
-Eigen::Matrix<double, 3, 2> AcrossAxes(const SpaceEdge& edge) {
-  Eigen::Matrix<double, 3, 2> axes;
-  axes.col(0) = edge.tangent.unitOrthogonal();
-  axes.col(1) = edge.tangent.cross(axes.col(0));
-  return axes;
-}
-
 // The distance of a projected sample from the line of its edge.
 class EdgeCost {
  public:
@@ -59,7 +52,7 @@ class EdgeCost {
            const ImageEdge& edge,
            double sigma_px)
       : in_camera_(view.InCamera(sample.position)),
-        across_(view.rotation * AcrossAxes(sample)) {
+        across_(view.rotation * AxesAcross(sample.tangent)) {
     const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
     line_ = view.calibration.topRows<2>().transpose() * normal;
     line_.z() -= normal.dot(edge.position);
@@ -82,7 +75,7 @@ class EdgeCost {
 
  private:
   Eigen::Vector3d in_camera_;
-  Eigen::Matrix<double, 3, 2> across_;
+  AcrossAxes across_;
   Eigen::Vector3d line_;  // residual = line . x / x.z, in camera coordinates
 };
 
@@ -159,8 +152,9 @@ class Solver {
   }
 
   Eigen::Vector3d PositionOf(const SpaceEdge& edge, std::size_t i) const {
-    return edge.position + AcrossAxes(edge) * Eigen::Map<const Eigen::Vector2d>(
-                                                  offsets_[i].data());
+    return edge.position +
+           AxesAcross(edge.tangent) *
+               Eigen::Map<const Eigen::Vector2d>(offsets_[i].data());
   }
 
  private:

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "geometry/adjust_edge.h"
+#include "geometry/axes_across.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 #include "refinement/samples_around.h"
@@ -84,15 +85,6 @@ struct Agreement {
   Eigen::Matrix3d unit_covariance = Eigen::Matrix3d::Zero();
 };
 
-using Across = Eigen::Matrix<double, 3, 2>;
-
-Across AxesAcross(const Eigen::Vector3d& tangent) {
-  Across axes;
-  axes.col(0) = tangent.unitOrthogonal();
-  axes.col(1) = tangent.cross(axes.col(0));
-  return axes;
-}
-
 class CurveInViews {
  public:
   CurveInViews(const Curve& curve,
@@ -152,7 +144,7 @@ class CurveInViews {
   Agreement Summary(const CurveSample& sample,
                     const std::vector<Evidence>& sums,
                     double total_weight) const {
-    const Across axes = AxesAcross(sample.tangent);
+    const AcrossAxes axes = AxesAcross(sample.tangent);
     Agreement result;
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     std::vector<Eigen::Vector2d> pulls;

@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "geometry/adjust_edge.h"
+#include "geometry/axes_across.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
@@ -30,7 +31,7 @@ constexpr int kMaxNumIterations = 15;
 // A sample and the plane across it in which it moves, in pixels.
 struct Station {
   Eigen::Vector3d start;
-  Eigen::Matrix<double, 3, 2> axes;  // world units per pixel
+  AcrossAxes axes;  // world units per pixel
 
   Eigen::Vector3d At(const double* offset) const {
     return start + axes * Eigen::Vector2d(offset[0], offset[1]);
@@ -114,8 +115,7 @@ class CurveFitter {
     for (const CurveSample& sample : curve_.samples) {
       Station& station = stations_.emplace_back();
       station.start = sample.position;
-      station.axes.col(0) = pixel * sample.tangent.unitOrthogonal();
-      station.axes.col(1) = sample.tangent.cross(station.axes.col(0));
+      station.axes = pixel * AxesAcross(sample.tangent);
     }
   }
 
