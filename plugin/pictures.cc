@@ -74,8 +74,6 @@ Result<std::string> Encode(const char* extension,
   return std::string(bytes.begin(), bytes.end());
 }
 
-}  // namespace
-
 Result<std::string> SmallPinholeJpeg(const View& view,
                                      const Camera& camera,
                                      int max_size_px) {
@@ -109,6 +107,28 @@ Result<std::string> SmallPinholeJpeg(const View& view,
               cv::INTER_LINEAR);
   }
   return Encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+}
+
+}  // namespace
+
+std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
+                                           const std::vector<int>& view_idxs,
+                                           int max_size_px) {
+  std::vector<std::string> jpegs(view_idxs.size());
+  cv::parallel_for_(
+      {0, static_cast<int>(jpegs.size())}, [&](const cv::Range& range) {
+        for (int k = range.start; k < range.end; ++k) {
+          const auto i = static_cast<std::size_t>(k);
+          const View& view =
+              scene.views[static_cast<std::size_t>(view_idxs[i])];
+          Result<std::string> jpeg = SmallPinholeJpeg(
+              view,
+              scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+              max_size_px);
+          if (jpeg.ok()) jpegs[i] = *std::move(jpeg);
+        }
+      });
+  return jpegs;
 }
 
 Result<std::string> OverlayPng(const CurveSource& curves,

@@ -7,18 +7,20 @@
 #include <curvix/status.h>
 
 #include <string>
+#include <vector>
 
 namespace curvix {
 
-// A JPEG of the view's ideal pinhole image, without distortion, at most
-// `max_size_px` wide and high; black where the photograph shows nothing.
-// kNotFound or kDataLoss if the photograph cannot be read.
-Result<std::string> SmallPinholeJpeg(const View& view,
-                                     const Camera& camera,
-                                     int max_size_px);
+// JPEGs of the ideal pinhole images of some views, without distortion, at most
+// `max_size_px` wide and high; black where the photograph shows nothing. Empty
+// for photographs that cannot be read. In OpenCV's threads.
+std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
+                                           const std::vector<int>& view_idxs,
+                                           int max_size_px);
 
 // A PNG of the photograph, faded, with the curves drawn over it in their
-// colours where it sees them, hidden ones too. Errors as above.
+// colours where it sees them, hidden ones too. kNotFound or kDataLoss if the
+// photograph cannot be read.
 Result<std::string> OverlayPng(const CurveSource& curves,
                                const View& view,
                                const Camera& camera);

@@ -6,6 +6,7 @@
 #include <curvix/fitting.h>
 
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 
@@ -22,11 +23,10 @@ Status WriteCurveFiles(const Scene& scene,
                        const fs::path& folder,
                        RunRecord& record) {
   const Stopwatch stopwatch;
-  const FittedCurves fitted =
-      FitCurves(curves,
-                scene,
-                record.settings.options.curve_fitting,
-                record.settings.options.runtime.num_threads);
+  const int num_threads = record.settings.options.runtime.num_threads;
+  cv::setNumThreads(num_threads > 0 ? num_threads : -1);  // for pictures
+  const FittedCurves fitted = FitCurves(
+      curves, scene, record.settings.options.curve_fitting, num_threads);
   if (!curves.status().ok()) return curves.status();
   record.stages.push_back(stopwatch.Read("fit_curves"));
   record.stages.back().counts = CountFits(fitted);

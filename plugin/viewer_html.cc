@@ -53,7 +53,10 @@ std::string List(const Numbers& numbers) {
   return text + "]";
 }
 
-std::string ImageJson(const View& view, const Camera& camera, bool has_photo) {
+// Without its photograph where `jpeg` is empty.
+std::string ImageJson(const View& view,
+                      const Camera& camera,
+                      const std::string& jpeg) {
   const Eigen::Matrix3d k = PinholeCalibration(camera);
   const Eigen::Matrix3d r =
       view.cam_from_world.rotation.toRotationMatrix().transpose();  // by rows
@@ -65,10 +68,8 @@ std::string ImageJson(const View& view, const Camera& camera, bool has_photo) {
       List(std::vector<double>{k(0, 0), k(1, 1), k(0, 2), k(1, 2)}) +
       ",\"R\":" + List(std::vector<double>(r.data(), r.data() + 9)) +
       ",\"t\":" + List(std::vector<double>{t.x(), t.y(), t.z()});
-  const auto photo = has_photo ? SmallPinholeJpeg(view, camera, kPhotoSize)
-                               : Result<std::string>(Status());
-  if (photo.ok()) {
-    text += ",\"photo\":\"data:image/jpeg;base64," + Base64(*photo) + "\"";
+  if (!jpeg.empty()) {
+    text += ",\"photo\":\"data:image/jpeg;base64," + Base64(jpeg) + "\"";
   }
   return text + "}";
 }
@@ -162,16 +163,19 @@ void EncodeViewerHtml(const CurveRecord& record, const ByteSink& sink) {
   const std::size_t mark = page.find(kMark);
   sink(page.substr(0, mark));
   const Scene& scene = record.scene;
-  const std::vector<int> with_photo = SpreadViews(scene, kNumPhotos);
+  const std::vector<int> shown = SpreadViews(scene, kNumPhotos);
+  std::vector<std::string> photos = SmallPinholeJpegs(scene, shown, kPhotoSize);
+  std::vector<std::string> jpegs(scene.views.size());
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    jpegs[static_cast<std::size_t>(shown[k])] = std::move(photos[k]);
+  }
   sink("{\"images\":[");
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     const View& view = scene.views[i];
     if (i > 0) sink(",\n");
-    sink(ImageJson(
-        view,
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-        std::binary_search(
-            with_photo.begin(), with_photo.end(), static_cast<int>(i))));
+    sink(ImageJson(view,
+                   scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+                   jpegs[i]));
   }
   sink("],\"nodes\":[");
   for (std::size_t i = 0; i < record.fitted.nodes.size(); ++i) {
