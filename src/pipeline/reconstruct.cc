@@ -112,8 +112,9 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
             view,
             scene.cameras[static_cast<std::size_t>(view.camera_idx)],
             options.edge_detection);
-        if (detected.ok()) edge_maps[i] = *std::move(detected);
-        return detected.status();
+        if (!detected.ok()) return detected.status();
+        edge_maps[i] = *std::move(detected);
+        return Status();
       });
   if (!status.ok()) return status;
   return edge_maps;

@@ -56,15 +56,14 @@ EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
            ++column) {
         const Eigen::Vector2d offset =
             kCellPx * Eigen::Vector2d(column + 0.5, row + 0.5) - x;
+        const bool is_near =
+            std::abs(offset.dot(normal)) <= normal_px + half_cell &&
+            std::abs(offset.dot(tangent)) <= tangential_px + half_cell;
+        std::uint16_t& cell = cells_[static_cast<std::size_t>(row) *
+                                         static_cast<std::size_t>(columns_) +
+                                     static_cast<std::size_t>(column)];
         // Cells at the border stand for all beyond it, too.
-        if (!IsAtBorder(column, row) &&
-            (std::abs(offset.dot(normal)) > normal_px + half_cell ||
-             std::abs(offset.dot(tangent)) > tangential_px + half_cell)) {
-          continue;
-        }
-        cells_[static_cast<std::size_t>(row) *
-                   static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(column)] |= bins;
+        if (is_near || IsAtBorder(column, row)) cell |= bins;
       }
     }
   }
