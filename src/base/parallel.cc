@@ -31,6 +31,17 @@ class FirstError {
   std::exception_ptr error_;
 };
 
+// Neighbours often read the same memory, so a thread takes several at once, but
+// few enough that all threads end together.
+std::size_t BlockSize(std::size_t n, int num_threads) {
+  constexpr std::size_t kBlocksPerThread = 64;
+  constexpr std::size_t kMaxSize = 64;
+  return std::clamp<std::size_t>(
+      n / (kBlocksPerThread * static_cast<std::size_t>(num_threads)),
+      1,
+      kMaxSize);
+}
+
 }  // namespace
 
 int ResolveNumThreads(int requested) {
@@ -41,14 +52,15 @@ int ResolveNumThreads(int requested) {
 void ParallelFor(std::size_t n,
                  int num_threads,
                  const std::function<void(std::size_t)>& f) {
-  ParallelForWhile(
-      n,
-      num_threads,
-      [&](std::size_t i) {
-        f(i);
-        return true;
-      },
-      [](std::size_t) { return true; });
+  const std::size_t size = BlockSize(n, ResolveNumThreads(num_threads));
+  ParallelForWhile((n + size - 1) / size,
+                   num_threads,
+                   [&](std::size_t block) {
+                     const std::size_t end = std::min(n, (block + 1) * size);
+                     for (std::size_t i = block * size; i < end; ++i) f(i);
+                     return true;
+                   },
+                   [](std::size_t) { return true; });
 }
 
 void ParallelForWhile(std::size_t n,
