@@ -15,8 +15,9 @@ int ResolveNumThreads(int requested);
 
 // Calls f(i) for every i in [0, n), on up to num_threads threads. f may write
 // to slot i and nothing else, so results do not depend on the number of
-// threads. If calls throw, the exception of the smallest index is rethrown
-// after all calls have ended. Calls must not be nested.
+// threads. If calls throw, the exception of the smallest index is rethrown once
+// the others have ended, of which some may be left out. Calls must not be
+// nested.
 void ParallelFor(std::size_t n,
                  int num_threads,
                  const std::function<void(std::size_t)>& f);

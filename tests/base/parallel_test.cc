@@ -51,7 +51,10 @@ TEST(ParallelForWhile, EndsOnceTheCallingThreadIsToldTo) {
     ParallelForWhile(
         visits.size(),
         num_threads,
-        [&](std::size_t i) { return visits[i] = 1, true; },
+        [&](std::size_t i) {
+          visits[i] = 1;
+          return true;
+        },
         [&](std::size_t num_ended) {
           EXPECT_GT(num_ended, last);
           last = num_ended;
@@ -70,7 +73,10 @@ TEST(ParallelForWhile, EndsOnceACallSaysSo) {
     ParallelForWhile(
         visits.size(),
         num_threads,
-        [&](std::size_t i) { return visits[i] = 1, i != 20; },
+        [&](std::size_t i) {
+          visits[i] = 1;
+          return i != 20;
+        },
         [](std::size_t) { return true; });
     EXPECT_GT(NumVisited(visits), 20U);
     if (num_threads == 1) {
