@@ -3,6 +3,7 @@
 
 #include <curvix/camera_model.h>
 #include <curvix/curve_style.h>
+#include <curvix/parallel.h>
 #include <curvix/project_curve.h>
 
 #include <Eigen/Geometry>
@@ -113,21 +114,17 @@ Result<std::string> SmallPinholeJpeg(const View& view,
 
 std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
                                            const std::vector<int>& view_idxs,
-                                           int max_size_px) {
+                                           int max_size_px,
+                                           int num_threads) {
   std::vector<std::string> jpegs(view_idxs.size());
-  cv::parallel_for_(
-      {0, static_cast<int>(jpegs.size())}, [&](const cv::Range& range) {
-        for (int k = range.start; k < range.end; ++k) {
-          const auto i = static_cast<std::size_t>(k);
-          const View& view =
-              scene.views[static_cast<std::size_t>(view_idxs[i])];
-          Result<std::string> jpeg = SmallPinholeJpeg(
-              view,
-              scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-              max_size_px);
-          if (jpeg.ok()) jpegs[i] = *std::move(jpeg);
-        }
-      });
+  ParallelFor(jpegs.size(), num_threads, [&](std::size_t i) {
+    const View& view = scene.views[static_cast<std::size_t>(view_idxs[i])];
+    Result<std::string> jpeg = SmallPinholeJpeg(
+        view,
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+        max_size_px);
+    if (jpeg.ok()) jpegs[i] = *std::move(jpeg);
+  });
   return jpegs;
 }
 

@@ -13,10 +13,11 @@ namespace curvix {
 
 // JPEGs of the ideal pinhole images of some views, without distortion, at most
 // `max_size_px` wide and high; black where the photograph shows nothing. Empty
-// for photographs that cannot be read. In OpenCV's threads.
+// for photographs that cannot be read.
 std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
                                            const std::vector<int>& view_idxs,
-                                           int max_size_px);
+                                           int max_size_px,
+                                           int num_threads);
 
 // A PNG of the photograph, faded, with the curves drawn over it in their
 // colours where it sees them, hidden ones too. kNotFound or kDataLoss if the

@@ -6,7 +6,6 @@
 #include <curvix/fitting.h>
 
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <string>
 #include <utility>
 
@@ -24,14 +23,13 @@ Status WriteCurveFiles(const Scene& scene,
                        RunRecord& record) {
   const Stopwatch stopwatch;
   const int num_threads = record.settings.options.runtime.num_threads;
-  cv::setNumThreads(num_threads > 0 ? num_threads : -1);  // for pictures
   const FittedCurves fitted = FitCurves(
       curves, scene, record.settings.options.curve_fitting, num_threads);
   if (!curves.status().ok()) return curves.status();
   record.stages.push_back(stopwatch.Read("fit_curves"));
   record.stages.back().counts = CountFits(fitted);
-  Result<std::vector<std::string>> written =
-      WriteResults({scene, curves, fitted}, record.settings.output, folder);
+  Result<std::vector<std::string>> written = WriteResults(
+      {scene, curves, fitted}, record.settings.output, num_threads, folder);
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());

@@ -157,14 +157,17 @@ int NumDecimals(const CurveSource& curves) {
 
 }  // namespace
 
-void EncodeViewerHtml(const CurveRecord& record, const ByteSink& sink) {
+void EncodeViewerHtml(const CurveRecord& record,
+                      int num_threads,
+                      const ByteSink& sink) {
   const std::string_view page = ViewerTemplate();
   constexpr std::string_view kMark = "@CURVIX_DATA@";
   const std::size_t mark = page.find(kMark);
   sink(page.substr(0, mark));
   const Scene& scene = record.scene;
   const std::vector<int> shown = SpreadViews(scene, kNumPhotos);
-  std::vector<std::string> photos = SmallPinholeJpegs(scene, shown, kPhotoSize);
+  std::vector<std::string> photos =
+      SmallPinholeJpegs(scene, shown, kPhotoSize, num_threads);
   std::vector<std::string> jpegs(scene.views.size());
   for (std::size_t k = 0; k < shown.size(); ++k) {
     jpegs[static_cast<std::size_t>(shown[k])] = std::move(photos[k]);

@@ -39,11 +39,12 @@ Status WriteSvg(const CurveRecord& record,
 }
 
 // A file of what `encode` gives, if all curves can be read.
-Status WriteText(void encode(const CurveRecord&, const ByteSink&),
-                 const CurveRecord& record,
-                 const fs::path& path) {
+template <typename Encode>
+Status WriteText(const CurveRecord& record,
+                 const fs::path& path,
+                 const Encode& encode) {
   FileWriter file(path);
-  encode(record, file.Sink());
+  encode(file.Sink());
   const Status read = record.curves.status();
   return read.ok() ? file.Finish() : read;
 }
@@ -57,10 +58,19 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
 
 Status WriteFormat(const CurveRecord& record,
                    const OutputSettings& settings,
+                   int num_threads,
                    const std::string& format,
                    const fs::path& path) {
-  if (format == "json") return WriteText(EncodeCurvesJson, record, path);
-  if (format == "html") return WriteText(EncodeViewerHtml, record, path);
+  if (format == "json") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeCurvesJson(record, sink);
+    });
+  }
+  if (format == "html") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeViewerHtml(record, num_threads, sink);
+    });
+  }
   if (format == "dxf") return WriteDrawing(path, record.fitted);
   if (format == "svg") return WriteSvg(record, settings.svg_image, path);
   if (format == "colmap") return WriteModel(record, path);
@@ -171,6 +181,7 @@ FlagSection OutputFlags(OutputSettings* settings) {
 
 Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
                                               const OutputSettings& settings,
+                                              int num_threads,
                                               const fs::path& folder) {
   std::vector<std::string> files;
   for (const OutputFormat& format : OutputFormats()) {
@@ -179,8 +190,8 @@ Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
                   format.name) == settings.formats.end()) {
       continue;
     }
-    Status status =
-        WriteFormat(record, settings, format.name, folder / format.file);
+    Status status = WriteFormat(
+        record, settings, num_threads, format.name, folder / format.file);
     if (!status.ok()) return status;
     files.emplace_back(format.file);
   }

@@ -45,6 +45,7 @@ FlagSection OutputFlags(OutputSettings* settings);
 Result<std::vector<std::string>> WriteResults(
     const CurveRecord& record,
     const OutputSettings& settings,
+    int num_threads,
     const std::filesystem::path& folder);
 
 }  // namespace curvix

@@ -15,6 +15,7 @@
 #include <curvix/image_size.h>
 #include <curvix/option_table.h>
 #include <curvix/options.h>
+#include <curvix/parallel.h>
 #include <curvix/parts.h>
 #include <curvix/project_curve.h>
 #include <curvix/reconstruct.h>

@@ -20,8 +20,8 @@ struct Edge2d {
   float angle = 0;                                     // radians
   float strength = 0;  // gradient magnitude, grey levels (0..255) per pixel
   // How sharp the edge is: 1 / w^2 if across it the image is a step blurred by
-  // a Gaussian of standard deviation w pixels, the detector's own included; <= 0
-  // where the gradient has no peak; 0 also if it is not known.
+  // a Gaussian of standard deviation w pixels, the detector's own included; <=
+  // 0 where the gradient has no peak; 0 also if it is not known.
   float sharpness = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The only door to threads.
+// Paper: none (engineering). Around ParallelFor.
 #pragma once
+
+#include <curvix/parallel.h>
 
 #include <cstddef>
 #include <functional>
@@ -13,19 +15,10 @@ namespace curvix {
 // `requested` if positive, else the number of cores.
 int ResolveNumThreads(int requested);
 
-// Calls f(i) for every i in [0, n), on up to num_threads threads. f may write
-// to slot i and nothing else, so results do not depend on the number of
-// threads. If calls throw, the exception of the smallest index is rethrown once
-// the others have ended, of which some may be left out. Calls must not be
-// nested.
-void ParallelFor(std::size_t n,
-                 int num_threads,
-                 const std::function<void(std::size_t)>& f);
-
-// The same, until a call returns false or keep_going does: no further index is
-// handed out then. All smaller ones have been, and are finished. keep_going is
-// asked by the calling thread only, after each of its own calls: it is given
-// the number of calls that have ended.
+// As ParallelFor, until a call returns false or keep_going does: no further
+// index is handed out then. All smaller ones have been, and are finished.
+// keep_going is asked by the calling thread only, after each of its own calls:
+// it is given the number of calls that have ended.
 void ParallelForWhile(std::size_t n,
                       int num_threads,
                       const std::function<bool(std::size_t)>& f,
