@@ -55,12 +55,14 @@ TEST(PlyLines, RowsFollowTheHeaderInOrder) {
   const std::string end = "end_header\n";
   const char* body = bytes.data() + bytes.find(end) + end.size();
   constexpr std::ptrdiff_t kVertexBytes = 9 * 4 + 3;
-  EXPECT_EQ(bytes.data() + bytes.size(), body + 23 * kVertexBytes + 21 * 8);
+  constexpr std::ptrdiff_t kEdgeBytes = 8;
+  EXPECT_EQ(bytes.data() + bytes.size(),
+            body + 23 * kVertexBytes + 21 * kEdgeBytes);
   for (int i = 0; i < 9; ++i) {
     const CurveSample& sample =
         curves.curves[0].samples[static_cast<std::size_t>(i)];
     const char* row = body + i * kVertexBytes;
-    for (int k = 0; k < 3; ++k) {
+    for (std::ptrdiff_t k = 0; k < 3; ++k) {
       EXPECT_EQ(LoadBytes<float>(row + 4 * k, std::endian::little),
                 static_cast<float>(sample.position[k]));
       EXPECT_EQ(LoadBytes<float>(row + 12 + 4 * k, std::endian::little),
@@ -72,7 +74,7 @@ TEST(PlyLines, RowsFollowTheHeaderInOrder) {
     EXPECT_EQ(LoadBytes<float>(row + 35, std::endian::little), n);
   }
   // The last edge of the circle, vertices 9 to 20, closes it.
-  const char* closing = body + 23 * kVertexBytes + (8 + 11) * 8;
+  const char* closing = body + 23 * kVertexBytes + (8 + 11) * kEdgeBytes;
   EXPECT_EQ(LoadBytes<std::int32_t>(closing, std::endian::little), 20);
   EXPECT_EQ(LoadBytes<std::int32_t>(closing + 4, std::endian::little), 9);
 }

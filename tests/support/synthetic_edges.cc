@@ -85,7 +85,7 @@ Edge3d NoisyEdge(const TestCurve& curve,
 }  // namespace
 
 TestCurve LineCurve(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Vector3d direction = (to - from).normalized();
+  Eigen::Vector3d direction = (to - from).normalized();
   return {(to - from).norm(),
           false,
           [=](double s) -> Eigen::Vector3d { return from + s * direction; },
