@@ -8,13 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 
 #include "base/parallel.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/axes_across.h"
-#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 #include "refinement/samples_around.h"
+#include "refinement/unblurred_edges.h"
 
 namespace curvix {
 namespace {
@@ -92,16 +93,22 @@ class CurveInViews {
                const std::vector<EdgeMap>& edge_maps)
       : curve_(curve) {
     std::map<std::int32_t, std::size_t> places;
-    for (const CurveSample& sample : curve.samples) {
+    for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+      const CurveSample& sample = curve.samples[k];
+      const std::optional<Bend> bend = BendAround(
+          curve, k, PixelSize(sample.position, sample.support, views));
       std::vector<Evidence>& evidence = evidence_.emplace_back();
       for (const EdgeRef& ref : sample.support) {
         const auto v = static_cast<std::size_t>(ref.view_idx);
         const auto [place, is_new] =
             places.emplace(ref.view_idx, centers_.size());
         if (is_new) centers_.push_back(views[v].center);
-        const auto e = static_cast<std::size_t>(ref.edge_idx);
-        evidence.push_back(Measure(
-            sample.position, views[v], edge_maps[v].edges[e], place->second));
+        const Edge2d& edge =
+            edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        evidence.push_back(Measure(sample.position,
+                                   views[v],
+                                   Unblurred(edge, views[v], bend),
+                                   place->second));
       }
     }
   }
@@ -129,9 +136,9 @@ class CurveInViews {
  private:
   static Evidence Measure(const Eigen::Vector3d& position,
                           const PosedView& view,
-                          const Edge2d& edge,
+                          const ImageEdge& edge,
                           std::size_t view_place) {
-    const PlaneMeasurement measured = MeasurePlane(view, ToImageEdge(edge));
+    const PlaneMeasurement measured = MeasurePlane(view, edge);
     const Eigen::Vector3d x = position - measured.center;
     const double depth = measured.axis.dot(x);
     const double distance = measured.plane.dot(x) / depth;

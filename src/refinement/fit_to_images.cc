@@ -9,13 +9,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/axes_across.h"
-#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
+#include "refinement/unblurred_edges.h"
 
 namespace curvix {
 namespace {
@@ -122,13 +123,15 @@ class CurveFitter {
   void AddEdges(const std::vector<PosedView>& views,
                 const std::vector<EdgeMap>& edge_maps) {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
+      const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
       for (const EdgeRef& ref : curve_.samples[k].support) {
         const auto v = static_cast<std::size_t>(ref.view_idx);
         const Edge2d& edge =
             edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
         problem_.AddResidualBlock(
-            new EdgeCost(stations_[k],
-                         MeasurePlane(views[v], ToImageEdge(edge))),
+            new EdgeCost(
+                stations_[k],
+                MeasurePlane(views[v], Unblurred(edge, views[v], bend))),
             new ceres::CauchyLoss(1),
             offsets_[k].data());
       }

@@ -57,6 +57,26 @@ TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
   }
 }
 
+TEST(FitToImages, BlurDoesNotShrinkCircles) {
+  const double radius_px = 30;
+  const double blur_px = 1.2;
+  SeenCurve blurred = See(Arc(radius_px - blur_px * blur_px / (2 * radius_px),
+                              0,
+                              2 * std::numbers::pi));
+  for (EdgeMap& map : blurred.edge_maps) {
+    for (Edge2d& edge : map.edges) {
+      edge.sharpness = static_cast<float>(1 / (blur_px * blur_px));
+    }
+  }
+  double sum = 0;
+  const Curve fitted = Fit(blurred);
+  for (const CurveSample& sample : fitted.samples)
+    sum += sample.position.norm();
+  EXPECT_NEAR(sum / kPixel / static_cast<double>(fitted.samples.size()),
+              radius_px,
+              0.005);
+}
+
 TEST(FitToImages, NoiseOfTheImagesIsSmoothedAway) {
   SeenCurve seen = See(Line(InPlane(-50, 0), InPlane(50, 0)));
   Random random(2);

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refinement/unblurred_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/edge_detection/oriented_edges.h"
+#include "tests/refinement/drawn_curves.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kBlurPx = 1.2;
+constexpr double kWholeTurn = 2 * std::numbers::pi;
+
+// A view of 64 x 64 pixels that looks at the origin of the plane.
+PosedView SmallView() {
+  PosedView view = FrontalViews()[0];
+  view.width = view.height = 64;
+  view.calibration(0, 2) = view.calibration(1, 2) = 32;
+  return view;
+}
+
+const Eigen::Vector2d kCenter(32, 32);
+
+double RadiusOf(const Eigen::Vector2d& position) {
+  return (position - kCenter).norm();
+}
+
+// The edge at the first sample of Arc(radius_px, 0, ...), where blur draws it.
+Edge2d BlurredEdge(double radius_px) {
+  Edge2d edge;
+  edge.position = kCenter;
+  edge.position.x() += radius_px - kBlurPx * kBlurPx / (2 * radius_px);
+  edge.angle = static_cast<float>(std::numbers::pi / 2);
+  edge.sharpness = static_cast<float>(1 / (kBlurPx * kBlurPx));
+  return edge;
+}
+
+// How far the edge moves if sample `index` of `curve` is the one it shows.
+double ShiftOf(const Edge2d& edge, const Curve& curve, std::size_t index) {
+  const auto bend = BendAround(curve, index, kPixel);
+  return (Unblurred(edge, SmallView(), bend).position - edge.position).norm();
+}
+
+TEST(UnblurredEdges, CirclesHaveTheirRadius) {
+  for (const double radius_px : {4.0, 20.0, 100.0}) {
+    const auto bend = BendAround(Arc(radius_px, 0, kWholeTurn), 0, kPixel);
+    const ImageEdge edge = Unblurred(BlurredEdge(radius_px), SmallView(), bend);
+    EXPECT_NEAR(RadiusOf(edge.position), radius_px, 1e-3);
+  }
+}
+
+TEST(UnblurredEdges, EndsBendLikeTheRest) {
+  const Curve arc = Arc(10, 0, 2);
+  const double expected = kBlurPx * kBlurPx / 20;
+  for (const std::size_t index : {std::size_t{0}, arc.samples.size() - 1}) {
+    EXPECT_NEAR(ShiftOf(BlurredEdge(10), arc, index), expected, 1e-3);
+  }
+}
+
+TEST(UnblurredEdges, LinesStay) {
+  const Curve line = Line(InPlane(10, -20), InPlane(10, 20));
+  EXPECT_LT(ShiftOf(BlurredEdge(10), line, 20), 1e-9);
+}
+
+TEST(UnblurredEdges, EdgesOfUnknownSharpnessStay) {
+  Edge2d edge = BlurredEdge(10);
+  edge.sharpness = 0;
+  EXPECT_EQ(ShiftOf(edge, Arc(10, 0, 2), 0), 0);
+}
+
+TEST(UnblurredEdges, TwoSamplesHaveNoBend) {
+  const Curve line = Line(InPlane(10, 0), InPlane(11, 0));
+  EXPECT_FALSE(BendAround(line, 0, kPixel));
+  EXPECT_EQ(ShiftOf(BlurredEdge(10), line, 0), 0);
+}
+
+TEST(UnblurredEdges, SharpTurnsMoveThemLittle) {
+  EXPECT_NEAR(ShiftOf(BlurredEdge(10), Arc(2, 0, kWholeTurn), 0), 0.25, 1e-9);
+}
+
+// A disc as an ideal camera sees it: each pixel tells how much it covers.
+GrayImage SharpDisc(double radius_px) {
+  constexpr int kParts = 16;  // of a pixel, each way
+  const PosedView view = SmallView();
+  GrayImage image{view.width, view.height, {}};
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      int num_inside = 0;
+      for (int part = 0; part < kParts * kParts; ++part) {
+        const Eigen::Vector2d p(x + (part % kParts + 0.5) / kParts,
+                                y + (part / kParts + 0.5) / kParts);
+        if (RadiusOf(p) < radius_px) ++num_inside;
+      }
+      image.pixels.push_back(60 + 100 * static_cast<float>(num_inside) /
+                                      (kParts * kParts));
+    }
+  }
+  return image;
+}
+
+std::size_t NearestSample(const Curve& curve, const Edge2d& edge) {
+  const PosedView view = SmallView();
+  const auto distance = [&](const CurveSample& sample) {
+    return (view.Pixel(view.InCamera(sample.position)) - edge.position).norm();
+  };
+  const auto nearest = std::min_element(
+      curve.samples.begin(), curve.samples.end(), [&](auto& a, auto& b) {
+        return distance(a) < distance(b);
+      });
+  return static_cast<std::size_t>(nearest - curve.samples.begin());
+}
+
+TEST(UnblurredEdges, UndoesWhatTheDetectorDoesToDiscs) {
+  for (const double radius_px : {5.0, 10.0, 20.0}) {
+    const std::vector<Edge2d> edges =
+        OrientedEdges(SharpDisc(radius_px), {}, 5);
+    ASSERT_GT(edges.size(), 6 * radius_px);
+    const Curve circle = Arc(radius_px, 0, kWholeTurn);
+    double detected = 0, unblurred = 0;
+    for (const Edge2d& edge : edges) {
+      const auto bend = BendAround(circle, NearestSample(circle, edge), kPixel);
+      detected += RadiusOf(edge.position);
+      unblurred += RadiusOf(Unblurred(edge, SmallView(), bend).position);
+    }
+    const double count = static_cast<double>(edges.size());
+    const double shrunk_px = radius_px - detected / count;
+    EXPECT_GT(shrunk_px, 0.4 / radius_px);
+    EXPECT_LT(std::abs(radius_px - unblurred / count), 0.3 * shrunk_px);
+  }
+}
+
+}  // namespace
+}  // namespace curvix
