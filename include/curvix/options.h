@@ -179,7 +179,7 @@ struct CurveRefinementOptions {
   // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
   double junction_reach_px = 7.0;
   // Largest distance of a continued end from its corner. Pixels, > 0.
-  double max_junction_gap_px = 1.0;
+  double max_junction_gap_px = 1.5;
 };
 
 // Beyond the paper: which curves to keep. The defaults keep all; on textured
