@@ -109,6 +109,18 @@ TEST(EpipolarPencil, HasNoAngleWithinHalfADegreeOfTheBaseline) {
       pencil->AngleOf(rig.view1, epipole + 1.1 * half_a_degree_px * across));
 }
 
+// By finite differences.
+double RadPerPx(const EpipolarPencil& pencil,
+                const PosedView& view,
+                const Vector2d& pixel) {
+  const auto slope = [&](const Vector2d& h) {
+    const double rise = pencil.AngleOf(view, pixel + h)->angle -
+                        pencil.AngleOf(view, pixel - h)->angle;
+    return std::remainder(rise, 2 * kPi) / (2 * h.norm());
+  };
+  return std::hypot(slope({1e-4, 0}), slope({0, 1e-4}));
+}
+
 TEST(EpipolarPencil, MovesPerPixelAsFiniteDifferencesDo) {
   Random random(2);
   for (const Rig& rig : Rigs()) {
@@ -118,15 +130,8 @@ TEST(EpipolarPencil, MovesPerPixelAsFiniteDifferencesDo) {
         const Vector2d pixel(random.Uniform(0, 800), random.Uniform(0, 800));
         const auto angle = pencil->AngleOf(*view, pixel);
         if (!angle) continue;
-        const auto slope = [&](const Vector2d& h) {
-          const double rise = pencil->AngleOf(*view, pixel + h)->angle -
-                              pencil->AngleOf(*view, pixel - h)->angle;
-          return std::remainder(rise, 2 * kPi) / (2 * h.norm());
-        };
         EXPECT_NEAR(
-            std::hypot(slope({1e-4, 0}), slope({0, 1e-4})) / angle->rad_per_px,
-            1,
-            1e-5)
+            RadPerPx(*pencil, *view, pixel) / angle->rad_per_px, 1, 1e-5)
             << rig.name;
       }
     }

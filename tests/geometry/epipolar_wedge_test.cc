@@ -34,6 +34,20 @@ std::vector<Edge2d> RandomEdges(int count, std::uint64_t seed) {
   return edges;
 }
 
+std::vector<std::int32_t> AllThatMeet(const Wedge& wanted,
+                                      const EpipolarPencil& pencil,
+                                      const std::vector<Edge2d>& edges,
+                                      double tolerance_px) {
+  std::vector<std::int32_t> meeting;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto wedge = WedgeOf(pencil, kView2, edges[i].position, tolerance_px);
+    if (wedge && Meet(*wedge, wanted)) {
+      meeting.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return meeting;
+}
+
 TEST(WedgeOf, HoldsTheEpipolarAnglesOfTheDiscAndNoMore) {
   const auto pencil = EpipolarPencil::Make(kView1, kView2);
   for (const Edge2d& edge : RandomEdges(300, 1)) {
@@ -77,15 +91,9 @@ TEST(SortedByAngle, FindsTheEdgesThatBruteForceFinds) {
     for (const double center :
          {-3.1415, -3.1, -1.0, 0.0, 0.5, 2.0, 3.12, 3.14159, kPi}) {
       for (const double half_width : {0.0, 0.002, 0.2}) {
-        std::vector<std::int32_t> expected;
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-          const auto wedge =
-              WedgeOf(*pencil, kView2, edges[i].position, tolerance_px);
-          if (wedge && Meet(*wedge, {center, half_width})) {
-            expected.push_back(static_cast<std::int32_t>(i));
-          }
-        }
-        EXPECT_EQ(sorted.Meeting({center, half_width}), expected)
+        const Wedge wanted{center, half_width};
+        EXPECT_EQ(sorted.Meeting(wanted),
+                  AllThatMeet(wanted, *pencil, edges, tolerance_px))
             << center << " +- " << half_width;
       }
     }

@@ -8,32 +8,51 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace curvix {
 
-inline void ExpectIdentical(const Reconstruction& a, const Reconstruction& b) {
-  ASSERT_EQ(a.edges.size(), b.edges.size());
-  for (std::size_t i = 0; i < a.edges.size(); ++i) {
-    ASSERT_EQ(a.edges[i].position, b.edges[i].position);
-    ASSERT_EQ(a.edges[i].tangent, b.edges[i].tangent);
-    ASSERT_EQ(a.edges[i].support, b.edges[i].support);
-    ASSERT_EQ(a.edges[i].sigma, b.edges[i].sigma);
-    ASSERT_EQ(a.edges[i].evidence, b.edges[i].evidence);
+inline void ExpectIdentical(const std::vector<Edge3d>& a,
+                            const std::vector<Edge3d>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].position, b[i].position);
+    ASSERT_EQ(a[i].tangent, b[i].tangent);
+    ASSERT_EQ(a[i].support, b[i].support);
+    ASSERT_EQ(a[i].sigma, b[i].sigma);
+    ASSERT_EQ(a[i].evidence, b[i].evidence);
   }
+}
+
+inline void ExpectIdentical(const Curve& a, const Curve& b) {
+  ASSERT_EQ(a.closed, b.closed);
+  ASSERT_EQ(a.samples.size(), b.samples.size());
+  for (std::size_t i = 0; i < a.samples.size(); ++i) {
+    ASSERT_EQ(a.samples[i].position, b.samples[i].position);
+    ASSERT_EQ(a.samples[i].tangent, b.samples[i].tangent);
+    ASSERT_EQ(a.samples[i].sigma, b.samples[i].sigma);
+    ASSERT_EQ(a.samples[i].covariance, b.samples[i].covariance);
+    ASSERT_EQ(a.samples[i].support, b.samples[i].support);
+  }
+}
+
+inline void ExpectIdentical(const Reconstruction& a, const Reconstruction& b) {
+  ExpectIdentical(a.edges, b.edges);
   ASSERT_EQ(a.curves.curves.size(), b.curves.curves.size());
   for (std::size_t c = 0; c < a.curves.curves.size(); ++c) {
-    const Curve& one = a.curves.curves[c];
-    const Curve& other = b.curves.curves[c];
-    ASSERT_EQ(one.closed, other.closed);
-    ASSERT_EQ(one.samples.size(), other.samples.size());
-    for (std::size_t i = 0; i < one.samples.size(); ++i) {
-      ASSERT_EQ(one.samples[i].position, other.samples[i].position);
-      ASSERT_EQ(one.samples[i].tangent, other.samples[i].tangent);
-      ASSERT_EQ(one.samples[i].sigma, other.samples[i].sigma);
-      ASSERT_EQ(one.samples[i].covariance, other.samples[i].covariance);
-      ASSERT_EQ(one.samples[i].support, other.samples[i].support);
+    ExpectIdentical(a.curves.curves[c], b.curves.curves[c]);
+  }
+}
+
+inline double DistanceToSamples(const Eigen::Vector3d& place,
+                                const CurveSet& curves) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Curve& curve : curves.curves) {
+    for (const CurveSample& sample : curve.samples) {
+      least = std::min(least, (sample.position - place).norm());
     }
   }
+  return least;
 }
 
 // The largest distance from a sample of `a` to the nearest sample of `b`.
@@ -41,14 +60,7 @@ inline double Deviation(const CurveSet& a, const CurveSet& b) {
   double worst = 0;
   for (const Curve& curve : a.curves) {
     for (const CurveSample& sample : curve.samples) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const Curve& other : b.curves) {
-        for (const CurveSample& candidate : other.samples) {
-          least =
-              std::min(least, (candidate.position - sample.position).norm());
-        }
-      }
-      worst = std::max(worst, least);
+      worst = std::max(worst, DistanceToSamples(sample.position, b));
     }
   }
   return worst;

@@ -82,6 +82,20 @@ Edge3d NoisyEdge(const TestCurve& curve,
   return edge;
 }
 
+// The edge nearest to s of some contours; the index of a contour is its view's.
+std::vector<EdgeRef> SupportAt(double s,
+                               const std::vector<Contour>& contours,
+                               double support_share,
+                               Random& random) {
+  std::vector<EdgeRef> support;
+  for (std::size_t v = 0; v < contours.size(); ++v) {
+    if (random.Uniform() >= support_share) continue;
+    support.push_back(
+        {static_cast<std::int32_t>(v), NearestEdge(contours[v], s)});
+  }
+  return support;
+}
+
 }  // namespace
 
 TestCurve LineCurve(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
@@ -183,11 +197,7 @@ SyntheticEdges MakeSyntheticEdges(const std::vector<TestCurve>& curves,
       for (double s = options.spacing * random.Uniform(); s < curves[c].length;
            s += options.spacing) {
         Edge3d edge = NoisyEdge(curves[c], s, track_offset, options, random);
-        for (std::size_t v = 0; v < contours.size(); ++v) {
-          if (random.Uniform() >= options.support_share) continue;
-          edge.support.push_back(
-              {static_cast<std::int32_t>(v), NearestEdge(contours[v], s)});
-        }
+        edge.support = SupportAt(s, contours, options.support_share, random);
         made.edges.push_back(std::move(edge));
         made.curve_of.push_back(static_cast<int>(c));
       }

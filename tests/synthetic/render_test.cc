@@ -31,6 +31,14 @@ float PixelAt(const RenderedImage& image, int x, int y) {
   return image.grey[static_cast<std::size_t>(y * image.width + x)];
 }
 
+double SumOfRow(const RenderedImage& image, int row) {
+  double sum = 0;
+  for (int column = 0; column < image.width; ++column) {
+    sum += static_cast<double>(PixelAt(image, column, row));
+  }
+  return sum;
+}
+
 // A wide box behind the plane z = 0, its right side through (x, 0) and turned
 // by `angle` in the image.
 Solid WallUpTo(double x, double angle) {
@@ -55,14 +63,11 @@ TEST(RenderTest, PixelsOnAStraightEdgeAddUpToItsExactPosition) {
       const double face = static_cast<double>(PixelAt(image, 0, 16));
       const double behind = static_cast<double>(PixelAt(image, 63, 16));
       for (int row = 8; row < 24; ++row) {
-        double sum = 0;
-        for (int column = 0; column < image.width; ++column) {
-          const auto grey = static_cast<double>(PixelAt(image, column, row));
-          sum += (grey - behind) / (face - behind);
-        }
+        const double covered =
+            (SumOfRow(image, row) - image.width * behind) / (face - behind);
         const double exact =
             32 + kFocal * x / kDistance - std::tan(angle) * (row + 0.5 - 16);
-        EXPECT_NEAR(sum, exact, 0.005) << degrees << " deg, row " << row;
+        EXPECT_NEAR(covered, exact, 0.005) << degrees << " deg, row " << row;
       }
     }
   }
