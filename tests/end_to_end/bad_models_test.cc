@@ -130,7 +130,7 @@ TEST(BadModels, CountsBeyondEverything) {
 }
 
 TEST(BadModels, CamerasThatAreNone) {
-  const auto camera = [](const std::function<void(Camera&)>& change) {
+  const auto camera = [](auto change) {
     return Model([=](ColmapModel& m) { change(m.cameras[0].camera); });
   };
   const auto focal_length = [&](double value) {
@@ -166,7 +166,7 @@ TEST(BadModels, CamerasThatAreNone) {
 }
 
 TEST(BadModels, PosesThatAreNone) {
-  const auto pose = [](const std::function<void(Rigid3&)>& change) {
+  const auto pose = [](auto change) {
     return Model([=](ColmapModel& m) { change(m.images[2].cam_from_world); });
   };
   const std::string image = "(view_002.png)";
@@ -229,14 +229,14 @@ TEST(BadModels, IdsAndReferences) {
 
 TEST(BadModels, NamesThatLeadOutOfTheFolderOfImages) {
   std::vector<BadCase> cases;
-  for (const std::string name : {"../view_000.png",
-                                 "a/../../view_000.png",
-                                 "/etc/passwd",
-                                 "",
-                                 "..",
-                                 "C:\\view_000.png",
-                                 "..\\view_000.png"}) {
-    cases.push_back({"the name \"" + name + "\"",
+  for (const char* name : {"../view_000.png",
+                           "a/../../view_000.png",
+                           "/etc/passwd",
+                           "",
+                           "..",
+                           "C:\\view_000.png",
+                           "..\\view_000.png"}) {
+    cases.push_back({std::string("the name \"") + name + "\"",
                      Model([=](ColmapModel& m) { m.images[0].name = name; }),
                      "images.bin: the name of image"});
   }
@@ -255,7 +255,7 @@ TEST(BadModels, NamesThatTerminalsWouldObey) {
 
 // Sound by the letter; poses are refined with them, or are not.
 TEST(BadModels, PointsThatMakeNoSense) {
-  const auto points = [](const std::function<void(ColmapModel&)>& change) {
+  const auto points = [](auto change) {
     return Model([=](ColmapModel& m) {
       m.points.clear();
       m.images[0].points2D.clear();

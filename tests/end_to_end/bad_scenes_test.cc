@@ -256,7 +256,7 @@ TEST(PoorScenes, OneImageInAllPlaces) {
 }
 
 TEST(PoorScenes, ShowNothing) {
-  const auto poses = [](const std::function<void(Rigid3&)>& change) {
+  const auto poses = [](auto change) {
     return Model([=](ColmapModel& m) {
       for (ColmapImage& image : m.images) change(image.cam_from_world);
     });

@@ -23,9 +23,9 @@ struct BadCase {
   std::string arguments = {};  // further ones
 };
 
-// A change of the model that is written then.
-inline std::function<void(SmallWorkspace&)> Model(
-    const std::function<void(ColmapModel&)>& change) {
+// Calls change(ColmapModel&) and writes the model then.
+template <typename Change>
+auto Model(Change change) {
   return [change](SmallWorkspace& workspace) {
     change(workspace.model);
     workspace.WriteModel();
