@@ -67,9 +67,9 @@ class ProgramRun : public testing::Test {
   fs::path results_ = workspace_ / "curvix/0";
 };
 
-// A white 200 x 200 PGM; the decoder looks at the content, not at the name.
-std::string BlankImage() {
-  return "P5\n200 200\n255\n" + std::string(200 * 200, '\xff');
+// A 200 x 200 PGM; the decoder looks at the content, not at the name.
+std::string BlankImage(char grey) {
+  return "P5\n200 200\n255\n" + std::string(40'000, grey);
 }
 
 TEST_F(ProgramRun, WritesEveryFileAndLeavesTheInputsAlone) {
@@ -116,7 +116,7 @@ TEST_F(ProgramRun, FindsTheEdgesOfTheBlock) {
 TEST_F(ProgramRun, BlackMasksLeaveNoEdgesAndTheSummarySaysSo) {
   for (const auto& image : fs::directory_iterator(workspace_ / "images")) {
     folder_.Write("masks/" + image.path().filename().string() + ".png",
-                  "P5\n200 200\n255\n" + std::string(200 * 200, '\0'));
+                  BlankImage('\0'));
   }
   const Outcome outcome =
       RunWorkspace("--mask_path '" + (folder_.path() / "masks").string() + "'");
@@ -188,7 +188,7 @@ TEST_F(ProgramRun, TheProjectFileRepeatsTheRun) {
 }
 
 TEST_F(ProgramRun, ExplainsWhyBlankImagesGiveNoCurves) {
-  OverwriteImages(BlankImage());
+  OverwriteImages(BlankImage('\xff'));
   const Outcome outcome = RunWorkspace();
   EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
   EXPECT_THAT(outcome.output,

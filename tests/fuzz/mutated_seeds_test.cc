@@ -48,7 +48,9 @@ class Mutator {
         if (at < bytes.size()) bytes[at] = static_cast<char>(Below(256));
         break;
       case 1:
-        if (at < bytes.size()) bytes[at] ^= static_cast<char>(1 << Below(8));
+        if (at < bytes.size()) {
+          bytes[at] = static_cast<char>(bytes[at] ^ (1 << Below(8)));
+        }
         break;
       case 2:
         bytes.resize(at);

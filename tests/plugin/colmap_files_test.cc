@@ -116,10 +116,10 @@ TEST(ColmapBinary, HostileCountsAllocateNothing) {
     EXPECT_FALSE(ParseImagesBinary(Bytes(count) + filler, "f").ok());
     EXPECT_FALSE(ParsePointsBinary(Bytes(count) + filler, "f").ok());
     std::string image = kImage;
-    image.replace(kImage.size() - 7 * 8, 8, Bytes(count));
+    image.replace(kImage.size() - 7 * sizeof(U64), sizeof(U64), Bytes(count));
     EXPECT_FALSE(ParseImagesBinary(image, "f").ok());
     std::string point = kPoint;
-    point.replace(kPoint.size() - 2 * 8, 8, Bytes(count));
+    point.replace(kPoint.size() - 2 * sizeof(U64), sizeof(U64), Bytes(count));
     EXPECT_FALSE(ParsePointsBinary(point, "f").ok());
   }
 }

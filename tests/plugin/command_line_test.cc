@@ -29,7 +29,7 @@ class CommandLine : public testing::Test {
     }
   }
 
-  Result<Request> Parse(std::vector<std::string> arguments) {
+  Result<Request> Parse(const std::vector<std::string>& arguments) {
     return ParseFlags(arguments, sections_);
   }
   std::string Error(std::vector<std::string> arguments) {

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 constexpr double kStep = 0.002;
 
-Curve Polyline(std::vector<Eigen::Vector3d> points) {
+Curve Polyline(const std::vector<Eigen::Vector3d>& points) {
   Curve curve;
   for (const Eigen::Vector3d& point : points) {
     CurveSample sample;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstddef>
 #include <sstream>
 
 #include "gmock/gmock.h"
@@ -20,7 +21,7 @@ class Progress : public testing::Test {
   ProgressPrinter Printer(bool is_terminal) {
     return {stream_, is_terminal, [this] { return now_; }};
   }
-  long NumDraws() const {
+  std::ptrdiff_t NumDraws() const {
     const std::string text = stream_.str();
     return std::count(text.begin(), text.end(), '[') -
            std::count(text.begin(), text.end(), '\033');
