@@ -70,8 +70,9 @@ TEST(FitToImages, BlurDoesNotShrinkCircles) {
   }
   double sum = 0;
   const Curve fitted = Fit(blurred);
-  for (const CurveSample& sample : fitted.samples)
+  for (const CurveSample& sample : fitted.samples) {
     sum += sample.position.norm();
+  }
   EXPECT_NEAR(sum / kPixel / static_cast<double>(fitted.samples.size()),
               radius_px,
               0.005);

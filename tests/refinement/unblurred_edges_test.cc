@@ -93,8 +93,10 @@ GrayImage SharpDisc(double radius_px) {
     for (int x = 0; x < image.width; ++x) {
       int num_inside = 0;
       for (int part = 0; part < kParts * kParts; ++part) {
-        const Eigen::Vector2d p(x + (part % kParts + 0.5) / kParts,
-                                y + (part / kParts + 0.5) / kParts);
+        const int column = part % kParts;
+        const int row = part / kParts;
+        const Eigen::Vector2d p(x + (column + 0.5) / kParts,
+                                y + (row + 0.5) / kParts);
         if (RadiusOf(p) < radius_px) ++num_inside;
       }
       image.pixels.push_back(60 + 100 * static_cast<float>(num_inside) /
