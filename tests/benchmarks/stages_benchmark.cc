@@ -179,7 +179,7 @@ void SaveAndLoadStages(benchmark::State& state) {
   const Input& input = InputOf(state);
   const auto edges = input.folder.path() / "edges.bin";
   const auto sketch = input.folder.path() / "sketch.bin";
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     Require(WriteEdgeMaps(edges, 1, input.edge_maps).ok(), "writing edges");
     Require(WriteEdgeSketch(sketch, 1, input.sketch).ok(), "writing sketch");
     Require(Value(ReadEdgeMaps(edges, 1)).size() == input.edge_maps.size(),
