@@ -69,14 +69,25 @@ double MedianShift(const std::vector<Rigid3>& poses,
   return shifts[shifts.size() / 2];
 }
 
-CurvePoses Refine(const Scene& scene, int num_threads = 0) {
+CurvePoses Refine(const Scene& scene,
+                  const std::vector<EdgeMap>& edge_maps,
+                  int num_threads = 0) {
   Options options;
   options.runtime.num_threads = num_threads;
-  std::vector<EdgeMap> edge_maps = Wires().edge_maps;
-  edge_maps.resize(scene.views.size());
   const auto refined = RefinePosesWithCurves(scene, edge_maps, options);
   EXPECT_TRUE(refined.ok()) << refined.status().message();
   return *refined;
+}
+
+// Of the first views of Wires(), in order.
+std::vector<EdgeMap> EdgesOf(const Scene& scene) {
+  std::vector<EdgeMap> edge_maps = Wires().edge_maps;
+  edge_maps.resize(scene.views.size());
+  return edge_maps;
+}
+
+CurvePoses Refine(const Scene& scene, int num_threads = 0) {
+  return Refine(scene, EdgesOf(scene), num_threads);
 }
 
 // Enough for laws.
@@ -140,6 +151,20 @@ TEST(RefinePosesWithCurves, TheWorldsFrameAndUnitMakeNoDifference) {
   ASSERT_TRUE(moved.accepted) << moved.reason;
   const CurvePoses refined = Refine(disturbed);
   EXPECT_LT(MedianShift(moved.cam_from_world, refined.cam_from_world), 0.001);
+}
+
+TEST(RefinePosesWithCurves, TheOrderOfTheViewsMakesNoDifference) {
+  const Scene disturbed = FewDisturbedViews();
+  Scene reversed = disturbed;
+  std::reverse(reversed.views.begin(), reversed.views.end());
+  std::vector<EdgeMap> edge_maps = EdgesOf(disturbed);
+  std::reverse(edge_maps.begin(), edge_maps.end());
+  CurvePoses refined = Refine(reversed, edge_maps);
+  ASSERT_TRUE(refined.accepted) << refined.reason;
+  std::reverse(refined.cam_from_world.begin(), refined.cam_from_world.end());
+  EXPECT_LT(
+      MedianShift(refined.cam_from_world, Refine(disturbed).cam_from_world),
+      0.001);
 }
 
 TEST(RefinePosesWithCurves, KeepsThePosesWithoutEdges) {
