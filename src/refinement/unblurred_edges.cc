@@ -3,7 +3,7 @@
 #include "refinement/unblurred_edges.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "geometry/image_edge.h"
 #include "refinement/samples_around.h"
@@ -45,7 +45,7 @@ std::optional<Bend> BendAround(const Curve& curve,
   };
   std::sort(around.begin(), around.end(), by_place);
   const double middle = (around.front().along + around.back().along) / 2;
-  auto between = std::lower_bound(
+  const auto between = std::lower_bound(
       around.begin() + 1, around.end() - 2, SampleAround{0, middle}, by_place);
   return Bend{curve.samples[around.front().index].position,
               curve.samples[between->index].position,
