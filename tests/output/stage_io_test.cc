@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/laws/compare_runs.h"
 #include "tests/plugin/temporary_folder.h"
 
 namespace curvix {
@@ -93,14 +94,7 @@ TEST_F(StageIo, GivesASketchBackBitByBit) {
   EXPECT_EQ(read->counts.view_pairs, 1);
   EXPECT_EQ(read->counts.unsupported, 4);
   EXPECT_EQ(read->counts.used_edges, 6'000'000'000);
-  ASSERT_EQ(read->edges.size(), sketch.edges.size());
-  for (std::size_t i = 0; i < sketch.edges.size(); ++i) {
-    EXPECT_EQ(read->edges[i].position, sketch.edges[i].position);
-    EXPECT_EQ(read->edges[i].tangent, sketch.edges[i].tangent);
-    EXPECT_EQ(read->edges[i].sigma, sketch.edges[i].sigma);
-    EXPECT_EQ(read->edges[i].evidence, sketch.edges[i].evidence);
-    EXPECT_EQ(read->edges[i].support, sketch.edges[i].support);
-  }
+  ExpectIdentical(read->edges, sketch.edges);
 }
 
 CurvePoses SomePoses() {
