@@ -23,6 +23,8 @@ struct Edge2d {
   // a Gaussian of standard deviation w pixels, the detector's own included; <=
   // 0 where the gradient has no peak; 0 also if it is not known.
   float sharpness = 0;
+  // Brightness on the edge, half-way between its sides, grey levels (0..255).
+  float level = 0;
 };
 
 // The neighbours of an edge along its image contour (paper, Sec. 5): `next`

@@ -93,6 +93,7 @@ void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   edge.angle = static_cast<float>(std::atan2(-normal.x(), normal.y()));
   edge.strength = static_cast<float>(gradient.norm());
   edge.sharpness = static_cast<float>(Sharpness(d, gradient));
+  edge.level = static_cast<float>(d(0, 0));
 }
 
 // The edge next to point `i` of the middle row, which is row `grid_row`.

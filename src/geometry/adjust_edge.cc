@@ -15,23 +15,6 @@ namespace {
 
 constexpr int kNumIterations = 3;
 
-// Signed pixel distance of x from the measured edge, and its gradient.
-struct Residual {
-  double value = 0;
-  Eigen::Vector3d gradient;
-};
-Residual Evaluate(const PlaneMeasurement& m, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d offset = x - m.center;
-  const double depth = m.axis.dot(offset);
-  const double value = m.plane.dot(offset) / depth;
-  return {value, (m.plane - value * m.axis) / depth};
-}
-
-double CauchyWeight(double residual, double sigma_px) {
-  const double r = residual / sigma_px;
-  return 1 / (1 + r * r);
-}
-
 struct NormalEquations {
   Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
   Eigen::Vector2d vector = Eigen::Vector2d::Zero();
@@ -44,13 +27,13 @@ NormalEquations Linearise(const EdgeEstimate& estimate,
                           double sigma_px) {
   NormalEquations sum;
   for (const PlaneMeasurement& m : measurements) {
-    const Residual residual = Evaluate(m, estimate.edge.position);
-    const double weight = CauchyWeight(residual.value, sigma_px);
-    const Eigen::Vector2d gradient(residual.gradient.dot(estimate.across1),
-                                   residual.gradient.dot(estimate.across2));
+    const SeenDistance distance = DistanceFrom(m, estimate.edge.position);
+    const double weight = CauchyWeight(distance.px, sigma_px);
+    const Eigen::Vector2d gradient(distance.gradient.dot(estimate.across1),
+                                   distance.gradient.dot(estimate.across2));
     sum.matrix += weight * gradient * gradient.transpose();
-    sum.vector += weight * residual.value * gradient;
-    sum.weighted_squares += weight * residual.value * residual.value;
+    sum.vector += weight * distance.px * gradient;
+    sum.weighted_squares += weight * distance.px * distance.px;
     sum.weights += weight;
   }
   // Keeps the system regular: a prior as weak as a thousandth of a measurement.
@@ -68,7 +51,7 @@ Eigen::Vector3d FitTangent(const EdgeEstimate& estimate,
   for (const PlaneMeasurement& m : measurements) {
     const Eigen::Vector3d normal = m.plane.normalized();
     const double weight =
-        CauchyWeight(Evaluate(m, estimate.edge.position).value, sigma_px);
+        CauchyWeight(DistanceFrom(m, estimate.edge.position).px, sigma_px);
     scatter += weight * normal * normal.transpose();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;

@@ -23,6 +23,26 @@ struct PlaneMeasurement {
 };
 PlaneMeasurement MeasurePlane(const PosedView& view, const ImageEdge& edge);
 
+// How far x is seen beside the measured edge, pixels, positive on the side of
+// EdgePlane(), and how fast that grows with x.
+struct SeenDistance {
+  double px = 0;
+  Eigen::Vector3d gradient;
+};
+inline SeenDistance DistanceFrom(const PlaneMeasurement& measured,
+                                 const Eigen::Vector3d& x) {
+  const Eigen::Vector3d offset = x - measured.center;
+  const double depth = measured.axis.dot(offset);
+  const double px = measured.plane.dot(offset) / depth;
+  return {px, (measured.plane - px * measured.axis) / depth};
+}
+
+// Of a measurement that is so far off, after Cauchy.
+inline double CauchyWeight(double distance_px, double sigma_px) {
+  const double r = distance_px / sigma_px;
+  return 1 / (1 + r * r);
+}
+
 // An estimate and how well it is known: `covariance` of the position across the
 // tangent, on the axes `across1`, `across2`, world units squared.
 struct EdgeEstimate {

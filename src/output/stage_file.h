@@ -70,6 +70,7 @@ inline void Put(const Edge2d& edge, ByteWriter& out) {
   out.Put(edge.angle);
   out.Put(edge.strength);
   out.Put(edge.sharpness);
+  out.Put(edge.level);
 }
 
 inline Edge2d TakeEdge2d(ByteReader& in) {
@@ -79,6 +80,7 @@ inline Edge2d TakeEdge2d(ByteReader& in) {
   edge.angle = in.Take<float>();
   edge.strength = in.Take<float>();
   edge.sharpness = in.Take<float>();
+  edge.level = in.Take<float>();
   return edge;
 }
 

@@ -90,7 +90,8 @@ class CurveInViews {
  public:
   CurveInViews(const Curve& curve,
                const std::vector<PosedView>& views,
-               const std::vector<EdgeMap>& edge_maps)
+               const std::vector<EdgeMap>& edge_maps,
+               const ToneCurve& tone)
       : curve_(curve) {
     std::map<std::int32_t, std::size_t> places;
     for (std::size_t k = 0; k < curve.samples.size(); ++k) {
@@ -107,7 +108,7 @@ class CurveInViews {
             edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
         evidence.push_back(Measure(sample.position,
                                    views[v],
-                                   Unblurred(edge, views[v], bend),
+                                   Unblurred(edge, views[v], bend, tone),
                                    place->second));
       }
     }
@@ -138,14 +139,9 @@ class CurveInViews {
                           const PosedView& view,
                           const ImageEdge& edge,
                           std::size_t view_place) {
-    const PlaneMeasurement measured = MeasurePlane(view, edge);
-    const Eigen::Vector3d x = position - measured.center;
-    const double depth = measured.axis.dot(x);
-    const double distance = measured.plane.dot(x) / depth;
-    return {view_place,
-            1,
-            distance,
-            (measured.plane - distance * measured.axis) / depth};
+    const SeenDistance distance =
+        DistanceFrom(MeasurePlane(view, edge), position);
+    return {view_place, 1, distance.px, distance.gradient};
   }
 
   Agreement Summary(const CurveSample& sample,
@@ -197,8 +193,9 @@ class CurveInViews {
 std::vector<Agreement> MeasureAgreement(const Curve& curve,
                                         const std::vector<PosedView>& views,
                                         const std::vector<EdgeMap>& edge_maps,
+                                        const ToneCurve& tone,
                                         double smoothing_px) {
-  const CurveInViews in_views(curve, views, edge_maps);
+  const CurveInViews in_views(curve, views, edge_maps, tone);
   const double bandwidth_px = std::max(kMinBandwidthPx, smoothing_px);
   std::vector<Agreement> agreements;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
@@ -230,12 +227,13 @@ Scatter UsualScatter(const std::vector<std::vector<Agreement>>& agreements) {
 std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
                                        const std::vector<PosedView>& views,
                                        const std::vector<EdgeMap>& edge_maps,
+                                       const ToneCurve& tone,
                                        const CurveRefinementOptions& options,
                                        int num_threads) {
   std::vector<std::vector<Agreement>> agreements(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    agreements[i] =
-        MeasureAgreement(curves[i], views, edge_maps, options.smoothing_px);
+    agreements[i] = MeasureAgreement(
+        curves[i], views, edge_maps, tone, options.smoothing_px);
   });
   const Scatter usual = UsualScatter(agreements);
   for (std::size_t i = 0; i < curves.size(); ++i) {

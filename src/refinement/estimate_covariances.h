@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/posed_view.h"
+#include "refinement/unblurred_edges.h"
 
 namespace curvix {
 
@@ -30,6 +31,7 @@ namespace curvix {
 std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
                                        const std::vector<PosedView>& views,
                                        const std::vector<EdgeMap>& edge_maps,
+                                       const ToneCurve& tone,
                                        const CurveRefinementOptions& options,
                                        int num_threads);
 

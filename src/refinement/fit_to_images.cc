@@ -48,15 +48,12 @@ class EdgeCost : public ceres::SizedCostFunction<1, 2> {
   bool Evaluate(double const* const* offsets,
                 double* residual,
                 double** jacobians) const override {
-    const Eigen::Vector3d x = station_.At(offsets[0]) - measured_.center;
-    const double depth = measured_.axis.dot(x);
-    const double distance = measured_.plane.dot(x) / depth;
-    residual[0] = distance / kEdgeSigmaPx;
+    const SeenDistance distance =
+        DistanceFrom(measured_, station_.At(offsets[0]));
+    residual[0] = distance.px / kEdgeSigmaPx;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    const Eigen::Vector2d gradient =
-        station_.axes.transpose() *
-        (measured_.plane - distance * measured_.axis) / depth;
-    Eigen::Map<Eigen::Vector2d>{jacobians[0]} = gradient / kEdgeSigmaPx;
+    Eigen::Map<Eigen::Vector2d>{jacobians[0]} =
+        station_.axes.transpose() * distance.gradient / kEdgeSigmaPx;
     return true;
   }
 
@@ -121,7 +118,8 @@ class CurveFitter {
   }
 
   void AddEdges(const std::vector<PosedView>& views,
-                const std::vector<EdgeMap>& edge_maps) {
+                const std::vector<EdgeMap>& edge_maps,
+                const ToneCurve& tone) {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
       for (const EdgeRef& ref : curve_.samples[k].support) {
@@ -131,7 +129,7 @@ class CurveFitter {
         problem_.AddResidualBlock(
             new EdgeCost(
                 stations_[k],
-                MeasurePlane(views[v], Unblurred(edge, views[v], bend))),
+                MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone))),
             new ceres::CauchyLoss(1),
             offsets_[k].data());
       }
@@ -197,6 +195,7 @@ class CurveFitter {
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,
+                               const ToneCurve& tone,
                                const CurveRefinementOptions& options,
                                int num_threads) {
   if (!(options.smoothing_px > 0)) return curves;
@@ -208,7 +207,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
     const double pixel = PixelSize(first.position, first.support, views);
     if (!(pixel > 0)) return;
     CurveFitter fitter(curves[i], pixel);
-    fitter.AddEdges(views, edge_maps);
+    fitter.AddEdges(views, edge_maps, tone);
     fitter.AddBends(kStiffness * options.smoothing_px);
     fitted[i] = fitter.Solve();
   });

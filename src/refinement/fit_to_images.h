@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/posed_view.h"
+#include "refinement/unblurred_edges.h"
 
 namespace curvix {
 
@@ -17,7 +18,8 @@ namespace curvix {
 // the least, by Ceres, of
 //   sum rho1(d / 0.15 px) + sum rho2(b^3 |x'''| / (0.05 px)),
 // where d is the distance of a projected sample from the line of its 2D edge,
-// which stands where it would without blur (unblurred_edges.h), b is 1.2
+// which stands where it would without blur (unblurred_edges.h, in images of
+// this tone curve), b is 1.2
 // options.smoothing_px, x''' is the third derivative by arc length of four
 // samples in a row, small for all smooth curves, and the losses are Cauchy's: a
 // wrong 2D edge hardly pulls, and a kink that the images show stays. So noise
@@ -27,6 +29,7 @@ namespace curvix {
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,
+                               const ToneCurve& tone,
                                const CurveRefinementOptions& options,
                                int num_threads);
 

@@ -9,6 +9,7 @@
 #include "geometry/loose_curves.h"
 #include "refinement/bridge_gaps.h"
 #include "refinement/estimate_covariances.h"
+#include "refinement/estimate_tone_curve.h"
 #include "refinement/fit_to_images.h"
 #include "refinement/image_support.h"
 #include "refinement/meet_at_junctions.h"
@@ -48,8 +49,10 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
       SmoothCurves(selected.edges, views, options, num_threads);
   const ImageSupport images(views, edge_maps, num_threads);
   refined = BridgeGaps(std::move(refined), views, images, options);
-  refined =
-      FitToImages(std::move(refined), views, edge_maps, options, num_threads);
+  const ToneCurve tone =
+      EstimateToneCurve(refined, views, edge_maps, num_threads);
+  refined = FitToImages(
+      std::move(refined), views, edge_maps, tone, options, num_threads);
   refined = MeetAtJunctions(std::move(refined), views, options);
   refined =
       DropLooseShortCurves(std::move(refined), views, options.min_length_px);
@@ -60,7 +63,7 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
     }
   }
   return EstimateCovariances(
-      std::move(refined), views, edge_maps, options, num_threads);
+      std::move(refined), views, edge_maps, tone, options, num_threads);
 }
 
 }  // namespace curvix

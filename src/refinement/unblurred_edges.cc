@@ -3,6 +3,8 @@
 #include "refinement/unblurred_edges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "geometry/image_edge.h"
@@ -13,6 +15,8 @@ namespace {
 
 constexpr double kReachPx = 4;
 constexpr double kMaxShiftPx = 0.25;
+constexpr double kWhite = 255;
+constexpr double kMinLevel = 0.015;  // below it, dark is as good as black
 
 // 1 / radius of the circle through the projections, times the direction away
 // from its centre; zero where a place is not in front of the view.
@@ -30,6 +34,16 @@ Eigen::Vector2d OutwardCurvature(const PosedView& view, const Bend& bend) {
   const double sides = a.norm() * b.norm() * chord.squaredNorm();
   if (sides == 0) return Eigen::Vector2d::Zero();
   return 2 * twice_area / sides * Eigen::Vector2d(chord.y(), -chord.x());
+}
+
+// To where the edge of a curve that bends like this would be without blur.
+Eigen::Vector2d BendShift(const Edge2d& edge,
+                          const PosedView& view,
+                          const Bend& bend) {
+  const Eigen::Vector2d shift =
+      OutwardCurvature(view, bend) / (2 * static_cast<double>(edge.sharpness));
+  const double length = shift.norm();
+  return length > kMaxShiftPx ? kMaxShiftPx / length * shift : shift;
 }
 
 }  // namespace
@@ -52,16 +66,28 @@ std::optional<Bend> BendAround(const Curve& curve,
               curve.samples[around.back().index].position};
 }
 
+Eigen::Vector2d ToneLever(const Edge2d& edge) {
+  if (!(edge.sharpness > 0)) return Eigen::Vector2d::Zero();
+  const double level = static_cast<double>(edge.level) / kWhite;
+  const double half_contrast =
+      static_cast<double>(edge.strength) / kWhite *
+      std::sqrt(std::numbers::pi / 2 / static_cast<double>(edge.sharpness));
+  const bool is_clipped = level - half_contrast < kMinLevel ||
+                          level + half_contrast > 1 - kMinLevel;
+  if (is_clipped) return Eigen::Vector2d::Zero();
+  return {half_contrast / level, half_contrast / (1 - level)};
+}
+
 ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
-                    const std::optional<Bend>& bend) {
+                    const std::optional<Bend>& bend,
+                    const ToneCurve& tone) {
   ImageEdge unblurred = ToImageEdge(edge);
-  if (!bend || !(edge.sharpness > 0)) return unblurred;
-  const Eigen::Vector2d curvature = OutwardCurvature(view, *bend);
-  Eigen::Vector2d shift = curvature / (2 * static_cast<double>(edge.sharpness));
-  const double length = shift.norm();
-  if (length > kMaxShiftPx) shift *= kMaxShiftPx / length;
-  unblurred.position += shift;
+  if (!(edge.sharpness > 0)) return unblurred;
+  const Eigen::Vector2d to_bright(-unblurred.tangent.y(),
+                                  unblurred.tangent.x());
+  unblurred.position += ToneLever(edge).dot(tone.px) * to_bright;
+  if (bend) unblurred.position += BendShift(edge, view, *bend);
   return unblurred;
 }
 

@@ -89,6 +89,13 @@ inline std::vector<EdgeMap> SupportByEdges(const std::vector<PosedView>& views,
   return edge_maps;
 }
 
+// To the bright side.
+inline void MoveAcross(double distance_px, Edge2d& edge) {
+  const auto angle = static_cast<double>(edge.angle);
+  edge.position +=
+      distance_px * Eigen::Vector2d(-std::sin(angle), std::cos(angle));
+}
+
 // The curves and the views of a scene `factor` times as large.
 inline std::vector<Curve> Scaled(std::vector<Curve> curves, double factor) {
   for (Curve& curve : curves) {

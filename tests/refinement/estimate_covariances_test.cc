@@ -46,12 +46,6 @@ SeenCurves See(std::vector<Curve> curves, std::vector<PosedView> views) {
   return seen;
 }
 
-void MoveAcross(double distance_px, Edge2d& edge) {
-  const auto angle = static_cast<double>(edge.angle);
-  edge.position +=
-      distance_px * Eigen::Vector2d(-std::sin(angle), std::cos(angle));
-}
-
 // Edges are off by what they share with their neighbours on the curve, and by
 // what they do not.
 void Disturb(double shared_px,
@@ -76,7 +70,7 @@ void Disturb(double shared_px,
 
 std::vector<Curve> Estimate(const SeenCurves& seen) {
   return EstimateCovariances(
-      seen.curves, seen.views, seen.edge_maps, kOptions, 1);
+      seen.curves, seen.views, seen.edge_maps, {}, kOptions, 1);
 }
 
 SeenCurves DisturbedLines(int num_lines,
@@ -115,7 +109,7 @@ TEST(EstimateCovariances, ErrorsAreAsLargeAsTheySay) {
       SeenCurves seen =
           DisturbedLines(60, ViewsAround(num_views, step), shared_px, own_px);
       seen.curves = FitToImages(
-          std::move(seen.curves), seen.views, seen.edge_maps, kOptions, 1);
+          std::move(seen.curves), seen.views, seen.edge_maps, {}, kOptions, 1);
       EXPECT_NEAR(NormalisedSpread(Estimate(seen)), 1, 0.3)
           << num_views << " views, " << shared_px << " and " << own_px << " px";
     }
@@ -191,8 +185,8 @@ TEST(EstimateCovariances, DoesNotDependOnTheUnit) {
 TEST(EstimateCovariances, ThreadsChangeNothing) {
   const SeenCurves seen = DisturbedLines(7, ViewsAround(8, 0.25), 0.1, 0.05);
   const std::vector<Curve> one = Estimate(seen);
-  const std::vector<Curve> three =
-      EstimateCovariances(seen.curves, seen.views, seen.edge_maps, kOptions, 3);
+  const std::vector<Curve> three = EstimateCovariances(
+      seen.curves, seen.views, seen.edge_maps, {}, kOptions, 3);
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t k = 0; k < one[i].samples.size(); ++k) {
       EXPECT_EQ(one[i].samples[k].covariance, three[i].samples[k].covariance);

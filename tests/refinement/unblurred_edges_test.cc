@@ -44,13 +44,15 @@ Edge2d BlurredEdge(double radius_px) {
 // How far the edge moves if sample `index` of `curve` is the one it shows.
 double ShiftOf(const Edge2d& edge, const Curve& curve, std::size_t index) {
   const auto bend = BendAround(curve, index, kPixel);
-  return (Unblurred(edge, SmallView(), bend).position - edge.position).norm();
+  return (Unblurred(edge, SmallView(), bend, {}).position - edge.position)
+      .norm();
 }
 
 TEST(UnblurredEdges, CirclesHaveTheirRadius) {
   for (const double radius_px : {4.0, 20.0, 100.0}) {
     const auto bend = BendAround(Arc(radius_px, 0, kWholeTurn), 0, kPixel);
-    const ImageEdge edge = Unblurred(BlurredEdge(radius_px), SmallView(), bend);
+    const ImageEdge edge =
+        Unblurred(BlurredEdge(radius_px), SmallView(), bend, {});
     EXPECT_NEAR(RadiusOf(edge.position), radius_px, 1e-3);
   }
 }
@@ -84,8 +86,10 @@ TEST(UnblurredEdges, SharpTurnsMoveThemLittle) {
   EXPECT_NEAR(ShiftOf(BlurredEdge(10), Arc(2, 0, kWholeTurn), 0), 0.25, 1e-9);
 }
 
-// A disc as an ideal camera sees it: each pixel tells how much it covers.
-GrayImage SharpDisc(double radius_px) {
+// What an ideal camera sees: each pixel tells the mean light on its area, which
+// is 160 inside and 60 outside.
+template <typename IsInside>
+GrayImage Picture(const IsInside& is_inside) {
   constexpr int kParts = 16;  // of a pixel, each way
   const PosedView view = SmallView();
   GrayImage image{view.width, view.height, {}};
@@ -97,13 +101,18 @@ GrayImage SharpDisc(double radius_px) {
         const int row = part / kParts;
         const Eigen::Vector2d p(x + (column + 0.5) / kParts,
                                 y + (row + 0.5) / kParts);
-        if (RadiusOf(p) < radius_px) ++num_inside;
+        if (is_inside(p)) ++num_inside;
       }
       image.pixels.push_back(60 + 100 * static_cast<float>(num_inside) /
                                       (kParts * kParts));
     }
   }
   return image;
+}
+
+GrayImage SharpDisc(double radius_px) {
+  return Picture(
+      [&](const Eigen::Vector2d& p) { return RadiusOf(p) < radius_px; });
 }
 
 std::size_t NearestSample(const Curve& curve, const Edge2d& edge) {
@@ -128,13 +137,89 @@ TEST(UnblurredEdges, UndoesWhatTheDetectorDoesToDiscs) {
     for (const Edge2d& edge : edges) {
       const auto bend = BendAround(circle, NearestSample(circle, edge), kPixel);
       detected += RadiusOf(edge.position);
-      unblurred += RadiusOf(Unblurred(edge, SmallView(), bend).position);
+      unblurred += RadiusOf(Unblurred(edge, SmallView(), bend, {}).position);
     }
     const double count = static_cast<double>(edges.size());
     const double shrunk_px = radius_px - detected / count;
     EXPECT_GT(shrunk_px, 0.4 / radius_px);
     EXPECT_LT(std::abs(radius_px - unblurred / count), 0.3 * shrunk_px);
   }
+}
+
+// A step between two levels of brightness (0..1), blurred.
+Edge2d EdgeOfStep(double dark, double bright) {
+  Edge2d edge;
+  edge.position = kCenter;
+  edge.sharpness = static_cast<float>(1 / (kBlurPx * kBlurPx));
+  edge.strength = static_cast<float>(
+      255 * (bright - dark) / (std::sqrt(2 * std::numbers::pi) * kBlurPx));
+  edge.level = static_cast<float>(255 * (dark + bright) / 2);
+  return edge;
+}
+
+TEST(ToneLever, IsHalfTheContrastOverTheLevelAndOverTheRest) {
+  const Eigen::Vector2d lever = ToneLever(EdgeOfStep(0.2, 0.3));
+  EXPECT_NEAR(lever[0], 0.05 / 0.25, 1e-6);
+  EXPECT_NEAR(lever[1], 0.05 / 0.75, 1e-6);
+}
+
+TEST(ToneLever, BlackAndWhiteSidesDoNotTellTheirLight) {
+  EXPECT_EQ(ToneLever(EdgeOfStep(0.5, 1)), Eigen::Vector2d::Zero());
+  EXPECT_EQ(ToneLever(EdgeOfStep(0, 0.5)), Eigen::Vector2d::Zero());
+  EXPECT_NE(ToneLever(EdgeOfStep(0.05, 0.95)), Eigen::Vector2d::Zero());
+}
+
+TEST(ToneLever, EdgesOfUnknownSharpnessHaveNone) {
+  Edge2d edge = EdgeOfStep(0.2, 0.3);
+  edge.sharpness = 0;
+  EXPECT_EQ(ToneLever(edge), Eigen::Vector2d::Zero());
+}
+
+TEST(UnblurredEdges, ToneMovesThemToTheBrightSide) {
+  Edge2d edge = EdgeOfStep(0.2, 0.3);
+  const ToneCurve tone = {{0.5, 0.3}};
+  const double expected = ToneLever(edge).dot(tone.px);
+  for (const double angle : {0.0, 2.0}) {
+    edge.angle = static_cast<float>(angle);
+    const Eigen::Vector2d to_bright(-std::sin(angle), std::cos(angle));
+    const Eigen::Vector2d shift =
+        Unblurred(edge, SmallView(), std::nullopt, tone).position -
+        edge.position;
+    EXPECT_LT((shift - expected * to_bright).norm(), 1e-6);
+  }
+}
+
+// The mean distance of edges from a straight step, towards its bright side.
+double MeanOffset(const std::vector<Edge2d>& edges,
+                  const Eigen::Vector2d& to_bright,
+                  const ToneCurve& tone) {
+  double sum = 0;
+  for (const Edge2d& edge : edges) {
+    const ImageEdge unblurred =
+        Unblurred(edge, SmallView(), std::nullopt, tone);
+    sum += to_bright.dot(unblurred.position - kCenter);
+  }
+  return sum / static_cast<double>(edges.size());
+}
+
+TEST(UnblurredEdges, UndoesWhatAGammaDoesToSteps) {
+  constexpr double kGamma = 2.2;
+  const Eigen::Vector2d to_bright =
+      Eigen::Vector2d(std::cos(0.3), std::sin(0.3));
+  GrayImage image = Picture(
+      [&](const Eigen::Vector2d& p) { return to_bright.dot(p - kCenter) > 0; });
+  for (float& pixel : image.pixels) {
+    pixel = 240 * std::pow(pixel / 255, 1 / static_cast<float>(kGamma));
+  }
+  const std::vector<Edge2d> edges = OrientedEdges(image, {}, 5);
+  ASSERT_GT(edges.size(), 60);
+  // Light is I^gamma, so its slope goes with I^(gamma - 1); of a pixel one wide
+  // the mean distance of two points is 1/3, of which a Gaussian's is 1.13.
+  const double blur_px = 1.0 / 6;
+  const ToneCurve tone = {{(kGamma - 1) * blur_px, 0}};
+  const double detected_px = MeanOffset(edges, to_bright, {});
+  EXPECT_LT(detected_px, -0.02);
+  EXPECT_LT(std::abs(MeanOffset(edges, to_bright, tone)), -0.15 * detected_px);
 }
 
 }  // namespace

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "refinement/estimate_tone_curve.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "base/parallel.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/axes_across.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kEdgeSigmaPx = 0.15;  // of Cauchy's loss
+constexpr double kStepPx = 10;
+constexpr std::size_t kMinNumEdges = 4;
+constexpr double kPrior = 1;  // sum of squared levers
+constexpr int kMaxNumRounds = 10;
+constexpr double kConvergedPx = 0.003;
+
+// Those of least squares: the least of p^T matrix p - 2 vector^T p.
+struct NormalEquations {
+  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d vector = Eigen::Vector2d::Zero();
+
+  void operator+=(const NormalEquations& other) {
+    matrix += other.matrix;
+    vector += other.vector;
+  }
+  double Cost(const Eigen::Vector2d& p) const {
+    return p.dot(matrix * p) - 2 * vector.dot(p);
+  }
+};
+
+// A place on a curve, the edges that show it, and what a tone curve does there.
+struct Place {
+  SpaceEdge edge;
+  std::vector<PlaneMeasurement> measurements;
+  std::vector<Eigen::Vector2d> levers;
+};
+
+Place PlaceOf(const Curve& curve,
+              std::size_t index,
+              double pixel,
+              const std::vector<PosedView>& views,
+              const std::vector<EdgeMap>& edge_maps,
+              const ToneCurve& tone) {
+  const CurveSample& sample = curve.samples[index];
+  Place place = {{sample.position, sample.tangent}, {}, {}};
+  const std::optional<Bend> bend = BendAround(curve, index, pixel);
+  for (const EdgeRef& ref : sample.support) {
+    const auto v = static_cast<std::size_t>(ref.view_idx);
+    const Edge2d& edge =
+        edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+    place.measurements.push_back(
+        MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)));
+    place.levers.push_back(ToneLever(edge));
+  }
+  return place;
+}
+
+// Of what is still missing in the tone curve, without what moving the place
+// across the curve explains as well.
+NormalEquations WithoutMoving(const Place& place) {
+  const SpaceEdge adjusted =
+      AdjustEdge(place.edge, place.measurements, kEdgeSigmaPx).edge;
+  const AcrossAxes axes = AxesAcross(adjusted.tangent);
+  NormalEquations tone, moving;
+  Eigen::Matrix2d mixed = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < place.measurements.size(); ++i) {
+    const SeenDistance distance =
+        DistanceFrom(place.measurements[i], adjusted.position);
+    const double weight = CauchyWeight(distance.px, kEdgeSigmaPx);
+    const Eigen::Vector2d lever = place.levers[i];
+    const Eigen::Vector2d gradient = axes.transpose() * distance.gradient;
+    tone.matrix += weight * lever * lever.transpose();
+    tone.vector += weight * distance.px * lever;
+    moving.matrix += weight * gradient * gradient.transpose();
+    moving.vector += weight * distance.px * gradient;
+    mixed += weight * lever * gradient.transpose();
+  }
+  const Eigen::Matrix2d explained = mixed * moving.matrix.inverse();
+  tone.matrix -= explained * mixed.transpose();
+  tone.vector -= explained * moving.vector;
+  if (!tone.matrix.allFinite() || !tone.vector.allFinite()) return {};
+  return tone;
+}
+
+NormalEquations OfCurve(const Curve& curve,
+                        const std::vector<PosedView>& views,
+                        const std::vector<EdgeMap>& edge_maps,
+                        const ToneCurve& tone) {
+  NormalEquations sum;
+  double since_last_px = kStepPx;
+  for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+    const CurveSample& sample = curve.samples[k];
+    const double pixel = PixelSize(sample.position, sample.support, views);
+    if (k > 0) {
+      since_last_px +=
+          (sample.position - curve.samples[k - 1].position).norm() / pixel;
+    }
+    if (since_last_px < kStepPx || sample.support.size() < kMinNumEdges) {
+      continue;
+    }
+    since_last_px = 0;
+    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, tone));
+  }
+  return sum;
+}
+
+// The least where neither component is below 0.
+Eigen::Vector2d SolveNotNegative(const NormalEquations& sum) {
+  const Eigen::Vector2d free = sum.matrix.ldlt().solve(sum.vector);
+  if (free.minCoeff() >= 0) return free;
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    Eigen::Vector2d one = Eigen::Vector2d::Zero();
+    one[i] = std::max(0.0, sum.vector[i] / sum.matrix(i, i));
+    if (sum.Cost(one) < sum.Cost(best)) best = one;
+  }
+  return best;
+}
+
+}  // namespace
+
+ToneCurve EstimateToneCurve(const std::vector<Curve>& curves,
+                            const std::vector<PosedView>& views,
+                            const std::vector<EdgeMap>& edge_maps,
+                            int num_threads) {
+  ToneCurve tone;
+  for (int round = 0; round < kMaxNumRounds; ++round) {
+    std::vector<NormalEquations> of_curves(curves.size());
+    ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+      of_curves[i] = OfCurve(curves[i], views, edge_maps, tone);
+    });
+    NormalEquations sum;
+    for (const NormalEquations& of_curve : of_curves) sum += of_curve;
+    sum.vector += sum.matrix * tone.px;  // from what is missing to the whole
+    sum.matrix += kPrior * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d px = SolveNotNegative(sum);
+    const double change = (px - tone.px).norm();
+    tone.px = px;
+    if (change < kConvergedPx) break;
+  }
+  return tone;
+}
+
+}  // namespace curvix
