@@ -20,7 +20,7 @@ namespace {
 
 // The weakest edges of a crowded image are dropped before they are oriented and
 // linked: those beyond so many times the limit.
-constexpr std::int64_t kCrowd = 4;
+constexpr std::int64_t kCrowd = 2;
 
 Result<std::int32_t> DropMaskedEdges(const View& view,
                                      const Camera& camera,

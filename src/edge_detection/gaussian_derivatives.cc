@@ -11,12 +11,16 @@ namespace curvix {
 namespace {
 
 // Weights of the samples at -1, 0, 1, 2 for the value at t in [0, 1].
-std::array<double, 4> CubicWeights(double t) {
+Eigen::Array4d CubicWeights(double t) {
   return {((-0.5 * t + 1) * t - 0.5) * t,
           (1.5 * t - 2.5) * t * t + 1,
           ((-1.5 * t + 2) * t + 0.5) * t,
           (0.5 * t - 0.5) * t * t};
 }
+
+// How far the outermost pixels of a filter are from some of the four grid
+// points, beyond the reach of the Gaussian: half pixels.
+constexpr int kPadding = 3;
 
 }  // namespace
 
@@ -42,70 +46,70 @@ double GradientNoiseGain(double sigma_px) {
 }
 
 ImageDerivatives::ImageDerivatives(const GrayImage& image, double sigma_px)
-    : image_(image),
-      radius_(GaussianRadius(sigma_px)),
-      pixel_radius_(PixelFilterRadius(sigma_px)) {
+    : image_(image), radius_(GaussianRadius(sigma_px)) {
   const int reach = 2 * radius_ + 1;
-  for (int half_pixels = -reach; half_pixels <= reach; ++half_pixels) {
+  const int near_reach = 2 * PixelFilterRadius(sigma_px);
+  for (int half_pixels = -reach - kPadding; half_pixels <= reach + kPadding;
+       ++half_pixels) {
     const auto g = GaussianDerivatives(half_pixels / 2.0, sigma_px);
-    table_.push_back(Eigen::Array4d(g[0], g[1], g[2], g[3]).cast<float>());
+    const Orders orders = Eigen::Array4d(g[0], g[1], g[2], g[3]).cast<float>();
+    const int distance = std::abs(half_pixels);
+    table_.push_back(distance <= reach ? orders : Orders::Zero());
+    near_table_.push_back(distance <= near_reach ? orders : Orders::Zero());
   }
   const auto size = static_cast<std::size_t>(2 * radius_ + 3);
-  x_.weights.resize(size);
-  y_.weights.resize(size);
+  x_.resize(size);
+  y_.resize(size);
 }
 
-void ImageDerivatives::SetFilter(double position, Filter& filter) const {
+void ImageDerivatives::SetFilter(double position,
+                                 int num_pixels,
+                                 Filter& filter) const {
   // On the half-pixel grid, pixel i is at 2 * i.
   const double on_grid = 2 * position - 1;
   const int cell = static_cast<int>(std::floor(on_grid));
-  const std::array<double, 4> cubic = CubicWeights(on_grid - cell);
-  const int reach = 2 * radius_ + 1;
-  filter.first_pixel = (cell + 1) / 2 - radius_ - 1;
-  int pixel = filter.first_pixel;
-  for (Weights& weights : filter.weights) {
-    weights = {Orders::Zero(), Orders::Zero(), Orders::Zero()};
-    for (int k = 0; k < 4; ++k) {
-      const int half_pixels = cell - 1 + k - 2 * pixel;
-      if (std::abs(half_pixels) > reach) continue;
-      const Orders share =
-          static_cast<float>(cubic[static_cast<std::size_t>(k)]) *
-          table_[static_cast<std::size_t>(half_pixels + reach)];
-      if (half_pixels % 2 != 0) {
-        weights.between += share;
-        continue;
-      }
-      weights.on_pixel += share;
-      if (std::abs(half_pixels) <= 2 * pixel_radius_) {
-        weights.near_pixel += share;
-      }
-    }
+  const Eigen::Array4f cubic = CubicWeights(on_grid - cell).cast<float>();
+  int pixel = ((cell + 1) >> 1) - radius_ - 1;
+  // The first of the four grid points around the position, from this pixel. Of
+  // these every other one is on a pixel.
+  int half_pixels = cell - 1 - 2 * pixel;
+  const int between = half_pixels % 2 == 0 ? 1 : 0;
+  const int on_pixel = 1 - between;
+  for (Weights& weights : filter) {
+    const auto first =
+        static_cast<std::size_t>(half_pixels + 2 * radius_ + 1 + kPadding);
+    const auto sum = [&](const std::vector<Orders>& table, int k) -> Orders {
+      const Orders* points = &table[first];
+      return cubic[k] * points[k] + cubic[k + 2] * points[k + 2];
+    };
+    weights.pixel = std::clamp(pixel, 0, num_pixels - 1);
+    weights.between = sum(table_, between);
+    weights.on_pixel = sum(table_, on_pixel);
+    weights.near_pixel = sum(near_table_, on_pixel);
     ++pixel;
+    half_pixels -= 2;
   }
 }
 
-ImageDerivatives::Weights ImageDerivatives::AlongRow(int row) const {
-  const int inside = std::clamp(row, 0, image_.height - 1);
-  Weights sum{Orders::Zero(), Orders::Zero(), Orders::Zero()};
-  int column = x_.first_pixel;
-  for (const Weights& weights : x_.weights) {
-    const float value =
-        image_.at(std::clamp(column, 0, image_.width - 1), inside);
+ImageDerivatives::Sums ImageDerivatives::AlongRow(int row) const {
+  const float* pixels =
+      image_.pixels.data() + static_cast<std::ptrdiff_t>(row) * image_.width;
+  Sums sum{Orders::Zero(), Orders::Zero(), Orders::Zero()};
+  for (const Weights& weights : x_) {
+    const float value = pixels[weights.pixel];
     sum.between += value * weights.between;
     sum.on_pixel += value * weights.on_pixel;
     sum.near_pixel += value * weights.near_pixel;
-    ++column;
   }
   return sum;
 }
 
 Eigen::Matrix4d ImageDerivatives::At(const Eigen::Vector2d& position) {
-  SetFilter(position.x(), x_);
-  SetFilter(position.y(), y_);
+  SetFilter(position.x(), image_.width, x_);
+  SetFilter(position.y(), image_.height, y_);
   Eigen::Array44f derivatives = Eigen::Array44f::Zero();  // column: order in x
-  int row = y_.first_pixel;
-  for (const Weights& across : y_.weights) {
-    const Weights along = AlongRow(row++);
+  for (const Weights& across : y_) {
+    const Sums along = AlongRow(across.pixel);
     // Grid points that are pixel centres, on a pixel along both axes, have the
     // shorter filters.
     const Orders along_any = along.between + along.on_pixel;

@@ -48,26 +48,25 @@ class ImageDerivatives {
  private:
   // By order of the derivative, 0 to 3.
   using Orders = Eigen::Array4f;
-  // The weights of one pixel along one axis, as far as they come from grid
-  // points between two pixels, on a pixel, and on a pixel within
-  // PixelFilterRadius() of this one.
-  struct Weights {
+  // What comes from grid points between two pixels, on a pixel, and on a pixel
+  // within PixelFilterRadius().
+  struct Sums {
     Orders between, on_pixel, near_pixel;
   };
-  // `weights[i]` are those of pixel first_pixel + i.
-  struct Filter {
-    int first_pixel = 0;
-    std::vector<Weights> weights;
+  // The weights of one pixel along one axis.
+  struct Weights : Sums {
+    int pixel = 0;  // or the nearest inside the image
   };
-  void SetFilter(double position, Filter& filter) const;
-  // The image's row `row`, or the nearest, weighted.
-  Weights AlongRow(int row) const;
+  using Filter = std::vector<Weights>;
+  void SetFilter(double position, int num_pixels, Filter& filter) const;
+  // The image's row `row`, weighted.
+  Sums AlongRow(int row) const;
 
   const GrayImage& image_;
   int radius_;
-  int pixel_radius_;
-  // Gaussian derivatives at x = (row - 2 * radius_ - 1) / 2 pixels.
-  std::vector<Orders> table_;
+  // Gaussian derivatives at every half pixel from the negative to the positive
+  // reach of the four grid points; zero beyond the filters' reach.
+  std::vector<Orders> table_, near_table_;
   Filter x_, y_;  // of the last call
 };
 
