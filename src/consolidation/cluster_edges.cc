@@ -52,12 +52,17 @@ class Clustering {
         max_distance_px_(options.max_cluster_distance_px),
         min_doubled_cosine_(
             std::cos(2 * DegToRad(options.max_cluster_angle_deg))),
+        min_cosine_(std::cos(DegToRad(options.max_cluster_angle_deg))),
         sigma_px_(options.angle_weight_sigma_px) {}
 
   // The clusters of members [begin, end), which are in order along the line and
   // out of reach of all others; in order along the line.
   const std::vector<Cluster>& Agglomerate(int begin, int end) {
     clusters_.clear();
+    if (AreOne(begin, end)) {
+      clusters_.push_back(ClusterOf(begin, end));
+      return clusters_;
+    }
     for (int i = begin; i < end; ++i) {
       const Member& member = At(i);
       clusters_.push_back({member.along, member.direction, i, i, 1});
@@ -68,6 +73,24 @@ class Clustering {
 
  private:
   Member& At(int i) const { return members_[static_cast<std::size_t>(i)]; }
+
+  // Whether nothing could keep apart any two clusters of these members: all lie
+  // near enough, and all directions within half the limit from one of them.
+  bool AreOne(int begin, int end) const {
+    if (At(end - 1).along - At(begin).along > max_distance_px_) return false;
+    for (int i = begin + 1; i < end; ++i) {
+      if (At(i).direction.dot(At(begin).direction) < min_cosine_) return false;
+    }
+    return true;
+  }
+
+  Cluster ClusterOf(int begin, int end) const {
+    for (int i = begin; i + 1 < end; ++i) At(i).next = i + 1;
+    Cluster cluster{
+        At(begin).along, At(begin).direction, begin, end - 1, end - begin};
+    if (cluster.size > 1) SetMeans(cluster);
+    return cluster;
+  }
 
   // The pair (i, j), i < j, of clusters to merge next. Clusters are sorted by
   // center, so partners of i are right behind it.
@@ -124,7 +147,7 @@ class Clustering {
 
   std::vector<Member>& members_;
   std::vector<Cluster> clusters_;  // by center
-  double max_distance_px_, min_doubled_cosine_, sigma_px_;
+  double max_distance_px_, min_doubled_cosine_, min_cosine_, sigma_px_;
 };
 
 void Append(const Cluster& cluster,

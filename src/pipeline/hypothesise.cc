@@ -9,6 +9,11 @@
 #include "geometry/image_edge.h"
 
 namespace curvix {
+namespace {
+
+constexpr std::size_t kUsualNumCandidates = 64;  // to reserve memory for
+
+}  // namespace
 
 std::optional<HypothesisViews> HypothesisViews::Make(
     const PosedView& h1,
@@ -75,6 +80,7 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   const Interval search = SearchAlong(line, edge1.position);
   const Eigen::Vector2d direction = line.Direction();
   std::vector<LineEdge> on_line;
+  on_line.reserve(kUsualNumCandidates);
   sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
     if (!search.Contains(direction.dot(edges2_[i].edge.position))) return;
     const auto moved = SlideToLine(
@@ -84,6 +90,7 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   const double min_sine =
       std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
   result.virtual_edges = ClusterEdges(on_line, line, options_->consolidation);
+  result.hypotheses.reserve(result.virtual_edges.edges.size());
   for (const VirtualEdge& virtual_edge : result.virtual_edges.edges) {
     if (std::abs(line.normal.dot(virtual_edge.edge.tangent)) < min_sine) {
       continue;
