@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "hypotheses/select_validators.h"
 #include "hypotheses/select_views.h"
+#include "hypotheses/split_along_contours.h"
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
 #include "pipeline/view_indices.h"
@@ -248,6 +249,19 @@ std::optional<int> NextView(const SketchInput& input,
   return static_cast<int>(*best);
 }
 
+// One in `step` of the edges of a view, those that are not used yet.
+std::vector<std::int32_t> UnusedEdgesOf(int view_idx,
+                                        const EdgeMap& map,
+                                        const UsedEdges& used,
+                                        std::size_t step) {
+  std::vector<std::int32_t> edge_idxs;
+  for (std::size_t i = step / 2; i < map.edges.size(); i += step) {
+    const auto edge_idx = static_cast<std::int32_t>(i);
+    if (!used.Contains({view_idx, edge_idx})) edge_idxs.push_back(edge_idx);
+  }
+  return edge_idxs;
+}
+
 }  // namespace
 
 EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
@@ -264,15 +278,30 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     const H1View view = sketcher.Prepare(*h1);
     sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
 
-    const std::vector<Edge2d>& edges = input.edge_maps[h1_idx].edges;
-    std::vector<H1Result> results(edges.size());
-    ParallelFor(
-        edges.size(), input.options.runtime.num_threads, [&](std::size_t i) {
-          if (i % input.h1_step != input.h1_step / 2) return;
-          if (used.Contains({*h1, static_cast<std::int32_t>(i)})) return;
-          results[i] = sketcher.Sketch(edges[i], view);
-        });
-    sketch.counts.h1_edges += used.num_unused()[h1_idx];
+    const EdgeMap& map = input.edge_maps[h1_idx];
+    std::vector<H1Result> results(map.edges.size());
+    const auto ask = [&](const std::vector<std::int32_t>& edge_idxs) {
+      ParallelFor(edge_idxs.size(),
+                  input.options.runtime.num_threads,
+                  [&](std::size_t k) {
+                    const auto i = static_cast<std::size_t>(edge_idxs[k]);
+                    results[i] = sketcher.Sketch(map.edges[i], view);
+                  });
+      sketch.counts.h1_edges += static_cast<std::int64_t>(edge_idxs.size());
+    };
+    const auto has_found = [&](const std::optional<std::int32_t>& edge_idx) {
+      return edge_idx &&
+             !results[static_cast<std::size_t>(*edge_idx)].tracked.empty();
+    };
+    TwoTurns turns = SplitAlongContours(
+        UnusedEdgesOf(*h1, map, used, input.h1_step), map.neighbors);
+    ask(turns.first);
+    std::erase_if(turns.second, [&](std::int32_t edge_idx) {
+      const EdgeNeighbors& neighbors =
+          map.neighbors[static_cast<std::size_t>(edge_idx)];
+      return !has_found(neighbors.previous) && !has_found(neighbors.next);
+    });
+    ask(turns.second);
     for (H1Result& result : results) {
       sketch.counts.hypotheses += result.hypotheses;
       sketch.counts.unsupported += result.unsupported;
