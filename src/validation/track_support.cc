@@ -18,7 +18,7 @@ constexpr double kMaxPredictedSigmaPx = 0.7;
 constexpr double kMaxPredictedSigmas = 4.6;
 // The hypothesis views and one more.
 constexpr std::size_t kFewestSupports = 3;
-// Fewer hardly ever become enough in later rounds, where more are needed.
+// Of the first views: fewer are hardly ever followed by enough of all.
 constexpr std::size_t kFewestToGoOn = 4;
 constexpr double kGateSigmas = 4;
 
@@ -188,8 +188,8 @@ std::optional<TrackedEdge> TrackSupport(
   const Search search{sigma_px,
                       options.max_distance_px,
                       std::cos(DegToRad(options.max_angle_deg))};
-  const std::size_t fewest = FewestToGoOn(to_ask);
-  auto support = FindSupport(start, views, to_ask.first, fewest, search);
+  auto support =
+      FindSupport(start, views, to_ask.first, FewestToGoOn(to_ask), search);
   if (!support) return std::nullopt;
   TrackedEdge tracked;
   tracked.estimate = start;
@@ -200,7 +200,8 @@ std::optional<TrackedEdge> TrackSupport(
     tracked.estimate = AdjustEdge(
         tracked.estimate.edge, Measure(tracked.support, views), sigma_px);
     if (round == kNumRounds) break;
-    support = FindSupport(tracked.estimate, views, to_ask.all, fewest, search);
+    support = FindSupport(
+        tracked.estimate, views, to_ask.all, to_ask.fewest_supports, search);
     if (!support) return std::nullopt;
     // Settled: further rounds would ask the same views.
     if (*support == tracked.support) {
@@ -208,7 +209,6 @@ std::optional<TrackedEdge> TrackSupport(
       break;
     }
   }
-  if (tracked.support.size() < to_ask.fewest_supports) return std::nullopt;
   tracked.evidence = Evidence(
       VotesOf(asked, tracked.support, views, to_ask.all, search), neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;

@@ -60,10 +60,9 @@ bool MayBeSupported(const SpaceEdge& edge,
 // adjusts the estimate to all support found. The first round asks
 // `to_ask.first` only, and ends as soon as too few of them are left: most
 // hypotheses are wrong, and that shows there. Later rounds ask `to_ask.all`.
-// nullopt as soon as fewer than four views support it, or fewer than
-// `to_ask.fewest_supports` where these are less, or when in the end fewer than
-// those do or the evidence is below options.min_evidence. `sigma_px`: standard
-// deviation of an edge's location.
+// nullopt as soon as fewer than `to_ask.fewest_supports` views support it, of
+// the first round's no more than four, or when in the end the evidence is below
+// options.min_evidence. `sigma_px`: standard deviation of an edge's location.
 std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
