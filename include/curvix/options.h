@@ -33,6 +33,8 @@ struct EdgeDetectionOptions {
   // Most edges of an image per million pixels, though any image may have 5,000:
   // the contours with the steepest mean gradients are kept; > 0.
   double max_edges_per_megapixel = 25000;
+  // Parallel edges that blur has moved apart or together are moved back.
+  bool separate_edges = true;
 };
 
 // How hypothesis views are chosen (Sec. 3).
@@ -170,6 +172,8 @@ struct CurveRefinementOptions {
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
   // smooths nothing.
   double smoothing_px = 2.5;
+  // Edges that the tone curve of the images has moved are moved back.
+  bool undo_tone_curve = true;
   // Longest gap closed between ends that continue each other at their own
   // curvature, though the images do not show it. Pixels, >= 0; 0 closes none.
   double max_gap_px = 15.0;

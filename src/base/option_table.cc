@@ -96,6 +96,8 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
       "most edges of an image per million pixels, at least 5,000 in all; the "
       "contours with the steepest gradients are kept");
+  row.Switch("separate_edges", &o.separate_edges,
+      "move parallel edges back that blur has moved apart or together");
 }
 
 void AddRows(HypothesisOptions& o, Section row) {
@@ -221,6 +223,9 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "keep and label curves that are probably rims of smooth bodies");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
       "standard deviation of the weights of the local fits; 0 smooths nothing");
+  row.Switch("undo_tone_curve", &o.undo_tone_curve,
+      "move edges back that a tone curve, a gamma say, has moved to their dark "
+      "side; the views tell the curve");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other in a bend");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",

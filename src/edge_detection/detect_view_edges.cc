@@ -12,6 +12,7 @@
 #include "edge_detection/image_noise.h"
 #include "edge_detection/keep_contours.h"
 #include "edge_detection/load_image.h"
+#include "edge_detection/separate_edges.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
 
@@ -73,6 +74,7 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   map.edges = std::move(kept.edges);
   // Again, since what was dropped may have stood between two that were not.
   map.neighbors = LinkNeighbors(map.edges, options);
+  if (options.separate_edges) SeparateEdges(&map.edges);
   map.num_dropped_masked = *num_masked;
   map.num_dropped_isolated = kept.num_isolated;
   map.num_dropped_over_limit = num_weakest + kept.num_over_limit;

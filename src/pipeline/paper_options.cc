@@ -7,6 +7,7 @@ namespace curvix {
 
 Options PaperOptions() {
   Options options;
+  options.edge_detection.separate_edges = false;
   options.hypotheses.view_selection = ViewSelection::kUnusedEdges;
   options.hypotheses.location_tolerance_px = 0.3;
   options.hypotheses.used_edges_to_stop = 0.9;

@@ -50,7 +50,9 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   const ImageSupport images(views, edge_maps, num_threads);
   refined = BridgeGaps(std::move(refined), views, images, options);
   const ToneCurve tone =
-      EstimateToneCurve(refined, views, edge_maps, num_threads);
+      options.undo_tone_curve
+          ? EstimateToneCurve(refined, views, edge_maps, num_threads)
+          : ToneCurve();
   refined = FitToImages(
       std::move(refined), views, edge_maps, tone, options, num_threads);
   refined = MeetAtJunctions(std::move(refined), views, options);

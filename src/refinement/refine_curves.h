@@ -19,9 +19,9 @@ double EvidenceShare(std::size_t num_views);
 // Selects (select_curves.h, with EvidenceShare of the least evidence), smooths
 // (smooth_curves.h), closes gaps (bridge_gaps.h), fits to all images
 // (fit_to_images.h) under the tone curve that the views agree on
-// (estimate_tone_curve.h), and carries on to corners (meet_at_junctions.h).
-// Then curves shorter than options.min_length_px go, unless they lead from one
-// junction to another.
+// (estimate_tone_curve.h, unless options.undo_tone_curve is off), and carries
+// on to corners (meet_at_junctions.h). Then curves shorter than
+// options.min_length_px go, unless they lead from one junction to another.
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
                                 const std::vector<EdgeMap>& edge_maps,

@@ -159,10 +159,12 @@ TEST_F(ProgramRun, GivesTheSameBytesAgainAndForAnyNumberOfThreads) {
 }
 
 TEST_F(ProgramRun, TheOrderOfImagesInTheModelMakesNoDifference) {
-  ASSERT_EQ(RunWorkspace("--clean").exit_code, 0);
-  const std::string expected = Read(results_ / "curves.ply");
   const fs::path path = workspace_ / "sparse/0/images.bin";
   std::vector<ColmapImage> images = *ParseImagesBinary(Read(path), "images");
+  // Both runs get the same poses to the last bit.
+  std::ofstream(path, std::ios::binary) << FormatImagesBinary(images);
+  ASSERT_EQ(RunWorkspace("--clean").exit_code, 0);
+  const std::string expected = Read(results_ / "curves.ply");
   std::vector<std::uint32_t> ids;
   for (const ColmapImage& image : images) ids.push_back(image.image_id);
   std::reverse(images.begin(), images.end());

@@ -54,7 +54,9 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('19', 'smoothing', ['--CurveRefinement.smoothing_px', '0']),
     ('20', 'gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
     ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
-    ('18 to 21', 'all refinement', ['--CurveRefinement.enabled', '0']),
+    ('27', 'tone curve', ['--CurveRefinement.undo_tone_curve', '0']),
+    ('29', 'edges side by side', ['--EdgeDetection.separate_edges', '0']),
+    ('18 to 27', 'all refinement', ['--CurveRefinement.enabled', '0']),
     ('25', 'one place for each 2D edge',
      ['--Validation.min_num_own_views', '0'])]
 

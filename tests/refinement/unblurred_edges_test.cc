@@ -10,6 +10,7 @@
 
 #include "tests/edge_detection/oriented_edges.h"
 #include "tests/refinement/drawn_curves.h"
+#include "tests/support/picture.h"
 
 namespace curvix {
 namespace {
@@ -86,33 +87,10 @@ TEST(UnblurredEdges, SharpTurnsMoveThemLittle) {
   EXPECT_NEAR(ShiftOf(BlurredEdge(10), Arc(2, 0, kWholeTurn), 0), 0.25, 1e-9);
 }
 
-// What an ideal camera sees: each pixel tells the mean light on its area, which
-// is 160 inside and 60 outside.
-template <typename IsInside>
-GrayImage Picture(const IsInside& is_inside) {
-  constexpr int kParts = 16;  // of a pixel, each way
-  const PosedView view = SmallView();
-  GrayImage image{view.width, view.height, {}};
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      int num_inside = 0;
-      for (int part = 0; part < kParts * kParts; ++part) {
-        const int column = part % kParts;
-        const int row = part / kParts;
-        const Eigen::Vector2d p(x + (column + 0.5) / kParts,
-                                y + (row + 0.5) / kParts);
-        if (is_inside(p)) ++num_inside;
-      }
-      image.pixels.push_back(60 + 100 * static_cast<float>(num_inside) /
-                                      (kParts * kParts));
-    }
-  }
-  return image;
-}
-
 GrayImage SharpDisc(double radius_px) {
-  return Picture(
-      [&](const Eigen::Vector2d& p) { return RadiusOf(p) < radius_px; });
+  return Picture(64, 64, [&](const Eigen::Vector2d& place) {
+    return RadiusOf(place) < radius_px;
+  });
 }
 
 std::size_t NearestSample(const Curve& curve, const Edge2d& edge) {
@@ -206,8 +184,9 @@ TEST(UnblurredEdges, UndoesWhatAGammaDoesToSteps) {
   constexpr double kGamma = 2.2;
   const Eigen::Vector2d to_bright =
       Eigen::Vector2d(std::cos(0.3), std::sin(0.3));
-  GrayImage image = Picture(
-      [&](const Eigen::Vector2d& p) { return to_bright.dot(p - kCenter) > 0; });
+  GrayImage image = Picture(64, 64, [&](const Eigen::Vector2d& place) {
+    return to_bright.dot(place - kCenter) > 0;
+  });
   for (float& pixel : image.pixels) {
     pixel = 240 * std::pow(pixel / 255, 1 / static_cast<float>(kGamma));
   }
