@@ -44,9 +44,9 @@ std::optional<EpipolarAngle> EpipolarPencil::AngleOf(
   // pixel.
   const Eigen::Vector3d d_angle = (x * v_ - y * u_) / radius2;
   const Eigen::Vector3d in_camera = view.rotation * d_angle;
-  return EpipolarAngle{std::atan2(y, x),
-                       std::hypot(in_camera.x() / view.calibration(0, 0),
-                                  in_camera.y() / view.calibration(1, 1))};
+  const Eigen::Vector2d per_px(in_camera.x() / view.calibration(0, 0),
+                               in_camera.y() / view.calibration(1, 1));
+  return EpipolarAngle{std::atan2(y, x), per_px.norm()};
 }
 
 Eigen::Matrix3d FundamentalMatrix(const PosedView& view1,

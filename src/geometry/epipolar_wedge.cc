@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace curvix {
 
@@ -25,18 +26,34 @@ SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
                              const PosedView& view,
                              const std::vector<Edge2d>& edges,
                              double tolerance_px) {
-  entries_.reserve(edges.size());
+  std::vector<Entry> entries;
+  entries.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto wedge = WedgeOf(pencil, view, edges[i].position, tolerance_px);
     if (!wedge) continue;
-    entries_.push_back(
+    entries.push_back(
         {wedge->center, wedge->half_width, static_cast<std::int32_t>(i)});
     max_half_width_ = std::max(max_half_width_, wedge->half_width);
   }
-  std::stable_sort(
-      entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+  if (entries.empty()) return;
+  const auto [least, largest] = std::minmax_element(
+      entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
         return a.angle < b.angle;
       });
+  const auto size = static_cast<double>(entries.size());
+  least_angle_ = least->angle;
+  if (largest->angle > least_angle_) {
+    buckets_per_rad_ = size / (largest->angle - least_angle_);
+  }
+  // Counting sort.
+  begins_.assign(entries.size() + 1, 0);
+  for (const Entry& entry : entries) ++begins_[Bucket(entry.angle) + 1];
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
+  entries_.resize(entries.size());
+  for (const Entry& entry : entries) {
+    entries_[next[Bucket(entry.angle)]++] = entry;
+  }
 }
 
 std::vector<std::int32_t> SortedByAngle::Meeting(const Wedge& wedge) const {

@@ -33,8 +33,9 @@ std::optional<Wedge> WedgeOf(const EpipolarPencil& pencil,
 // Whether two wedges of one pencil have an epipolar plane in common.
 bool Meet(const Wedge& a, const Wedge& b);
 
-// The edges of one view sorted by their epipolar angle with respect to a
-// pencil. Edges near the baseline, which have no depth, are left out.
+// The edges of one view in buckets by their epipolar angle with respect to a
+// pencil. Edges near the baseline, which have no depth, are left out. Building
+// takes O(edges).
 class SortedByAngle {
  public:
   SortedByAngle(const EpipolarPencil& pencil,
@@ -50,6 +51,7 @@ class SortedByAngle {
   // edge's in EdgeIdxs().
   template <typename F>
   void VisitMeeting(const Wedge& wedge, const F& f) const {
+    if (entries_.empty()) return;
     const double reach = wedge.half_width + max_half_width_;
     if (reach >= kPi) {  // all around: nearly along the baseline
       for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -62,7 +64,7 @@ class SortedByAngle {
     if (wedge.center - reach < -kPi) Visit(wedge, 2 * kPi, f);
   }
 
-  // All edges, by angle.
+  // All edges, bucket by bucket.
   std::vector<std::int32_t> EdgeIdxs() const;
 
  private:
@@ -75,22 +77,25 @@ class SortedByAngle {
   void Visit(const Wedge& wedge, double shift, const F& f) const {
     const double center = wedge.center + shift;
     const double reach = wedge.half_width + max_half_width_;
-    const auto first = std::lower_bound(
-        entries_.begin(),
-        entries_.end(),
-        center - reach,
-        [](const Entry& e, double angle) { return e.angle < angle; });
-    for (auto entry = first;
-         entry != entries_.end() && entry->angle <= center + reach;
-         ++entry) {
-      if (std::abs(entry->angle - center) <=
-          wedge.half_width + entry->half_width) {
-        f(static_cast<std::size_t>(entry - entries_.begin()));
+    const std::size_t end = begins_[Bucket(center + reach) + 1];
+    for (std::size_t i = begins_[Bucket(center - reach)]; i < end; ++i) {
+      if (std::abs(entries_[i].angle - center) <=
+          wedge.half_width + entries_[i].half_width) {
+        f(i);
       }
     }
   }
+  // Of the same number as the edges, equally wide, over all their angles.
+  std::size_t Bucket(double angle) const {
+    const double bucket = (angle - least_angle_) * buckets_per_rad_;
+    const double last = static_cast<double>(begins_.size()) - 2;
+    return static_cast<std::size_t>(std::clamp(bucket, 0.0, last));
+  }
 
-  std::vector<Entry> entries_;  // by angle
+  std::vector<Entry> entries_;       // by bucket, then edge index
+  std::vector<std::size_t> begins_;  // of each bucket, and the end
+  double least_angle_ = 0;
+  double buckets_per_rad_ = 0;
   double max_half_width_ = 0;
 };
 
