@@ -106,15 +106,22 @@ std::vector<EdgeRef> PosedEdges::FindEdges(
   return found;
 }
 
+std::vector<std::vector<const CurvePlace*>> PosedEdges::PlacesByView(
+    const std::vector<CurvePlace>& places) const {
+  std::vector<std::vector<const CurvePlace*>> by_view(views_.size());
+  for (const CurvePlace& place : places) {
+    for (const std::size_t i : ViewsToAsk(place)) by_view[i].push_back(&place);
+  }
+  return by_view;
+}
+
 std::vector<EdgesAround> PosedEdges::LookAround(
-    const std::vector<CurvePlace>& places,
+    const std::vector<const CurvePlace*>& places,
     std::size_t view_idx,
     double reach_px) const {
   std::vector<EdgesAround> result;
-  for (const CurvePlace& place : places) {
-    const auto asked = ViewsToAsk(place);
-    if (!std::binary_search(asked.begin(), asked.end(), view_idx)) continue;
-    const auto projected = ProjectEdge(views_[view_idx], place.edge);
+  for (const CurvePlace* place : places) {
+    const auto projected = ProjectEdge(views_[view_idx], place->edge);
     if (!projected || !views_[view_idx].Contains(projected->position)) continue;
     const Eigen::Vector2d& tangent = projected->tangent;
     EdgesAround around;

@@ -52,10 +52,14 @@ class PosedEdges {
                                  const std::vector<std::size_t>& views,
                                  const std::vector<double>& gates_px) const;
 
+  // For each view the places that ask it; they outlive the result.
+  std::vector<std::vector<const CurvePlace*>> PlacesByView(
+      const std::vector<CurvePlace>& places) const;
   // What the places see around them in a view, up to reach_px away.
-  std::vector<EdgesAround> LookAround(const std::vector<CurvePlace>& places,
-                                      std::size_t view_idx,
-                                      double reach_px) const;
+  std::vector<EdgesAround> LookAround(
+      const std::vector<const CurvePlace*>& places,
+      std::size_t view_idx,
+      double reach_px) const;
 
   ImageEdge EdgeOf(const EdgeRef& ref) const;
   // Pixels; of the projection of `position` from the line of the edge.

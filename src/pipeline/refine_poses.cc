@@ -124,9 +124,10 @@ class Refiner {
   void ShiftViews() {
     const std::size_t num_views = edges_.views().size();
     std::vector<Rigid3> motions = edges_.motions();
+    const auto places = edges_.PlacesByView(places_);
     ParallelFor(num_views, options_.runtime.num_threads, [&](std::size_t i) {
       const Eigen::Vector2d shift =
-          FindShift(edges_.LookAround(places_, i, kReachPx), kReachPx);
+          FindShift(edges_.LookAround(places[i], i, kReachPx), kReachPx);
       if (shift.isZero(0)) return;
       const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
       const Eigen::Vector3d turn(
