@@ -192,8 +192,9 @@ TEST(UnblurredEdges, UndoesWhatAGammaDoesToSteps) {
   }
   const std::vector<Edge2d> edges = OrientedEdges(image, {}, 5);
   ASSERT_GT(edges.size(), 60);
-  // Light is I^gamma, so its slope goes with I^(gamma - 1); of a pixel one wide
-  // the mean distance of two points is 1/3, of which a Gaussian's is 1.13.
+  // Light is I^gamma, so its slope goes with I^(gamma - 1). The blur counts by
+  // half the mean distance of two points in it: 0.56 standard deviations of a
+  // Gaussian, a sixth of a pixel.
   const double blur_px = 1.0 / 6;
   const ToneCurve tone = {{(kGamma - 1) * blur_px, 0}};
   const double detected_px = MeanOffset(edges, to_bright, {});
