@@ -110,17 +110,16 @@ EdgeEstimate EstimateAtMeeting(const SpaceEdge& edge,
   return estimate;
 }
 
-std::optional<ProjectedEstimate> ProjectEstimate(const PosedView& view,
-                                                 const EdgeEstimate& estimate) {
-  const auto edge = ProjectEdge(view, estimate.edge);
-  if (!edge || !view.Contains(edge->position)) return std::nullopt;
+double VarianceAcross(const PosedView& view,
+                      const ImageEdge& projected,
+                      const EdgeEstimate& estimate) {
   // The distance's gradient by the position is plane / depth.
-  const Eigen::Vector3d plane = EdgePlane(view, *edge);
+  const Eigen::Vector3d plane = EdgePlane(view, projected);
   const double depth =
       view.rotation.row(2).dot(estimate.edge.position - view.center);
   const Eigen::Vector2d gradient(plane.dot(estimate.across1) / depth,
                                  plane.dot(estimate.across2) / depth);
-  return ProjectedEstimate{*edge, gradient.dot(estimate.covariance * gradient)};
+  return gradient.dot(estimate.covariance * gradient);
 }
 
 }  // namespace curvix

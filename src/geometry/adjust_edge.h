@@ -7,7 +7,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "geometry/edge_geometry.h"
@@ -69,15 +68,10 @@ EdgeEstimate EstimateAtMeeting(const SpaceEdge& edge,
                                const PlaneMeasurement& measurement2,
                                double sigma_px);
 
-// Where the estimate is seen, and the variance of its distance across the
-// tangent from where the true edge is seen.
-struct ProjectedEstimate {
-  ImageEdge edge;
-  double variance_px2 = 0;
-};
-
-// nullopt where ProjectEdge() has no answer, and outside the image.
-std::optional<ProjectedEstimate> ProjectEstimate(const PosedView& view,
-                                                 const EdgeEstimate& estimate);
+// Of an estimate that `view` shows at `projected` (ProjectEdge()): the variance
+// of its distance across the tangent from where the true edge is seen, px^2.
+double VarianceAcross(const PosedView& view,
+                      const ImageEdge& projected,
+                      const EdgeEstimate& estimate);
 
 }  // namespace curvix

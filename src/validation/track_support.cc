@@ -28,28 +28,17 @@ struct Search {
   double min_cosine = 0;
 };
 
-// Where a view shows an estimate.
-struct Prediction {
-  ImageEdge projected;
-  double expected_px = 0;  // standard deviation of the distance from an edge
-};
-
-// nullopt if the edge is not in the image or not known well enough there.
-std::optional<Prediction> Predict(const EdgeEstimate& estimate,
-                                  const ViewIndex& view,
-                                  const Search& search) {
-  const auto projected = ProjectEstimate(*view.view, estimate);
-  const double limit_px =
-      std::max(kMaxPredictedSigmaPx, kMaxPredictedSigmas * search.sigma_px);
-  if (!projected || projected->variance_px2 > limit_px * limit_px) {
+// nullopt where ProjectEdge() has no answer, and outside the image.
+std::optional<ImageEdge> ProjectInto(const ViewIndex& view,
+                                     const SpaceEdge& edge) {
+  auto projected = ProjectEdge(*view.view, edge);
+  if (!projected || !view.view->Contains(projected->position)) {
     return std::nullopt;
   }
-  return Prediction{
-      projected->edge,
-      std::sqrt(projected->variance_px2 + search.sigma_px * search.sigma_px)};
+  return projected;
 }
 
-// False only if FindEdge() would find nothing.
+// False only if no edge can be found for `edge`.
 bool MayShow(const ViewIndex& view, const SpaceEdge& edge) {
   const Eigen::Vector3d x = view.view->InCamera(edge.position);
   if (!(x.z() > 0)) return false;
@@ -59,16 +48,29 @@ bool MayShow(const ViewIndex& view, const SpaceEdge& edge) {
   return view.view->Contains(pixel) && view.presence.MayHave(pixel, tangent);
 }
 
+// The standard deviation of the distance between the estimate, as `view` shows
+// it, and its edge there; nullopt if the estimate is not known well enough.
+std::optional<double> ExpectedDistance(const EdgeEstimate& estimate,
+                                       const ImageEdge& projected,
+                                       const ViewIndex& view,
+                                       const Search& search) {
+  const double variance_px2 = VarianceAcross(*view.view, projected, estimate);
+  const double limit_px =
+      std::max(kMaxPredictedSigmaPx, kMaxPredictedSigmas * search.sigma_px);
+  if (variance_px2 > limit_px * limit_px) return std::nullopt;
+  return std::sqrt(variance_px2 + search.sigma_px * search.sigma_px);
+}
+
 std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
+                                     const ImageEdge& projected,
                                      const ViewIndex& view,
                                      const Search& search) {
-  if (!MayShow(view, estimate.edge)) return std::nullopt;
-  const auto predicted = Predict(estimate, view, search);
-  if (!predicted) return std::nullopt;
+  const auto expected_px = ExpectedDistance(estimate, projected, view, search);
+  if (!expected_px) return std::nullopt;
   return NearestEdge(
       view,
-      predicted->projected,
-      {std::min(search.max_distance_px, kGateSigmas * predicted->expected_px),
+      projected,
+      {std::min(search.max_distance_px, kGateSigmas * *expected_px),
        kMaxSupportSlidePx,
        search.min_cosine});
 }
@@ -76,6 +78,12 @@ std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
 std::size_t FewestToGoOn(const ViewsToAsk& to_ask) {
   return std::min(kFewestToGoOn, to_ask.fewest_supports);
 }
+
+// A view and where it shows an estimate.
+struct Sighting {
+  std::int32_t view_idx = 0;
+  ImageEdge projected;
+};
 
 // The support of an estimate in the views of `asked`, ascending; nullopt if it
 // is less than `fewest`. Asks no more of them than it takes to know.
@@ -85,12 +93,26 @@ std::optional<std::vector<EdgeRef>> FindSupport(
     const std::vector<std::int32_t>& asked,
     std::size_t fewest,
     const Search& search) {
-  std::vector<EdgeRef> support;
+  // Most estimates end with this, before any edge is looked up.
+  std::vector<Sighting> sightings;
+  sightings.reserve(asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (support.size() + (asked.size() - i) < fewest) break;
+    if (sightings.size() + (asked.size() - i) < fewest) return std::nullopt;
     const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
-    if (const auto edge_idx = FindEdge(estimate, view, search)) {
-      support.push_back({asked[i], *edge_idx});
+    const auto projected = ProjectInto(view, estimate.edge);
+    if (projected &&
+        view.presence.MayHave(projected->position, projected->tangent)) {
+      sightings.push_back({asked[i], *projected});
+    }
+  }
+  std::vector<EdgeRef> support;
+  support.reserve(sightings.size());
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (support.size() + (sightings.size() - i) < fewest) return std::nullopt;
+    const auto& [view_idx, projected] = sightings[i];
+    const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
+    if (const auto edge_idx = FindEdge(estimate, projected, view, search)) {
+      support.push_back({view_idx, *edge_idx});
     }
   }
   if (support.size() < fewest) return std::nullopt;
@@ -119,20 +141,30 @@ double AngleOf(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-double VoteWithSupport(const Prediction& predicted,
-                       const EdgeRef& support,
-                       const std::vector<ViewIndex>& views) {
-  const ImageEdge edge = EdgeOf(support, views);
-  const ImageEdge& projected = predicted.projected;
-  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
+double VoteWithSupport(const ImageEdge& projected,
+                       double expected_px,
+                       const ImageEdge& support,
+                       const ViewIndex& view) {
+  const Eigen::Vector2d normal(-support.tangent.y(), support.tangent.x());
   const double angle = AngleOf(projected.tangent);
-  const SupportFit fit{normal.dot(projected.position - edge.position),
-                       predicted.expected_px,
-                       UndirectedDifference(angle, AngleOf(edge.tangent))};
-  return VoteWithSupport(
-      fit,
-      views[static_cast<std::size_t>(support.view_idx)].density.Density(
-          projected.position, angle));
+  const SupportFit fit{normal.dot(projected.position - support.position),
+                       expected_px,
+                       UndirectedDifference(angle, AngleOf(support.tangent))};
+  return VoteWithSupport(fit, view.density.Density(projected.position, angle));
+}
+
+// What a view with this support, if any, says of an estimate; nullopt if it
+// cannot tell.
+std::optional<double> VoteOf(const ViewIndex& view,
+                             const std::optional<ImageEdge>& support,
+                             const EdgeEstimate& estimate,
+                             const Search& search) {
+  const auto projected = ProjectInto(view, estimate.edge);
+  if (!projected) return std::nullopt;
+  const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
+  if (!expected_px) return std::nullopt;
+  return support ? VoteWithSupport(*projected, *expected_px, *support, view)
+                 : VoteWithoutSupport();
 }
 
 // The votes of the views of `asked` (ascending) on an estimate with this
@@ -145,13 +177,12 @@ Votes VotesOf(const EdgeEstimate& estimate,
   Votes votes(views.size());
   auto next = support.begin();
   for (const std::int32_t view_idx : asked) {
-    const auto i = static_cast<std::size_t>(view_idx);
-    const bool supports = next != support.end() && next->view_idx == view_idx;
-    if (const auto predicted = Predict(estimate, views[i], search)) {
-      votes[i] = supports ? VoteWithSupport(*predicted, *next, views)
-                          : VoteWithoutSupport();
+    std::optional<ImageEdge> supporting;
+    if (next != support.end() && next->view_idx == view_idx) {
+      supporting = EdgeOf(*next++, views);
     }
-    if (supports) ++next;
+    const auto i = static_cast<std::size_t>(view_idx);
+    votes[i] = VoteOf(views[i], supporting, estimate, search);
   }
   return votes;
 }
