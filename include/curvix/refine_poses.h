@@ -42,8 +42,8 @@ struct CurvePoses {
 };
 
 // Adjusts poses and samples of curves together, so that the samples project
-// onto the edges of the views (Ceres), and finds the edges anew as the poses
-// get better. Poses may be off by several pixels. Cameras stay as they are. The
+// onto the edges of the views, and finds the edges anew as the poses get
+// better. Poses may be off by several pixels. Cameras stay as they are. The
 // world keeps its place and scale but for what the mean of all poses tells: a
 // prior as wide as poses turn out to be off holds each where it was.
 // One fifth of space is held out to judge by. A view in which the samples held

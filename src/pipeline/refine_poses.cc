@@ -209,6 +209,7 @@ class Refiner {
     AdjustedPoses adjusted =
         AdjustPoses({edges_.input_views(), sigmas_px_, samples, prior_px_},
                     edges_.motions(),
+                    options_.runtime.num_threads,
                     [this] { return run_.Steps()(0, 0); });
     edges_.SetMotions(std::move(adjusted.new_cam_from_cam));
     ParallelFor(

@@ -2,18 +2,18 @@
 // Paper: none (beyond it).
 #include "poses/adjust_poses.h"
 
-#include <ceres/ceres.h>
-#include <ceres/rotation.h>
+#include <curvix/parallel.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <memory>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "base/median.h"
 #include "geometry/axes_across.h"
+#include "poses/solve_steps.h"
 
 namespace curvix {
 namespace {
@@ -22,198 +22,257 @@ namespace {
 constexpr double kPriorLossScale = 3;
 // Edges are looked up anew after each solution, so none need be exact.
 constexpr int kMaxNumIterations = 10;
-constexpr double kFunctionTolerance = 1e-3;
+constexpr double kMinGain = 1e-3;
+constexpr double kFirstDamping = 1e-4;
+constexpr double kDampingFactor = 10;
 
 // A small motion of a camera in its own frame: rotation vector, translation.
-using Motion = std::array<double, 6>;
-using Offset = std::array<double, 2>;  // of a sample, across its tangent
+using Motion = Vector6d;
 
 Motion ToMotion(const Rigid3& rigid) {
   const Eigen::AngleAxisd turn(rigid.rotation);
-  const Eigen::Vector3d w = turn.angle() * turn.axis();
-  const Eigen::Vector3d& t = rigid.translation;
-  return {w.x(), w.y(), w.z(), t.x(), t.y(), t.z()};
+  Motion motion;
+  motion << turn.angle() * turn.axis(), rigid.translation;
+  return motion;
 }
 
 Rigid3 FromMotion(const Motion& motion) {
-  const Eigen::Vector3d turn(motion[0], motion[1], motion[2]);
+  const Eigen::Vector3d turn = motion.head<3>();
   Rigid3 rigid;
-  rigid.translation = {motion[3], motion[4], motion[5]};
+  rigid.translation = motion.tail<3>();
   const double angle = turn.norm();
   if (angle > 0) rigid.rotation = Eigen::AngleAxisd(angle, turn / angle);
   return rigid;
 }
 
-// The distance of a projected sample from the line of its edge.
-class EdgeCost {
- public:
-  EdgeCost(const PosedView& view,
-           const SpaceEdge& sample,
-           const ImageEdge& edge,
-           double sigma_px)
-      : in_camera_(view.InCamera(sample.position)),
-        across_(view.rotation * AxesAcross(sample.tangent)) {
-    const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
-    line_ = view.calibration.topRows<2>().transpose() * normal;
-    line_.z() -= normal.dot(edge.position);
-    line_ /= sigma_px;
-  }
+// J for which a turn by `turn` + d, both small, is one by `turn` and then one
+// by J d.
+Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& turn) {
+  const double angle2 = turn.squaredNorm();
+  Eigen::Matrix3d cross;
+  cross << 0, -turn.z(), turn.y(), turn.z(), 0, -turn.x(), -turn.y(), turn.x(),
+      0;
+  if (angle2 < 1e-8) return Eigen::Matrix3d::Identity() + cross / 2;
+  const double angle = std::sqrt(angle2);
+  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * cross +
+         (angle - std::sin(angle)) / (angle2 * angle) * cross * cross;
+}
 
-  // False behind the camera.
-  template <typename T>
-  bool operator()(const T* motion, const T* offset, T* residual) const {
-    const Eigen::Map<const Eigen::Matrix<T, 2, 1>> across(offset);
-    const Eigen::Matrix<T, 3, 1> before =
-        in_camera_.cast<T>() + across_.cast<T>() * across;
-    Eigen::Matrix<T, 3, 1> x;
-    ceres::AngleAxisRotatePoint(motion, before.data(), x.data());
-    x += Eigen::Map<const Eigen::Matrix<T, 3, 1>>(motion + 3);
-    if (!(x.z() > T(0))) return false;
-    *residual = line_.cast<T>().dot(x) / x.z();
-    return true;
-  }
+// Cauchy's: grows with the logarithm of squares beyond `scale2`.
+struct Loss {
+  double scale2 = 1;
 
- private:
-  Eigen::Vector3d in_camera_;
-  AcrossAxes across_;
-  Eigen::Vector3d line_;  // residual = line . x / x.z, in camera coordinates
+  double operator()(double square) const {
+    return scale2 * std::log1p(square / scale2);
+  }
+  double RootOfWeight(double square) const {
+    return 1 / std::sqrt(1 + square / scale2);
+  }
+};
+constexpr Loss kEdgeLoss{1};
+constexpr Loss kPriorLoss{kPriorLossScale * kPriorLossScale};
+
+// A sample and the line of its edge, in the camera as it was in the beginning.
+struct SeenSample {
+  Eigen::Vector3d position;
+  AcrossAxes across;
+  Eigen::Vector3d line;  // residual = line . x / x.z
 };
 
-// Six residuals, each 1 where the motion shifts the image by prior_px.
-class PriorCost {
- public:
-  PriorCost(double focal_px, double depth, double prior_px)
-      : turn_(focal_px / prior_px), shift_(focal_px / (depth * prior_px)) {}
+SeenSample SeenBy(const PosedView& view,
+                  const SpaceEdge& sample,
+                  const ImageEdge& edge,
+                  double sigma_px) {
+  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
+  Eigen::Vector3d line = view.calibration.topRows<2>().transpose() * normal;
+  line.z() -= normal.dot(edge.position);
+  return {view.InCamera(sample.position),
+          view.rotation * AxesAcross(sample.tangent),
+          line / sigma_px};
+}
 
-  template <typename T>
-  bool operator()(const T* motion, T* residuals) const {
-    for (int i = 0; i < 3; ++i) {
-      residuals[i] = turn_ * motion[i];
-      residuals[i + 3] = shift_ * motion[i + 3];
+// Where the search stands.
+struct State {
+  std::vector<Motion> motions;           // by view
+  std::vector<Eigen::Vector2d> offsets;  // by sample, across its tangent
+};
+
+std::vector<Rigid3> RigidMotions(const State& state) {
+  std::vector<Rigid3> motions;
+  for (const Motion& motion : state.motions) {
+    motions.push_back(FromMotion(motion));
+  }
+  return motions;
+}
+
+EquationOwners OwnersOf(const PoseProblem& problem) {
+  std::vector<EquationOwners::Owner> owners;
+  for (std::size_t i = 0; i < problem.samples.size(); ++i) {
+    for (const PoseSample::Observation& seen :
+         problem.samples[i].observations) {
+      owners.push_back({static_cast<std::size_t>(seen.view_idx), i});
     }
-    return true;
   }
+  return {std::move(owners), problem.views.size(), problem.samples.size()};
+}
 
- private:
-  double turn_, shift_;
-};
-
-class Solver {
+class Search {
  public:
-  Solver(const PoseProblem& problem, const std::vector<Rigid3>& start)
-      : offsets_(problem.samples.size(), Offset{}) {
-    for (const Rigid3& motion : start) motions_.push_back(ToMotion(motion));
-    std::vector<std::vector<double>> depths(problem.views.size());
-    for (std::size_t i = 0; i < problem.samples.size(); ++i) {
-      const PoseSample& sample = problem.samples[i];
+  Search(const PoseProblem& problem,
+         const std::vector<Rigid3>& start,
+         int num_threads)
+      : num_threads_(num_threads), owners_(OwnersOf(problem)) {
+    for (const Rigid3& motion : start) {
+      state_.motions.push_back(ToMotion(motion));
+    }
+    state_.offsets.assign(problem.samples.size(), Eigen::Vector2d::Zero());
+    for (const PoseSample& sample : problem.samples) {
       for (const PoseSample::Observation& seen : sample.observations) {
-        const auto view_idx = static_cast<std::size_t>(seen.view_idx);
-        const PosedView& view = problem.views[view_idx];
-        auto cost = std::make_unique<EdgeCost>(
-            view, sample.edge, seen.edge, problem.sigmas_px[view_idx]);
-        problem_.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<EdgeCost, 1, 6, 2>(cost.release()),
-            &loss_,
-            motions_[view_idx].data(),
-            offsets_[i].data());
-        depths[view_idx].push_back(view.InCamera(sample.edge.position).z());
+        const auto i = static_cast<std::size_t>(seen.view_idx);
+        seen_.push_back(SeenBy(
+            problem.views[i], sample.edge, seen.edge, problem.sigmas_px[i]));
       }
     }
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-      if (!depths[i].empty()) {
-        AddPrior(problem, i, std::move(depths[i]));
+    for (std::size_t i = 0; i < problem.views.size(); ++i) {
+      prior_factors_.push_back(PriorFactors(problem, i));
+    }
+  }
+
+  // False, and nothing moves, if a sample is behind a camera.
+  bool Run(const std::function<bool()>& keep_going) {
+    double cost = Cost(state_);
+    if (!std::isfinite(cost)) return false;
+    double damping = kFirstDamping;
+    for (int i = 0; i < kMaxNumIterations && keep_going(); ++i) {
+      State next = Next(damping);
+      const double next_cost = Cost(next);
+      if (!(next_cost < cost)) {
+        damping *= kDampingFactor;
+        continue;
       }
+      damping /= kDampingFactor;
+      const bool is_settled = cost - next_cost < kMinGain * cost;
+      state_ = std::move(next);
+      cost = next_cost;
+      if (is_settled) break;
     }
+    return true;
   }
 
-  bool Solve(const std::function<bool()>& keep_going) {
-    Stopper stopper(keep_going);
-    ceres::Solver::Options options;
-    options.max_num_iterations = kMaxNumIterations;
-    options.function_tolerance = kFunctionTolerance;
-    options.num_threads = 1;
-    options.logging_type = ceres::SILENT;
-    options.callbacks.push_back(&stopper);
-    constexpr std::size_t kMaxDenseViews = 60;
-    options.linear_solver_type = motions_.size() <= kMaxDenseViews
-                                     ? ceres::DENSE_SCHUR
-                                     : ceres::SPARSE_SCHUR;
-    // Not one that sums in threads of its own.
-    if (ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::EIGEN_SPARSE)) {
-      options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-    }
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
-    return summary.IsSolutionUsable();
-  }
-
-  Rigid3 MotionOf(std::size_t view_idx) const {
-    return FromMotion(motions_[view_idx]);
-  }
-
-  Eigen::Vector3d PositionOf(const SpaceEdge& edge, std::size_t i) const {
-    return edge.position +
-           AxesAcross(edge.tangent) *
-               Eigen::Map<const Eigen::Vector2d>(offsets_[i].data());
-  }
+  const State& state() const { return state_; }
 
  private:
-  class Stopper : public ceres::IterationCallback {
-   public:
-    explicit Stopper(const std::function<bool()>& keep_going)
-        : keep_going_(keep_going) {}
-    ceres::CallbackReturnType operator()(
-        const ceres::IterationSummary&) override {
-      return keep_going_() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
+  // What a motion is multiplied by to give six residuals, each 1 where it
+  // shifts the image by prior_px. None for a view without samples.
+  Vector6d PriorFactors(const PoseProblem& problem,
+                        std::size_t view_idx) const {
+    std::vector<double> depths;
+    for (const std::size_t e : owners_.by_view[view_idx]) {
+      depths.push_back(seen_[e].position.z());
     }
-
-   private:
-    const std::function<bool()>& keep_going_;
-  };
-
-  void AddPrior(const PoseProblem& problem,
-                std::size_t view_idx,
-                std::vector<double> depths) {
-    auto cost =
-        std::make_unique<PriorCost>(problem.views[view_idx].calibration(0, 0),
-                                    Median(std::move(depths)),
-                                    problem.prior_px);
-    problem_.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<PriorCost, 6, 6>(cost.release()),
-        &prior_loss_,
-        motions_[view_idx].data());
+    Vector6d factors = Vector6d::Zero();
+    if (depths.empty()) return factors;
+    const double turn =
+        problem.views[view_idx].calibration(0, 0) / problem.prior_px;
+    factors.head<3>().setConstant(turn);
+    factors.tail<3>().setConstant(turn / Median(std::move(depths)));
+    return factors;
   }
 
-  static ceres::Problem::Options LossesAreNotOwned() {
-    ceres::Problem::Options options;
-    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    return options;
+  // Infinite if a sample is behind a camera.
+  double Cost(const State& state) const {
+    const std::vector<Rigid3> motions = RigidMotions(state);
+    std::vector<double> costs(seen_.size());
+    ParallelFor(costs.size(), num_threads_, [&](std::size_t e) {
+      const auto [view_idx, sample_idx] = owners_.of_equation[e];
+      const Eigen::Vector3d x =
+          motions[view_idx] *
+          (seen_[e].position + seen_[e].across * state.offsets[sample_idx]);
+      const double residual = seen_[e].line.dot(x) / x.z();
+      costs[e] = x.z() > 0 ? kEdgeLoss(residual * residual)
+                           : std::numeric_limits<double>::infinity();
+    });
+    double sum = 0;
+    for (const double cost : costs) sum += cost;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      sum += kPriorLoss(
+          prior_factors_[i].cwiseProduct(state.motions[i]).squaredNorm());
+    }
+    return sum;
   }
 
-  // Neither may be resized once problem_ points into them.
-  std::vector<Motion> motions_;
-  std::vector<Offset> offsets_;
-  ceres::CauchyLoss loss_{1};
-  ceres::CauchyLoss prior_loss_{kPriorLossScale};
-  ceres::Problem problem_{LossesAreNotOwned()};
+  State Next(double damping) const {
+    std::vector<StepEquation> equations(seen_.size());
+    std::vector<StepPrior> priors(state_.motions.size());
+    ParallelFor(priors.size(), num_threads_, [&](std::size_t i) {
+      Linearise(i, equations);
+      priors[i] = LinearPrior(i);
+    });
+    const Steps steps =
+        SolveSteps(owners_, equations, priors, damping, num_threads_);
+    State next = state_;
+    for (std::size_t i = 0; i < next.motions.size(); ++i) {
+      next.motions[i] += steps.motions[i];
+    }
+    for (std::size_t i = 0; i < next.offsets.size(); ++i) {
+      next.offsets[i] += steps.offsets[i];
+    }
+    return next;
+  }
+
+  // Writes the equations of one view.
+  void Linearise(std::size_t view_idx,
+                 std::vector<StepEquation>& equations) const {
+    const Motion& motion = state_.motions[view_idx];
+    const Rigid3 rigid = FromMotion(motion);
+    const Eigen::Matrix3d rotation = rigid.rotation.toRotationMatrix();
+    const Eigen::Matrix3d left_jacobian = LeftJacobian(motion.head<3>());
+    for (const std::size_t e : owners_.by_view[view_idx]) {
+      const auto& [position, across, line] = seen_[e];
+      const std::size_t sample_idx = owners_.of_equation[e].sample_idx;
+      const Eigen::Vector3d turned =
+          rotation * (position + across * state_.offsets[sample_idx]);
+      const Eigen::Vector3d x = turned + rigid.translation;
+      const double residual = line.dot(x) / x.z();
+      const double root = kEdgeLoss.RootOfWeight(residual * residual);
+      const Eigen::Vector3d by_x =
+          root / x.z() * (line - residual * Eigen::Vector3d::UnitZ());
+      StepEquation& equation = equations[e];
+      equation.residual = root * residual;
+      equation.by_motion << left_jacobian.transpose() * turned.cross(by_x),
+          by_x;
+      equation.by_offset = across.transpose() * (rotation.transpose() * by_x);
+    }
+  }
+
+  StepPrior LinearPrior(std::size_t view_idx) const {
+    const Vector6d& factors = prior_factors_[view_idx];
+    const Vector6d residuals = factors.cwiseProduct(state_.motions[view_idx]);
+    const double root = kPriorLoss.RootOfWeight(residuals.squaredNorm());
+    return {root * factors, root * residuals};
+  }
+
+  const int num_threads_;
+  const EquationOwners owners_;
+  std::vector<SeenSample> seen_;         // by equation
+  std::vector<Vector6d> prior_factors_;  // by view
+  State state_;
 };
 
 }  // namespace
 
 AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const std::vector<Rigid3>& start,
+                          int num_threads,
                           const std::function<bool()>& keep_going) {
-  Solver solver(problem, start);
-  const bool is_usable = solver.Solve(keep_going);
+  Search search(problem, start, num_threads);
   AdjustedPoses adjusted;
-  for (std::size_t i = 0; i < problem.views.size(); ++i) {
-    adjusted.new_cam_from_cam.push_back(is_usable ? solver.MotionOf(i)
-                                                  : start[i]);
-  }
+  adjusted.new_cam_from_cam =
+      search.Run(keep_going) ? RigidMotions(search.state()) : start;
   for (std::size_t i = 0; i < problem.samples.size(); ++i) {
     const SpaceEdge& edge = problem.samples[i].edge;
-    adjusted.positions.push_back(is_usable ? solver.PositionOf(edge, i)
-                                           : edge.position);
+    adjusted.positions.push_back(edge.position + AxesAcross(edge.tangent) *
+                                                     search.state().offsets[i]);
   }
   return adjusted;
 }

@@ -48,12 +48,13 @@ struct AdjustedPoses {
 
 // Minimises the distances between projected samples and the lines of their
 // edges over sigma, with Cauchy's loss, by Levenberg and Marquardt with the
-// samples eliminated (Ceres). `start`, one motion per view as in AdjustedPoses,
-// is where the search begins. One thread: the same result on every run. Asked
+// samples eliminated. `start`, one motion per view as in AdjustedPoses, is
+// where the search begins. The same result for any number of threads. Asked
 // between iterations, `keep_going` stops early. Everything stays where it was
-// if Ceres finds no usable solution.
+// if a sample is behind a camera.
 AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const std::vector<Rigid3>& start,
+                          int num_threads,
                           const std::function<bool()>& keep_going);
 
 }  // namespace curvix

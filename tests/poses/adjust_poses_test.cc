@@ -41,6 +41,7 @@ TEST(AdjustPoses, LeavesExactPosesAndPlacesAlone) {
   const std::vector<PoseSample> samples = ExactSamples(views);
   const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 1},
                                              std::vector<Rigid3>(views.size()),
+                                             1,
                                              KeepGoing);
   for (std::size_t i = 0; i < views.size(); ++i) {
     EXPECT_LT(adjusted.new_cam_from_cam[i].translation.norm(), 1e-6);
@@ -60,6 +61,7 @@ TEST(AdjustPoses, BringsAMovedCameraBack) {
   const std::vector<double> sigmas(views.size(), 0.2);
   const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
                                              std::vector<Rigid3>(views.size()),
+                                             1,
                                              KeepGoing);
   // All cameras share the way back, which the places do not tell from one.
   const PosedView back = Moved(views[3], adjusted.new_cam_from_cam[3]);
@@ -80,7 +82,7 @@ TEST(AdjustPoses, LeavesPosesAloneWithoutSamples) {
   const std::vector<PoseSample> none;
   const std::vector<Rigid3> start(views.size());
   const AdjustedPoses adjusted =
-      AdjustPoses({views, sigmas, none}, start, KeepGoing);
+      AdjustPoses({views, sigmas, none}, start, 1, KeepGoing);
   ASSERT_EQ(adjusted.new_cam_from_cam.size(), views.size());
   EXPECT_EQ(adjusted.new_cam_from_cam[1].translation, start[1].translation);
   EXPECT_TRUE(adjusted.positions.empty());
@@ -93,10 +95,26 @@ TEST(AdjustPoses, StopsWhenAsked) {
   motion.translation = {0.01, 0, 0};
   views[3] = Moved(views[3], motion);
   const std::vector<double> sigmas(views.size(), 0.2);
+  const AdjustedPoses adjusted = AdjustPoses(
+      {views, sigmas, samples, 3}, std::vector<Rigid3>(views.size()), 1, [] {
+        return false;
+      });
+  EXPECT_EQ(adjusted.new_cam_from_cam[3].translation, Eigen::Vector3d::Zero());
+}
+
+TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
+  const std::vector<PosedView> views = RingOfViews(8);
+  std::vector<PoseSample> samples = ExactSamples(views);
+  const Eigen::Vector3d behind =
+      views[3].center - views[3].rotation.row(2).transpose();
+  samples[5].edge.position = behind;
+  const std::vector<double> sigmas(views.size(), 0.2);
   const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
                                              std::vector<Rigid3>(views.size()),
-                                             [] { return false; });
+                                             1,
+                                             KeepGoing);
   EXPECT_EQ(adjusted.new_cam_from_cam[3].translation, Eigen::Vector3d::Zero());
+  EXPECT_EQ(adjusted.positions[5], behind);
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ const std::map<std::string, Rule>& Rules() {
       {"neighborhood", Stage()},
       {"alignment", Stage()},
       {"connectivity", Stage()},
-      {"poses", Stage({"ceres"})},
+      {"poses", Stage()},
       {"refinement", Stage({"ceres"})},
       {"parts", Stage()},
       {"fitting", Stage()},
