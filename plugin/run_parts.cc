@@ -105,8 +105,6 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
                       std::to_string(part_idx) + " is gone; bring it back or " +
                       "run 'colmap_curvix partition' again");
   }
-  record.settings.options = OptionsForPart(
-      settings.options, plan->num_views, input->scene.views.size());
   RunStages stages(folder / "stages", progress, record);
   const Result<std::vector<EdgeMap>> edge_maps = stages.Detect(input->scene);
   if (!edge_maps.ok()) return edge_maps.status();

@@ -159,14 +159,14 @@ struct ConnectivityOptions {
 // Beyond the paper: curves as a person would draw them.
 struct CurveRefinementOptions {
   bool enabled = true;
-  // Curves of less median evidence are left out, log units; >= 0.
-  double min_evidence = 14.0;
-  // Curves that are known less well need more evidence, by the square of the
-  // ratio. Pixels of the view that sees them largest, > 0.
-  double sigma_scale_px = 0.08;
+  // Curves are left out whose place is known less surely than this many times
+  // that of one 2D edge, across it; fewer times, where their edges scatter more
+  // than those of good curves or are blurred. >= 0; 0: none are left out.
+  double max_dilution = 2.5;
   // Curves of which a larger share of the 2D edges is blurred are left out as
-  // borders of shading. 0..1; 1 leaves none out.
-  double max_blurred_share = 0.3;
+  // borders of shading; with a smaller share, max_dilution falls in proportion.
+  // > 0, <= 1; 1 leaves nearly none out.
+  double max_blurred_share = 0.25;
   // Curves that are probably rims of smooth bodies stay, labelled.
   bool keep_occluding_contours = false;
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0

@@ -60,12 +60,6 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
 // The part in whose core `position` is.
 int OwnerOf(const ScenePartition& partition, const Eigen::Vector3d& position);
 
-// What curve refinement asks of curves depends on the number of views of the
-// scene: the options that ask the same of a part with fewer.
-Options OptionsForPart(Options options,
-                       std::size_t num_scene_views,
-                       std::size_t num_part_views);
-
 // A curve and the 2D edges behind it.
 struct TracedCurve {
   Curve curve;  // EdgeRef::edge_idx: index into `edges`

@@ -212,11 +212,10 @@ void AddRows(ConnectivityOptions& o, Section row) {
 void AddRows(CurveRefinementOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "select, smooth and join curves as a person would draw them");
-  row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
-      "curves of less median evidence are left out, log units");
-  row("sigma_scale_px", &o.sigma_scale_px, Above(0), "px", "",
-      "curves known less well than this need more evidence");
-  row("max_blurred_share", &o.max_blurred_share, Between(0, 1), "", "",
+  row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
+      "curves known so many times less surely than one 2D edge are left out; "
+      "0: none");
+  row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
       "curves with a larger share of blurred edges are borders of shading and "
       "left out");
   row.Switch("keep_occluding_contours", &o.keep_occluding_contours,

@@ -18,7 +18,6 @@
 #include "parts/regions.h"
 #include "parts/trace_curve.h"
 #include "pipeline/check_input.h"
-#include "refinement/refine_curves.h"
 
 namespace curvix {
 namespace {
@@ -55,14 +54,6 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
                     std::to_string(max_views_per_part) +
                     " views, because too many of them see the same places; "
                     "allow more views per part");
-}
-
-Options OptionsForPart(Options options,
-                       std::size_t num_scene_views,
-                       std::size_t num_part_views) {
-  options.curve_refinement.min_evidence *=
-      EvidenceShare(num_scene_views) / EvidenceShare(num_part_views);
-  return options;
 }
 
 PartResult TakePart(const ScenePartition& partition,

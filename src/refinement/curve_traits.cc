@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "base/median.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
@@ -17,6 +19,8 @@ namespace {
 // Half as blurred again in variance as an edge of the view is as a rule.
 constexpr double kBlurred = 0.7;
 constexpr double kSigmasOfMedianDistance = 1.4826;
+// The standard deviation of a 2D edge's place that sigmas assume.
+constexpr double kEdgeSigmaPx = 0.15;
 
 // The edges behind a curve.
 struct Support {
@@ -42,6 +46,25 @@ void AddSupport(const CurveSample& sample,
     support.sharpness[ref.view_idx].push_back(
         static_cast<double>(edge.sharpness));
   }
+}
+
+// If all views that look at the sample had an edge where it is projected.
+// Infinite, if less than two look at it.
+double LeastDilution(const CurveSample& sample,
+                     const std::vector<PosedView>& views) {
+  const SpaceEdge edge{sample.position, sample.tangent};
+  std::vector<PlaneMeasurement> measurements;
+  for (const PosedView& view : views) {
+    const auto projected = ProjectEdge(view, edge);
+    if (projected && view.Contains(projected->position)) {
+      measurements.push_back(MeasurePlane(view, *projected));
+    }
+  }
+  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
+  const double pixel = PixelSize(sample.position, sample.support, views);
+  const Eigen::Matrix2d covariance =
+      AdjustEdge(edge, measurements, kEdgeSigmaPx).covariance;
+  return std::sqrt(covariance.trace() / 2) / (kEdgeSigmaPx * pixel);
 }
 
 double BlurredShare(const Support& support,
@@ -87,19 +110,19 @@ std::optional<CurveTraits> MeasureCurve(
     const std::vector<PosedView>& views,
     const std::vector<EdgeMap>& edge_maps,
     const std::vector<double>& typical_sharpness) {
-  std::vector<double> evidence, sigma_px;
+  std::vector<double> dilutions;
   Support support;
   for (const CurveSample& sample : curve.samples) {
     const double pixel = PixelSize(sample.position, sample.support, views);
     if (!(sample.sigma > 0) || !(pixel > 0)) continue;
-    evidence.push_back(sample.evidence);
-    sigma_px.push_back(sample.sigma / pixel);
+    dilutions.push_back(sample.sigma / (kEdgeSigmaPx * pixel));
     AddSupport(sample, views, edge_maps, support);
   }
   if (support.distances_px.empty()) return std::nullopt;
   CurveTraits traits;
-  traits.evidence = Median(std::move(evidence));
-  traits.sigma_px = Median(std::move(sigma_px));
+  traits.dilution = Median(std::move(dilutions));
+  traits.least_dilution =
+      LeastDilution(curve.samples[curve.samples.size() / 2], views);
   traits.blurred_share = BlurredShare(support, typical_sharpness);
   traits.scatter_px =
       kSigmasOfMedianDistance * Median(std::move(support.distances_px));

@@ -18,9 +18,13 @@ namespace curvix {
 // rim of a smooth body lies elsewhere on it in every view. Along a whole curve
 // noise averages out, and both show.
 struct CurveTraits {
-  // Medians over the samples whose sigma is known, in pixels (pixel_size.h).
-  double evidence = 0;
-  double sigma_px = 0;
+  // How many times less surely than one 2D edge, across it, the place of the
+  // curve is known: the median over the samples of sigma in pixels
+  // (pixel_size.h) over the 0.15 that sigmas assume of an edge. It falls with
+  // the number of supporting views and grows where their rays lie in one plane.
+  double dilution = 0;
+  // That of the middle sample, if all views that look at it supported it.
+  double least_dilution = 0;
   // 1.48 times the median distance of the supporting edges from the projected
   // samples, which for normal errors is their standard deviation. Pixels.
   double scatter_px = 0;

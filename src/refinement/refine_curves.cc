@@ -2,8 +2,6 @@
 // Paper: none (beyond it).
 #include "refinement/refine_curves.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "geometry/loose_curves.h"
@@ -17,22 +15,6 @@
 #include "refinement/smooth_curves.h"
 
 namespace curvix {
-namespace {
-
-// options.min_evidence is for this many views or more.
-constexpr double kFullNumViews = 50;
-
-CurveRefinementOptions ForNumViews(CurveRefinementOptions options,
-                                   std::size_t num_views) {
-  options.min_evidence *= EvidenceShare(num_views);
-  return options;
-}
-
-}  // namespace
-
-double EvidenceShare(std::size_t num_views) {
-  return std::min(1.0, static_cast<double>(num_views) / kFullNumViews);
-}
 
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
@@ -40,11 +22,8 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const CurveRefinementOptions& options,
                                 int num_threads) {
   if (!options.enabled) return curves;
-  SelectedCurves selected = SelectCurves(curves,
-                                         views,
-                                         edge_maps,
-                                         ForNumViews(options, views.size()),
-                                         num_threads);
+  SelectedCurves selected =
+      SelectCurves(curves, views, edge_maps, options, num_threads);
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
   const ImageSupport images(views, edge_maps, num_threads);

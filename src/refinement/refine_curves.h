@@ -5,19 +5,13 @@
 #include <curvix/curves.h>
 #include <curvix/options.h>
 
-#include <cstddef>
 #include <vector>
 
 #include "model/posed_view.h"
 
 namespace curvix {
 
-// The share of options.min_evidence that is asked for in a scene of so many
-// views, n: n / 50, at most 1, since evidence adds up over views.
-double EvidenceShare(std::size_t num_views);
-
-// Selects (select_curves.h, with EvidenceShare of the least evidence), smooths
-// (smooth_curves.h), closes gaps (bridge_gaps.h), fits to all images
+// Selects (select_curves.h), smooths (smooth_curves.h), closes gaps (bridge_gaps.h), fits to all images
 // (fit_to_images.h) under the tone curve that the views agree on
 // (estimate_tone_curve.h, unless options.undo_tone_curve is off), and carries
 // on to corners (meet_at_junctions.h). Then curves shorter than

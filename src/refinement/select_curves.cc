@@ -13,52 +13,34 @@
 namespace curvix {
 namespace {
 
+// Sampling by pixels leaves as much.
 constexpr double kLeastScatterPx = 0.06;
-// Scatter, in units of that of good curves, that asks for no more evidence.
-constexpr double kOrdinaryScatter = 3;
-// The standard deviation of an edge's place that the sigmas of samples assume,
-// where the scatter is not larger.
-constexpr double kAssumedScatterPx = 0.15;
+// Curves of a smaller share of blurred edges tell how far good curves scatter.
+constexpr double kSharp = 0.1;
+// Where the views cannot tell more, curves may be as dilute as this ...
+constexpr double kTimesLeastDilution = 6;
+// ... but no more than that.
+constexpr double kMostTimesMaxDilution = 1.6;
 
 using AllTraits = std::vector<std::optional<CurveTraits>>;
 
-double Squared(double x) { return x * x; }
-
-// Not yet for scatter. `least_scatter`: that of good curves, or less.
-double NeededEvidence(const CurveTraits& traits,
-                      double least_scatter,
-                      const CurveRefinementOptions& options) {
-  const double scatter = std::max(traits.scatter_px, least_scatter);
-  const double sigma_px =
-      traits.sigma_px * std::min(1.0, scatter / kAssumedScatterPx);
-  return options.min_evidence *
-         Squared(std::max(1.0, sigma_px / options.sigma_scale_px));
-}
-
-bool IsBlurred(const CurveTraits& traits,
-               const CurveRefinementOptions& options) {
-  return traits.blurred_share > options.max_blurred_share;
-}
-
 // The scatter of good curves.
 double TypicalScatter(const std::vector<Curve>& curves,
-                      const AllTraits& all_traits,
-                      const CurveRefinementOptions& options) {
-  std::vector<std::pair<double, double>> scatter_and_length;
+                      const AllTraits& all_traits) {
+  std::vector<std::pair<double, double>> scatter_and_weight;
   double total = 0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& traits = all_traits[i];
-    if (!traits || IsBlurred(*traits, options) ||
-        traits->evidence < NeededEvidence(*traits, kLeastScatterPx, options)) {
-      continue;
-    }
-    scatter_and_length.emplace_back(traits->scatter_px, Length(curves[i]));
-    total += scatter_and_length.back().second;
+    if (!traits || traits->blurred_share >= kSharp) continue;
+    const double weight =
+        Length(curves[i]) / (traits->dilution * traits->dilution);
+    scatter_and_weight.emplace_back(traits->scatter_px, weight);
+    total += weight;
   }
-  std::sort(scatter_and_length.begin(), scatter_and_length.end());
+  std::sort(scatter_and_weight.begin(), scatter_and_weight.end());
   double sum = 0;
-  for (const auto& [scatter, length] : scatter_and_length) {
-    sum += length;
+  for (const auto& [scatter, weight] : scatter_and_weight) {
+    sum += weight;
     if (sum >= total / 4) return std::max(kLeastScatterPx, scatter);
   }
   return kLeastScatterPx;
@@ -69,14 +51,17 @@ enum class Verdict { kEdge, kOccludingContour, kNone };
 Verdict Judge(const CurveTraits& traits,
               double typical_scatter,
               const CurveRefinementOptions& options) {
-  if (IsBlurred(traits, options)) return Verdict::kNone;
-  if (traits.evidence < options.min_evidence) return Verdict::kNone;
-  const double scatter =
-      traits.scatter_px / (kOrdinaryScatter * typical_scatter);
-  const double needed = NeededEvidence(traits, typical_scatter, options) *
-                        Squared(std::max(1.0, scatter));
-  return traits.evidence >= needed ? Verdict::kEdge
-                                   : Verdict::kOccludingContour;
+  if (options.max_dilution == 0) return Verdict::kEdge;
+  const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
+  if (sharpness <= 0) return Verdict::kNone;
+  const double scatter = std::max(1.0, traits.scatter_px / typical_scatter);
+  const double allowed =
+      std::clamp(kTimesLeastDilution * traits.least_dilution,
+                 options.max_dilution,
+                 kMostTimesMaxDilution * options.max_dilution);
+  return traits.dilution * scatter <= allowed * sharpness
+             ? Verdict::kEdge
+             : Verdict::kOccludingContour;
 }
 
 }  // namespace
@@ -91,7 +76,7 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     all_traits[i] = MeasureCurve(curves[i], views, edge_maps, sharpness);
   });
-  const double typical_scatter = TypicalScatter(curves, all_traits, options);
+  const double typical_scatter = TypicalScatter(curves, all_traits);
   SelectedCurves selected;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Verdict verdict =

@@ -16,24 +16,22 @@ struct SelectedCurves {
   std::vector<Curve> occluding_contours;  // labelled
 };
 
-// Sorts the curves that the views confirm, each kind in the given order. A
-// curve (curve_traits.h) is
-//  * left out as a border of shading, if more than options.max_blurred_share of
-//    its edges are blurred,
-//  * left out as chance, if its evidence is below options.min_evidence,
-//  * an occluding contour, if its evidence is below
-//      options.min_evidence * max(1, s / (3 r))^2
-//                           * max(1, sigma' / options.sigma_scale_px)^2,
-//    s its scatter, and r that of good curves of this scene: what is left of
-//    the errors of edges, cameras and poses; sigma' is its sigma, but where its
-//    edges scatter less than the 0.15 px that sigmas assume, in proportion;
-//  * an edge of the scene, otherwise.
+// Sorts the curves, each kind in the given order. A curve (curve_traits.h) is
+//  * left out as a border of shading, if options.max_blurred_share of its edges
+//    or more are blurred,
+//  * an edge of the scene, if
+//      dilution * max(1, s / r) <= allowed * (1 - blurred / max_blurred_share)
+//    with s its scatter, r that of good curves of this scene, and allowed
+//    options.max_dilution; where views cannot tell places so well, 6 times the
+//    least dilution, up to 1.6 options.max_dilution,
+//  * an occluding contour, otherwise.
 // The rim of a smooth body lies elsewhere in every view, so its edges scatter,
-// and shows from directions in one plane, so it is badly determined; a whole
-// curve of edges is recognised more surely than each of them. r is the lower
-// quartile, by length, of the scatter of curves that would be edges without the
-// term in s; at least 0.06 px, which sampling by pixels leaves. Curves whose
-// sigma is not known or that have no support count as edges.
+// and shows from directions in one plane, so it is badly determined; what views
+// show by chance scatters, too. r is what is left of the errors of edges,
+// cameras and poses: the lower quartile of the scatter of sharp curves,
+// weighted by length / dilution^2; at least 0.06 px, which sampling by pixels
+// leaves. Curves whose sigma is not known or that have no support count as
+// edges; if options.max_dilution is 0, all do.
 SelectedCurves SelectCurves(std::vector<Curve> curves,
                             const std::vector<PosedView>& views,
                             const std::vector<EdgeMap>& edge_maps,

@@ -102,7 +102,7 @@ class InstalledColmap : public testing::Test {
                        "/sparse/1' --output_path '" + folder +
                        "/out' --EdgeDetection.min_gradient 60 "
                        "--Hypotheses.num_partners 1 "
-                       "--CurveRefinement.min_evidence 0 " +
+                       "--CurveRefinement.max_dilution 0 " +
                        more,
                    said);
   }

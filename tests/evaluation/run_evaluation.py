@@ -50,7 +50,7 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('15', 'tracks drawn once', ['--Connectivity.max_repeat_distance_px', '0']),
     ('16', 'joins', ['--Connectivity.max_gap_px', '0']),
     ('17', 'corner splits', ['--Connectivity.max_corner_deg', '180']),
-    ('18', 'selection of curves', ['--CurveRefinement.min_evidence', '0']),
+    ('18', 'selection of curves', ['--CurveRefinement.max_dilution', '0']),
     ('19', 'smoothing', ['--CurveRefinement.smoothing_px', '0']),
     ('20', 'gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
     ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),

@@ -12,7 +12,7 @@ namespace {
 constexpr double kNoisePx = 0.1;
 
 // The sides of a square of 100 px: noisy, broken in the middle, and not
-// reaching the corners; and a curve that few views confirm.
+// reaching the corners; and a curve whose place the views hardly tell.
 std::vector<Curve> RoughSquare() {
   Random random(3);
   std::vector<Curve> curves;
@@ -28,7 +28,7 @@ std::vector<Curve> RoughSquare() {
     }
   }
   curves.push_back(Line(InPlane(-20, 0), InPlane(20, 0)));
-  for (CurveSample& sample : curves.back().samples) sample.evidence = 0.1;
+  for (CurveSample& sample : curves.back().samples) sample.sigma = kPixel;
   return curves;
 }
 

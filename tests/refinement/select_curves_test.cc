@@ -3,30 +3,45 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+#include <vector>
 
 #include "tests/refinement/drawn_curves.h"
 
 namespace curvix {
 namespace {
 
-constexpr CurveRefinementOptions kOptions = {
-    .min_evidence = 12, .sigma_scale_px = 0.08, .max_blurred_share = 0.2};
+constexpr CurveRefinementOptions kOptions = {.max_dilution = 2.5,
+                                             .max_blurred_share = 0.2};
 constexpr double kGoodScatterPx = 0.1;
 
 struct Drawn {
-  double evidence = 40;
-  double sigma_px = 0.05;
+  double dilution = 1;
   double scatter_px = kGoodScatterPx;
   double blurred_share = 0;
 };
 
-// Curves in two views, in which edges as sharp as all others support them but
-// for the share that is blurred.
+// Cameras all around the x axis.
+std::vector<PosedView> Around(int num_views) {
+  std::vector<PosedView> views;
+  for (int i = 0; i < num_views; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.25) / num_views;
+    views.push_back(
+        LookAt({0, -8 * std::cos(angle), 8 * std::sin(angle)}, {0, 0, 0}));
+  }
+  return views;
+}
+
+// Curves in two of the views, in which edges as sharp as all others support
+// them but for the share that is blurred. If all n views did, dilution would
+// be sqrt(2 / n).
 class Scene {
  public:
-  Scene() : views_(2, FrontalViews().front()), edge_maps_(2) {
+  explicit Scene(int num_views = 16)
+      : views_(Around(num_views)), edge_maps_(views_.size()) {
     for (int k = 0; k < 1000; ++k) {  // what else the views show
       for (EdgeMap& map : edge_maps_) {
         map.edges.push_back(
@@ -35,14 +50,16 @@ class Scene {
     }
   }
 
-  // A line of 200 samples, the blurred ones of which are seen in view 1.
-  void Add(const Drawn& drawn) {
-    Curve curve = Line(InPlane(0, 0), InPlane(199, 0));
+  // A line of 200 samples, the blurred ones of which are seen in view 1. How
+  // many there were before, which its evidence tells, too.
+  double Add(const Drawn& drawn) {
+    const auto idx = static_cast<double>(curves_.size());
+    Curve curve = Line(InPlane(-100, 0), InPlane(99, 0));
     const std::size_t count = curve.samples.size();
     for (std::size_t k = 0; k < count; ++k) {
       CurveSample& sample = curve.samples[k];
-      sample.evidence = drawn.evidence;
-      sample.sigma = drawn.sigma_px * kPixel;
+      sample.evidence = idx;
+      sample.sigma = 0.15 * drawn.dilution * kPixel;
       const bool is_blurred = static_cast<double>(k) + 0.5 <
                               drawn.blurred_share * static_cast<double>(count);
       sample.support = {
@@ -51,6 +68,7 @@ class Scene {
                   drawn.scatter_px / 1.4826 * (k % 2 == 0 ? 1 : -1))};
     }
     curves_.push_back(std::move(curve));
+    return idx;
   }
 
   SelectedCurves Select(const CurveRefinementOptions& options = kOptions,
@@ -86,66 +104,85 @@ class Scene {
 
 enum class Kind { kEdge, kOccludingContour, kNone };
 
-// What becomes of a curve in a scene with a good and longer one.
-Kind KindOf(const Drawn& drawn) {
-  Scene scene;
+// What becomes of a curve in a scene with two good ones.
+Kind KindOf(const Drawn& drawn, Scene scene = Scene()) {
   scene.Add({});
   scene.Add({});
-  scene.Add(drawn);
+  const double idx = scene.Add(drawn);
   const SelectedCurves selected = scene.Select();
-  if (selected.edges.size() == 3) return Kind::kEdge;
-  return selected.occluding_contours.size() == 1 ? Kind::kOccludingContour
-                                                 : Kind::kNone;
+  const auto holds_it = [&](const std::vector<Curve>& curves) {
+    return std::any_of(curves.begin(), curves.end(), [&](const Curve& curve) {
+      return curve.samples.front().evidence == idx;
+    });
+  };
+  if (holds_it(selected.edges)) return Kind::kEdge;
+  return holds_it(selected.occluding_contours) ? Kind::kOccludingContour
+                                               : Kind::kNone;
 }
 
-TEST(SelectCurves, AsksForEvidence) {
-  EXPECT_EQ(KindOf({.evidence = 12.001}), Kind::kEdge);
-  EXPECT_EQ(KindOf({.evidence = 11.999}), Kind::kNone);
+// Curves of this scatter and blur are edges up to this dilution.
+void ExpectLimit(double dilution,
+                 const Drawn& drawn,
+                 const Scene& scene = Scene()) {
+  Drawn at_limit = drawn;
+  at_limit.dilution = 0.999 * dilution;
+  EXPECT_EQ(KindOf(at_limit, scene), Kind::kEdge);
+  at_limit.dilution = 1.001 * dilution;
+  EXPECT_EQ(KindOf(at_limit, scene), Kind::kOccludingContour);
 }
+
+TEST(SelectCurves, AsksThatPlacesAreKnownSurely) { ExpectLimit(2.5, {}); }
 
 TEST(SelectCurves, AsksForMoreWhereEdgesScatterMoreThanInThisScene) {
-  for (const double ratio : {1.0, 1.5, 3.0}) {
-    const double scatter = 3 * kGoodScatterPx * ratio;
-    const double needed = 12 * ratio * ratio;
-    EXPECT_EQ(KindOf({.evidence = 1.001 * needed, .scatter_px = scatter}),
-              Kind::kEdge);
-    EXPECT_NE(KindOf({.evidence = 0.999 * needed, .scatter_px = scatter}),
-              Kind::kEdge);
+  ExpectLimit(2.5, {.scatter_px = 0.5 * kGoodScatterPx});
+  for (const double ratio : {1.5, 3.0}) {
+    ExpectLimit(2.5 / ratio, {.scatter_px = ratio * kGoodScatterPx});
   }
 }
 
-TEST(SelectCurves, AsksForMoreWherePositionsAreLessSure) {
-  for (const double ratio : {1.0, 1.5, 3.0}) {
-    const double needed = 12 * ratio * ratio;
-    // Sigmas assume a scatter of 0.15 px, and the edges scatter less.
-    const double sigma = ratio * 0.08 * 0.15 / kGoodScatterPx;
-    EXPECT_EQ(KindOf({.evidence = 1.001 * needed, .sigma_px = sigma}),
-              Kind::kEdge);
-    EXPECT_NE(KindOf({.evidence = 0.999 * needed, .sigma_px = sigma}),
-              Kind::kEdge);
-  }
+TEST(SelectCurves, AsksForLessWhereTheViewsCannotTellMore) {
+  ExpectLimit(6 * std::sqrt(2.0 / 8), {}, Scene(8));
+  ExpectLimit(1.6 * 2.5, {}, Scene(4));
+  ExpectLimit(1.6 * 2.5, {}, Scene(2));  // both in one plane with the curve
 }
 
-TEST(SelectCurves, TakesConfirmedCurvesThatScatterForOccludingContours) {
-  EXPECT_EQ(KindOf({.evidence = 20, .scatter_px = 0.5}),
-            Kind::kOccludingContour);
-  EXPECT_EQ(KindOf({.evidence = 20, .sigma_px = 0.3}), Kind::kOccludingContour);
+TEST(SelectCurves, AsksForMoreOfBlurredCurves) {
+  ExpectLimit(0.75 * 2.5, {.blurred_share = 0.05});
+  ExpectLimit(0.25 * 2.5, {.blurred_share = 0.15});
 }
 
 TEST(SelectCurves, LeavesBordersOfShadingOut) {
-  EXPECT_EQ(KindOf({.evidence = 100, .blurred_share = 0.1}), Kind::kEdge);
-  EXPECT_EQ(KindOf({.evidence = 100, .blurred_share = 0.3}), Kind::kNone);
+  EXPECT_EQ(KindOf({.dilution = 0.1, .blurred_share = 0.195}),
+            Kind::kOccludingContour);
+  EXPECT_EQ(KindOf({.dilution = 0.01, .blurred_share = 0.25}), Kind::kNone);
+}
+
+TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
+  Scene scene;
+  for (int i = 0; i < 5; ++i) {
+    scene.Add({.dilution = 5, .scatter_px = 0.5});
+    scene.Add({.scatter_px = 0.5, .blurred_share = 0.1});
+  }
+  ExpectLimit(1.25, {.scatter_px = 2 * kGoodScatterPx}, scene);
 }
 
 TEST(SelectCurves, KeepsCurvesOfUnknownSigma) {
-  EXPECT_EQ(KindOf({.evidence = 0, .sigma_px = 0}), Kind::kEdge);
+  EXPECT_EQ(KindOf({.dilution = 0}), Kind::kEdge);
+}
+
+TEST(SelectCurves, KeepsAllIfAsked) {
+  Scene scene;
+  scene.Add({.dilution = 1000, .blurred_share = 1});
+  CurveRefinementOptions options = kOptions;
+  options.max_dilution = 0;
+  EXPECT_EQ(scene.Select(options).edges.size(), 1u);
 }
 
 TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
   Scene scene;
-  for (const double evidence : {30, 5, 40, 50, 6}) {
-    scene.Add({.evidence = evidence});
-    scene.Add({.evidence = evidence, .sigma_px = 1});
+  for (const double dilution : {1, 5, 2, 1, 6}) {
+    scene.Add({.dilution = dilution});
+    scene.Add({.dilution = dilution, .blurred_share = 0.5});
   }
   const SelectedCurves selected = scene.Select();
   std::vector<double> edges, contours;
@@ -157,19 +194,17 @@ TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
     contours.push_back(curve.samples.front().evidence);
     EXPECT_TRUE(curve.is_occluding_contour);
   }
-  EXPECT_EQ(edges, (std::vector<double>{30, 40, 50}));
-  EXPECT_EQ(contours, (std::vector<double>{30, 40, 50}));
+  EXPECT_EQ(edges, (std::vector<double>{0, 4, 6}));
+  EXPECT_EQ(contours, (std::vector<double>{2, 8}));
 }
 
 TEST(SelectCurves, DoesNotDependOnTheUnit) {
   Scene scene;
-  scene.Add({});
-  for (const double evidence : {26.9, 27.1}) {  // 12 * 1.5^2
-    scene.Add({.evidence = evidence, .sigma_px = 0.12 * 1.5});
+  for (const double dilution : {1.0, 2.49, 2.51}) {
+    scene.Add({.dilution = dilution});
   }
-  EXPECT_EQ(scene.Select(kOptions, 1000).edges.size(),
-            scene.Select(kOptions, 1).edges.size());
-  EXPECT_EQ(scene.Select().edges.size(), 2u);
+  EXPECT_EQ(scene.Select(kOptions, 1000).edges.size(), 2u);
+  EXPECT_EQ(scene.Select(kOptions, 1).edges.size(), 2u);
 }
 
 }  // namespace
