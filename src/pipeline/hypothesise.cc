@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5. Deviation: with
-// Polarity::kSame, bright sides must agree; see docs/paper_map.md.
+// Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5.
 #include "pipeline/hypothesise.h"
 
 #include <cmath>
@@ -21,11 +20,10 @@ std::optional<HypothesisViews> HypothesisViews::Make(
     const PosedView& h2,
     const std::vector<Edge2d>& edges2,
     const DepthRange& depths,
-    Polarity polarity,
     const Options& options) {
   const auto pencil = EpipolarPencil::Make(h1, h2);
   if (!pencil) return std::nullopt;
-  return HypothesisViews(*pencil, h1, h2, edges2, depths, polarity, options);
+  return HypothesisViews(*pencil, h1, h2, edges2, depths, options);
 }
 
 HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
@@ -33,7 +31,6 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
                                  const PosedView& h2,
                                  const std::vector<Edge2d>& edges2,
                                  const DepthRange& depths,
-                                 Polarity polarity,
                                  const Options& options)
     : h1_(&h1),
       h2_(&h2),
@@ -41,7 +38,6 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
       pencil_(pencil),
       fundamental_(FundamentalMatrix(h1, h2)),
       depths_(depths),
-      polarity_(polarity),
       projection_(h1, h2),
       sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {
   edges2_.reserve(edges2.size());
@@ -51,13 +47,15 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
   }
 }
 
-double HypothesisViews::CrossingSine(const ImageEdge& edge1) const {
+bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
   // The epipolar plane of the edge meets the image in its epipolar line.
   const Eigen::Vector3d normal =
-      h1_->Ray(edge1.position).cross(pencil_.baseline());
+      pencil_.baseline().cross(h1_->Ray(edge1.position));
   const Eigen::Vector3d line =
       h1_->calibration.inverse().transpose() * (h1_->rotation * normal);
-  return line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
+  const double sine = line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
+  return std::abs(sine) <
+         std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
 }
 
 Interval HypothesisViews::SearchAlong(const Line2& line,
@@ -73,10 +71,7 @@ Interval HypothesisViews::SearchAlong(const Line2& line,
 Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   Hypotheses result;
   const ImageEdge image_edge1 = ToImageEdge(edge1);
-  const double min_sine =
-      std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
-  const double sine1 = CrossingSine(image_edge1);
-  if (std::abs(sine1) < min_sine) return result;
+  if (RunsAlongEpipolarLine(image_edge1)) return result;
   const double tolerance_px = options_->hypotheses.location_tolerance_px;
   const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
   if (!wedge) return result;
@@ -87,17 +82,13 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   std::vector<LineEdge> on_line;
   on_line.reserve(kUsualNumCandidates);
   sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
-    const auto& [edge2, edge_idx] = edges2_[i];
-    // Both have their bright side to the right, and cross one plane.
-    if (polarity_ == Polarity::kSame &&
-        sine1 * line.normal.dot(edge2.tangent) < 0) {
-      return;
-    }
-    if (!search.Contains(direction.dot(edge2.position))) return;
-    const auto moved =
-        SlideToLine(edge2, line, tolerance_px, options_->consolidation);
-    if (moved) on_line.push_back({*moved, edge_idx});
+    if (!search.Contains(direction.dot(edges2_[i].edge.position))) return;
+    const auto moved = SlideToLine(
+        edges2_[i].edge, line, tolerance_px, options_->consolidation);
+    if (moved) on_line.push_back({*moved, edges2_[i].edge_idx});
   });
+  const double min_sine =
+      std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
   result.virtual_edges = ClusterEdges(on_line, line, options_->consolidation);
   result.hypotheses.reserve(result.virtual_edges.edges.size());
   for (const VirtualEdge& virtual_edge : result.virtual_edges.edges) {

@@ -31,12 +31,6 @@ struct Hypotheses {
   VirtualEdges virtual_edges;          // also those that lead to none
 };
 
-// Which edges of H2 an edge of H1 may belong to.
-enum class Polarity {
-  kAny,   // paper
-  kSame,  // bright on the same side of the curve in space
-};
-
 // The edges of H2 ready to be paired with those of H1.
 class HypothesisViews {
  public:
@@ -45,7 +39,6 @@ class HypothesisViews {
                                              const PosedView& h2,
                                              const std::vector<Edge2d>& edges2,
                                              const DepthRange& depths,
-                                             Polarity polarity,
                                              const Options& options);
 
   // Candidates in the epipolar wedge of `edge1`, moved onto its epipolar line,
@@ -63,22 +56,18 @@ class HypothesisViews {
                   const PosedView& h2,
                   const std::vector<Edge2d>& edges2,
                   const DepthRange& depths,
-                  Polarity polarity,
                   const Options& options);
 
   // The part of the epipolar line of `pixel1` that shows `depths_`, and as much
   // beyond it as an edge may slide: pixels along its direction.
   Interval SearchAlong(const Line2& line, const Eigen::Vector2d& pixel1) const;
-  // Of the angle at which `edge1` crosses its own epipolar line, towards the
-  // side on which EpipolarLine() in H2 has its normal.
-  double CrossingSine(const ImageEdge& edge1) const;
+  bool RunsAlongEpipolarLine(const ImageEdge& edge1) const;
 
   const PosedView *h1_, *h2_;
   const Options* options_;
   EpipolarPencil pencil_;
   Eigen::Matrix3d fundamental_;
   DepthRange depths_;
-  Polarity polarity_;
   RayProjection projection_;
   SortedByAngle sorted2_;
   std::vector<LineEdge> edges2_;  // as detected, in the order of sorted2_

@@ -171,7 +171,6 @@ EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
                               input.views[h2],
                               input.edge_maps[h2].edges,
                               input.depths[h1],
-                              Polarity::kAny,
                               input.options);
     if (!hypothesis_views) continue;
     const PairSketcher sketcher(input, *pair, *hypothesis_views);

@@ -21,9 +21,6 @@ namespace {
 
 // Times the evidence that is asked for.
 constexpr double kSettledEvidence = 3;
-// So many views show a curve in enough pairs that are bright on the same side;
-// of fewer, every pair counts.
-constexpr std::size_t kManyViews = 32;
 
 // What one H1 edge led to.
 struct H1Result {
@@ -76,8 +73,6 @@ class ViewSketcher {
         NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
     const std::size_t fewest_supports =
         FewestSupports(input_.options.validation, NumOnThisSide(h1));
-    const Polarity polarity =
-        validators.size() >= kManyViews ? Polarity::kSame : Polarity::kAny;
     std::vector<std::optional<HypothesisViews>> pairs(partners.size());
     ParallelFor(
         pairs.size(), input_.options.runtime.num_threads, [&](std::size_t k) {
@@ -86,7 +81,6 @@ class ViewSketcher {
                                            input_.views[j],
                                            input_.edge_maps[j].edges,
                                            input_.depths[i],
-                                           polarity,
                                            input_.options);
         });
     for (std::size_t k = 0; k < pairs.size(); ++k) {
