@@ -166,7 +166,7 @@ struct CurveRefinementOptions {
   // Curves of which a larger share of the 2D edges is blurred are left out as
   // borders of shading; with a smaller share, max_dilution falls in proportion.
   // > 0, <= 1; 1 leaves nearly none out.
-  double max_blurred_share = 0.25;
+  double max_blurred_share = 0.3;
   // Curves that are probably rims of smooth bodies stay, labelled.
   bool keep_occluding_contours = false;
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
