@@ -280,19 +280,14 @@ class Part:
 # --- Cameras and pictures ---------------------------------------------------
 
 def poses(count):
-    """Rotations and translations, cam_from_world, of cameras spread evenly over
-    a sphere."""
+    """Rotations and translations, cam_from_world, of cameras all around, in
+    directions that are random, but the same for each part."""
+    generator = np.random.default_rng(1)
     result = []
-    for i in range(count):
-        z = 1 - (2 * i + 1) / count
-        turn = i * math.pi * (3 - math.sqrt(5))
-        radius = math.sqrt(1 - z * z)
-        center = DISTANCE * np.array(
-            [radius * math.cos(turn), radius * math.sin(turn), z])
-        forward = -center / DISTANCE
-        right = directions(np.cross(forward, [0, 0, 1])[None])[0]
-        rotation = np.stack([right, np.cross(forward, right), forward])
-        result.append((rotation, -rotation @ center))
+    for outwards in directions(generator.standard_normal((count, 3))):
+        right = directions(np.cross([0, 0, 1], outwards)[None])[0]
+        rotation = np.stack([right, np.cross(right, outwards), -outwards])
+        result.append((rotation, DISTANCE * rotation @ -outwards))
     return result
 
 
