@@ -25,6 +25,7 @@ constexpr double kSettledEvidence = 3;
 // What one H1 edge led to.
 struct H1Result {
   std::vector<TrackedEdge> tracked;
+  std::vector<EdgeRef> also_shown;  // by views that were not asked
   std::int64_t hypotheses = 0;
   std::int64_t unsupported = 0;
   std::int64_t rivals = 0;
@@ -40,6 +41,7 @@ struct Partner {
 struct H1View {
   std::vector<Partner> partners;
   std::vector<std::vector<ViewNeighbor>> neighbors;  // among those to ask
+  std::vector<std::int32_t> not_asked;               // but overlap it
 };
 
 class ViewSketcher {
@@ -69,6 +71,12 @@ class ViewSketcher {
         SelectPartners(input_.overlaps[i], input_.options.hypotheses);
     const std::vector<int> validators =
         SelectValidators(input_.overlaps, h1, partners);
+    for (const ViewOverlap& overlap : input_.overlaps[i]) {
+      if (!std::binary_search(
+              validators.begin(), validators.end(), overlap.other)) {
+        view.not_asked.push_back(overlap.other);
+      }
+    }
     view.neighbors =
         NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
     const std::size_t fewest_supports =
@@ -109,6 +117,16 @@ class ViewSketcher {
       }
     }
     DropRivals(result);
+    for (const TrackedEdge& tracked : result.tracked) {
+      const std::vector<EdgeRef> more =
+          FindMoreSupport(tracked.estimate,
+                          indices_,
+                          view.not_asked,
+                          sigma_px_,
+                          input_.options.validation);
+      result.also_shown.insert(
+          result.also_shown.end(), more.begin(), more.end());
+    }
     return result;
   }
 
@@ -306,6 +324,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
       sketch.counts.hypotheses += result.hypotheses;
       sketch.counts.unsupported += result.unsupported;
       sketch.counts.rivals += result.rivals;
+      MarkSupport(result.also_shown, input.edge_maps, used);
       for (TrackedEdge& tracked : result.tracked) {
         MarkSupport(tracked.support, input.edge_maps, used);
         sketch.edges.push_back(ToEdge3d(std::move(tracked)));

@@ -28,6 +28,12 @@ struct Search {
   double min_cosine = 0;
 };
 
+Search MakeSearch(double sigma_px, const ValidationOptions& options) {
+  return {sigma_px,
+          options.max_distance_px,
+          std::cos(DegToRad(options.max_angle_deg))};
+}
+
 // nullopt where ProjectEdge() has no answer, and outside the image.
 std::optional<ImageEdge> ProjectInto(const ViewIndex& view,
                                      const SpaceEdge& edge) {
@@ -216,9 +222,7 @@ std::optional<TrackedEdge> TrackSupport(
     const ViewsToAsk& to_ask,
     double sigma_px,
     const ValidationOptions& options) {
-  const Search search{sigma_px,
-                      options.max_distance_px,
-                      std::cos(DegToRad(options.max_angle_deg))};
+  const Search search = MakeSearch(sigma_px, options);
   auto support =
       FindSupport(start, views, to_ask.first, FewestToGoOn(to_ask), search);
   if (!support) return std::nullopt;
@@ -244,6 +248,14 @@ std::optional<TrackedEdge> TrackSupport(
       VotesOf(asked, tracked.support, views, to_ask.all, search), neighbors);
   if (tracked.evidence < options.min_evidence) return std::nullopt;
   return tracked;
+}
+
+std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
+                                     const std::vector<ViewIndex>& views,
+                                     const std::vector<std::int32_t>& asked,
+                                     double sigma_px,
+                                     const ValidationOptions& options) {
+  return *FindSupport(tracked, views, asked, 0, MakeSearch(sigma_px, options));
 }
 
 }  // namespace curvix

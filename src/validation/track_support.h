@@ -71,4 +71,13 @@ std::optional<TrackedEdge> TrackSupport(
     double sigma_px,
     const ValidationOptions& options);
 
+// The edges of `asked`, views that were not among those asked by
+// TrackSupport(), that show `tracked`, ascending: what its support would be in
+// them.
+std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
+                                     const std::vector<ViewIndex>& views,
+                                     const std::vector<std::int32_t>& asked,
+                                     double sigma_px,
+                                     const ValidationOptions& options);
+
 }  // namespace curvix

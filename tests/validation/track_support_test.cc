@@ -203,5 +203,25 @@ TEST_F(NoisyTrackSupportTest, ErrsAsItsCovarianceSays) {
   EXPECT_LT(mean_square, 2.5);
 }
 
+TEST_F(TrackSupportTest, FindsMoreInViewsThatWereNotAsked) {
+  const std::vector<std::int32_t> asked = {0, 1, 2, 3, 4, 6, 8, 10, 12, 14, 15};
+  const std::vector<std::int32_t> not_asked = {5, 7, 9, 11, 13};
+  for (const TestCurve& curve : curves_) {
+    const auto tracked = TrackSupport(Start(curve, 0.5 * curve.length, 0),
+                                      indices_,
+                                      neighbors_,
+                                      {kFirstViews, asked},
+                                      kSigmaPx,
+                                      {});
+    ASSERT_TRUE(tracked);
+    const auto more = [&](const std::vector<std::int32_t>& views) {
+      return FindMoreSupport(tracked->estimate, indices_, views, kSigmaPx, {});
+    };
+    EXPECT_EQ(more(asked), tracked->support);
+    EXPECT_GE(more(not_asked).size(), 4u);
+    EXPECT_TRUE(more({}).empty());
+  }
+}
+
 }  // namespace
 }  // namespace curvix

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/sketch_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "tests/support/synthetic_edges.h"
+#include "tests/support/test_views.h"
+
+namespace curvix {
+namespace {
+
+EdgeSketch SketchOf(const TestCurve& curve, int num_views) {
+  const std::vector<PosedView> views = RingOfViews(num_views);
+  return SketchEdges(
+      views, ExactEdgeMaps({curve}, views, 1), {}, Options(), [](int, int) {
+        return true;
+      });
+}
+
+// A view does not ask again for what a 3D edge shows in it, whether or not that
+// view was asked about the 3D edge.
+TEST(SketchEdges, DoesNotGrowWithTheNumberOfViews) {
+  const TestCurve circle = CircleCurve({0, 0, 0}, 0.8);
+  const std::size_t of_few = SketchOf(circle, 64).edges.size();
+  const std::size_t of_many = SketchOf(circle, 192).edges.size();
+  EXPECT_GT(of_few, 300u);
+  EXPECT_LT(static_cast<double>(of_many), 1.5 * static_cast<double>(of_few));
+}
+
+}  // namespace
+}  // namespace curvix
