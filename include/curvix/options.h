@@ -30,8 +30,8 @@ struct EdgeDetectionOptions {
   // Short contours are weak if their mean gradient is below this many times the
   // weakest gradient kept; >= 0, and up to 1 drops none.
   double short_contour_factor = 2.0;
-  // Most edges of an image per million pixels, though any image may have 5,000:
-  // the contours with the steepest mean gradients are kept; > 0.
+  // Most edges of an image per million pixels, though any image may have
+  // 10,000: the contours with the steepest mean gradients are kept; > 0.
   double max_edges_per_megapixel = 25000;
   // Parallel edges that blur has moved apart or together are moved back.
   bool separate_edges = true;

@@ -94,7 +94,7 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "short contours are weak below this many times the weakest gradient "
       "kept");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
-      "most edges of an image per million pixels, at least 5,000 in all; the "
+      "most edges of an image per million pixels, at least 10,000 in all; the "
       "contours with the steepest gradients are kept");
   row.Switch("separate_edges", &o.separate_edges,
       "move parallel edges back that blur has moved apart or together");

@@ -44,7 +44,7 @@ double GradientThreshold(const EdgeDetectionOptions& options, double noise) {
 std::int64_t MaxEdges(const EdgeDetectionOptions& options,
                       int width,
                       int height) {
-  constexpr double kAlwaysAllowed = 5000;
+  constexpr double kAlwaysAllowed = 10000;
   // More than any image has, and still an integer.
   constexpr double kUnlimited = 1e15;
   const double megapixels = 1e-6 * width * height;

@@ -16,7 +16,7 @@ namespace curvix {
 // gradient of the noise). Grey levels per pixel.
 double GradientThreshold(const EdgeDetectionOptions& options, double noise);
 
-// Most edges that are kept of an image of that size: at least 5,000, and
+// Most edges that are kept of an image of that size: at least 10,000, and
 // options.max_edges_per_megapixel for each million pixels.
 std::int64_t MaxEdges(const EdgeDetectionOptions& options,
                       int width,

@@ -168,8 +168,8 @@ TEST(DetectViewEdges, CountsWhatItDrops) {
   }
   EXPECT_GT(bounded_by_noise->num_dropped_isolated, 1000);
   EXPECT_EQ(bounded_by_noise->num_dropped_over_limit, 0);
-  EXPECT_LE(bounded->edges.size(), 5000u);
-  EXPECT_GT(bounded->edges.size(), 4900u);
+  EXPECT_LE(bounded->edges.size(), 10000u);
+  EXPECT_GT(bounded->edges.size(), 9900u);
   const auto on_disc = std::count_if(
       bounded->edges.begin(), bounded->edges.end(), [](const Edge2d& edge) {
         return std::abs((edge.position - Eigen::Vector2d(200, 200)).norm() -
@@ -182,7 +182,7 @@ TEST(MaxEdges, GrowsWithTheImage) {
   EdgeDetectionOptions options;
   options.max_edges_per_megapixel = 20000;
   EXPECT_EQ(MaxEdges(options, 2000, 1000), 40000);
-  EXPECT_EQ(MaxEdges(options, 100, 100), 5000);
+  EXPECT_EQ(MaxEdges(options, 100, 100), 10000);
   options.max_edges_per_megapixel = 1e300;
   EXPECT_GT(MaxEdges(options, 2000, 1000), 2000 * 1000);
 }
