@@ -59,15 +59,17 @@ class Refiner {
     for (int i = 0; i < kNumSketches && !run_.cancelled(); ++i) {
       places_ = Sketch();
       std::vector<CurvePlace> check_places = TakeCheckPlaces(&places_);
+      const bool has_shifted = ShiftViews();
       if (i == 0) {
         check_places_ = std::move(check_places);
-        CurvePoses as_they_are = Judge();
-        if (IsGoodEnough(as_they_are)) {
-          as_they_are.reason = "the edges are where the poses put them";
-          return as_they_are;
+        if (!has_shifted) {
+          CurvePoses as_they_are = Judge();
+          if (IsGoodEnough(as_they_are)) {
+            as_they_are.reason = "the edges are where the poses put them";
+            return as_they_are;
+          }
         }
       }
-      ShiftViews();
       Adjust();
       if (prior_px_ < kSmallShiftPx) break;
     }
@@ -110,7 +112,7 @@ class Refiner {
   }
 
   std::vector<CurvePlace> Sketch() {
-    double sigma_px = options_.hypotheses.location_tolerance_px / 2;
+    double sigma_px = options_.hypotheses.EdgeSigmaPx();
     std::vector<CurvePlace> places = edges_.Sketch(sigma_px, run_.Steps());
     while (places.size() < kMinPlaces && 2 * sigma_px <= kMaxSketchSigmaPx &&
            !run_.cancelled()) {
@@ -121,12 +123,14 @@ class Refiner {
   }
 
   // Turns each camera such that its picture shifts to where most places agree.
-  void ShiftViews() {
+  // Whether any did.
+  bool ShiftViews() {
     const std::size_t num_views = edges_.views().size();
     std::vector<Rigid3> motions = edges_.motions();
+    std::vector<Eigen::Vector2d> shifts(num_views, Eigen::Vector2d::Zero());
     const auto places = edges_.PlacesByView(places_);
     ParallelFor(num_views, options_.runtime.num_threads, [&](std::size_t i) {
-      const Eigen::Vector2d shift =
+      const Eigen::Vector2d& shift = shifts[i] =
           FindShift(edges_.LookAround(places[i], i, kReachPx), kReachPx);
       if (shift.isZero(0)) return;
       const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
@@ -138,6 +142,9 @@ class Refiner {
     });
     edges_.SetMotions(std::move(motions));
     sigmas_px_.assign(num_views, kFirstSigmaPx);
+    return std::any_of(shifts.begin(), shifts.end(), [](const auto& shift) {
+      return !shift.isZero(0);
+    });
   }
 
   // Finds edges and adjusts poses in turns, until edges come no nearer.
