@@ -27,8 +27,9 @@ struct CurveSample {
 // by the first, which is not repeated.
 struct Curve {
   bool closed = false;
-  // The rim of a smooth body, which lies elsewhere on it in every view, rather
-  // than an edge of it; CurveRefinementOptions::keep_occluding_contours.
+  // Probably the rim of a smooth body, which lies elsewhere on it in every
+  // view, rather than an edge of it; or what views show by chance.
+  // CurveRefinementOptions::keep_occluding_contours.
   bool is_occluding_contour = false;
   std::vector<CurveSample> samples;
   // The junctions in which the first and the last sample lie: indices into

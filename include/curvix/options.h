@@ -48,6 +48,8 @@ struct HypothesisOptions {
   ViewSelection view_selection = ViewSelection::kEveryView;
   // Delta gamma: how well an edge is localised. Pixels, > 0.
   double location_tolerance_px = 0.3;
+  // What estimates take for the standard deviation of an edge's place.
+  double EdgeSigmaPx() const { return location_tolerance_px / 2; }
   // Partners of each view with kEveryView; >= 1.
   int num_partners = 4;
   // Smallest and largest angle between the rays of a view pair. Degrees.
@@ -161,13 +163,15 @@ struct CurveRefinementOptions {
   bool enabled = true;
   // Curves are left out whose place is known less surely than this many times
   // that of one 2D edge, across it; fewer times, where their edges scatter more
-  // than those of good curves or are blurred. >= 0; 0: none are left out.
+  // than those of good curves or are blurred; up to 1.6 times as many, where
+  // the views cannot tell more. >= 0; 0: none are left out, blurred or not.
   double max_dilution = 2.5;
-  // Curves of which a larger share of the 2D edges is blurred are left out as
+  // Curves of which so large a share of the 2D edges is blurred are left out as
   // borders of shading; with a smaller share, max_dilution falls in proportion.
-  // > 0, <= 1; 1 leaves nearly none out.
+  // > 0, <= 1; 1: curves may be as blurred as they like.
   double max_blurred_share = 0.3;
-  // Curves that are probably rims of smooth bodies stay, labelled.
+  // Curves over max_dilution stay, labelled: rims of smooth bodies, most of
+  // them, and what views show by chance.
   bool keep_occluding_contours = false;
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
   // smooths nothing.

@@ -213,13 +213,14 @@ void AddRows(CurveRefinementOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "select, smooth and join curves as a person would draw them");
   row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
-      "curves known so many times less surely than one 2D edge are left out; "
-      "0: none");
+      "curves known so many times less surely than one 2D edge are left out, "
+      "up to 1.6 times as many where views cannot tell more; 0: none");
   row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
-      "curves with a larger share of blurred edges are borders of shading and "
-      "left out");
+      "curves with so large a share of blurred edges are borders of shading "
+      "and left out; 1: none");
   row.Switch("keep_occluding_contours", &o.keep_occluding_contours,
-      "keep and label curves that are probably rims of smooth bodies");
+      "keep and label curves over max_dilution: rims of smooth bodies and "
+      "chance");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
       "standard deviation of the weights of the local fits; 0 smooths nothing");
   row.Switch("undo_tone_curve", &o.undo_tone_curve,

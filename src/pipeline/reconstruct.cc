@@ -66,6 +66,7 @@ Reconstruction Connect(const std::vector<PosedView>& views,
   result.curves.curves = RefineCurves(result.curves.curves,
                                       views,
                                       edge_maps,
+                                      options.hypotheses.EdgeSigmaPx(),
                                       options.curve_refinement,
                                       num_threads);
   run.End(CountsOf(result.curves));

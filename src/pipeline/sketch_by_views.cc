@@ -50,7 +50,7 @@ class ViewSketcher {
       : input_(input),
         indices_(IndexViews(
             input.views, input.edge_maps, input.options.runtime.num_threads)),
-        sigma_px_(input.options.hypotheses.location_tolerance_px / 2) {
+        sigma_px_(input.options.hypotheses.EdgeSigmaPx()) {
     const ValidationOptions& options = input.options.validation;
     ParallelFor(
         indices_.size(), input.options.runtime.num_threads, [&](std::size_t i) {
@@ -280,6 +280,59 @@ std::vector<std::int32_t> UnusedEdgesOf(int view_idx,
   return edge_idxs;
 }
 
+// What the unused edges of view h1 that ask lead to, in their order: every
+// other one along a contour, then those next to one that led to a 3D edge.
+std::vector<H1Result> AskInTurns(const SketchInput& input,
+                                 const ViewSketcher& sketcher,
+                                 int h1,
+                                 const H1View& view,
+                                 const UsedEdges& used) {
+  const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(h1)];
+  std::vector<std::optional<H1Result>> results(map.edges.size());
+  const auto ask = [&](const std::vector<std::int32_t>& edge_idxs) {
+    ParallelFor(edge_idxs.size(),
+                input.options.runtime.num_threads,
+                [&](std::size_t k) {
+                  const auto i = static_cast<std::size_t>(edge_idxs[k]);
+                  results[i] = sketcher.Sketch(map.edges[i], view);
+                });
+  };
+  const auto has_found = [&](const std::optional<std::int32_t>& edge_idx) {
+    if (!edge_idx) return false;
+    const auto& result = results[static_cast<std::size_t>(*edge_idx)];
+    return result && !result->tracked.empty();
+  };
+  TwoTurns turns = SplitAlongContours(
+      UnusedEdgesOf(h1, map, used, input.h1_step), map.neighbors);
+  ask(turns.first);
+  std::erase_if(turns.second, [&](std::int32_t edge_idx) {
+    const EdgeNeighbors& neighbors =
+        map.neighbors[static_cast<std::size_t>(edge_idx)];
+    return !has_found(neighbors.previous) && !has_found(neighbors.next);
+  });
+  ask(turns.second);
+  std::vector<H1Result> asked;
+  for (std::optional<H1Result>& result : results) {
+    if (result) asked.push_back(*std::move(result));
+  }
+  return asked;
+}
+
+void Add(H1Result result,
+         const std::vector<EdgeMap>& edge_maps,
+         UsedEdges& used,
+         EdgeSketch& sketch) {
+  ++sketch.counts.h1_edges;
+  sketch.counts.hypotheses += result.hypotheses;
+  sketch.counts.unsupported += result.unsupported;
+  sketch.counts.rivals += result.rivals;
+  MarkSupport(result.also_shown, edge_maps, used);
+  for (TrackedEdge& tracked : result.tracked) {
+    MarkSupport(tracked.support, edge_maps, used);
+    sketch.edges.push_back(ToEdge3d(std::move(tracked)));
+  }
+}
+
 }  // namespace
 
 EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
@@ -291,44 +344,11 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
   for (int step = 0; step_done(step, total); ++step) {
     const auto h1 = NextView(input, used.num_unused(), done);
     if (!h1) break;
-    const auto h1_idx = static_cast<std::size_t>(*h1);
-    done[h1_idx] = true;
+    done[static_cast<std::size_t>(*h1)] = true;
     const H1View view = sketcher.Prepare(*h1);
     sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
-
-    const EdgeMap& map = input.edge_maps[h1_idx];
-    std::vector<H1Result> results(map.edges.size());
-    const auto ask = [&](const std::vector<std::int32_t>& edge_idxs) {
-      ParallelFor(edge_idxs.size(),
-                  input.options.runtime.num_threads,
-                  [&](std::size_t k) {
-                    const auto i = static_cast<std::size_t>(edge_idxs[k]);
-                    results[i] = sketcher.Sketch(map.edges[i], view);
-                  });
-      sketch.counts.h1_edges += static_cast<std::int64_t>(edge_idxs.size());
-    };
-    const auto has_found = [&](const std::optional<std::int32_t>& edge_idx) {
-      return edge_idx &&
-             !results[static_cast<std::size_t>(*edge_idx)].tracked.empty();
-    };
-    TwoTurns turns = SplitAlongContours(
-        UnusedEdgesOf(*h1, map, used, input.h1_step), map.neighbors);
-    ask(turns.first);
-    std::erase_if(turns.second, [&](std::int32_t edge_idx) {
-      const EdgeNeighbors& neighbors =
-          map.neighbors[static_cast<std::size_t>(edge_idx)];
-      return !has_found(neighbors.previous) && !has_found(neighbors.next);
-    });
-    ask(turns.second);
-    for (H1Result& result : results) {
-      sketch.counts.hypotheses += result.hypotheses;
-      sketch.counts.unsupported += result.unsupported;
-      sketch.counts.rivals += result.rivals;
-      MarkSupport(result.also_shown, input.edge_maps, used);
-      for (TrackedEdge& tracked : result.tracked) {
-        MarkSupport(tracked.support, input.edge_maps, used);
-        sketch.edges.push_back(ToEdge3d(std::move(tracked)));
-      }
+    for (H1Result& result : AskInTurns(input, sketcher, *h1, view, used)) {
+      Add(std::move(result), input.edge_maps, used, sketch);
     }
   }
   sketch.counts.used_edges = used.total();

@@ -30,8 +30,8 @@ struct PoseSample {
 
 struct PoseProblem {
   // As they were in the beginning: a prior holds each pose there, with a
-  // standard deviation of 10 px of shift in its image. It fixes the world where
-  // edges do not.
+  // standard deviation of prior_px of shift in its image. It fixes the world
+  // where edges do not.
   const std::vector<PosedView>& views;
   // By view: the standard deviation of distances from edges. Pixels, > 0.
   const std::vector<double>& sigmas_px;
@@ -40,8 +40,8 @@ struct PoseProblem {
 };
 
 struct AdjustedPoses {
-  // Of each view, from its camera in the beginning to its camera now; the
-  // identity for views without observations.
+  // Of each view, from its camera in the beginning to its camera now; as it was
+  // at the start for views without observations.
   std::vector<Rigid3> new_cam_from_cam;
   std::vector<Eigen::Vector3d> positions;  // of the samples, world
 };

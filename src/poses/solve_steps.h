@@ -46,8 +46,9 @@ struct Steps {
 };
 
 // The steps of least squares, once the diagonal of the normal equations has
-// grown by its `damping`-fold (> 0), as Marquardt does. All zero if there are
-// none. The same for any number of threads.
+// grown by its `damping`-fold (> 0), as Marquardt does. If the motions have
+// none, they are zero, and the offsets those of the samples alone. The same for
+// any number of threads.
 Steps SolveSteps(const EquationOwners& owners,
                  const std::vector<StepEquation>& equations,
                  const std::vector<StepPrior>& priors,

@@ -19,8 +19,6 @@ namespace {
 // Half as blurred again in variance as an edge of the view is as a rule.
 constexpr double kBlurred = 0.7;
 constexpr double kSigmasOfMedianDistance = 1.4826;
-// The standard deviation of a 2D edge's place that sigmas assume.
-constexpr double kEdgeSigmaPx = 0.15;
 
 // The edges behind a curve.
 struct Support {
@@ -63,8 +61,8 @@ double LeastDilution(const CurveSample& sample,
   if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
   const double pixel = PixelSize(sample.position, sample.support, views);
   const Eigen::Matrix2d covariance =
-      AdjustEdge(edge, measurements, kEdgeSigmaPx).covariance;
-  return std::sqrt(covariance.trace() / 2) / (kEdgeSigmaPx * pixel);
+      AdjustEdge(edge, measurements, 1).covariance;
+  return std::sqrt(covariance.trace() / 2) / pixel;
 }
 
 double BlurredShare(const Support& support,
@@ -109,13 +107,14 @@ std::optional<CurveTraits> MeasureCurve(
     const Curve& curve,
     const std::vector<PosedView>& views,
     const std::vector<EdgeMap>& edge_maps,
-    const std::vector<double>& typical_sharpness) {
+    const std::vector<double>& typical_sharpness,
+    double edge_sigma_px) {
   std::vector<double> dilutions;
   Support support;
   for (const CurveSample& sample : curve.samples) {
     const double pixel = PixelSize(sample.position, sample.support, views);
     if (!(sample.sigma > 0) || !(pixel > 0)) continue;
-    dilutions.push_back(sample.sigma / (kEdgeSigmaPx * pixel));
+    dilutions.push_back(sample.sigma / (edge_sigma_px * pixel));
     AddSupport(sample, views, edge_maps, support);
   }
   if (support.distances_px.empty()) return std::nullopt;

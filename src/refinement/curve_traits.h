@@ -20,10 +20,12 @@ namespace curvix {
 struct CurveTraits {
   // How many times less surely than one 2D edge, across it, the place of the
   // curve is known: the median over the samples of sigma in pixels
-  // (pixel_size.h) over the 0.15 that sigmas assume of an edge. It falls with
-  // the number of supporting views and grows where their rays lie in one plane.
+  // (pixel_size.h) over that of an edge. It falls with the number of supporting
+  // views, and grows where their rays lie in one plane and where their edges
+  // are off by more than edges should be.
   double dilution = 0;
-  // That of the middle sample, if all views that look at it supported it.
+  // That of the middle sample, if all views that look at it supported it,
+  // exactly.
   double least_dilution = 0;
   // 1.48 times the median distance of the supporting edges from the projected
   // samples, which for normal errors is their standard deviation. Pixels.
@@ -38,11 +40,13 @@ struct CurveTraits {
 // edges; 0 if it is not known.
 std::vector<double> TypicalSharpness(const std::vector<EdgeMap>& edge_maps);
 
-// nullopt if no sample has both a sigma and support.
+// `edge_sigma_px`: the standard deviation of a 2D edge's place that the sigmas
+// of samples assume, > 0. nullopt if no sample has both a sigma and support.
 std::optional<CurveTraits> MeasureCurve(
     const Curve& curve,
     const std::vector<PosedView>& views,
     const std::vector<EdgeMap>& edge_maps,
-    const std::vector<double>& typical_sharpness);
+    const std::vector<double>& typical_sharpness,
+    double edge_sigma_px);
 
 }  // namespace curvix

@@ -19,11 +19,12 @@ namespace curvix {
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const std::vector<PosedView>& views,
                                 const std::vector<EdgeMap>& edge_maps,
+                                double edge_sigma_px,
                                 const CurveRefinementOptions& options,
                                 int num_threads) {
   if (!options.enabled) return curves;
-  SelectedCurves selected =
-      SelectCurves(curves, views, edge_maps, options, num_threads);
+  SelectedCurves selected = SelectCurves(
+      curves, views, edge_maps, edge_sigma_px, options, num_threads);
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
   const ImageSupport images(views, edge_maps, num_threads);

@@ -15,7 +15,8 @@ namespace {
 
 // Sampling by pixels leaves as much.
 constexpr double kLeastScatterPx = 0.06;
-// Curves of a smaller share of blurred edges tell how far good curves scatter.
+// Curves of a smaller share of blurred edges tell how far good curves scatter,
+// if there are any.
 constexpr double kSharp = 0.1;
 // Where the views cannot tell more, curves may be as dilute as this ...
 constexpr double kTimesLeastDilution = 6;
@@ -24,14 +25,16 @@ constexpr double kMostTimesMaxDilution = 1.6;
 
 using AllTraits = std::vector<std::optional<CurveTraits>>;
 
-// The scatter of good curves.
-double TypicalScatter(const std::vector<Curve>& curves,
-                      const AllTraits& all_traits) {
+// The lower quartile of the scatter of curves of a smaller share of blurred
+// edges, weighted by length / dilution^2; nullopt if there are none.
+std::optional<double> ScatterOfSharp(const std::vector<Curve>& curves,
+                                     const AllTraits& all_traits,
+                                     double blurred_share) {
   std::vector<std::pair<double, double>> scatter_and_weight;
   double total = 0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const auto& traits = all_traits[i];
-    if (!traits || traits->blurred_share >= kSharp) continue;
+    if (!traits || traits->blurred_share >= blurred_share) continue;
     const double weight =
         Length(curves[i]) / (traits->dilution * traits->dilution);
     scatter_and_weight.emplace_back(traits->scatter_px, weight);
@@ -41,27 +44,41 @@ double TypicalScatter(const std::vector<Curve>& curves,
   double sum = 0;
   for (const auto& [scatter, weight] : scatter_and_weight) {
     sum += weight;
-    if (sum >= total / 4) return std::max(kLeastScatterPx, scatter);
+    if (sum >= total / 4) return scatter;
+  }
+  return std::nullopt;
+}
+
+// The scatter of good curves.
+double TypicalScatter(const std::vector<Curve>& curves,
+                      const AllTraits& all_traits,
+                      double max_blurred_share) {
+  for (const double share :
+       {std::min(kSharp, max_blurred_share), max_blurred_share}) {
+    const auto scatter = ScatterOfSharp(curves, all_traits, share);
+    if (scatter) return std::max(kLeastScatterPx, *scatter);
   }
   return kLeastScatterPx;
 }
 
-enum class Verdict { kEdge, kOccludingContour, kNone };
+enum class Verdict { kEdge, kOccludingContour, kBorderOfShading };
 
 Verdict Judge(const CurveTraits& traits,
               double typical_scatter,
               const CurveRefinementOptions& options) {
   if (options.max_dilution == 0) return Verdict::kEdge;
-  const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
-  if (sharpness <= 0) return Verdict::kNone;
-  const double scatter = std::max(1.0, traits.scatter_px / typical_scatter);
+  const double dilution =
+      traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
   const double allowed =
       std::clamp(kTimesLeastDilution * traits.least_dilution,
                  options.max_dilution,
                  kMostTimesMaxDilution * options.max_dilution);
-  return traits.dilution * scatter <= allowed * sharpness
+  if (dilution > allowed) return Verdict::kOccludingContour;
+  if (options.max_blurred_share == 1) return Verdict::kEdge;
+  const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
+  return sharpness > 0 && dilution <= allowed * sharpness
              ? Verdict::kEdge
-             : Verdict::kOccludingContour;
+             : Verdict::kBorderOfShading;
 }
 
 }  // namespace
@@ -69,14 +86,17 @@ Verdict Judge(const CurveTraits& traits,
 SelectedCurves SelectCurves(std::vector<Curve> curves,
                             const std::vector<PosedView>& views,
                             const std::vector<EdgeMap>& edge_maps,
+                            double edge_sigma_px,
                             const CurveRefinementOptions& options,
                             int num_threads) {
   const std::vector<double> sharpness = TypicalSharpness(edge_maps);
   AllTraits all_traits(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    all_traits[i] = MeasureCurve(curves[i], views, edge_maps, sharpness);
+    all_traits[i] =
+        MeasureCurve(curves[i], views, edge_maps, sharpness, edge_sigma_px);
   });
-  const double typical_scatter = TypicalScatter(curves, all_traits);
+  const double typical_scatter =
+      TypicalScatter(curves, all_traits, options.max_blurred_share);
   SelectedCurves selected;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Verdict verdict =

@@ -6,7 +6,7 @@ usage: render_parts.py FOLDER [--parts NAME,...] [--views 50] [--size 800]
 
 Writes FOLDER/NAME/images, sparse/0 (a model without points) and gt.txt: x y z
 tx ty tz curve_id views_seen views_edge, a row every 0.002 along each edge whose
-faces meet at more than 15 degrees. The longest side of a part is 1. A view has
+faces meet at more than 15 degrees on at least half of it. The longest side of a part is 1. A view has
 an edge at a sample if the gradient across it is at its largest within half a
 pixel of it, and at least 1 grey level per pixel.
 
@@ -439,6 +439,9 @@ def main():
     parser.add_argument('--size', type=int, default=800)
     arguments = parser.parse_args()
     chosen = [name for name in arguments.parts.split(',') if name]
+    unknown = set(chosen) - {build.__name__ for build in PARTS}
+    if unknown:
+        parser.error('there is no part ' + ', '.join(sorted(unknown)))
     gmsh.initialize()
     gmsh.option.setNumber('General.Terminal', 0)
     for build in PARTS:

@@ -10,6 +10,7 @@ namespace curvix {
 namespace {
 
 constexpr double kNoisePx = 0.1;
+constexpr double kEdgeSigmaPx = 0.15;
 
 // The sides of a square of 100 px: noisy, broken in the middle, and not
 // reaching the corners; and a curve whose place the views hardly tell.
@@ -36,7 +37,8 @@ std::vector<Curve> RefineRoughSquare(const CurveRefinementOptions& options,
                                      int num_threads) {
   std::vector<Curve> curves = RoughSquare();
   const std::vector<EdgeMap> edge_maps = SupportByEdges(FrontalViews(), curves);
-  return RefineCurves(curves, FrontalViews(), edge_maps, options, num_threads);
+  return RefineCurves(
+      curves, FrontalViews(), edge_maps, kEdgeSigmaPx, options, num_threads);
 }
 
 TEST(RefineCurves, DrawsASquareAsFourSidesBetweenCorners) {

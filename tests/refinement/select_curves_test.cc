@@ -17,6 +17,7 @@ namespace {
 constexpr CurveRefinementOptions kOptions = {.max_dilution = 2.5,
                                              .max_blurred_share = 0.2};
 constexpr double kGoodScatterPx = 0.1;
+constexpr double kEdgeSigmaPx = 0.2;
 
 struct Drawn {
   double dilution = 1;
@@ -59,7 +60,7 @@ class Scene {
     for (std::size_t k = 0; k < count; ++k) {
       CurveSample& sample = curve.samples[k];
       sample.evidence = idx;
-      sample.sigma = 0.15 * drawn.dilution * kPixel;
+      sample.sigma = kEdgeSigmaPx * drawn.dilution * kPixel;
       const bool is_blurred = static_cast<double>(k) + 0.5 <
                               drawn.blurred_share * static_cast<double>(count);
       sample.support = {
@@ -73,8 +74,12 @@ class Scene {
 
   SelectedCurves Select(const CurveRefinementOptions& options = kOptions,
                         double unit = 1) const {
-    return SelectCurves(
-        Scaled(curves_, unit), Scaled(views_, unit), edge_maps_, options, 1);
+    return SelectCurves(Scaled(curves_, unit),
+                        Scaled(views_, unit),
+                        edge_maps_,
+                        kEdgeSigmaPx,
+                        options,
+                        1);
   }
 
  private:
@@ -120,15 +125,17 @@ Kind KindOf(const Drawn& drawn, Scene scene = Scene()) {
                                                : Kind::kNone;
 }
 
-// Curves of this scatter and blur are edges up to this dilution.
+// Curves of this scatter and blur are edges up to this dilution, and `beyond`
+// above it.
 void ExpectLimit(double dilution,
                  const Drawn& drawn,
-                 const Scene& scene = Scene()) {
+                 const Scene& scene = Scene(),
+                 Kind beyond = Kind::kOccludingContour) {
   Drawn at_limit = drawn;
   at_limit.dilution = 0.999 * dilution;
   EXPECT_EQ(KindOf(at_limit, scene), Kind::kEdge);
   at_limit.dilution = 1.001 * dilution;
-  EXPECT_EQ(KindOf(at_limit, scene), Kind::kOccludingContour);
+  EXPECT_EQ(KindOf(at_limit, scene), beyond);
 }
 
 TEST(SelectCurves, AsksThatPlacesAreKnownSurely) { ExpectLimit(2.5, {}); }
@@ -147,14 +154,25 @@ TEST(SelectCurves, AsksForLessWhereTheViewsCannotTellMore) {
 }
 
 TEST(SelectCurves, AsksForMoreOfBlurredCurves) {
-  ExpectLimit(0.75 * 2.5, {.blurred_share = 0.05});
-  ExpectLimit(0.25 * 2.5, {.blurred_share = 0.15});
+  ExpectLimit(0.75 * 2.5, {.blurred_share = 0.05}, Scene(), Kind::kNone);
+  ExpectLimit(0.25 * 2.5, {.blurred_share = 0.15}, Scene(), Kind::kNone);
 }
 
 TEST(SelectCurves, LeavesBordersOfShadingOut) {
-  EXPECT_EQ(KindOf({.dilution = 0.1, .blurred_share = 0.195}),
-            Kind::kOccludingContour);
+  EXPECT_EQ(KindOf({.dilution = 0.1, .blurred_share = 0.195}), Kind::kNone);
   EXPECT_EQ(KindOf({.dilution = 0.01, .blurred_share = 0.25}), Kind::kNone);
+  EXPECT_EQ(KindOf({.dilution = 3, .blurred_share = 0.25}),
+            Kind::kOccludingContour);
+}
+
+TEST(SelectCurves, KeepsBlurredCurvesIfAsked) {
+  Scene scene;
+  scene.Add({});
+  scene.Add({.dilution = 2.4, .blurred_share = 1});
+  scene.Add({.dilution = 2.6, .blurred_share = 1});
+  CurveRefinementOptions options = kOptions;
+  options.max_blurred_share = 1;
+  EXPECT_EQ(scene.Select(options).edges.size(), 2u);
 }
 
 TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
@@ -164,6 +182,16 @@ TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
     scene.Add({.scatter_px = 0.5, .blurred_share = 0.1});
   }
   ExpectLimit(1.25, {.scatter_px = 2 * kGoodScatterPx}, scene);
+}
+
+TEST(SelectCurves, LearnsTheScatterFromSoftCurvesIfNoneIsSharp) {
+  Scene scene;
+  for (const double dilution : {0.5, 1.2, 1.3}) {
+    scene.Add({.dilution = dilution,
+               .scatter_px = 5 * kGoodScatterPx,
+               .blurred_share = 0.1});
+  }
+  EXPECT_EQ(scene.Select().edges.size(), 2u);
 }
 
 TEST(SelectCurves, KeepsCurvesOfUnknownSigma) {
@@ -182,7 +210,7 @@ TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
   Scene scene;
   for (const double dilution : {1, 5, 2, 1, 6}) {
     scene.Add({.dilution = dilution});
-    scene.Add({.dilution = dilution, .blurred_share = 0.5});
+    scene.Add({.dilution = 1, .blurred_share = 0.5});
   }
   const SelectedCurves selected = scene.Select();
   std::vector<double> edges, contours;
