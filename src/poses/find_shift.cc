@@ -58,11 +58,13 @@ Best Search(const std::vector<EdgesAround>& samples,
 Eigen::Vector2d FindShift(const std::vector<EdgesAround>& samples,
                           double reach_px) {
   const double votes_of_none = Votes(samples, Eigen::Vector2d::Zero());
+  const double asked = kClearly * votes_of_none +
+                       kChanceDeviations * std::sqrt(votes_of_none + 1);
+  // Most samples fit as they are: no shift can win so many votes.
+  if (static_cast<double>(samples.size()) <= asked) return {0, 0};
   Best best = Search(samples, reach_px, kStepPx, {});
   best = Search(samples, kStepPx, kFineStepPx, best);
-  const double chance = kChanceDeviations * std::sqrt(votes_of_none + 1);
-  const bool is_better = best.votes > kClearly * votes_of_none + chance;
-  return is_better ? best.shift : Eigen::Vector2d(0, 0);
+  return best.votes > asked ? best.shift : Eigen::Vector2d(0, 0);
 }
 
 }  // namespace curvix
