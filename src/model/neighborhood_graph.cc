@@ -3,6 +3,8 @@
 #include "model/neighborhood_graph.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -71,22 +73,22 @@ std::size_t UnionSize(std::span<const NeighborLink> a,
   return size;
 }
 
-// Appends the links of `a` and `b`, both ascending, to `out`; links in both are
+// Writes the links of `a` and `b`, both ascending, to `out`; links in both are
 // combined.
-template <typename Combine>
+template <typename Combine, typename Output>
 void MergeRows(std::span<const NeighborLink> a,
                std::span<const NeighborLink> b,
                const Combine& combine,
-               Row& out) {
+               Output out) {
   auto x = a.begin();
   auto y = b.begin();
   while (x != a.end() || y != b.end()) {
     if (y == b.end() || (x != a.end() && x->edge_idx < y->edge_idx)) {
-      out.push_back(*x++);
+      *out++ = *x++;
     } else if (x == a.end() || y->edge_idx < x->edge_idx) {
-      out.push_back(*y++);
+      *out++ = *y++;
     } else {
-      out.push_back(combine(*x++, *y++));
+      *out++ = combine(*x++, *y++);
     }
   }
 }
@@ -121,22 +123,26 @@ void SortAndAdd(Row& row) {
 
 }  // namespace
 
-NeighborhoodGraph NeighborhoodGraph::FromRows(const std::vector<Row>& rows) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+NeighborhoodGraph NeighborhoodGraph::FromRows(const std::vector<Row>& rows,
+                                              int num_threads) {
+  ParallelFor(rows.size(), num_threads, [&](std::size_t i) {
     CheckRow(rows[i], i, rows.size());
-  }
+  });
   const Transposed transposed(rows);
   NeighborhoodGraph graph;
-  graph.offsets_.reserve(rows.size() + 1);
-  std::size_t num_links = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    num_links += UnionSize(rows[i], transposed[i]);
-  }
-  graph.links_.reserve(num_links);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    MergeRows(rows[i], transposed[i], LargerCounts, graph.links_);
-    graph.offsets_.push_back(graph.links_.size());
-  }
+  graph.offsets_.assign(rows.size() + 1, 0);
+  ParallelFor(rows.size(), num_threads, [&](std::size_t i) {
+    graph.offsets_[i + 1] = UnionSize(rows[i], transposed[i]);
+  });
+  std::partial_sum(
+      graph.offsets_.begin(), graph.offsets_.end(), graph.offsets_.begin());
+  graph.links_.resize(graph.offsets_.back());
+  ParallelFor(rows.size(), num_threads, [&](std::size_t i) {
+    MergeRows(rows[i],
+              transposed[i],
+              LargerCounts,
+              graph.links_.data() + graph.offsets_[i]);
+  });
   return graph;
 }
 
@@ -151,18 +157,22 @@ NeighborhoodGraph NeighborhoodGraph::Filter(
       }
     }
   });
-  return FromRows(rows);
+  return FromRows(rows, num_threads);
 }
 
 NeighborhoodGraph UnionOf(const NeighborhoodGraph& a,
-                          const NeighborhoodGraph& b) {
+                          const NeighborhoodGraph& b,
+                          int num_threads) {
   CURVIX_CHECK(a.NumEdges() == b.NumEdges(),
                a.NumEdges() << " and " << b.NumEdges() << " edges");
   std::vector<Row> rows(a.NumEdges());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    MergeRows(a.Neighbors(i), b.Neighbors(i), AddedCounts, rows[i]);
-  }
-  return NeighborhoodGraph::FromRows(rows);
+  ParallelFor(rows.size(), num_threads, [&](std::size_t i) {
+    MergeRows(a.Neighbors(i),
+              b.Neighbors(i),
+              AddedCounts,
+              std::back_inserter(rows[i]));
+  });
+  return NeighborhoodGraph::FromRows(rows, num_threads);
 }
 
 NeighborhoodGraph Contract(const NeighborhoodGraph& graph,

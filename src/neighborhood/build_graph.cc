@@ -45,7 +45,7 @@ NeighborhoodGraph BuildGraph(const std::vector<Edge3d>& edges,
         HeaviestLinks(edges, i, SharedLinks(edges, index, i), max_num_links);
     rows[i].shrink_to_fit();
   });
-  return NeighborhoodGraph::FromRows(rows);
+  return NeighborhoodGraph::FromRows(rows, num_threads);
 }
 
 }  // namespace curvix

@@ -18,8 +18,11 @@ NeighborhoodGraph LinkEdges(const std::vector<Edge3d>& edges,
       edges, BuildGraph(edges, options, num_threads), options, num_threads);
   const NeighborhoodGraph tangential =
       LinkTangents(edges, edge_maps, options, num_threads);
-  return PruneByProjection(
-      edges, UnionOf(shared, tangential), views, options, num_threads);
+  return PruneByProjection(edges,
+                           UnionOf(shared, tangential, num_threads),
+                           views,
+                           options,
+                           num_threads);
 }
 
 }  // namespace curvix

@@ -62,7 +62,7 @@ NeighborhoodGraph LinkTangents(const std::vector<Edge3d>& edges,
         edges, i, LiftedLinks(edges, edge_maps, index, i), max_num_links);
     rows[i].shrink_to_fit();
   });
-  return NeighborhoodGraph::FromRows(rows);
+  return NeighborhoodGraph::FromRows(rows, num_threads);
 }
 
 }  // namespace curvix

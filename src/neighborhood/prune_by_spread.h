@@ -12,11 +12,12 @@
 
 namespace curvix {
 
-// mu + lambda sigma of each distance over all links of `graph`, in two passes
-// in the order of the links. All zero without links.
+// mu + lambda sigma of each distance over all links of `graph`. The same for
+// any number of threads. All zero without links.
 EdgeDistances SpreadLimits(const std::vector<Edge3d>& edges,
                            const NeighborhoodGraph& graph,
-                           double lambda);
+                           double lambda,
+                           int num_threads);
 
 // `graph` without the links of weight one that exceed any of the limits above,
 // with lambda = options.max_spread. The paper does not say over which links it

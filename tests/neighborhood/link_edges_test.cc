@@ -98,7 +98,7 @@ TEST(SpreadLimits, AreMeanPlusLambdaSigmaOfEachDistance) {
   const std::vector<Edge3d> edges = {
       EdgeAt(0, 0, {}), EdgeAt(0, 1, {}), EdgeAt(4, 4, {})};
   const auto graph = NeighborhoodGraph::FromRows({{{1}}, {{2}}, {}});
-  const EdgeDistances limits = SpreadLimits(edges, graph, 2);
+  const EdgeDistances limits = SpreadLimits(edges, graph, 2, 1);
   EXPECT_DOUBLE_EQ(limits.normal, 2 + 2 * 1);
   EXPECT_DOUBLE_EQ(limits.tangential, 2 + 2 * 2);
   EXPECT_DOUBLE_EQ(limits.angle, 0);
