@@ -17,19 +17,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Status WriteCurveFiles(const Scene& scene,
-                       const CurveSource& curves,
-                       const fs::path& folder,
-                       RunRecord& record) {
+FittedCurves Fit(const Scene& scene,
+                 const CurveSource& curves,
+                 RunRecord& record) {
   const Stopwatch stopwatch;
-  const int num_threads = record.settings.options.runtime.num_threads;
-  const FittedCurves fitted = FitCurves(
-      curves, scene, record.settings.options.curve_fitting, num_threads);
-  if (!curves.status().ok()) return curves.status();
+  const Options& options = record.settings.options;
+  FittedCurves fitted = FitCurves(
+      curves, scene, options.curve_fitting, options.runtime.num_threads);
   record.stages.push_back(stopwatch.Read("fit_curves"));
   record.stages.back().counts = CountFits(fitted);
-  Result<std::vector<std::string>> written = WriteResults(
-      {scene, curves, fitted}, record.settings.output, num_threads, folder);
+  return fitted;
+}
+
+Status WriteCurveFiles(const CurveRecord& curves,
+                       const fs::path& folder,
+                       RunRecord& record) {
+  Result<std::vector<std::string>> written =
+      WriteResults(curves,
+                   record.settings.output,
+                   record.settings.options.runtime.num_threads,
+                   folder);
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());
@@ -44,15 +51,17 @@ Status WriteFindings(const Scene& scene,
                      const Findings& findings,
                      const fs::path& folder,
                      RunRecord& record) {
-  const Stopwatch stopwatch;
   ResultSummary& result = record.result;
   findings.curves.ForEach(
       [&](std::size_t, const Curve& curve) { Count(curve, result); });
   result.num_edges_3d = findings.num_edges_3d;
   result.why_empty = findings.why_empty;
+  FittedCurves fitted;
+  if (result.num_curves > 0) fitted = Fit(scene, findings.curves, record);
   Status status = findings.curves.status();
+  const Stopwatch stopwatch;
   if (status.ok() && result.num_curves > 0) {
-    status = WriteCurveFiles(scene, findings.curves, folder, record);
+    status = WriteCurveFiles({scene, findings.curves, fitted}, folder, record);
   }
   if (status.ok() && result.num_edges_3d > 0) {
     result.files.push_back("edges.ply");
