@@ -48,11 +48,11 @@ struct CurvePoses {
 // prior as wide as poses turn out to be off holds each where it was.
 // One fifth of space is held out to judge by. A view in which the samples held
 // out do not come nearer to their edges keeps its pose; so do all if the mean
-// or the median distance falls by less than 15 %. Poses are taken as they are,
-// without much ado, if the median distance is below 0.06 px. The same result
-// for any number of threads. kInvalidArgument as ReconstructCurves. `progress`
-// is called as stage "refine_poses_with_curves"; kCancelled when it returns
-// false.
+// distance falls by less than 15 %. Poses are taken as they are, without much
+// ado, if the median distance is below 0.06 px and no view's picture fits
+// clearly better shifted. The same result for any number of threads.
+// kInvalidArgument as ReconstructCurves. `progress` is called as stage
+// "refine_poses_with_curves"; kCancelled when it returns false.
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,

@@ -26,8 +26,8 @@ Triple SumOverLinks(const std::vector<Edge3d>& edges,
   ParallelFor(graph.NumEdges(), num_threads, [&](std::size_t i) {
     for (const NeighborLink& link : graph.Neighbors(i)) {
       const auto j = static_cast<std::size_t>(link.edge_idx);
-      if (j > i)
-        of_rows[i] += f(AsTriple(MeasureDistances(edges[i], edges[j])));
+      if (j < i) continue;
+      of_rows[i] += f(AsTriple(MeasureDistances(edges[i], edges[j])));
     }
   });
   Triple sum = Triple::Zero();

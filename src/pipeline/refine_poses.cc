@@ -60,14 +60,12 @@ class Refiner {
       places_ = Sketch();
       std::vector<CurvePlace> check_places = TakeCheckPlaces(&places_);
       const bool has_shifted = ShiftViews();
-      if (i == 0) {
-        check_places_ = std::move(check_places);
-        if (!has_shifted) {
-          CurvePoses as_they_are = Judge();
-          if (IsGoodEnough(as_they_are)) {
-            as_they_are.reason = "the edges are where the poses put them";
-            return as_they_are;
-          }
+      if (i == 0) check_places_ = std::move(check_places);
+      if (i == 0 && !has_shifted) {
+        CurvePoses as_they_are = Judge();
+        if (IsGoodEnough(as_they_are)) {
+          as_they_are.reason = "the edges are where the poses put them";
+          return as_they_are;
         }
       }
       Adjust();
@@ -130,8 +128,9 @@ class Refiner {
     std::vector<Eigen::Vector2d> shifts(num_views, Eigen::Vector2d::Zero());
     const auto places = edges_.PlacesByView(places_);
     ParallelFor(num_views, options_.runtime.num_threads, [&](std::size_t i) {
-      const Eigen::Vector2d& shift = shifts[i] =
+      shifts[i] =
           FindShift(edges_.LookAround(places[i], i, kReachPx), kReachPx);
+      const Eigen::Vector2d& shift = shifts[i];
       if (shift.isZero(0)) return;
       const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
       const Eigen::Vector3d turn(

@@ -71,9 +71,9 @@ std::optional<TrackedEdge> TrackSupport(
     double sigma_px,
     const ValidationOptions& options);
 
-// The edges of `asked`, views that were not among those asked by
-// TrackSupport(), that show `tracked`, ascending: what its support would be in
-// them.
+// The edges that show `tracked` in the views of `asked`, which TrackSupport()
+// need not have asked: at most one per view, ascending. They have no part in
+// the estimate and in its evidence.
 std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
                                      const std::vector<ViewIndex>& views,
                                      const std::vector<std::int32_t>& asked,
