@@ -20,9 +20,9 @@ constexpr double kCubesPerDistance = 10;
 // Refused: fewer places held out; a view with fewer observations.
 constexpr std::size_t kMinCheckPlaces = 20;
 constexpr std::size_t kMinObservationsPerView = 8;
-// Of the mean error; the median hardly falls where a few views are wrong. Rims
-// of smooth bodies lie elsewhere in every view; where they are most of what is
-// seen, poses bend to them, and the mean falls by up to an eighth.
+// Of the mean error; the median hardly falls where a few views are wrong. Of
+// right poses it falls by up to a fourteenth, where borders of shading are most
+// of what is seen.
 constexpr double kMinGain = 0.15;
 constexpr double kMaxErrorPx = 1;
 
@@ -37,16 +37,16 @@ std::vector<Error> Errors(const CurvePlace& start, const PosedEdges& edges) {
   };
   for (const Pass& pass : {Pass{2, 0.5}, Pass{1, 0.25}, Pass{1, 0.15}}) {
     const std::vector<double> gates(edges.views().size(), pass.gate_px);
-    place.support = edges.FindEdges(place.edge, views, gates);
-    place.edge = edges.Adjusted(place, pass.sigma_px);
+    place.support = edges.FindEdges(place.rim, views, gates);
+    place.rim = edges.Adjusted(place, pass.sigma_px);
   }
   const std::vector<double> gates(edges.views().size(), kMaxErrorPx);
   std::vector<Error> errors(views.size());
-  for (const EdgeRef& ref : edges.FindEdges(place.edge, views, gates)) {
+  for (const EdgeRef& ref : edges.FindEdges(place.rim, views, gates)) {
     const auto found = std::lower_bound(
         views.begin(), views.end(), static_cast<std::size_t>(ref.view_idx));
     errors[static_cast<std::size_t>(found - views.begin())] =
-        std::min(kMaxErrorPx, edges.Distance(place.edge.position, ref));
+        std::min(kMaxErrorPx, edges.Distance(place.rim, ref));
   }
   return errors;
 }
@@ -156,20 +156,20 @@ std::vector<CurvePlace> TakeCheckPlaces(std::vector<CurvePlace>* places) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const CurvePlace& place : *places) {
-      values.push_back(place.edge.position[axis]);
+      values.push_back(place.rim.axis.position[axis]);
     }
     center[axis] = MedianOr(0, std::move(values));
   }
   std::vector<double> distances;
   for (const CurvePlace& place : *places) {
-    distances.push_back((place.edge.position - center).norm());
+    distances.push_back((place.rim.axis.position - center).norm());
   }
   const double distance = MedianOr(0, std::move(distances));
   const double cube = distance > 0 ? distance / kCubesPerDistance : 1;
   std::vector<CurvePlace> kept, taken;
   for (CurvePlace& place : *places) {
     const Eigen::Vector3d cell =
-        ((place.edge.position - center) / cube).array().floor();
+        ((place.rim.axis.position - center) / cube).array().floor();
     const double sum = cell.x() + 2 * cell.y() + 3 * cell.z();
     const double part =
         sum - kPartsPerCheckPart * std::floor(sum / kPartsPerCheckPart);

@@ -72,7 +72,11 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
                     step_done);
   std::vector<CurvePlace> places;
   for (const Edge3d& edge : sketch.edges) {
-    places.push_back({{edge.position, edge.tangent}, edge.support});
+    if (edge.support.size() < kMinNumSupports) continue;
+    CurvePlace& place = places.emplace_back();
+    place.rim.axis = {edge.position, edge.tangent};
+    place.support = edge.support;
+    place.rim = Adjusted(place, sigma_px);
   }
   return places;
 }
@@ -92,12 +96,13 @@ std::vector<std::size_t> PosedEdges::ViewsToAsk(const CurvePlace& place) const {
 }
 
 std::vector<EdgeRef> PosedEdges::FindEdges(
-    const SpaceEdge& edge,
+    const Rim& rim,
     const std::vector<std::size_t>& views,
     const std::vector<double>& gates_px) const {
   std::vector<EdgeRef> found;
   for (const std::size_t i : views) {
-    const auto projected = ProjectEdge(views_[i], edge);
+    const auto projected =
+        ProjectEdge(views_[i], SeenFrom(rim, views_[i].center));
     if (!projected || !views_[i].Contains(projected->position)) continue;
     const Gate gate{gates_px[i], kMaxTangentialPx, kMinCosine};
     const auto nearest = NearestEdge(indices_[i], *projected, gate);
@@ -121,7 +126,8 @@ std::vector<EdgesAround> PosedEdges::LookAround(
     double reach_px) const {
   std::vector<EdgesAround> result;
   for (const CurvePlace* place : places) {
-    const auto projected = ProjectEdge(views_[view_idx], place->edge);
+    const auto projected = ProjectEdge(
+        views_[view_idx], SeenFrom(place->rim, views_[view_idx].center));
     if (!projected || !views_[view_idx].Contains(projected->position)) continue;
     const Eigen::Vector2d& tangent = projected->tangent;
     EdgesAround around;
@@ -153,12 +159,12 @@ ImageEdge PosedEdges::EdgeOf(const EdgeRef& ref) const {
                          .edges[static_cast<std::size_t>(ref.edge_idx)]);
 }
 
-double PosedEdges::Distance(const Eigen::Vector3d& position,
-                            const EdgeRef& ref) const {
+double PosedEdges::Distance(const Rim& rim, const EdgeRef& ref) const {
   const PosedView& view = views_[static_cast<std::size_t>(ref.view_idx)];
   const ImageEdge edge = EdgeOf(ref);
   const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
-  const Eigen::Vector2d pixel = view.Pixel(view.InCamera(position));
+  const Eigen::Vector2d pixel =
+      view.Pixel(view.InCamera(SeenFrom(rim, view.center).position));
   return std::abs(normal.dot(pixel - edge.position));
 }
 
@@ -166,7 +172,7 @@ std::vector<std::vector<double>> PosedEdges::ShiftsByView(
     const std::vector<CurvePlace>& places) const {
   std::vector<std::vector<double>> shifts(views_.size());
   for (const CurvePlace& place : places) {
-    const Eigen::Vector3d& x = place.edge.position;
+    const Eigen::Vector3d& x = place.rim.axis.position;
     for (const EdgeRef& ref : place.support) {
       const auto i = static_cast<std::size_t>(ref.view_idx);
       const PosedView& from = input_views_[i];
@@ -178,14 +184,14 @@ std::vector<std::vector<double>> PosedEdges::ShiftsByView(
   return shifts;
 }
 
-SpaceEdge PosedEdges::Adjusted(const CurvePlace& place, double sigma_px) const {
-  if (place.support.size() < 2) return place.edge;
+Rim PosedEdges::Adjusted(const CurvePlace& place, double sigma_px) const {
+  if (place.support.size() < 2) return place.rim;
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : place.support) {
     measurements.push_back(MeasurePlane(
         views_[static_cast<std::size_t>(ref.view_idx)], EdgeOf(ref)));
   }
-  return AdjustEdge(place.edge, measurements, sigma_px).edge;
+  return AdjustRim(place.rim, measurements, sigma_px);
 }
 
 }  // namespace curvix

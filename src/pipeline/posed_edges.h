@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/adjust_edge.h"
+#include "geometry/rim.h"
 #include "pipeline/sketch_internal.h"
 #include "pipeline/view_indices.h"
 #include "poses/adjust_poses.h"
@@ -18,9 +18,12 @@
 
 namespace curvix {
 
+// Of a place; more than an edge of a curve needs, since places are many.
+inline constexpr std::size_t kMinNumSupports = 6;
+
 // A place on a curve and the 2D edges that show it.
 struct CurvePlace {
-  SpaceEdge edge;
+  Rim rim;
   std::vector<EdgeRef> support;  // at most one per view, ascending
 };
 
@@ -48,7 +51,7 @@ class PosedEdges {
   std::vector<std::size_t> ViewsToAsk(const CurvePlace& place) const;
 
   // The nearest edge in each of `views` that is within its gate, by view.
-  std::vector<EdgeRef> FindEdges(const SpaceEdge& edge,
+  std::vector<EdgeRef> FindEdges(const Rim& rim,
                                  const std::vector<std::size_t>& views,
                                  const std::vector<double>& gates_px) const;
 
@@ -62,14 +65,14 @@ class PosedEdges {
       double reach_px) const;
 
   ImageEdge EdgeOf(const EdgeRef& ref) const;
-  // Pixels; of the projection of `position` from the line of the edge.
-  double Distance(const Eigen::Vector3d& position, const EdgeRef& ref) const;
+  // Pixels; of the projection of `rim` from the line of the edge.
+  double Distance(const Rim& rim, const EdgeRef& ref) const;
   // Pixels that the supported places have moved by, from the poses of the
   // scene, in each view.
   std::vector<std::vector<double>> ShiftsByView(
       const std::vector<CurvePlace>& places) const;
-  // The place with its edge adjusted to its support.
-  SpaceEdge Adjusted(const CurvePlace& place, double sigma_px) const;
+  // The rim of the place, adjusted to its support.
+  Rim Adjusted(const CurvePlace& place, double sigma_px) const;
 
  private:
   const Scene& scene_;

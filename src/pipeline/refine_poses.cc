@@ -31,7 +31,6 @@ constexpr double kMinGainOfRound = 0.01;
 // Sketches expect larger errors until they find so many places.
 constexpr std::size_t kMinPlaces = 100;
 constexpr double kMaxSketchSigmaPx = 1.2;
-constexpr std::size_t kMinSupport = 6;
 constexpr std::size_t kMinDistancesPerView = 12;
 constexpr double kReachPx = 6;  // of the search for shifts
 // Standard deviations of edges around projections.
@@ -90,7 +89,7 @@ class Refiner {
       for (const EdgeRef& ref : place.support) {
         const auto i = static_cast<std::size_t>(ref.view_idx);
         const PosedView& view = edges_.views()[i];
-        const Eigen::Vector3d& x = place.edge.position;
+        const Eigen::Vector3d& x = place.rim.axis.position;
         seen.push_back({i, x, view.Pixel(view.InCamera(x))});
       }
     }
@@ -167,10 +166,10 @@ class Refiner {
         places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
           CurvePlace& place = places_[i];
           place.support =
-              edges_.FindEdges(place.edge, edges_.ViewsToAsk(place), gates_px);
+              edges_.FindEdges(place.rim, edges_.ViewsToAsk(place), gates_px);
         });
     std::erase_if(places_, [](const CurvePlace& place) {
-      return place.support.size() < kMinSupport;
+      return place.support.size() < kMinNumSupports;
     });
   }
 
@@ -179,7 +178,7 @@ class Refiner {
     for (const CurvePlace& place : places_) {
       for (const EdgeRef& ref : place.support) {
         distances[static_cast<std::size_t>(ref.view_idx)].push_back(
-            edges_.Distance(place.edge.position, ref));
+            edges_.Distance(place.rim, ref));
       }
     }
     return distances;
@@ -207,7 +206,7 @@ class Refiner {
     std::vector<PoseSample> samples;
     for (const CurvePlace& place : places_) {
       PoseSample& sample = samples.emplace_back();
-      sample.edge = place.edge;
+      sample.rim = place.rim;
       for (const EdgeRef& ref : place.support) {
         sample.observations.push_back({ref.view_idx, edges_.EdgeOf(ref)});
       }
@@ -220,8 +219,8 @@ class Refiner {
     edges_.SetMotions(std::move(adjusted.new_cam_from_cam));
     ParallelFor(
         places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
-          places_[i].edge.position = adjusted.positions[i];
-          places_[i].edge = edges_.Adjusted(places_[i], kTangentSigmaPx);
+          places_[i].rim = adjusted.rims[i];
+          places_[i].rim = edges_.Adjusted(places_[i], kTangentSigmaPx);
         });
     prior_px_ = std::max(kMinPriorPx, MedianShift());
   }

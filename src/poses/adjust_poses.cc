@@ -75,26 +75,29 @@ constexpr Loss kPriorLoss{kPriorLossScale * kPriorLossScale};
 // A sample and the line of its edge, in the camera as it was in the beginning.
 struct SeenSample {
   Eigen::Vector3d position;
-  AcrossAxes across;
-  Eigen::Vector3d line;  // residual = line . x / x.z
+  Eigen::Matrix3d moves;  // of the position, by the unknowns of the sample
+  Eigen::Vector3d line;   // residual = line . x / x.z
 };
 
 SeenSample SeenBy(const PosedView& view,
-                  const SpaceEdge& sample,
+                  const Rim& rim,
                   const ImageEdge& edge,
                   double sigma_px) {
   const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
   Eigen::Vector3d line = view.calibration.topRows<2>().transpose() * normal;
   line.z() -= normal.dot(edge.position);
-  return {view.InCamera(sample.position),
-          view.rotation * AxesAcross(sample.tangent),
+  Eigen::Matrix3d moves;
+  moves << AxesAcross(rim.axis.tangent), SideSeenFrom(rim, view.center);
+  return {view.InCamera(SeenFrom(rim, view.center).position),
+          view.rotation * moves,
           line / sigma_px};
 }
 
 // Where the search stands.
 struct State {
-  std::vector<Motion> motions;           // by view
-  std::vector<Eigen::Vector2d> offsets;  // by sample, across its tangent
+  std::vector<Motion> motions;  // by view
+  // By sample: of the axis across itself, and of the radius.
+  std::vector<Eigen::Vector3d> offsets;
 };
 
 std::vector<Rigid3> RigidMotions(const State& state) {
@@ -125,12 +128,12 @@ class Search {
     for (const Rigid3& motion : start) {
       state_.motions.push_back(ToMotion(motion));
     }
-    state_.offsets.assign(problem.samples.size(), Eigen::Vector2d::Zero());
+    state_.offsets.assign(problem.samples.size(), Eigen::Vector3d::Zero());
     for (const PoseSample& sample : problem.samples) {
       for (const PoseSample::Observation& seen : sample.observations) {
         const auto i = static_cast<std::size_t>(seen.view_idx);
         seen_.push_back(SeenBy(
-            problem.views[i], sample.edge, seen.edge, problem.sigmas_px[i]));
+            problem.views[i], sample.rim, seen.edge, problem.sigmas_px[i]));
       }
     }
     for (std::size_t i = 0; i < problem.views.size(); ++i) {
@@ -187,7 +190,7 @@ class Search {
       const auto [view_idx, sample_idx] = owners_.of_equation[e];
       const Eigen::Vector3d x =
           motions[view_idx] *
-          (seen_[e].position + seen_[e].across * state.offsets[sample_idx]);
+          (seen_[e].position + seen_[e].moves * state.offsets[sample_idx]);
       const double residual = seen_[e].line.dot(x) / x.z();
       costs[e] = x.z() > 0 ? kEdgeLoss(residual * residual)
                            : std::numeric_limits<double>::infinity();
@@ -228,10 +231,10 @@ class Search {
     const Eigen::Matrix3d rotation = rigid.rotation.toRotationMatrix();
     const Eigen::Matrix3d left_jacobian = LeftJacobian(motion.head<3>());
     for (const std::size_t e : owners_.by_view[view_idx]) {
-      const auto& [position, across, line] = seen_[e];
+      const auto& [position, moves, line] = seen_[e];
       const std::size_t sample_idx = owners_.of_equation[e].sample_idx;
       const Eigen::Vector3d turned =
-          rotation * (position + across * state_.offsets[sample_idx]);
+          rotation * (position + moves * state_.offsets[sample_idx]);
       const Eigen::Vector3d x = turned + rigid.translation;
       const double residual = line.dot(x) / x.z();
       const double root = kEdgeLoss.RootOfWeight(residual * residual);
@@ -241,7 +244,7 @@ class Search {
       equation.residual = root * residual;
       equation.by_motion << left_jacobian.transpose() * turned.cross(by_x),
           by_x;
-      equation.by_offset = across.transpose() * (rotation.transpose() * by_x);
+      equation.by_offset = moves.transpose() * (rotation.transpose() * by_x);
     }
   }
 
@@ -270,9 +273,10 @@ AdjustedPoses AdjustPoses(const PoseProblem& problem,
   adjusted.new_cam_from_cam =
       search.Run(keep_going) ? RigidMotions(search.state()) : start;
   for (std::size_t i = 0; i < problem.samples.size(); ++i) {
-    const SpaceEdge& edge = problem.samples[i].edge;
-    adjusted.positions.push_back(edge.position + AxesAcross(edge.tangent) *
-                                                     search.state().offsets[i]);
+    Rim& rim = adjusted.rims.emplace_back(problem.samples[i].rim);
+    const Eigen::Vector3d& offset = search.state().offsets[i];
+    rim.axis.position += AxesAcross(rim.axis.tangent) * offset.head<2>();
+    rim.radius += offset.z();
   }
   return adjusted;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geometry/edge_geometry.h"
+#include "geometry/rim.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -24,7 +25,7 @@ struct PoseSample {
     std::int32_t view_idx = 0;
     ImageEdge edge;
   };
-  SpaceEdge edge;
+  Rim rim;
   std::vector<Observation> observations;  // at most one per view
 };
 
@@ -43,7 +44,7 @@ struct AdjustedPoses {
   // Of each view, from its camera in the beginning to its camera now; as it was
   // at the start for views without observations.
   std::vector<Rigid3> new_cam_from_cam;
-  std::vector<Eigen::Vector3d> positions;  // of the samples, world
+  std::vector<Rim> rims;  // of the samples
 };
 
 // Minimises the distances between projected samples and the lines of their

@@ -27,8 +27,8 @@ void Damp(double damping, Matrix& matrix) {
 
 // The normal equations of one sample.
 struct SampleNormal {
-  Eigen::Matrix2d inverse;
-  Eigen::Vector2d gradient;
+  Eigen::Matrix3d inverse;
+  Eigen::Vector3d gradient;
 };
 
 // The normal equations of one view without samples, up to its own column.
@@ -80,8 +80,8 @@ class System {
   }
 
   SampleNormal NormalOfSample(std::size_t sample_idx) const {
-    Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     VisitSample(sample_idx, [&](const StepEquation& equation, std::size_t) {
       matrix += equation.by_offset * equation.by_offset.transpose();
       gradient += equation.residual * equation.by_offset;
@@ -118,7 +118,7 @@ class System {
       const StepEquation& own = equations_[e];
       const std::size_t sample_idx = owners_.of_equation[e].sample_idx;
       const SampleNormal& sample = samples_[sample_idx];
-      const Eigen::Vector2d pull = sample.inverse * own.by_offset;
+      const Eigen::Vector3d pull = sample.inverse * own.by_offset;
       normal.gradient +=
           (own.residual - pull.dot(sample.gradient)) * own.by_motion;
       VisitSample(sample_idx, [&](const StepEquation& other, std::size_t i) {
@@ -160,9 +160,9 @@ class System {
   }
 
   // The step of a sample once those of the motions are known.
-  Eigen::Vector2d OffsetOf(std::size_t sample_idx,
+  Eigen::Vector3d OffsetOf(std::size_t sample_idx,
                            const std::vector<Vector6d>& motions) const {
-    Eigen::Vector2d gradient = samples_[sample_idx].gradient;
+    Eigen::Vector3d gradient = samples_[sample_idx].gradient;
     VisitSample(sample_idx, [&](const StepEquation& equation, std::size_t i) {
       gradient += equation.by_motion.dot(motions[i]) * equation.by_offset;
     });

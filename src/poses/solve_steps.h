@@ -16,7 +16,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 struct StepEquation {
   double residual = 0;
   Vector6d by_motion = Vector6d::Zero();
-  Eigen::Vector2d by_offset = Eigen::Vector2d::Zero();
+  Eigen::Vector3d by_offset = Eigen::Vector3d::Zero();
 };
 
 // Six equations of the motion of a view alone: factors * step = -residuals,
@@ -42,7 +42,7 @@ struct EquationOwners {
 
 struct Steps {
   std::vector<Vector6d> motions;         // by view
-  std::vector<Eigen::Vector2d> offsets;  // by sample
+  std::vector<Eigen::Vector3d> offsets;  // by sample
 };
 
 // The steps of least squares, once the diagonal of the normal equations has

@@ -18,10 +18,12 @@ std::vector<PoseSample> ExactSamples(const std::vector<PosedView>& views) {
   for (const TestCurve& curve : CubeCurves()) {
     for (double s = 0.1; s < curve.length; s += 0.3) {
       PoseSample& sample = samples.emplace_back();
-      sample.edge = {curve.position(s), curve.tangent(s)};
+      sample.rim.axis = {curve.position(s), curve.tangent(s)};
+      sample.rim.outward = sample.rim.axis.tangent.unitOrthogonal();
       for (std::size_t i = 0; i < views.size(); ++i) {
-        sample.observations.push_back({static_cast<std::int32_t>(i),
-                                       *ProjectEdge(views[i], sample.edge)});
+        sample.observations.push_back(
+            {static_cast<std::int32_t>(i),
+             *ProjectEdge(views[i], sample.rim.axis)});
       }
     }
   }
@@ -47,7 +49,45 @@ TEST(AdjustPoses, LeavesExactPosesAndPlacesAlone) {
     EXPECT_LT(adjusted.new_cam_from_cam[i].translation.norm(), 1e-6);
   }
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    EXPECT_LT((adjusted.positions[i] - samples[i].edge.position).norm(), 1e-6);
+    EXPECT_LT(
+        (adjusted.rims[i].axis.position - samples[i].rim.axis.position).norm(),
+        1e-6);
+  }
+}
+
+// Upright cylinders, of which the rim is seen elsewhere from each camera.
+TEST(AdjustPoses, IsNotMovedByRims) {
+  const std::vector<PosedView> views = RingOfViews(24);
+  const std::size_t num_seeing = 6;
+  std::vector<PoseSample> samples;
+  for (int i = 0; i < 20; ++i) {
+    Rim body;
+    body.axis = {{0.1 * i - 1, 0.3 * (i % 4), 0.05 * i},
+                 Eigen::Vector3d::UnitZ()};
+    body.radius = 0.2 + 0.02 * i;
+    body.outward = Eigen::Vector3d::UnitY();
+    PoseSample& sample = samples.emplace_back();
+    for (std::size_t v = 0; v < num_seeing; ++v) {
+      const SpaceEdge seen = SeenFrom(body, views[v].center);
+      sample.observations.push_back(
+          {static_cast<std::int32_t>(v), *ProjectEdge(views[v], seen)});
+    }
+    // Taken for an edge where one view sees it.
+    sample.rim = body;
+    sample.rim.axis = SeenFrom(body, views[2].center);
+    sample.rim.radius = 0;
+  }
+  const std::vector<double> sigmas(views.size(), 0.2);
+  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 10},
+                                             std::vector<Rigid3>(views.size()),
+                                             1,
+                                             KeepGoing);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_NEAR(
+        adjusted.rims[i].radius, 0.2 + 0.02 * static_cast<double>(i), 0.02);
+  }
+  for (std::size_t v = 0; v < num_seeing; ++v) {
+    EXPECT_LT(adjusted.new_cam_from_cam[v].translation.norm(), 0.003) << v;
   }
 }
 
@@ -67,7 +107,7 @@ TEST(AdjustPoses, BringsAMovedCameraBack) {
   const PosedView back = Moved(views[3], adjusted.new_cam_from_cam[3]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto seen =
-        ProjectEdge(back, {adjusted.positions[i], samples[i].edge.tangent});
+        ProjectEdge(back, SeenFrom(adjusted.rims[i], back.center));
     const ImageEdge& edge = samples[i].observations[3].edge;
     const Eigen::Vector2d offset = seen->position - edge.position;
     EXPECT_LT(
@@ -85,7 +125,7 @@ TEST(AdjustPoses, LeavesPosesAloneWithoutSamples) {
       AdjustPoses({views, sigmas, none}, start, 1, KeepGoing);
   ASSERT_EQ(adjusted.new_cam_from_cam.size(), views.size());
   EXPECT_EQ(adjusted.new_cam_from_cam[1].translation, start[1].translation);
-  EXPECT_TRUE(adjusted.positions.empty());
+  EXPECT_TRUE(adjusted.rims.empty());
 }
 
 TEST(AdjustPoses, StopsWhenAsked) {
@@ -107,14 +147,14 @@ TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
   std::vector<PoseSample> samples = ExactSamples(views);
   const Eigen::Vector3d behind =
       views[3].center - views[3].rotation.row(2).transpose();
-  samples[5].edge.position = behind;
+  samples[5].rim.axis.position = behind;
   const std::vector<double> sigmas(views.size(), 0.2);
   const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
                                              std::vector<Rigid3>(views.size()),
                                              1,
                                              KeepGoing);
   EXPECT_EQ(adjusted.new_cam_from_cam[3].translation, Eigen::Vector3d::Zero());
-  EXPECT_EQ(adjusted.positions[5], behind);
+  EXPECT_EQ(adjusted.rims[5].axis.position, behind);
 }
 
 }  // namespace

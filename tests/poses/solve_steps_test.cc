@@ -14,7 +14,7 @@ constexpr std::size_t kNumViews = 5;
 constexpr std::size_t kNumSamples = 30;
 constexpr double kDamping = 0.1;
 
-// Every sample is seen by three of the views, of which the last sees nothing.
+// Every sample is seen by four of the views, of which the last sees nothing.
 struct TestProblem {
   EquationOwners owners;
   std::vector<StepEquation> equations;
@@ -31,10 +31,9 @@ TestProblem MakeProblem() {
   std::vector<EquationOwners::Owner> owners;
   std::vector<StepEquation> equations;
   for (std::size_t i = 0; i < kNumSamples; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 4; ++k) {
       owners.push_back({(i + k) % (kNumViews - 1), i});
-      const Eigen::Vector3d v = random.NormalVector();
-      equations.push_back({v.z(), vector6(), v.head<2>()});
+      equations.push_back({random.Normal(), vector6(), random.NormalVector()});
     }
   }
   std::vector<StepPrior> priors(kNumViews);
@@ -50,7 +49,7 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
       static_cast<Eigen::Index>(problem.equations.size());
   const auto num_motions = static_cast<Eigen::Index>(6 * kNumViews);
   const auto num_unknowns =
-      num_motions + static_cast<Eigen::Index>(2 * kNumSamples);
+      num_motions + static_cast<Eigen::Index>(3 * kNumSamples);
   Eigen::MatrixXd jacobian =
       Eigen::MatrixXd::Zero(num_equations + num_motions, num_unknowns);
   Eigen::VectorXd residuals(jacobian.rows());
@@ -60,8 +59,8 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
     residuals(e) = equation.residual;
     jacobian.row(e).segment<6>(static_cast<Eigen::Index>(6 * owner.view_idx)) =
         equation.by_motion;
-    jacobian.row(e).segment<2>(
-        num_motions + static_cast<Eigen::Index>(2 * owner.sample_idx)) =
+    jacobian.row(e).segment<3>(
+        num_motions + static_cast<Eigen::Index>(3 * owner.sample_idx)) =
         equation.by_offset;
   }
   for (std::size_t i = 0; i < kNumViews; ++i) {
@@ -87,8 +86,8 @@ TEST(SolveSteps, AgreesWithTheSolutionOfAllUnknownsAtOnce) {
     EXPECT_LT((steps.motions[i] - expected.segment<6>(begin)).norm(), 1e-9);
   }
   for (std::size_t i = 0; i < kNumSamples; ++i) {
-    const auto begin = static_cast<Eigen::Index>(6 * kNumViews + 2 * i);
-    EXPECT_LT((steps.offsets[i] - expected.segment<2>(begin)).norm(), 1e-9);
+    const auto begin = static_cast<Eigen::Index>(6 * kNumViews + 3 * i);
+    EXPECT_LT((steps.offsets[i] - expected.segment<3>(begin)).norm(), 1e-9);
   }
 }
 
