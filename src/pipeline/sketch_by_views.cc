@@ -19,6 +19,8 @@
 namespace curvix {
 namespace {
 
+// Within it, views see the same edges, unless something stands in front.
+constexpr double kSameSideRad = DegToRad(40);
 // Times the evidence that is asked for.
 constexpr double kSettledEvidence = 3;
 
@@ -131,17 +133,15 @@ class ViewSketcher {
   }
 
  private:
-  // View h1, and those near enough in direction to be a partner.
+  // View h1, and those that look from nearly the same direction.
   std::size_t NumOnThisSide(int h1) const {
-    const double max_angle =
-        DegToRad(input_.options.hypotheses.max_ray_angle_deg);
     const std::vector<ViewOverlap>& overlaps =
         input_.overlaps[static_cast<std::size_t>(h1)];
     return 1 + static_cast<std::size_t>(
                    std::count_if(overlaps.begin(),
                                  overlaps.end(),
-                                 [max_angle](const ViewOverlap& overlap) {
-                                   return overlap.ray_angle_rad <= max_angle;
+                                 [](const ViewOverlap& overlap) {
+                                   return overlap.ray_angle_rad <= kSameSideRad;
                                  }));
   }
 

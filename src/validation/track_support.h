@@ -39,9 +39,9 @@ struct ViewsToAsk {
 inline constexpr double kMaxSupportSlidePx = 1;
 
 // How many views must support an edge: options.min_num_support_views and the
-// two hypothesis views, but of few views on one side no more than just over
-// half, and never fewer than three. `num_on_this_side`: the views that look
-// from about the same side as the first hypothesis view, itself included; the
+// two hypothesis views, but no more than just over half of those on one side,
+// and never fewer than three. `num_on_this_side`: the views that look from
+// nearly the same direction as the first hypothesis view, itself included; the
 // others may see nothing of what it sees.
 std::size_t FewestSupports(const ValidationOptions& options,
                            std::size_t num_on_this_side);
