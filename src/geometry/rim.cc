@@ -12,8 +12,9 @@ namespace curvix {
 namespace {
 
 constexpr int kNumIterations = 3;
-// In measurements: keeps the system regular.
-constexpr double kPrior = 1e-5;
+// In measurements: keep the system regular, the radius before the place.
+constexpr double kPriorOfPlace = 1e-8;
+constexpr double kPriorOfRadius = 1e-5;
 
 Eigen::Vector3d AcrossAxisAndRay(const SpaceEdge& axis,
                                  const Eigen::Vector3d& center) {
@@ -55,8 +56,9 @@ double FitRadius(const Rim& rim,
           return CauchyWeight(residual, sigma_px);
         });
     Eigen::Matrix3d matrix = rows.transpose() * weights.asDiagonal() * rows;
-    matrix.diagonal().array() +=
-        kPrior * matrix.trace() / static_cast<double>(count);
+    matrix.diagonal() +=
+        matrix.trace() / static_cast<double>(count) *
+        Eigen::Vector3d(kPriorOfPlace, kPriorOfPlace, kPriorOfRadius);
     solution = matrix.inverse() *
                -(rows.transpose() * weights.asDiagonal() * distances);
   }
@@ -64,6 +66,10 @@ double FitRadius(const Rim& rim,
 }
 
 }  // namespace
+
+Eigen::Vector3d MiddleOf(const Rim& rim) {
+  return rim.axis.position + rim.radius * rim.outward;
+}
 
 Eigen::Vector3d SideSeenFrom(const Rim& rim, const Eigen::Vector3d& center) {
   const Eigen::Vector3d side = AcrossAxisAndRay(rim.axis, center);

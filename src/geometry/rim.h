@@ -2,8 +2,9 @@
 // Paper: none (beyond it). Places on edges or on rims of smooth bodies.
 //
 // Around its rim, a smooth body is nearly a cylinder, and each view sees that
-// line of it which its ray touches. An edge is a cylinder of radius zero. So
-// what views see fits one radius more, and nobody needs to know which it is.
+// line of it which its ray touches; the radius is taken to be small against the
+// distance. An edge is a cylinder of radius zero. So one radius more explains
+// what views see, and nobody needs to know which it is.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,6 +22,9 @@ struct Rim {
   // is any.
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();
 };
+
+// A place of the rim amid those that views see.
+Eigen::Vector3d MiddleOf(const Rim& rim);
 
 // From the axis to the place of the rim that a camera at `center` sees, for a
 // radius of 1: a unit vector across the axis and the ray; zero where the ray

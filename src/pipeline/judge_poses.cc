@@ -21,8 +21,8 @@ constexpr double kCubesPerDistance = 10;
 constexpr std::size_t kMinCheckPlaces = 20;
 constexpr std::size_t kMinObservationsPerView = 8;
 // Of the mean error; the median hardly falls where a few views are wrong. Of
-// right poses it falls by up to a fourteenth, where borders of shading are most
-// of what is seen.
+// right poses it falls by up to a fourteenth if some 25 views look, where
+// borders of shading are most of what is seen.
 constexpr double kMinGain = 0.15;
 constexpr double kMaxErrorPx = 1;
 
@@ -156,20 +156,20 @@ std::vector<CurvePlace> TakeCheckPlaces(std::vector<CurvePlace>* places) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const CurvePlace& place : *places) {
-      values.push_back(place.rim.axis.position[axis]);
+      values.push_back(MiddleOf(place.rim)[axis]);
     }
     center[axis] = MedianOr(0, std::move(values));
   }
   std::vector<double> distances;
   for (const CurvePlace& place : *places) {
-    distances.push_back((place.rim.axis.position - center).norm());
+    distances.push_back((MiddleOf(place.rim) - center).norm());
   }
   const double distance = MedianOr(0, std::move(distances));
   const double cube = distance > 0 ? distance / kCubesPerDistance : 1;
   std::vector<CurvePlace> kept, taken;
   for (CurvePlace& place : *places) {
     const Eigen::Vector3d cell =
-        ((place.rim.axis.position - center) / cube).array().floor();
+        ((MiddleOf(place.rim) - center) / cube).array().floor();
     const double sum = cell.x() + 2 * cell.y() + 3 * cell.z();
     const double part =
         sum - kPartsPerCheckPart * std::floor(sum / kPartsPerCheckPart);

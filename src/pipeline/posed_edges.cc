@@ -72,7 +72,7 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
                     step_done);
   std::vector<CurvePlace> places;
   for (const Edge3d& edge : sketch.edges) {
-    if (edge.support.size() < kMinNumSupports) continue;
+    if (edge.support.size() < kMinSupportsOfPlace) continue;
     CurvePlace& place = places.emplace_back();
     place.rim.axis = {edge.position, edge.tangent};
     place.support = edge.support;
@@ -172,7 +172,7 @@ std::vector<std::vector<double>> PosedEdges::ShiftsByView(
     const std::vector<CurvePlace>& places) const {
   std::vector<std::vector<double>> shifts(views_.size());
   for (const CurvePlace& place : places) {
-    const Eigen::Vector3d& x = place.rim.axis.position;
+    const Eigen::Vector3d x = MiddleOf(place.rim);
     for (const EdgeRef& ref : place.support) {
       const auto i = static_cast<std::size_t>(ref.view_idx);
       const PosedView& from = input_views_[i];

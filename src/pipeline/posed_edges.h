@@ -18,8 +18,8 @@
 
 namespace curvix {
 
-// Of a place; more than an edge of a curve needs, since places are many.
-inline constexpr std::size_t kMinNumSupports = 6;
+// More than an edge of a curve needs, since places are many.
+inline constexpr std::size_t kMinSupportsOfPlace = 6;
 
 // A place on a curve and the 2D edges that show it.
 struct CurvePlace {

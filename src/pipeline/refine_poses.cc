@@ -39,7 +39,7 @@ constexpr double kMinSigmaPx = 0.15;
 constexpr double kMaxSigmaPx = 1.5;
 constexpr double kSigmaPerSpread = 1.5;
 constexpr double kGateSigmas = 4;
-constexpr double kTangentSigmaPx = 0.3;
+constexpr double kPlaceSigmaPx = 0.3;
 constexpr double kFirstPriorPx = 10;
 constexpr double kMinPriorPx = 0.02;
 
@@ -89,7 +89,7 @@ class Refiner {
       for (const EdgeRef& ref : place.support) {
         const auto i = static_cast<std::size_t>(ref.view_idx);
         const PosedView& view = edges_.views()[i];
-        const Eigen::Vector3d& x = place.rim.axis.position;
+        const Eigen::Vector3d x = MiddleOf(place.rim);
         seen.push_back({i, x, view.Pixel(view.InCamera(x))});
       }
     }
@@ -169,7 +169,7 @@ class Refiner {
               edges_.FindEdges(place.rim, edges_.ViewsToAsk(place), gates_px);
         });
     std::erase_if(places_, [](const CurvePlace& place) {
-      return place.support.size() < kMinNumSupports;
+      return place.support.size() < kMinSupportsOfPlace;
     });
   }
 
@@ -220,7 +220,7 @@ class Refiner {
     ParallelFor(
         places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
           places_[i].rim = adjusted.rims[i];
-          places_[i].rim = edges_.Adjusted(places_[i], kTangentSigmaPx);
+          places_[i].rim = edges_.Adjusted(places_[i], kPlaceSigmaPx);
         });
     prior_px_ = std::max(kMinPriorPx, MedianShift());
   }

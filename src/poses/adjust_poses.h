@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). Poses and places on curves, adjusted together.
 //
-// An edge in an image says nothing about the place along it. So a sample of a
-// curve moves only across its tangent, and each of its edges gives one equation
-// between these two unknowns and the six of the view's pose.
+// An edge in an image says nothing about the place along it. So a sample moves
+// only across its tangent, and its radius changes (geometry/rim.h); each of its
+// edges gives one equation between these three unknowns and the six of the
+// view's pose.
 #pragma once
 
 #include <curvix/scene.h>

@@ -18,6 +18,9 @@ namespace {
 // is.
 constexpr double kMinDiagonal = 1e-6;
 
+// Of the trace: radii that views hardly tell from a shift stay.
+constexpr double kRadiusDamping = 1e-9;
+
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 template <typename Matrix>
@@ -86,6 +89,7 @@ class System {
       matrix += equation.by_offset * equation.by_offset.transpose();
       gradient += equation.residual * equation.by_offset;
     });
+    matrix(2, 2) += kRadiusDamping * matrix.trace();
     Damp(damping_, matrix);
     return {matrix.inverse(), gradient};
   }

@@ -46,7 +46,8 @@ struct Steps {
 };
 
 // The steps of least squares, once the diagonal of the normal equations has
-// grown by its `damping`-fold (> 0), as Marquardt does. If the motions have
+// grown by its `damping`-fold (> 0), as Marquardt does, and that of each third
+// unknown of a sample by 1e-9 of the sample's trace before. If the motions have
 // none, they are zero, and the offsets those of the samples alone. The same for
 // any number of threads.
 Steps SolveSteps(const EquationOwners& owners,

@@ -14,7 +14,7 @@ constexpr double kSigmaPx = 0.5;
 constexpr double kRadius = 0.05;  // some six pixels
 
 // What the views of one side see of an upright cylinder around the origin: the
-// end of it on their left.
+// end of it on their right.
 std::vector<PlaneMeasurement> MeasureCylinder(double radius,
                                               std::size_t num_views) {
   const std::vector<PosedView> views = RingOfViews(24);
@@ -32,7 +32,7 @@ std::vector<PlaneMeasurement> MeasureCylinder(double radius,
   return measurements;
 }
 
-// Where the middle one of the views sees the rim, as an edge.
+// An edge, to start from.
 Rim StartAt(const Eigen::Vector3d& position) {
   Rim rim;
   rim.axis = {position, Eigen::Vector3d::UnitZ()};
@@ -83,7 +83,40 @@ TEST(AdjustRim, TakesWhatTwoViewsSeeForAnEdge) {
   }
 }
 
-TEST(SeenFrom, TouchesTheRayAtARightAngle) {
+TEST(AdjustRim, LeavesAnEdgeAnEdgeWhereRaysTellNothingOfARadius) {
+  const auto all = MeasureCylinder(0, 2);
+  // Six views within some fifteen degrees, of which only one differs.
+  const std::vector<PlaneMeasurement> measurements = {
+      all[0], all[0], all[0], all[0], all[0], all[1]};
+  const Rim rim = AdjustTwice(StartAt({0.01, -0.01, 0}), measurements);
+  EXPECT_LT(std::abs(rim.radius), 1e-3);
+  EXPECT_LT(DistanceOfAxisFromOrigin(rim), 1e-3);
+}
+
+TEST(AdjustRim, KeepsItsSideWhenAskedAgain) {
+  const auto measurements = MeasureCylinder(kRadius, 5);
+  const Rim once = AdjustTwice(StartAt({0.01, 0.045, 0}), measurements);
+  const Rim again = AdjustRim(once, measurements, kSigmaPx);
+  EXPECT_GT(once.outward.dot(again.outward), 0.99);
+  EXPECT_NEAR(once.radius, again.radius, 0.01 * kRadius);
+}
+
+TEST(SideSeenFrom, IsTheSameFromTheOtherSide) {
+  Rim rim = StartAt({0.1, 0.2, 0.3});
+  rim.outward = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d center(4, 3, 2);
+  const Eigen::Vector3d opposite = 2 * rim.axis.position - center;
+  EXPECT_LT((SideSeenFrom(rim, center) - SideSeenFrom(rim, opposite)).norm(),
+            1e-12);
+}
+
+TEST(SideSeenFrom, IsZeroAlongTheAxis) {
+  Rim rim = StartAt({0.1, 0.2, 0.3});
+  rim.outward = Eigen::Vector3d::UnitX();
+  EXPECT_TRUE(SideSeenFrom(rim, {0.1, 0.2, 7}).isZero(0));
+}
+
+TEST(SeenFrom, IsAcrossAxisAndRay) {
   Rim rim = StartAt({0.1, 0.2, 0.3});
   rim.radius = 0.5;
   rim.outward = Eigen::Vector3d::UnitX();

@@ -70,6 +70,11 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
         problem.priors[i].factors.asDiagonal();
   }
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+  for (std::size_t i = 0; i < kNumSamples; ++i) {
+    const auto begin = num_motions + static_cast<Eigen::Index>(3 * i);
+    normal(begin + 2, begin + 2) +=
+        1e-9 * normal.diagonal().segment<3>(begin).sum();
+  }
   normal.diagonal() += kDamping * normal.diagonal();
   // Nothing tells of the last view.
   for (Eigen::Index i = num_motions - 6; i < num_motions; ++i) normal(i, i) = 1;
