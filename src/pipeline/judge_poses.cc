@@ -21,7 +21,7 @@ constexpr double kCubesPerDistance = 10;
 constexpr std::size_t kMinCheckPlaces = 20;
 constexpr std::size_t kMinObservationsPerView = 8;
 // Of the mean error; the median hardly falls where a few views are wrong. Of
-// right poses it falls by up to a fourteenth if some 25 views look, where
+// right poses it falls by up to a tenth if some 25 views look, where
 // borders of shading are most of what is seen.
 constexpr double kMinGain = 0.15;
 constexpr double kMaxErrorPx = 1;
