@@ -181,6 +181,11 @@ struct CurveRefinementOptions {
   // Longest gap closed between ends that continue each other at their own
   // curvature, though the images do not show it. Pixels, >= 0; 0 closes none.
   double max_gap_px = 15.0;
+  // Curves that touch are told apart and end where they touch, in a junction.
+  bool separate_touching = true;
+  // Curves are cut where the fitted curve turns by more in one place. Degrees,
+  // > 0, <= 180; 180 cuts none.
+  double max_corner_deg = 15.0;
   // Shortest curve kept, unless it leads from one junction to another. Pixels
   // of the view that sees it largest; >= 0.
   double min_length_px = 10.0;

@@ -228,6 +228,10 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "side; the views tell the curve");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other in a bend");
+  row.Switch("separate_touching", &o.separate_touching,
+      "tell curves apart that touch, and end them there in a junction");
+  row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
+      "fitted curves are cut where they turn by more in one place; 180 cuts none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
       "shortest curve kept, unless it leads from one junction to another");
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",

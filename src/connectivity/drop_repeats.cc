@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/angles.h"
-#include "geometry/pixel_size.h"
-#include "base/point_tree.h"
 #include "connectivity/trace_curves.h"
 #include "geometry/edge_distances.h"
+#include "geometry/pixel_size.h"
+#include "model/sample_tree.h"
 
 namespace curvix {
 namespace {
@@ -21,11 +21,6 @@ namespace {
 // Samples of one curve that are no more apart than this never repeat each
 // other.
 constexpr std::size_t kMinLoop = 6;
-
-struct SamplePlace {
-  std::size_t curve_idx = 0;
-  std::size_t sample_idx = 0;
-};
 
 // All samples of all curves, which of them stay, and who is near whom.
 class SampleFilter {
@@ -36,40 +31,21 @@ class SampleFilter {
       : curves_(curves),
         views_(views),
         options_(options),
-        places_(PlacesOf(curves)),
-        tree_(PositionsOf(curves)),
-        stays_(places_.size(), false) {}
+        samples_(curves),
+        stays_(samples_.Places().size(), false) {}
 
   // Decides on sample `k` in the order of curves and samples.
   void Visit(std::size_t k) { stays_[k] = !IsRepeat(k); }
   bool Stays(std::size_t k) const { return stays_[k]; }
 
  private:
-  static std::vector<SamplePlace> PlacesOf(const std::vector<Curve>& curves) {
-    std::vector<SamplePlace> places;
-    for (std::size_t c = 0; c < curves.size(); ++c) {
-      for (std::size_t s = 0; s < curves[c].samples.size(); ++s) {
-        places.push_back({c, s});
-      }
-    }
-    return places;
-  }
-  static std::vector<Eigen::Vector3d> PositionsOf(
-      const std::vector<Curve>& curves) {
-    std::vector<Eigen::Vector3d> positions;
-    for (const Curve& curve : curves) {
-      for (const CurveSample& sample : curve.samples) {
-        positions.push_back(sample.position);
-      }
-    }
-    return positions;
-  }
   const CurveSample& Sample(std::size_t k) const {
-    return curves_[places_[k].curve_idx].samples[places_[k].sample_idx];
+    const SamplePlace& place = samples_.Places()[k];
+    return curves_[place.curve_idx].samples[place.sample_idx];
   }
   bool AreNeighbors(std::size_t k, std::size_t j) const {
-    const SamplePlace& a = places_[k];
-    const SamplePlace& b = places_[j];
+    const SamplePlace& a = samples_.Places()[k];
+    const SamplePlace& b = samples_.Places()[j];
     if (a.curve_idx != b.curve_idx) return false;
     const std::size_t gap = std::max(a.sample_idx, b.sample_idx) -
                             std::min(a.sample_idx, b.sample_idx);
@@ -83,7 +59,7 @@ class SampleFilter {
     const double max_normal = options_.max_repeat_distance_px * unit;
     const double max_along = options_.sample_spacing_px * unit;
     const double radius = std::hypot(max_normal, max_along);
-    for (const std::size_t j : tree_.Within(sample.position, radius)) {
+    for (const std::size_t j : samples_.Within(sample.position, radius)) {
       if (!stays_[j] || AreNeighbors(k, j)) continue;
       const EdgeDistances between = MeasureDistances(sample, Sample(j));
       if (between.normal <= max_normal && between.tangential <= max_along &&
@@ -97,8 +73,7 @@ class SampleFilter {
   const std::vector<Curve>& curves_;
   const std::vector<PosedView>& views_;
   const ConnectivityOptions& options_;
-  std::vector<SamplePlace> places_;
-  PointTree tree_;
+  SampleTree samples_;
   std::vector<bool> stays_;
 };
 

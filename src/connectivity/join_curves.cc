@@ -11,6 +11,7 @@
 
 #include "base/angles.h"
 #include "base/point_tree.h"
+#include "geometry/angle_between.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 
@@ -40,10 +41,6 @@ CurveEnd EndOf(const Curve& curve,
   return {last.position,
           sum.normalized(),
           curve.closed ? 0 : PixelSize(last.position, last.support, views)};
-}
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 // The cost of joining two ends; nullopt if they do not continue each other.

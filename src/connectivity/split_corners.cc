@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "geometry/angle_between.h"
 #include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -24,10 +26,6 @@ struct Arm {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double bend = 0;  // between its halves, radians
 };
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 // A curve with the length of each step in pixels.
 class CornerFinder {
@@ -148,23 +146,6 @@ class CornerFinder {
   std::vector<double> steps_px_;  // from each sample to the next
 };
 
-// Cut after each of `corners`.
-std::vector<Curve> Cut(const Curve& curve,
-                       const std::vector<std::size_t>& corners) {
-  if (corners.empty()) return {curve};
-  const std::size_t size = curve.samples.size();
-  const std::size_t start = curve.closed ? corners.front() + 1 : 0;
-  std::vector<Curve> pieces(1);
-  for (std::size_t k = 0; k < size; ++k) {
-    const std::size_t i = (start + k) % size;
-    pieces.back().samples.push_back(curve.samples[i]);
-    const bool is_corner =
-        std::binary_search(corners.begin(), corners.end(), i);
-    if (is_corner && k + 1 < size) pieces.emplace_back();
-  }
-  return pieces;
-}
-
 }  // namespace
 
 std::vector<Curve> SplitCorners(const std::vector<Curve>& curves,
@@ -174,7 +155,8 @@ std::vector<Curve> SplitCorners(const std::vector<Curve>& curves,
   for (const Curve& curve : curves) {
     const auto corners =
         CornerFinder(curve, views).Corners(DegToRad(options.max_corner_deg));
-    for (Curve& piece : Cut(curve, corners)) split.push_back(std::move(piece));
+    for (Curve& piece : CutAfter(curve, corners))
+      split.push_back(std::move(piece));
   }
   return split;
 }

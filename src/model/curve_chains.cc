@@ -50,4 +50,34 @@ std::vector<Curve> StringTogether(std::vector<Curve> curves,
   return strung;
 }
 
+std::vector<Curve> CutAfter(const Curve& curve,
+                            const std::vector<std::size_t>& samples) {
+  if (samples.empty()) return {curve};
+  const std::size_t size = curve.samples.size();
+  const std::size_t start = curve.closed ? samples.front() + 1 : 0;
+  std::vector<Curve> pieces(1);
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t i = (start + k) % size;
+    pieces.back().samples.push_back(curve.samples[i]);
+    const bool is_last = std::binary_search(samples.begin(), samples.end(), i);
+    if (is_last && k + 1 < size) pieces.emplace_back();
+  }
+  return pieces;
+}
+
+std::vector<Curve> CutAt(const Curve& curve,
+                         const std::vector<std::size_t>& samples) {
+  std::vector<Curve> pieces = CutAfter(curve, samples);
+  if (samples.empty()) return pieces;
+  CurveSample last = pieces.back().samples.back();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::vector<CurveSample>& piece = pieces[i].samples;
+    if (i > 0 || curve.closed) {
+      piece.insert(piece.begin(), std::move(last));
+    }
+    last = piece.back();
+  }
+  return pieces;
+}
+
 }  // namespace curvix

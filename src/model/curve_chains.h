@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 6. Curves strung together.
+// Paper: Sec. 6. Curves strung together, and cut.
 #pragma once
 
 #include <curvix/curves.h>
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -24,5 +25,14 @@ using FillGap = std::function<std::vector<CurveSample>(const CurveSample& from,
 std::vector<Curve> StringTogether(std::vector<Curve> curves,
                                   const EndTies& ties,
                                   const FillGap& fill);
+
+// The pieces of `curve` that end with the samples of these indices, ascending;
+// a closed one is opened behind the first of them. Without any, the curve.
+std::vector<Curve> CutAfter(const Curve& curve,
+                            const std::vector<std::size_t>& samples);
+
+// As CutAfter, but the next piece begins with the same sample, too.
+std::vector<Curve> CutAt(const Curve& curve,
+                         const std::vector<std::size_t>& samples);
 
 }  // namespace curvix

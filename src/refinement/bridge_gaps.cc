@@ -10,9 +10,10 @@
 
 #include "base/angles.h"
 #include "base/point_tree.h"
-#include "geometry/pixel_size.h"
-#include "model/curve_chains.h"
+#include "model/end_chains.h"
+#include "refinement/curve_arms.h"
 #include "refinement/end_fit.h"
+#include "refinement/fill_gap.h"
 
 namespace curvix {
 namespace {
@@ -25,13 +26,6 @@ constexpr double kMaxOverlapPx = 6;
 constexpr double kMaxBentPx = 5;  // of an end
 constexpr double kMaxOffPx = 0.4;
 constexpr double kCostOfGap = 0.05;  // a pixel of miss is a pixel
-constexpr double kFillSpacingPx = 1.5;
-
-// Support of the samples in a gap.
-constexpr double kMaxSupportDistancePx = 1;
-constexpr double kMinSupportShare = 0.5;    // of that of the ends
-constexpr double kMinSupportedShare = 0.8;  // of the samples
-constexpr std::size_t kNumEndSamples = 10;
 
 // How far from `to` the fit of `from`, carried on, passes; nullopt if it does
 // not arrive there.
@@ -48,27 +42,6 @@ std::optional<double> Miss(const EndFit& from,
     return std::nullopt;
   }
   return miss;
-}
-
-// Samples on the cubic through both ends with their tangents.
-std::vector<CurveSample> Fill(const CurveSample& from,
-                              const CurveSample& to,
-                              double spacing) {
-  const double gap = (to.position - from.position).norm();
-  const int num_pieces = static_cast<int>(gap / spacing) + 1;
-  std::vector<CurveSample> filled;
-  for (int k = 1; k < num_pieces; ++k) {
-    const double u = static_cast<double>(k) / num_pieces;
-    const double v = 1 - u;
-    CurveSample& sample = filled.emplace_back();
-    sample.position = (1 + 2 * u) * v * v * from.position +
-                      (1 + 2 * v) * u * u * to.position +
-                      gap * u * v * (v * from.tangent - u * to.tangent);
-    sample.tangent = (v * from.tangent + u * to.tangent).normalized();
-    sample.sigma = std::max(from.sigma, to.sigma);
-    sample.evidence = std::min(from.evidence, to.evidence);
-  }
-  return filled;
 }
 
 // Finds the pairs of ends that continue each other.
@@ -125,41 +98,19 @@ class GapFinder {
     return kCostOfGap * gap + std::max(*forth, *back);
   }
 
-  const CurveSample& Sample(EndIdx end, std::size_t k) const {
+  const CurveSample& Last(EndIdx end) const {
     const std::vector<CurveSample>& samples = curves_[ItemOf(end)].samples;
-    return samples[IsFront(end) ? samples.size() - 1 - k : k];
-  }
-
-  // The median number of 2D edges of the samples before an end.
-  std::size_t SupportAt(EndIdx end) const {
-    const std::size_t num_samples =
-        std::min(kNumEndSamples, curves_[ItemOf(end)].samples.size());
-    std::vector<std::size_t> counts;
-    for (std::size_t k = 0; k < num_samples; ++k) {
-      counts.push_back(Sample(end, k).support.size());
-    }
-    std::sort(counts.begin(), counts.end());
-    return counts[counts.size() / 2];
+    return IsFront(end) ? samples.back() : samples.front();
   }
 
   bool ImagesShow(EndIdx a, EndIdx b, double unit) const {
-    CurveSample from = Sample(a, 0);
-    CurveSample to = Sample(b, 0);
+    CurveSample from = Last(a);
+    CurveSample to = Last(b);
     from.tangent = ends_[a].outward;
     to.tangent = -ends_[b].outward;
-    const auto least = static_cast<std::size_t>(
-        std::ceil(kMinSupportShare *
-                  static_cast<double>(std::min(SupportAt(a), SupportAt(b)))));
-    const auto filled = Fill(from, to, kFillSpacingPx * unit);
-    const auto num_shown =
-        std::count_if(filled.begin(), filled.end(), [&](const auto& sample) {
-          return images_
-                     .Find(
-                         sample.position, sample.tangent, kMaxSupportDistancePx)
-                     .size() >= least;
-        });
-    return static_cast<double>(num_shown) >=
-           kMinSupportedShare * static_cast<double>(filled.size());
+    return AreShown(SamplesBetween(from, to, unit, images_),
+                    std::min(SupportBefore(curves_[ItemOf(a)], IsFront(a)),
+                             SupportBefore(curves_[ItemOf(b)], IsFront(b))));
   }
 
   const std::vector<Curve>& curves_;
@@ -167,16 +118,6 @@ class GapFinder {
   const CurveRefinementOptions& options_;
   std::vector<EndFit> ends_;
 };
-
-// Cuts the last samples up to the one nearest to the end that `keep` is true
-// for; two stay.
-template <typename Keep>
-void CutEnd(Curve& curve, bool front, const Keep& keep) {
-  std::vector<CurveSample>& samples = curve.samples;
-  if (!front) std::reverse(samples.begin(), samples.end());
-  while (samples.size() > 2 && !keep(samples.back())) samples.pop_back();
-  if (!front) std::reverse(samples.begin(), samples.end());
-}
 
 // Last samples that leave the curve they end, as next to a corner.
 void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
@@ -215,18 +156,7 @@ std::vector<Curve> Join(std::vector<Curve> curves,
                         const std::vector<PosedView>& views,
                         const ImageSupport& images) {
   CutOverlaps(ties, views, curves);
-  return StringTogether(
-      std::move(curves),
-      ties,
-      [&](const CurveSample& from, const CurveSample& to) {
-        const double pixel = PixelSize(from.position, from.support, views);
-        auto filled = Fill(from, to, kFillSpacingPx * pixel);
-        for (CurveSample& sample : filled) {
-          sample.support = images.Find(
-              sample.position, sample.tangent, kMaxSupportDistancePx);
-        }
-        return filled;
-      });
+  return StringTogetherFilled(std::move(curves), ties, views, images);
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <tuple>
 
@@ -19,7 +21,7 @@ namespace {
 constexpr double kRoundedPx = 2.5;       // bent by a corner
 constexpr double kShortRoundedPx = 0.5;  // of curves that are hardly longer
 constexpr double kFittedPx = 20;         // along which a line or arc is fitted
-constexpr double kMinCornerDeg = 20;
+constexpr double kMinCornerDeg = 10;
 constexpr int kNumRounds = 3;
 constexpr double kStepPx = 1.5;
 
@@ -57,6 +59,34 @@ std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
     }
   }
   return ends;
+}
+
+// Without those of curves that were cut where they touch others: two ends in
+// one place that continue each other.
+std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
+                                     const std::vector<Curve>& curves) {
+  using Place = std::array<double, 3>;
+  std::map<Place, std::vector<Eigen::Vector3d>> directions;
+  const auto place_of = [&](const CurveEnd& end) {
+    const auto& samples = curves[end.curve_idx].samples;
+    const Eigen::Vector3d& last =
+        (end.at_back ? samples.back() : samples.front()).position;
+    return Place{last.x(), last.y(), last.z()};
+  };
+  for (const CurveEnd& end : ends) {
+    directions[place_of(end)].push_back(end.fit.outward);
+  }
+  std::vector<CurveEnd> others;
+  for (const CurveEnd& end : ends) {
+    const auto& here = directions[place_of(end)];
+    if (std::none_of(here.begin(), here.end(), [&](const auto& direction) {
+          return -direction.dot(end.fit.outward) >
+                 std::cos(DegToRad(kMinCornerDeg));
+        })) {
+      others.push_back(end);
+    }
+  }
+  return others;
 }
 
 using Members = std::vector<std::size_t>;  // indices of ends
@@ -211,7 +241,8 @@ std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
                                    const std::vector<PosedView>& views,
                                    const CurveRefinementOptions& options) {
   if (!(options.junction_reach_px > 0)) return curves;
-  const std::vector<CurveEnd> ends = FitEnds(curves, views);
+  const std::vector<CurveEnd> ends =
+      WithoutTouches(FitEnds(curves, views), curves);
   for (const Junction& junction : FormJunctions(ends, options)) {
     for (const std::size_t i : junction.members) {
       CarryOn(ends[i], junction.point, curves[ends[i].curve_idx]);

@@ -6,12 +6,15 @@
 
 #include "geometry/loose_curves.h"
 #include "refinement/bridge_gaps.h"
+#include "refinement/cut_at_touches.h"
+#include "refinement/cut_corners.h"
 #include "refinement/estimate_covariances.h"
 #include "refinement/estimate_tone_curve.h"
 #include "refinement/fit_to_images.h"
 #include "refinement/image_support.h"
 #include "refinement/meet_at_junctions.h"
 #include "refinement/select_curves.h"
+#include "refinement/separate_touching.h"
 #include "refinement/smooth_curves.h"
 
 namespace curvix {
@@ -28,6 +31,9 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
   const ImageSupport images(views, edge_maps, num_threads);
+  if (options.separate_touching) {
+    refined = SeparateTouching(std::move(refined), views, images);
+  }
   refined = BridgeGaps(std::move(refined), views, images, options);
   const ToneCurve tone =
       options.undo_tone_curve
@@ -35,6 +41,10 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
           : ToneCurve();
   refined = FitToImages(
       std::move(refined), views, edge_maps, tone, options, num_threads);
+  if (options.separate_touching) {
+    refined = CutAtTouches(std::move(refined), views);
+  }
+  refined = CutCorners(refined, views, options, num_threads);
   refined = MeetAtJunctions(std::move(refined), views, options);
   refined =
       DropLooseShortCurves(std::move(refined), views, options.min_length_px);

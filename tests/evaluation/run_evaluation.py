@@ -54,9 +54,12 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('19', 'smoothing', ['--CurveRefinement.smoothing_px', '0']),
     ('20', 'gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
     ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
+    ('30', 'touching curves', ['--CurveRefinement.separate_touching', '0']),
+    ('31', 'corners of fitted curves',
+     ['--CurveRefinement.max_corner_deg', '180']),
     ('27', 'tone curve', ['--CurveRefinement.undo_tone_curve', '0']),
     ('29', 'edges side by side', ['--EdgeDetection.separate_edges', '0']),
-    ('18 to 27', 'all refinement', ['--CurveRefinement.enabled', '0']),
+    ('18 to 21, 26, 27, 30, 31', 'all refinement', ['--CurveRefinement.enabled', '0']),
     ('25', 'one place for each 2D edge',
      ['--Validation.min_num_own_views', '0'])]
 

@@ -101,5 +101,34 @@ TEST(StringTogether, FillsTheGapOfARingToo) {
   EXPECT_EQ(PlacesOf(strung[0]), (Places{1, 2, 7, 4}));
 }
 
+std::vector<Places> PlacesOf(const std::vector<Curve>& curves) {
+  std::vector<Places> places;
+  for (const Curve& curve : curves) places.push_back(PlacesOf(curve));
+  return places;
+}
+
+TEST(CutAfter, PiecesEndWithTheSamples) {
+  const Curve curve = CurveAt({0, 1, 2, 3, 4});
+  EXPECT_EQ(PlacesOf(CutAfter(curve, {})),
+            (std::vector<Places>{{0, 1, 2, 3, 4}}));
+  EXPECT_EQ(PlacesOf(CutAfter(curve, {1, 3})),
+            (std::vector<Places>{{0, 1}, {2, 3}, {4}}));
+  EXPECT_EQ(PlacesOf(CutAt(curve, {1, 3})),
+            (std::vector<Places>{{0, 1}, {1, 2, 3}, {3, 4}}));
+}
+
+TEST(CutAfter, AClosedCurveIsOpened) {
+  Curve curve = CurveAt({0, 1, 2, 3, 4});
+  curve.closed = true;
+  EXPECT_TRUE(CutAt(curve, {})[0].closed);
+  EXPECT_FALSE(CutAt(curve, {2})[0].closed);
+  EXPECT_EQ(PlacesOf(CutAfter(curve, {2})),
+            (std::vector<Places>{{3, 4, 0, 1, 2}}));
+  EXPECT_EQ(PlacesOf(CutAt(curve, {2})),
+            (std::vector<Places>{{2, 3, 4, 0, 1, 2}}));
+  EXPECT_EQ(PlacesOf(CutAt(curve, {1, 4})),
+            (std::vector<Places>{{1, 2, 3, 4}, {4, 0, 1}}));
+}
+
 }  // namespace
 }  // namespace curvix

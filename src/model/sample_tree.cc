@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "model/sample_tree.h"
+
+namespace curvix {
+namespace {
+
+std::vector<SamplePlace> PlacesOf(const std::vector<Curve>& curves) {
+  std::vector<SamplePlace> places;
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    for (std::size_t s = 0; s < curves[c].samples.size(); ++s) {
+      places.push_back({c, s});
+    }
+  }
+  return places;
+}
+
+std::vector<Eigen::Vector3d> PositionsOf(const std::vector<Curve>& curves) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const Curve& curve : curves) {
+    for (const CurveSample& sample : curve.samples) {
+      positions.push_back(sample.position);
+    }
+  }
+  return positions;
+}
+
+}  // namespace
+
+SampleTree::SampleTree(const std::vector<Curve>& curves)
+    : places_(PlacesOf(curves)), tree_(PositionsOf(curves)) {}
+
+}  // namespace curvix

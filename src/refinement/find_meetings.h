@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Where a curve passes between the ends of others.
+#pragma once
+
+#include <curvix/curves.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "model/end_chains.h"
+#include "model/posed_view.h"
+#include "refinement/image_support.h"
+
+namespace curvix {
+
+// The last pixels before an end, which may be bent, tell nothing.
+inline constexpr double kBentEndPx = 3;
+
+// Two open ends and a curve that runs past `a` and then past `b`.
+struct Meeting {
+  EndIdx a = 0;
+  EndIdx b = 0;
+  std::size_t passing_idx = 0;
+  std::size_t sample_at_a = 0;  // of the passing curve
+  std::size_t sample_at_b = 0;
+  // Whether the curve that ends in `a` goes on as the passing one behind `b`,
+  // and that before `a` as the one that ends in `b`. Otherwise `a` and `b`
+  // belong together.
+  bool exchange = false;
+  double rms_px = 0;  // of the samples from the parabolas
+};
+
+// Ends that face each other, at most 100 px apart, and curves that pass both
+// within 8 px and 30 degrees. Parabolas through 15 to 60 px of the four arms
+// tell which belong together: `a` and `b`, or, if that takes away more than 40
+// % of the distances, those that are exchanged. They must fit to 0.4 px, and
+// the images show what is between the arms (fill_gap.h). Closed curves are not
+// exchanged. Best fits first; ties
+// by the order of curves. Pixels as in pixel_size.h.
+std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
+                                  const std::vector<PosedView>& views,
+                                  const ImageSupport& images);
+
+}  // namespace curvix
