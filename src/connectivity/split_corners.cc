@@ -155,8 +155,9 @@ std::vector<Curve> SplitCorners(const std::vector<Curve>& curves,
   for (const Curve& curve : curves) {
     const auto corners =
         CornerFinder(curve, views).Corners(DegToRad(options.max_corner_deg));
-    for (Curve& piece : CutAfter(curve, corners))
+    for (Curve& piece : CutAfter(curve, corners)) {
       split.push_back(std::move(piece));
+    }
   }
   return split;
 }
