@@ -22,6 +22,9 @@ struct SketchCounts {
 struct EdgeSketch {
   std::vector<Edge3d> edges;
   SketchCounts counts;
+  // Standard deviation of the distance of a 2D edge from its 3D edge, as
+  // estimated from the scene. Pixels, > 0.
+  double edge_sigma_px = 0.15;
 };
 
 }  // namespace curvix

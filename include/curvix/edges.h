@@ -40,9 +40,13 @@ struct EdgeMap {
   std::vector<Edge2d> edges;
   std::vector<EdgeNeighbors> neighbors;  // one per edge
   double noise = 0;  // standard deviation of the image noise, grey levels
+  // The mean distance between edges along a contour. The detector samples
+  // contours twice a pixel; those of crowded images are thinned. Pixels, > 0.
+  double spacing_px = 0.5;
   // Edges that were found and dropped: where View::mask_path is black, in
-  // short, weak contours, and in the weakest contours of images with more edges
-  // than EdgeDetectionOptions::max_edges_per_megapixel allows.
+  // short, weak contours, and in images with more edges than
+  // EdgeDetectionOptions::max_edges_per_megapixel allows. What thinning leaves
+  // out is not counted: its contours are all there.
   std::int32_t num_dropped_isolated = 0;
   std::int32_t num_dropped_over_limit = 0;
   std::int32_t num_dropped_masked = 0;

@@ -158,14 +158,28 @@ struct ConnectivityOptions {
   double min_length_px = 5.0;
 };
 
+// Instead of Secs. 5 and 6: curves that grow from 3D edges along the contours of
+// the images.
+struct CurveGrowthOptions {
+  bool enabled = true;
+  // Least evidence of a sample, as of ValidationOptions; >= 0.
+  double min_evidence = 3.0;
+  // Least evidence of a sample, as a share of the mean of its curve. 0..1.
+  double min_relative_evidence = 0.3;
+  // Longest stretch without support that is gone over. Pixels, >= 0.
+  double max_gap_px = 10.0;
+  // Least evidence of a curve: the sum over its samples, a pixel apart; >= 0.
+  double min_total_evidence = 300.0;
+};
+
 // Beyond the paper: curves as a person would draw them.
 struct CurveRefinementOptions {
   bool enabled = true;
   // Curves are left out whose place is known less surely than this many times
   // that of one 2D edge, across it; fewer times, where their edges scatter more
-  // than those of good curves or are blurred; up to 1.6 times as many, where
-  // the views cannot tell more. >= 0; 0: none are left out, blurred or not.
-  double max_dilution = 2.5;
+  // than those of good curves or are blurred; more times, where the views cannot
+  // tell more. >= 0; 0: none are left out, blurred or not.
+  double max_dilution = 3.0;
   // Curves of which so large a share of the 2D edges is blurred are left out as
   // borders of shading; with a smaller share, max_dilution falls in proportion.
   // > 0, <= 1; 1: curves may be as blurred as they like.
@@ -232,6 +246,7 @@ struct Options {
   NeighborhoodOptions neighborhood;
   AlignmentOptions alignment;
   ConnectivityOptions connectivity;
+  CurveGrowthOptions curve_growth;
   CurveRefinementOptions curve_refinement;
   CurveFilterOptions curve_filter;
   CurveFittingOptions curve_fitting;

@@ -209,6 +209,19 @@ void AddRows(ConnectivityOptions& o, Section row) {
       "shortest curve kept, in the view that sees it largest");
 }
 
+void AddRows(CurveGrowthOptions& o, Section row) {
+  row.Switch("enabled", &o.enabled,
+      "grow curves along the contours of the images, instead of Secs. 5 and 6");
+  row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
+      "curves end where the evidence of the images is less");
+  row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
+      "the same, as a share of the mean evidence of the curve");
+  row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
+      "longest stretch that the images need not show");
+  row("min_total_evidence", &o.min_total_evidence, AtLeast(0), "", "",
+      "least evidence of a curve, summed over its samples, a pixel apart");
+}
+
 void AddRows(CurveRefinementOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "select, smooth and join curves as a person would draw them");
@@ -277,6 +290,7 @@ std::vector<OptionRow> OptionTable(Options& options) {
   AddRows(options.neighborhood, Section("Neighborhood.", rows));
   AddRows(options.alignment, Section("Alignment.", rows));
   AddRows(options.connectivity, Section("Connectivity.", rows));
+  AddRows(options.curve_growth, Section("CurveGrowth.", rows));
   AddRows(options.curve_refinement, Section("CurveRefinement.", rows));
   AddRows(options.curve_filter, Section("CurveFilter.", rows));
   AddRows(options.curve_fitting, Section("CurveFitting.", rows));

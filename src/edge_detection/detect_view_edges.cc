@@ -19,9 +19,20 @@
 namespace curvix {
 namespace {
 
-// The weakest edges of a crowded image are dropped before they are oriented and
-// linked: those beyond so many times the limit.
+// The weakest edges of a crowded image are dropped before they are linked: those
+// beyond so many times what is kept.
 constexpr std::int64_t kCrowd = 2;
+// Contours of crowded images are thinned to one edge a pixel, so that three
+// times as many of them fit into the limit.
+constexpr std::int64_t kThinning = 3;
+constexpr double kThinnedSpacingPx = 1.2;
+
+void ThinOut(const EdgeDetectionOptions& options, EdgeMap* map) {
+  const double num_before = static_cast<double>(map->edges.size());
+  map->edges = ThinContours(map->edges, map->neighbors, kThinnedSpacingPx);
+  map->neighbors = LinkNeighbors(map->edges, options);
+  map->spacing_px *= num_before / static_cast<double>(map->edges.size());
+}
 
 Result<std::int32_t> DropMaskedEdges(const View& view,
                                      const Camera& camera,
@@ -67,14 +78,20 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   std::vector<Edge2d> edges = LocateEdges(*image, options, min_gradient);
   const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
   if (!num_masked.ok()) return num_masked.status();
-  const std::int32_t num_weakest = DropWeakest(kCrowd * max_edges, &edges);
-  OrientEdges(*image, options, &edges);
-  KeptEdges kept = KeepContours(
-      edges, LinkNeighbors(edges, options), options, min_gradient, max_edges);
+  const std::int32_t num_weakest =
+      DropWeakest(kCrowd * kThinning * max_edges, &edges);
+  KeptEdges kept = KeepContours(edges,
+                                LinkNeighbors(edges, options),
+                                options,
+                                min_gradient,
+                                kThinning * max_edges);
   map.edges = std::move(kept.edges);
-  // Again, since what was dropped may have stood between two that were not.
+  OrientEdges(*image, options, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(&map.edges);
+  if (static_cast<std::int64_t>(map.edges.size()) > max_edges) {
+    ThinOut(options, &map);
+  }
   map.num_dropped_masked = *num_masked;
   map.num_dropped_isolated = kept.num_isolated;
   map.num_dropped_over_limit = num_weakest + kept.num_over_limit;

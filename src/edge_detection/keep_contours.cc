@@ -3,17 +3,21 @@
 #include "edge_detection/keep_contours.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <tuple>
+#include <utility>
 
+#include "base/angles.h"
 #include "base/check.h"
 
 namespace curvix {
 namespace {
 
 constexpr std::int32_t kUnlabelled = -1;
+constexpr double kStraightDeg = 15;
 
 using Link = std::optional<std::int32_t> EdgeNeighbors::*;
 
@@ -34,29 +38,106 @@ void LabelAlong(const std::vector<EdgeNeighbors>& neighbors,
   }
 }
 
+using Path = std::vector<std::int32_t>;  // edges along a contour, in order
+
+// The edges from `start` on, along `ahead`, without it, as long as they have
+// its label.
+Path FollowFrom(const std::vector<EdgeNeighbors>& neighbors,
+                const std::vector<std::int32_t>& labels,
+                Link ahead,
+                Link back,
+                std::int32_t start) {
+  Path path;
+  std::int32_t at = start;
+  while (const auto other = neighbors[static_cast<std::size_t>(at)].*ahead) {
+    const auto j = static_cast<std::size_t>(*other);
+    if (*other == start || neighbors[j].*back != at ||
+        labels[j] != labels[static_cast<std::size_t>(start)]) {
+      break;
+    }
+    at = *other;
+    path.push_back(at);
+  }
+  return path;
+}
+
+// The edges of each contour from one end to the other; of a closed one, from
+// its first edge on.
+std::vector<Path> OrderAlong(const std::vector<EdgeNeighbors>& neighbors,
+                             const std::vector<std::int32_t>& labels) {
+  constexpr Link kNext = &EdgeNeighbors::next;
+  constexpr Link kPrevious = &EdgeNeighbors::previous;
+  std::vector<Path> paths;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (static_cast<std::size_t>(labels[i]) != paths.size()) continue;
+    const auto start = static_cast<std::int32_t>(i);
+    const Path ahead = FollowFrom(neighbors, labels, kNext, kPrevious, start);
+    const bool is_closed =
+        !ahead.empty() &&
+        neighbors[static_cast<std::size_t>(ahead.back())].next == start;
+    Path path;
+    if (!is_closed) {
+      path = FollowFrom(neighbors, labels, kPrevious, kNext, start);
+      std::reverse(path.begin(), path.end());
+    }
+    path.push_back(start);
+    path.insert(path.end(), ahead.begin(), ahead.end());
+    paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+// The mean, over the edges of a contour, of the length of the straight run in
+// which each lies. A run ends where the direction is kStraightDeg off its
+// first. Pixels, >= 1.
+double MeanStraightRun(const std::vector<Edge2d>& edges, const Path& path) {
+  double sum_px = 0;
+  std::size_t begin = 0;
+  for (std::size_t k = 1; k <= path.size(); ++k) {
+    const Edge2d& first = edges[static_cast<std::size_t>(path[begin])];
+    const bool goes_on =
+        k < path.size() &&
+        std::cos(static_cast<double>(
+            edges[static_cast<std::size_t>(path[k])].angle - first.angle)) >
+            std::cos(DegToRad(kStraightDeg));
+    if (goes_on) continue;
+    const Edge2d& last = edges[static_cast<std::size_t>(path[k - 1])];
+    sum_px += static_cast<double>(k - begin) *
+              (1 + (last.position - first.position).norm());
+    begin = k;
+  }
+  return sum_px / static_cast<double>(path.size());
+}
+
 struct Contour {
   std::int64_t num_edges = 0;
-  double strength = 0;  // the sum over its edges, then their mean
+  double strength = 0;  // mean of its edges
+  // How much it tells of structure: strength times the square root of the
+  // length of its straight runs. Foliage and gravel are short and bent.
+  double structure = 0;
   bool is_kept = false;
 };
 
 std::vector<Contour> Measure(const std::vector<Edge2d>& edges,
+                             const std::vector<EdgeNeighbors>& neighbors,
                              const std::vector<std::int32_t>& labels) {
   std::vector<Contour> contours;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto label = static_cast<std::size_t>(labels[i]);
-    if (label == contours.size()) contours.emplace_back();
-    ++contours[label].num_edges;
-    contours[label].strength += edges[i].strength;
-  }
-  for (Contour& contour : contours) {
-    contour.strength /= static_cast<double>(contour.num_edges);
+  for (const Path& path : OrderAlong(neighbors, labels)) {
+    Contour& contour = contours.emplace_back();
+    contour.num_edges = static_cast<std::int64_t>(path.size());
+    for (const std::int32_t i : path) {
+      contour.strength +=
+          static_cast<double>(edges[static_cast<std::size_t>(i)].strength);
+    }
+    contour.strength /= static_cast<double>(path.size());
+    contour.structure =
+        contour.strength * std::sqrt(MeanStraightRun(edges, path));
   }
   return contours;
 }
 
 // Of the contours that are kept, keeps the first that fit.
-void KeepStrongest(std::int64_t min_contour_edges,
+void KeepStructure(std::int64_t min_contour_edges,
                    std::int64_t max_edges,
                    std::vector<Contour>& contours) {
   std::vector<std::size_t> order;
@@ -65,7 +146,7 @@ void KeepStrongest(std::int64_t min_contour_edges,
   }
   const auto rank = [&](std::size_t i) {
     const bool is_short = contours[i].num_edges < min_contour_edges;
-    return std::tuple(is_short, -contours[i].strength, i);
+    return std::tuple(is_short, -contours[i].structure, i);
   };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return rank(a) < rank(b);
@@ -114,7 +195,7 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        std::int64_t max_edges) {
   CURVIX_CHECK(edges.size() == neighbors.size(), edges.size() << " edges");
   const std::vector<std::int32_t> labels = LabelContours(neighbors);
-  std::vector<Contour> contours = Measure(edges, labels);
+  std::vector<Contour> contours = Measure(edges, neighbors, labels);
   const double weak = options.short_contour_factor * min_gradient;
   KeptEdges kept;
   for (Contour& contour : contours) {
@@ -123,7 +204,7 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
     if (contour.is_kept) continue;
     kept.num_isolated += static_cast<std::int32_t>(contour.num_edges);
   }
-  KeepStrongest(options.min_contour_edges, max_edges, contours);
+  KeepStructure(options.min_contour_edges, max_edges, contours);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (contours[static_cast<std::size_t>(labels[i])].is_kept) {
       kept.edges.push_back(edges[i]);
@@ -132,6 +213,30 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
   kept.num_over_limit =
       static_cast<std::int32_t>(edges.size() - kept.edges.size()) -
       kept.num_isolated;
+  return kept;
+}
+
+std::vector<Edge2d> ThinContours(const std::vector<Edge2d>& edges,
+                                 const std::vector<EdgeNeighbors>& neighbors,
+                                 double spacing_px) {
+  std::vector<bool> is_kept(edges.size(), false);
+  for (const Path& path : OrderAlong(neighbors, LabelContours(neighbors))) {
+    double since_kept_px = spacing_px;
+    const Edge2d* before = nullptr;
+    for (const std::int32_t edge_idx : path) {
+      const auto i = static_cast<std::size_t>(edge_idx);
+      if (before != nullptr) {
+        since_kept_px += (edges[i].position - before->position).norm();
+      }
+      before = &edges[i];
+      is_kept[i] = since_kept_px >= spacing_px;
+      if (is_kept[i]) since_kept_px = 0;
+    }
+  }
+  std::vector<Edge2d> kept;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (is_kept[i]) kept.push_back(edges[i]);
+  }
   return kept;
 }
 

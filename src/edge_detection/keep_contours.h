@@ -32,13 +32,21 @@ struct KeptEdges {
 // options.min_contour_edges edges whose mean strength is below
 // options.short_contour_factor * min_gradient. (Strong short contours are
 // corners and tight bends.) If more than `max_edges` are left, keeps
-// whole contours in turn, long ones before short ones, then by mean strength,
-// then by number, up to the first that does not fit. Edges and `neighbors`
+// whole contours in turn, those that tell most of structure first: those of
+// options.min_contour_edges before shorter ones, then by mean strength times
+// the square root of the mean length of their straight runs, then by number, up
+// to the first that does not fit. Edges and `neighbors`
 // correspond; `min_gradient` is that of the detector.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,
                        double min_gradient,
                        std::int64_t max_edges);
+
+// Edges of each contour that are `spacing_px` apart along it or more, as few as
+// there are no larger gaps than before, in the order of `edges`.
+std::vector<Edge2d> ThinContours(const std::vector<Edge2d>& edges,
+                                 const std::vector<EdgeNeighbors>& neighbors,
+                                 double spacing_px);
 
 }  // namespace curvix

@@ -139,6 +139,7 @@ std::vector<Edge2d> LocateEdges(const GrayImage& image,
       Edge2d& edge = edges.emplace_back();
       edge.position = *position;
       edge.strength = magnitude[i];
+      edge.angle = std::atan2(-slot(j).x[i], slot(j).y[i]);
     }
   }
   return edges;

@@ -54,6 +54,7 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   EdgeMap ideal;
   ideal.noise = distorted.noise;
+  ideal.spacing_px = distorted.spacing_px;
   ideal.num_dropped_isolated = distorted.num_dropped_isolated;
   ideal.num_dropped_over_limit = distorted.num_dropped_over_limit;
   ideal.num_dropped_masked = distorted.num_dropped_masked;

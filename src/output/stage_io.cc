@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
-constexpr std::size_t kEdgeMapBytes = 28;  // without edges
+constexpr std::size_t kEdgeMapBytes = 36;  // without edges
 constexpr std::size_t kPoseBytes = 56;
 
 void Put(const Rigid3& pose, ByteWriter& out) {
@@ -51,6 +51,7 @@ std::optional<std::int32_t> TakeNeighbor(ByteReader& in) {
 void Put(const EdgeMap& map, ByteWriter& out) {
   out.PutCount(map.edges.size());
   out.Put(map.noise);
+  out.Put(map.spacing_px);
   out.Put(map.num_dropped_masked);
   out.Put(map.num_dropped_isolated);
   out.Put(map.num_dropped_over_limit);
@@ -66,6 +67,7 @@ EdgeMap TakeEdgeMap(ByteReader& in) {
   EdgeMap map;
   const std::size_t num_edges = in.TakeCount(kLinkedEdge2dBytes);
   map.noise = in.Take<double>();
+  map.spacing_px = in.Take<double>();
   map.num_dropped_masked = in.Take<std::int32_t>();
   map.num_dropped_isolated = in.Take<std::int32_t>();
   map.num_dropped_over_limit = in.Take<std::int32_t>();
@@ -120,6 +122,7 @@ Status WriteEdgeSketch(const fs::path& path,
                                    counts.used_edges}) {
     out.Put(count);
   }
+  out.Put(sketch.edge_sigma_px);
   out.PutCount(sketch.edges.size());
   for (const Edge3d& edge : sketch.edges) PutEdge(edge, out);
   return WriteStage(path, StageKind::kEdgeSketch, key, out.bytes());
@@ -140,6 +143,7 @@ Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
                               &counts.used_edges}) {
     *count = in.Take<std::int64_t>();
   }
+  sketch.edge_sigma_px = in.Take<double>();
   sketch.edges.resize(in.TakeCount(kEdge3dBytes));
   for (Edge3d& edge : sketch.edges) edge = TakeEdge<Edge3d>(in);
   if (!in.AtEnd()) return BrokenStage(path);

@@ -29,6 +29,7 @@ Options PaperOptions() {
   options.connectivity.max_repeat_distance_px = 0;
   options.connectivity.max_corner_deg = 180;
   options.connectivity.min_length_px = 10;
+  options.curve_growth.enabled = false;
   options.curve_refinement.enabled = false;
   return options;
 }

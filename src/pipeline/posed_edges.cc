@@ -68,6 +68,7 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
                      overlaps_,
                      depths_,
                      options,
+                     sigma_px,
                      std::max<std::size_t>(1, num_edges / num_asked)},
                     step_done);
   std::vector<CurvePlace> places;

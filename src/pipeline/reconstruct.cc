@@ -9,12 +9,15 @@
 #include "alignment/align_edges.h"
 #include "connectivity/group_edges.h"
 #include "edge_detection/detect_view_edges.h"
+#include "growing/grow_curves.h"
+#include "hypotheses/view_overlap.h"
 #include "geometry/posed_views.h"
 #include "model/curve_junctions.h"
 #include "neighborhood/link_edges.h"
 #include "pipeline/check_input.h"
 #include "pipeline/run_recorder.h"
 #include "pipeline/sketch_edges.h"
+#include "pipeline/view_indices.h"
 #include "pipeline/why_empty.h"
 #include "refinement/filter_curves.h"
 #include "refinement/refine_curves.h"
@@ -35,14 +38,14 @@ EdgeSketch Sketch(const Scene& scene,
   return sketch;
 }
 
-Reconstruction Connect(const std::vector<PosedView>& views,
-                       const std::vector<EdgeMap>& edge_maps,
-                       const EdgeSketch& sketch,
-                       const Options& options,
-                       RunRecorder& run) {
+// Secs. 5 and 6.
+void GroupIntoCurves(const std::vector<PosedView>& views,
+                     const std::vector<EdgeMap>& edge_maps,
+                     const EdgeSketch& sketch,
+                     const Options& options,
+                     RunRecorder& run,
+                     Reconstruction& result) {
   const int num_threads = options.runtime.num_threads;
-  Reconstruction result;
-
   // Sec. 5, Fig. 6.
   run.Begin("link_edges");
   const NeighborhoodGraph graph = LinkEdges(
@@ -60,13 +63,37 @@ Reconstruction Connect(const std::vector<PosedView>& views,
   result.curves.curves =
       GroupEdges(result.edges, graph, views, options.connectivity, num_threads);
   run.End(CountsOf(result.curves));
+}
+
+Reconstruction Connect(const Scene& scene,
+                       const std::vector<PosedView>& views,
+                       const std::vector<EdgeMap>& edge_maps,
+                       const EdgeSketch& sketch,
+                       const Options& options,
+                       RunRecorder& run) {
+  const int num_threads = options.runtime.num_threads;
+  Reconstruction result;
+  if (options.curve_growth.enabled) {
+    run.Begin("grow_curves");
+    result.edges = sketch.edges;
+    result.curves.curves =
+        GrowCurves(sketch.edges,
+                   views,
+                   IndexViews(views, edge_maps, num_threads),
+                   NeighborsInDirection(FindOverlaps(views, scene.points)),
+                   sketch.edge_sigma_px,
+                   options.curve_growth);
+    run.End(CountsOf(result.curves));
+  } else {
+    GroupIntoCurves(views, edge_maps, sketch, options, run, result);
+  }
 
   // Beyond the paper.
   run.Begin("refine_curves");
   result.curves.curves = RefineCurves(result.curves.curves,
                                       views,
                                       edge_maps,
-                                      options.hypotheses.EdgeSigmaPx(),
+                                      sketch.edge_sigma_px,
                                       options.curve_refinement,
                                       num_threads);
   run.End(CountsOf(result.curves));
@@ -148,7 +175,7 @@ Result<Reconstruction> CurvesFromSketch(const Scene& scene,
   }
   RunRecorder run(progress);
   Reconstruction result =
-      Connect(MakePosedViews(scene), edge_maps, sketch, options, run);
+      Connect(scene, MakePosedViews(scene), edge_maps, sketch, options, run);
   if (run.cancelled()) return run.CancelledStatus();
   return result;
 }
@@ -163,7 +190,7 @@ Result<Reconstruction> ReconstructCurves(const Scene& scene,
   RunRecorder run(progress);
   const std::vector<PosedView> views = MakePosedViews(scene);
   const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
-  Reconstruction result = Connect(views, edge_maps, sketch, options, run);
+  Reconstruction result = Connect(scene, views, edge_maps, sketch, options, run);
   if (run.cancelled()) return run.CancelledStatus();
   return result;
 }

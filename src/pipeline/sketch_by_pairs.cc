@@ -156,6 +156,7 @@ bool EnoughUsed(const SketchInput& input, const UsedEdges& used) {
 EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
   UsedEdges used(input.edge_maps);
   EdgeSketch sketch;
+  sketch.edge_sigma_px = input.sigma_px;
   std::vector<ViewPair> done;
   const int most = input.options.hypotheses.max_num_view_pairs;
   while (static_cast<int>(done.size()) < most && !EnoughUsed(input, used) &&

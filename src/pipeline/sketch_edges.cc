@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pipeline/edge_noise.h"
 #include "pipeline/sketch_internal.h"
 
 namespace curvix {
@@ -39,11 +40,17 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
   const auto overlaps = FindOverlaps(views, points);
   const auto depths =
       FindDepthRanges(views, points, options.hypotheses.depth_margin);
-  const SketchInput input{views, edge_maps, overlaps, depths, options};
+  SketchInput input{views,
+                    edge_maps,
+                    overlaps,
+                    depths,
+                    options,
+                    options.hypotheses.EdgeSigmaPx()};
   switch (options.hypotheses.view_selection) {
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView:
+      input.sigma_px = EstimateEdgeSigma(input);
       return SketchByViews(input, step_done);
   }
   return {};

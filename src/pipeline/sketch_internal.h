@@ -16,6 +16,8 @@ struct SketchInput {
   const std::vector<std::vector<ViewOverlap>>& overlaps;
   const std::vector<DepthRange>& depths;  // of each view
   const Options& options;
+  // Standard deviation of a 2D edge's place. Pixels, > 0.
+  double sigma_px = 0;
   // One edge in so many of each view asks for hypotheses, with SketchByViews.
   std::size_t h1_step = 1;
 };

@@ -41,7 +41,7 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
     indices[i] = {&view,
                   &map,
                   GridIndex(map.edges, kGridCellPx),
-                  EdgeDensity(map.edges, view.width, view.height)};
+                  EdgeDensity(map, view.width, view.height)};
   });
   return indices;
 }

@@ -2,6 +2,7 @@
 // Paper: none (beyond it).
 #include "refinement/curve_traits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,8 +17,11 @@
 namespace curvix {
 namespace {
 
-// Half as blurred again in variance as an edge of the view is as a rule.
+// Half as blurred again in variance as an edge of the view is as a rule ...
 constexpr double kBlurred = 0.7;
+// ... and so many standard deviations more blurred than edges of the view are.
+constexpr double kBlurredSigmas = 5;
+constexpr double kSigmasOfLowerQuartile = 0.6745;
 constexpr double kSigmasOfMedianDistance = 1.4826;
 
 // The edges behind a curve.
@@ -66,20 +70,20 @@ double LeastDilution(const CurveSample& sample,
 }
 
 double BlurredShare(const Support& support,
-                    const std::vector<double>& typical_sharpness) {
+                    const std::vector<double>& least_sharpness) {
   double num_blurred = 0;
   double num_edges = 0;
   for (const auto& [view_idx, sharpness] : support.sharpness) {
-    const double typical =
-        typical_sharpness[static_cast<std::size_t>(view_idx)];
     const double count = static_cast<double>(sharpness.size());
     num_edges += count;
-    if (Median(sharpness) < kBlurred * typical) num_blurred += count;
+    if (Median(sharpness) < least_sharpness[static_cast<std::size_t>(view_idx)]) {
+      num_blurred += count;
+    }
   }
   return num_edges > 0 ? num_blurred / num_edges : 0;
 }
 
-double TypicalSharpness(const std::vector<Edge2d>& edges) {
+double LeastSharpness(const std::vector<Edge2d>& edges) {
   if (edges.empty()) return 0;
   std::vector<double> strengths, sharpness;
   for (const Edge2d& edge : edges) {
@@ -90,24 +94,33 @@ double TypicalSharpness(const std::vector<Edge2d>& edges) {
     if (static_cast<double>(edge.strength) < median_strength) continue;
     sharpness.push_back(static_cast<double>(edge.sharpness));
   }
-  return Median(std::move(sharpness));
+  const auto quarter =
+      sharpness.begin() + static_cast<std::ptrdiff_t>(sharpness.size() / 4);
+  std::nth_element(sharpness.begin(), quarter, sharpness.end());
+  const double lower_quartile = *quarter;
+  const double typical = Median(std::move(sharpness));
+  if (!(lower_quartile > 0)) return 0;
+  // Sharpness is distributed log-normally.
+  const double sigma =
+      std::log(typical / lower_quartile) / kSigmasOfLowerQuartile;
+  return typical * std::min(kBlurred, std::exp(-kBlurredSigmas * sigma));
 }
 
 }  // namespace
 
-std::vector<double> TypicalSharpness(const std::vector<EdgeMap>& edge_maps) {
-  std::vector<double> typical;
+std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps) {
+  std::vector<double> least;
   for (const EdgeMap& map : edge_maps) {
-    typical.push_back(TypicalSharpness(map.edges));
+    least.push_back(LeastSharpness(map.edges));
   }
-  return typical;
+  return least;
 }
 
 std::optional<CurveTraits> MeasureCurve(
     const Curve& curve,
     const std::vector<PosedView>& views,
     const std::vector<EdgeMap>& edge_maps,
-    const std::vector<double>& typical_sharpness,
+    const std::vector<double>& least_sharpness,
     double edge_sigma_px) {
   std::vector<double> dilutions;
   Support support;
@@ -122,7 +135,7 @@ std::optional<CurveTraits> MeasureCurve(
   traits.dilution = Median(std::move(dilutions));
   traits.least_dilution =
       LeastDilution(curve.samples[curve.samples.size() / 2], views);
-  traits.blurred_share = BlurredShare(support, typical_sharpness);
+  traits.blurred_share = BlurredShare(support, least_sharpness);
   traits.scatter_px =
       kSigmasOfMedianDistance * Median(std::move(support.distances_px));
   return traits;

@@ -31,14 +31,17 @@ struct CurveTraits {
   // samples, which for normal errors is their standard deviation. Pixels.
   double scatter_px = 0;
   // The share of the supporting edges that lie in views in which this curve is
-  // blurred: the median sharpness of its edges there is below 0.7 of what is
-  // typical of the view. 0..1.
+  // blurred: the median sharpness of its edges there is below
+  // LeastSharpness(). 0..1.
   double blurred_share = 0;
 };
 
-// What is typical of each view: the median sharpness of the steeper half of its
-// edges; 0 if it is not known.
-std::vector<double> TypicalSharpness(const std::vector<EdgeMap>& edge_maps);
+// Of each view, how sharp a curve must be not to count as blurred: 0.7 of the
+// median sharpness of the steeper half of its edges, or five standard
+// deviations below it, if these differ more, as in photographs, of which some
+// parts are out of focus. The standard deviation is that of the logarithm, from
+// the lower quartile. 0 if it is not known.
+std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps);
 
 // `edge_sigma_px`: the standard deviation of a 2D edge's place that the sigmas
 // of samples assume, > 0. nullopt if no sample has both a sigma and support.
@@ -46,7 +49,7 @@ std::optional<CurveTraits> MeasureCurve(
     const Curve& curve,
     const std::vector<PosedView>& views,
     const std::vector<EdgeMap>& edge_maps,
-    const std::vector<double>& typical_sharpness,
+    const std::vector<double>& least_sharpness,
     double edge_sigma_px);
 
 }  // namespace curvix

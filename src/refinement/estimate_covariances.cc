@@ -20,7 +20,6 @@
 namespace curvix {
 namespace {
 
-constexpr double kEdgeSigmaPx = 0.15;  // of Cauchy's loss
 constexpr double kMinBandwidthPx = 1;
 constexpr double kReachSigmas = 3;
 // The chord between two rays, of unit length, at which the errors of their
@@ -41,12 +40,12 @@ struct Evidence {
 
 // The score of Cauchy's loss, which grows like the distance as long as that is
 // small, and its derivative.
-double Score(double distance_px) {
-  const double r = distance_px / kEdgeSigmaPx;
+double Score(double distance_px, double sigma_px) {
+  const double r = distance_px / sigma_px;
   return distance_px / (1 + r * r);
 }
-double ScoreSlope(double distance_px) {
-  const double r = distance_px / kEdgeSigmaPx;
+double ScoreSlope(double distance_px, double sigma_px) {
+  const double r = distance_px / sigma_px;
   return (1 - r * r) / ((1 + r * r) * (1 + r * r));
 }
 
@@ -58,9 +57,11 @@ struct Scatter {
   double num_views = 0;
   double freedom = 0;
 
-  void Add(double share, double distance_px) {
-    scores2_px2 += share * Score(distance_px) * Score(distance_px);
-    slopes += share * ScoreSlope(distance_px);
+  // `sigma_px`: of a 2D edge, for Cauchy's loss.
+  void Add(double share, double distance_px, double sigma_px) {
+    const double score = Score(distance_px, sigma_px);
+    scores2_px2 += share * score * score;
+    slopes += share * ScoreSlope(distance_px, sigma_px);
     num_views += share;
   }
   void Add(double share, const Scatter& other) {
@@ -91,8 +92,9 @@ class CurveInViews {
   CurveInViews(const Curve& curve,
                const std::vector<PosedView>& views,
                const std::vector<EdgeMap>& edge_maps,
-               const ToneCurve& tone)
-      : curve_(curve) {
+               const ToneCurve& tone,
+               double edge_sigma_px)
+      : curve_(curve), edge_sigma_px_(edge_sigma_px) {
     std::map<std::int32_t, std::size_t> places;
     for (std::size_t k = 0; k < curve.samples.size(); ++k) {
       const CurveSample& sample = curve.samples[k];
@@ -156,7 +158,8 @@ class CurveInViews {
       const double share = sum.weight / total_weight;
       const Eigen::Vector2d gradient =
           axes.transpose() * sum.gradient / sum.weight;
-      result.scatter.Add(share, sum.distance_px / sum.weight);
+      result.scatter.Add(
+          share, sum.distance_px / sum.weight, edge_sigma_px_);
       information += share * gradient * gradient.transpose();
       pulls.push_back(share * gradient);
       rays.push_back((centers_[sum.view] - sample.position).normalized());
@@ -186,6 +189,7 @@ class CurveInViews {
   }
 
   const Curve& curve_;
+  double edge_sigma_px_;
   std::vector<Eigen::Vector3d> centers_;         // of the views that see it
   std::vector<std::vector<Evidence>> evidence_;  // of each sample
 };
@@ -194,8 +198,9 @@ std::vector<Agreement> MeasureAgreement(const Curve& curve,
                                         const std::vector<PosedView>& views,
                                         const std::vector<EdgeMap>& edge_maps,
                                         const ToneCurve& tone,
+                                        double edge_sigma_px,
                                         double smoothing_px) {
-  const CurveInViews in_views(curve, views, edge_maps, tone);
+  const CurveInViews in_views(curve, views, edge_maps, tone, edge_sigma_px);
   const double bandwidth_px = std::max(kMinBandwidthPx, smoothing_px);
   std::vector<Agreement> agreements;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
@@ -228,12 +233,13 @@ std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
                                        const std::vector<PosedView>& views,
                                        const std::vector<EdgeMap>& edge_maps,
                                        const ToneCurve& tone,
+                                       double edge_sigma_px,
                                        const CurveRefinementOptions& options,
                                        int num_threads) {
   std::vector<std::vector<Agreement>> agreements(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     agreements[i] = MeasureAgreement(
-        curves[i], views, edge_maps, tone, options.smoothing_px);
+        curves[i], views, edge_maps, tone, edge_sigma_px, options.smoothing_px);
   });
   const Scatter usual = UsualScatter(agreements);
   for (std::size_t i = 0; i < curves.size(); ++i) {

@@ -15,7 +15,6 @@
 namespace curvix {
 namespace {
 
-constexpr double kEdgeSigmaPx = 0.15;  // of Cauchy's loss
 constexpr double kStepPx = 10;
 constexpr std::size_t kMinNumEdges = 4;
 constexpr double kPrior = 1;  // sum of squared levers
@@ -65,16 +64,16 @@ Place PlaceOf(const Curve& curve,
 
 // Of what is still missing in the tone curve, without what moving the place
 // across the curve explains as well.
-NormalEquations WithoutMoving(const Place& place) {
+NormalEquations WithoutMoving(const Place& place, double edge_sigma_px) {
   const SpaceEdge adjusted =
-      AdjustEdge(place.edge, place.measurements, kEdgeSigmaPx).edge;
+      AdjustEdge(place.edge, place.measurements, edge_sigma_px).edge;
   const AcrossAxes axes = AxesAcross(adjusted.tangent);
   NormalEquations tone, moving;
   Eigen::Matrix2d mixed = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < place.measurements.size(); ++i) {
     const SeenDistance distance =
         DistanceFrom(place.measurements[i], adjusted.position);
-    const double weight = CauchyWeight(distance.px, kEdgeSigmaPx);
+    const double weight = CauchyWeight(distance.px, edge_sigma_px);
     const Eigen::Vector2d lever = place.levers[i];
     const Eigen::Vector2d gradient = axes.transpose() * distance.gradient;
     tone.matrix += weight * lever * lever.transpose();
@@ -93,7 +92,8 @@ NormalEquations WithoutMoving(const Place& place) {
 NormalEquations OfCurve(const Curve& curve,
                         const std::vector<PosedView>& views,
                         const std::vector<EdgeMap>& edge_maps,
-                        const ToneCurve& tone) {
+                        const ToneCurve& tone,
+                        double edge_sigma_px) {
   NormalEquations sum;
   double since_last_px = kStepPx;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
@@ -107,7 +107,8 @@ NormalEquations OfCurve(const Curve& curve,
       continue;
     }
     since_last_px = 0;
-    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, tone));
+    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, tone),
+                         edge_sigma_px);
   }
   return sum;
 }
@@ -130,12 +131,13 @@ Eigen::Vector2d SolveNotNegative(const NormalEquations& sum) {
 ToneCurve EstimateToneCurve(const std::vector<Curve>& curves,
                             const std::vector<PosedView>& views,
                             const std::vector<EdgeMap>& edge_maps,
+                            double edge_sigma_px,
                             int num_threads) {
   ToneCurve tone;
   for (int round = 0; round < kMaxNumRounds; ++round) {
     std::vector<NormalEquations> of_curves(curves.size());
     ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-      of_curves[i] = OfCurve(curves[i], views, edge_maps, tone);
+      of_curves[i] = OfCurve(curves[i], views, edge_maps, tone, edge_sigma_px);
     });
     NormalEquations sum;
     for (const NormalEquations& of_curve : of_curves) sum += of_curve;

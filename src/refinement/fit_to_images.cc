@@ -22,7 +22,6 @@ namespace curvix {
 namespace {
 
 constexpr std::size_t kMinNumSamples = 6;
-constexpr double kEdgeSigmaPx = 0.15;  // of a 2D edge, across it
 constexpr double kBendSigmaPx = 0.05;
 constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
@@ -42,24 +41,27 @@ struct Station {
 // The distance of a sample from one of its 2D edges.
 class EdgeCost : public ceres::SizedCostFunction<1, 2> {
  public:
-  EdgeCost(const Station& station, const PlaneMeasurement& measured)
-      : station_(station), measured_(measured) {}
+  EdgeCost(const Station& station,
+           const PlaneMeasurement& measured,
+           double sigma_px)
+      : station_(station), measured_(measured), sigma_px_(sigma_px) {}
 
   bool Evaluate(double const* const* offsets,
                 double* residual,
                 double** jacobians) const override {
     const SeenDistance distance =
         DistanceFrom(measured_, station_.At(offsets[0]));
-    residual[0] = distance.px / kEdgeSigmaPx;
+    residual[0] = distance.px / sigma_px_;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     Eigen::Map<Eigen::Vector2d>{jacobians[0]} =
-        station_.axes.transpose() * distance.gradient / kEdgeSigmaPx;
+        station_.axes.transpose() * distance.gradient / sigma_px_;
     return true;
   }
 
  private:
   Station station_;
   PlaneMeasurement measured_;
+  double sigma_px_;
 };
 
 using Stretch = std::array<Station, 4>;
@@ -119,7 +121,8 @@ class CurveFitter {
 
   void AddEdges(const std::vector<PosedView>& views,
                 const std::vector<EdgeMap>& edge_maps,
-                const ToneCurve& tone) {
+                const ToneCurve& tone,
+                double sigma_px) {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
       for (const EdgeRef& ref : curve_.samples[k].support) {
@@ -129,7 +132,8 @@ class CurveFitter {
         problem_.AddResidualBlock(
             new EdgeCost(
                 stations_[k],
-                MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone))),
+                MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)),
+                sigma_px),
             new ceres::CauchyLoss(1),
             offsets_[k].data());
       }
@@ -196,6 +200,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,
                                const ToneCurve& tone,
+                               double edge_sigma_px,
                                const CurveRefinementOptions& options,
                                int num_threads) {
   if (!(options.smoothing_px > 0)) return curves;
@@ -207,7 +212,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
     const double pixel = PixelSize(first.position, first.support, views);
     if (!(pixel > 0)) return;
     CurveFitter fitter(curves[i], pixel);
-    fitter.AddEdges(views, edge_maps, tone);
+    fitter.AddEdges(views, edge_maps, tone, edge_sigma_px);
     fitter.AddBends(kStiffness * options.smoothing_px);
     fitted[i] = fitter.Solve();
   });

@@ -16,7 +16,7 @@ namespace curvix {
 // Moves the samples of each curve across it to where they best agree with all
 // their 2D edges in all views, under the assumption that curves bend evenly:
 // the least, by Ceres, of
-//   sum rho1(d / 0.15 px) + sum rho2(b^3 |x'''| / (0.05 px)),
+//   sum rho1(d / edge_sigma_px) + sum rho2(b^3 |x'''| / (0.05 px)),
 // where d is the distance of a projected sample from the line of its 2D edge,
 // which stands where it would without blur (unblurred_edges.h, in images of
 // this tone curve), b is 1.2 options.smoothing_px, x''' is the third derivative
@@ -29,6 +29,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,
                                const ToneCurve& tone,
+                               double edge_sigma_px,
                                const CurveRefinementOptions& options,
                                int num_threads);
 

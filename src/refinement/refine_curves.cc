@@ -37,10 +37,11 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   refined = BridgeGaps(std::move(refined), views, images, options);
   const ToneCurve tone =
       options.undo_tone_curve
-          ? EstimateToneCurve(refined, views, edge_maps, num_threads)
+          ? EstimateToneCurve(
+                refined, views, edge_maps, edge_sigma_px, num_threads)
           : ToneCurve();
   refined = FitToImages(
-      std::move(refined), views, edge_maps, tone, options, num_threads);
+      std::move(refined), views, edge_maps, tone, edge_sigma_px, options, num_threads);
   if (options.separate_touching) {
     refined = CutAtTouches(std::move(refined), views);
   }
@@ -55,7 +56,7 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
     }
   }
   return EstimateCovariances(
-      std::move(refined), views, edge_maps, tone, options, num_threads);
+      std::move(refined), views, edge_maps, tone, edge_sigma_px, options, num_threads);
 }
 
 }  // namespace curvix

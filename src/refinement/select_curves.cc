@@ -18,10 +18,8 @@ constexpr double kLeastScatterPx = 0.06;
 // Curves of a smaller share of blurred edges tell how far good curves scatter,
 // if there are any.
 constexpr double kSharp = 0.1;
-// Where the views cannot tell more, curves may be as dilute as this ...
-constexpr double kTimesLeastDilution = 6;
-// ... but no more than that.
-constexpr double kMostTimesMaxDilution = 1.6;
+// Where the views cannot tell more, curves may be as dilute as this.
+constexpr double kTimesLeastDilution = 15;
 
 using AllTraits = std::vector<std::optional<CurveTraits>>;
 
@@ -70,9 +68,8 @@ Verdict Judge(const CurveTraits& traits,
   const double dilution =
       traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
   const double allowed =
-      std::clamp(kTimesLeastDilution * traits.least_dilution,
-                 options.max_dilution,
-                 kMostTimesMaxDilution * options.max_dilution);
+      std::max(options.max_dilution,
+               kTimesLeastDilution * traits.least_dilution);
   if (dilution > allowed) return Verdict::kOccludingContour;
   if (options.max_blurred_share == 1) return Verdict::kEdge;
   const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
@@ -89,7 +86,7 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
                             double edge_sigma_px,
                             const CurveRefinementOptions& options,
                             int num_threads) {
-  const std::vector<double> sharpness = TypicalSharpness(edge_maps);
+  const std::vector<double> sharpness = LeastSharpness(edge_maps);
   AllTraits all_traits(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     all_traits[i] =

@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kCellPx = 16;
 constexpr int kNumBins = 12;            // of 15 degrees
-constexpr double kEdgeSpacingPx = 0.5;  // of edges along a contour
 
 int Clamp(double value, int count) {
   if (!(value > 0)) return 0;
@@ -30,15 +29,14 @@ int BinOf(double angle_rad) { return Clamp(TurnOf(angle_rad), kNumBins); }
 
 }  // namespace
 
-EdgeDensity::EdgeDensity(const std::vector<Edge2d>& edges,
-                         int width,
-                         int height)
+EdgeDensity::EdgeDensity(const EdgeMap& map, int width, int height)
     : columns_(static_cast<int>(width / kCellPx) + 1),
-      rows_(static_cast<int>(height / kCellPx) + 1) {
+      rows_(static_cast<int>(height / kCellPx) + 1),
+      spacing_px_(map.spacing_px) {
   counts_.assign(static_cast<std::size_t>(columns_) *
                      static_cast<std::size_t>(rows_) * kNumBins,
                  0);
-  for (const Edge2d& edge : edges) {
+  for (const Edge2d& edge : map.edges) {
     const int column = Clamp(edge.position.x() / kCellPx, columns_);
     const int row = Clamp(edge.position.y() / kCellPx, rows_);
     std::uint16_t& count = counts_[static_cast<std::size_t>(
@@ -73,7 +71,7 @@ double EdgeDensity::Density(const Eigen::Vector2d& pixel,
     }
   }
   const double area = num_cells * kCellPx * kCellPx;
-  return std::max(0.003, num_edges * kEdgeSpacingPx / area);
+  return std::max(0.003, num_edges * spacing_px_ / area);
 }
 
 }  // namespace curvix

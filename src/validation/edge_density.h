@@ -14,7 +14,7 @@ namespace curvix {
 class EdgeDensity {
  public:
   EdgeDensity() = default;
-  EdgeDensity(const std::vector<Edge2d>& edges, int width, int height);
+  EdgeDensity(const EdgeMap& map, int width, int height);
 
   // Edges of like direction (within 15 degrees of `angle_rad`) per pixel across
   // them, around `pixel`: the length of their contours in the surroundings
@@ -25,6 +25,7 @@ class EdgeDensity {
  private:
   int columns_ = 0;
   int rows_ = 0;
+  double spacing_px_ = 0.5;  // of edges along a contour
   std::vector<std::uint16_t> counts_;  // [row][column][bin], saturating
 };
 

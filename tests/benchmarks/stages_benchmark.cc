@@ -105,7 +105,7 @@ std::unique_ptr<Input> MakeInput(int num_views, int size_px) {
   for (const Curve& curve : RefineCurves(input->curves,
                                          input->views,
                                          input->edge_maps,
-                                         kOptions.hypotheses.EdgeSigmaPx(),
+                                         input->sketch.edge_sigma_px,
                                          kOptions.curve_refinement,
                                          1)) {
     length += Length(curve);
@@ -171,7 +171,7 @@ void Refine(benchmark::State& state) {
     return RefineCurves(input.curves,
                         input.views,
                         input.edge_maps,
-                        kOptions.hypotheses.EdgeSigmaPx(),
+                        input.sketch.edge_sigma_px,
                         kOptions.curve_refinement,
                         1);
   });

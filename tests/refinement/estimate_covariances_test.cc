@@ -17,6 +17,8 @@
 namespace curvix {
 namespace {
 
+constexpr double kEdgeSigmaPx = 0.15;
+
 constexpr CurveRefinementOptions kOptions = {.smoothing_px = 2.5};
 
 struct SeenCurves {
@@ -70,7 +72,7 @@ void Disturb(double shared_px,
 
 std::vector<Curve> Estimate(const SeenCurves& seen) {
   return EstimateCovariances(
-      seen.curves, seen.views, seen.edge_maps, {}, kOptions, 1);
+      seen.curves, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, kOptions, 1);
 }
 
 SeenCurves DisturbedLines(int num_lines,
@@ -109,7 +111,7 @@ TEST(EstimateCovariances, ErrorsAreAsLargeAsTheySay) {
       SeenCurves seen =
           DisturbedLines(60, ViewsAround(num_views, step), shared_px, own_px);
       seen.curves = FitToImages(
-          std::move(seen.curves), seen.views, seen.edge_maps, {}, kOptions, 1);
+          std::move(seen.curves), seen.views, seen.edge_maps, {}, kEdgeSigmaPx, kOptions, 1);
       EXPECT_NEAR(NormalisedSpread(Estimate(seen)), 1, 0.3)
           << num_views << " views, " << shared_px << " and " << own_px << " px";
     }
@@ -186,7 +188,7 @@ TEST(EstimateCovariances, ThreadsChangeNothing) {
   const SeenCurves seen = DisturbedLines(7, ViewsAround(8, 0.25), 0.1, 0.05);
   const std::vector<Curve> one = Estimate(seen);
   const std::vector<Curve> three = EstimateCovariances(
-      seen.curves, seen.views, seen.edge_maps, {}, kOptions, 3);
+      seen.curves, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, kOptions, 3);
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t k = 0; k < one[i].samples.size(); ++k) {
       EXPECT_EQ(one[i].samples[k].covariance, three[i].samples[k].covariance);

@@ -12,6 +12,8 @@
 namespace curvix {
 namespace {
 
+constexpr double kEdgeSigmaPx = 0.15;
+
 const ToneCurve kTone = {{0.5, 0.3}};
 
 struct SeenCurves {
@@ -69,7 +71,8 @@ SeenCurves See(const Eigen::Vector2d& tone_px, int length_px = 40) {
 }
 
 Eigen::Vector2d Estimate(const SeenCurves& seen, int num_threads = 1) {
-  return EstimateToneCurve(seen.curves, seen.views, seen.edge_maps, num_threads)
+  return EstimateToneCurve(
+             seen.curves, seen.views, seen.edge_maps, kEdgeSigmaPx, num_threads)
       .px;
 }
 

@@ -9,6 +9,8 @@
 namespace curvix {
 namespace {
 
+constexpr double kEdgeSigmaPx = 0.15;
+
 constexpr double kNoisePx = 0.3;
 
 // A curve, eight views of it, and exact 2D edges of all its samples.
@@ -43,7 +45,7 @@ Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
   CurveRefinementOptions options;
   options.smoothing_px = smoothing_px;
   return FitToImages(
-      {WithNoise(seen.truth)}, seen.views, seen.edge_maps, {}, options, 1)[0];
+      {WithNoise(seen.truth)}, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, options, 1)[0];
 }
 
 TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
@@ -128,11 +130,12 @@ TEST(FitToImages, DoesNotDependOnTheUnit) {
   const SeenCurve seen = See(Arc(40, 0, 3));
   const std::vector<Curve> noisy = {WithNoise(seen.truth)};
   const std::vector<Curve> fitted =
-      FitToImages(noisy, seen.views, seen.edge_maps, {}, {}, 1);
+      FitToImages(noisy, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, {}, 1);
   const std::vector<Curve> large = FitToImages(Scaled(noisy, factor),
                                                Scaled(seen.views, factor),
                                                seen.edge_maps,
                                                {},
+                                               kEdgeSigmaPx,
                                                {},
                                                1);
   EXPECT_LT(LargestDistance(large, Scaled(fitted, factor)), 1e-6 * factor);

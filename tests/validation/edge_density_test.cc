@@ -51,7 +51,8 @@ TEST(EdgeDensity, IsOneOverTheSpacingOfStripes) {
   for (const double degrees : {0.0, 20.0, 45.0, 89.9, 90.0, 90.1, 172.0}) {
     const double angle = DegToRad(degrees);
     for (const double spacing_px : {4.0, 8.0}) {
-      const EdgeDensity density(Stripes(spacing_px, angle), kSizePx, kSizePx);
+      const EdgeDensity density(
+          {Stripes(spacing_px, angle), {}}, kSizePx, kSizePx);
       EXPECT_NEAR(density.Density({400, 400}, angle) * spacing_px, 1, 0.15)
           << degrees;
       EXPECT_NEAR(
@@ -61,10 +62,23 @@ TEST(EdgeDensity, IsOneOverTheSpacingOfStripes) {
 }
 
 TEST(EdgeDensity, CountsOnlyLikeDirections) {
-  const EdgeDensity density(Stripes(4), kSizePx, kSizePx);
+  const EdgeDensity density({Stripes(4), {}}, kSizePx, kSizePx);
   EXPECT_LE(density.Density({400, 400}, DegToRad(90)), 0.003);
   EXPECT_LE(density.Density({400, 400}, DegToRad(35)), 0.003);
   EXPECT_LE(density.Density({400, 400}, DegToRad(-35)), 0.003);
+}
+
+TEST(EdgeDensity, ThinnedContoursCountAsWhole) {
+  EdgeMap whole{Stripes(4), {}};
+  EdgeMap thinned;
+  thinned.spacing_px = 3 * whole.spacing_px;
+  for (std::size_t i = 0; i < whole.edges.size(); i += 3) {
+    thinned.edges.push_back(whole.edges[i]);
+  }
+  const EdgeDensity density(whole, kSizePx, kSizePx);
+  EXPECT_NEAR(EdgeDensity(thinned, kSizePx, kSizePx).Density({400, 400}, 0),
+              density.Density({400, 400}, 0),
+              0.01);
 }
 
 TEST(EdgeDensity, IsLocal) {
@@ -72,7 +86,7 @@ TEST(EdgeDensity, IsLocal) {
   for (int y = 100; y < 200; y += 4) {
     AppendContour({100, static_cast<double>(y)}, 0, 100, edges);
   }
-  const EdgeDensity density(edges, kSizePx, kSizePx);
+  const EdgeDensity density({edges, {}}, kSizePx, kSizePx);
   EXPECT_GT(density.Density({150, 150}, 0), 0.2);
   EXPECT_LE(density.Density({600, 600}, 0), 0.003);
 }
@@ -80,7 +94,7 @@ TEST(EdgeDensity, IsLocal) {
 TEST(EdgeDensity, IsPositiveEverywhereAndFiniteOutside) {
   for (const EdgeDensity& density :
        {EdgeDensity({}, kSizePx, kSizePx),
-        EdgeDensity(Stripes(4), kSizePx, kSizePx)}) {
+        EdgeDensity({Stripes(4), {}}, kSizePx, kSizePx)}) {
     for (const Vector2d& pixel :
          {Vector2d(0, 0), Vector2d(-50, 1e6), Vector2d(799.9, 799.9)}) {
       EXPECT_GT(density.Density(pixel, 1), 0);
@@ -113,7 +127,7 @@ Chance Measure(const std::function<double(Random&)>& contour_angle,
   }
   ViewIndex index;
   index.grid = GridIndex(edges, 4);
-  const EdgeDensity density(edges, kSizePx, kSizePx);
+  const EdgeDensity density({edges, {}}, kSizePx, kSizePx);
   const Gate gate{1, 1, std::cos(DegToRad(15))};
   const int count = 20000;
   Chance chance;

@@ -50,7 +50,7 @@ class TrackSupportTest : public ::testing::Test {
       index.view = &views_[i];
       index.edges = &maps_[i];
       index.grid = GridIndex(maps_[i].edges, 4);
-      index.density = EdgeDensity(maps_[i].edges, 800, 800);
+      index.density = EdgeDensity(maps_[i], 800, 800);
       const int before = static_cast<int>((i + 15) % 16);
       const int after = static_cast<int>((i + 1) % 16);
       neighbors_.push_back({{before, 0.7}, {after, 0.7}});

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "growing/claimed_edges.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace curvix {
+namespace {
+
+constexpr int kStepsAlongContour = 2;
+
+}  // namespace
+
+ClaimedEdges::ClaimedEdges(const std::vector<ViewIndex>& indices)
+    : indices_(indices) {
+  for (const ViewIndex& index : indices) {
+    is_claimed_.emplace_back(index.edges->edges.size(), false);
+  }
+}
+
+std::size_t ClaimedEdges::NumFree(const std::vector<EdgeRef>& refs) const {
+  return static_cast<std::size_t>(
+      std::count_if(refs.begin(), refs.end(), [this](const EdgeRef& ref) {
+        return IsFree(ref);
+      }));
+}
+
+void ClaimedEdges::Claim(const std::vector<EdgeRef>& hits) {
+  for (const EdgeRef& hit : hits) {
+    ClaimOne(hit);
+    const std::vector<EdgeNeighbors>& neighbors =
+        indices_[static_cast<std::size_t>(hit.view_idx)].edges->neighbors;
+    for (const auto side : {&EdgeNeighbors::previous, &EdgeNeighbors::next}) {
+      EdgeRef at = hit;
+      for (int k = 0; k < kStepsAlongContour; ++k) {
+        const std::optional<std::int32_t> next =
+            neighbors[static_cast<std::size_t>(at.edge_idx)].*side;
+        if (!next) break;
+        at.edge_idx = *next;
+        ClaimOne(at);
+      }
+    }
+  }
+}
+
+void ClaimedEdges::GiveBack() {
+  for (const EdgeRef& ref : recent_) {
+    is_claimed_[static_cast<std::size_t>(ref.view_idx)]
+               [static_cast<std::size_t>(ref.edge_idx)] = false;
+  }
+  recent_.clear();
+}
+
+void ClaimedEdges::ClaimOne(const EdgeRef& ref) {
+  if (!IsFree(ref)) return;
+  is_claimed_[static_cast<std::size_t>(ref.view_idx)]
+             [static_cast<std::size_t>(ref.edge_idx)] = true;
+  recent_.push_back(ref);
+}
+
+}  // namespace curvix

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "growing/curve_tip.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "base/angles.h"
+
+namespace curvix {
+namespace {
+
+// Of the random walk of the direction, after a pixel.
+constexpr double kBendSigmaRad = 0.04;
+constexpr double kTangentSigmaRad = DegToRad(4);
+// Errors of an edge go on along its contour: so many pixels are one measurement.
+constexpr double kCorrelatedPx = 3;
+// Of the direction of a seed, where its edges do not tell.
+constexpr double kSeedSlopeSigma = 0.3;
+
+}  // namespace
+
+CurveTip::CurveTip(const SpaceEdge& edge,
+                   const std::vector<PlaneMeasurement>& measurements,
+                   double sigma_px,
+                   double pixel)
+    : sigma_px_(sigma_px), pixel_(pixel) {
+  const EdgeEstimate estimate = AdjustEdge(edge, measurements, sigma_px);
+  edge_ = estimate.edge;
+  axes_.col(0) = estimate.across1;
+  axes_.col(1) = estimate.across2;
+  covariance_.topLeftCorner<2, 2>() = estimate.covariance / (pixel * pixel);
+  Eigen::Matrix2d slopes =
+      Eigen::Matrix2d::Identity() / (kSeedSlopeSigma * kSeedSlopeSigma);
+  for (const PlaneMeasurement& m : measurements) {
+    const Eigen::Vector2d n = axes_.transpose() * m.plane.normalized();
+    slopes += n * n.transpose() / (kTangentSigmaRad * kTangentSigmaRad);
+  }
+  covariance_.bottomRightCorner<2, 2>() = slopes.inverse();
+}
+
+void CurveTip::Reverse() {
+  edge_.tangent = -edge_.tangent;
+  covariance_.topRightCorner<2, 2>() *= -1;
+  covariance_.bottomLeftCorner<2, 2>() *= -1;
+}
+
+void CurveTip::Step(double step_px) {
+  edge_.position += step_px * pixel_ * edge_.tangent;
+  Eigen::Matrix4d move = Eigen::Matrix4d::Identity();
+  move.topRightCorner<2, 2>() = step_px * Eigen::Matrix2d::Identity();
+  covariance_ = move * covariance_ * move.transpose();
+  const double variance = kBendSigmaRad * kBendSigmaRad * step_px;
+  for (int i = 0; i < 2; ++i) {
+    covariance_(i, i) += variance * step_px * step_px / 3;
+    covariance_(i, i + 2) += variance * step_px / 2;
+    covariance_(i + 2, i) += variance * step_px / 2;
+    covariance_(i + 2, i + 2) += variance;
+  }
+}
+
+void CurveTip::Correct(const PlaneMeasurement& measurement) {
+  Eigen::Vector4d change = Eigen::Vector4d::Zero();
+  const auto update = [&](const Eigen::Vector4d& row,
+                          double residual,
+                          double sigma) {
+    const Eigen::Vector4d column = covariance_ * row;
+    const double predicted = row.dot(column);
+    const double innovation = residual - row.dot(change);
+    // Cauchy's weight, against what may be expected.
+    const double r2 =
+        innovation * innovation / (predicted + sigma * sigma);
+    const double variance = kCorrelatedPx * sigma * sigma * (1 + r2);
+    const Eigen::Vector4d gain = column / (predicted + variance);
+    change += gain * innovation;
+    covariance_ -= gain * column.transpose();
+  };
+  const SeenDistance distance = DistanceFrom(measurement, edge_.position);
+  Eigen::Vector4d row = Eigen::Vector4d::Zero();
+  row.head<2>() = pixel_ * axes_.transpose() * distance.gradient;
+  update(row, -distance.px, sigma_px_);
+  const Eigen::Vector3d normal = measurement.plane.normalized();
+  row.setZero();
+  row.tail<2>() = axes_.transpose() * normal;
+  update(row, -normal.dot(edge_.tangent), kTangentSigmaRad);
+  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
+  FoldIn(change);
+}
+
+void CurveTip::FoldIn(const Eigen::Vector4d& change) {
+  edge_.position += pixel_ * axes_ * change.head<2>();
+  edge_.tangent = (edge_.tangent + axes_ * change.tail<2>()).normalized();
+  axes_.col(0) -= edge_.tangent.dot(axes_.col(0)) * edge_.tangent;
+  axes_.col(0).normalize();
+  axes_.col(1) = edge_.tangent.cross(axes_.col(0));
+}
+
+double CurveTip::VarianceIn(const PosedView& view,
+                            const ImageEdge& projected) const {
+  const Eigen::Vector3d plane = EdgePlane(view, projected);
+  const double depth =
+      view.rotation.row(2).dot(edge_.position - view.center);
+  const Eigen::Vector2d gradient = pixel_ / depth * axes_.transpose() * plane;
+  return gradient.dot(covariance_.topLeftCorner<2, 2>() * gradient);
+}
+
+double CurveTip::Sigma() const {
+  return pixel_ * std::sqrt(covariance_.topLeftCorner<2, 2>().trace() / 2);
+}
+
+}  // namespace curvix

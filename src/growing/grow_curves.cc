@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "growing/grow_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "base/angles.h"
+#include "geometry/image_edge.h"
+#include "geometry/nearest_edge.h"
+#include "geometry/pixel_size.h"
+#include "growing/claimed_edges.h"
+#include "growing/curve_tip.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kStepPx = 1;
+// Where a view's edge may be, as for 3D edges (track_support.h).
+constexpr double kMaxNormalPx = 1;
+constexpr double kGateSigmas = 4;
+constexpr double kMaxTangentialPx = 1;
+constexpr double kMaxAngleDeg = 15;
+// Views in which the place is known less surely are not asked.
+constexpr double kMaxPredictedSigmaPx = 0.7;
+// Hits and misses in a row that count.
+constexpr int kStreak = 3;
+constexpr std::size_t kMinNumSupports = 3;
+// Of samples, whose evidence that of the seed counts as.
+constexpr double kSeedWeight = 5;
+// The last steps do not claim their edges yet: they may be taken back.
+constexpr std::size_t kUnclaimedSteps = 8;
+constexpr std::size_t kMinNumSamples = 5;
+// Curves that come back to their seed so near are closed, if they are so long.
+constexpr double kClosePx = 2;
+constexpr double kCloseCosine = 0.9;
+constexpr std::size_t kMinClosedSteps = 32;
+
+struct GrownSample {
+  SpaceEdge edge;
+  double sigma = 0;  // world units
+  double evidence = 0;
+  std::vector<EdgeRef> hits;  // ascending
+};
+
+// What one view says of a place.
+struct Look {
+  std::optional<EdgeRef> hit;
+  double vote = 0;
+};
+
+// Which views have shown a curve lately.
+class Streaks {
+ public:
+  Streaks(std::size_t num_views, const std::vector<EdgeRef>& seed_support)
+      : streaks_(num_views) {
+    for (const EdgeRef& ref : seed_support) {
+      streaks_[static_cast<std::size_t>(ref.view_idx)].is_trusted = true;
+    }
+  }
+
+  // Whether the hit of view `v`, if it is one, counts.
+  bool Count(std::size_t v, bool is_hit) {
+    Streak& streak = streaks_[v];
+    streak.length = streak.is_of_hits == is_hit ? streak.length + 1 : 1;
+    streak.is_of_hits = is_hit;
+    if (streak.length >= kStreak) streak.is_trusted = is_hit;
+    return is_hit && streak.is_trusted;
+  }
+
+ private:
+  struct Streak {
+    bool is_of_hits = false;
+    int length = 0;
+    bool is_trusted = false;
+  };
+  std::vector<Streak> streaks_;
+};
+
+class Grower {
+ public:
+  Grower(const std::vector<PosedView>& views,
+         const std::vector<ViewIndex>& indices,
+         const std::vector<std::vector<ViewNeighbor>>& neighbors,
+         double edge_sigma_px,
+         const CurveGrowthOptions& options)
+      : views_(views),
+        indices_(indices),
+        neighbors_(neighbors),
+        sigma_px_(edge_sigma_px),
+        options_(options),
+        claimed_(indices) {}
+
+  std::optional<Curve> Grow(const Edge3d& seed) {
+    const std::size_t num_free = claimed_.NumFree(seed.support);
+    const double pixel = PixelSize(seed.position, seed.support, views_);
+    if (num_free < kMinNumSupports || 2 * num_free < seed.support.size() ||
+        !(pixel > 0)) {
+      return std::nullopt;
+    }
+    const CurveTip tip({seed.position, seed.tangent},
+                       MeasureAll(seed.support),
+                       sigma_px_,
+                       pixel);
+    const GrownSample first{
+        tip.edge(), tip.Sigma(), seed.evidence, seed.support};
+    Curve curve;
+    std::vector<GrownSample> path = GrowBothWays(tip, first, &curve.closed);
+    DropShortStreaks(path);
+    if (!Exists(path)) {
+      claimed_.GiveBack();
+      return std::nullopt;
+    }
+    for (GrownSample& grown : path) {
+      claimed_.Claim(grown.hits);
+      curve.samples.push_back(ToCurveSample(std::move(grown)));
+    }
+    claimed_.Keep();
+    return curve;
+  }
+
+ private:
+  PlaneMeasurement Measure(const EdgeRef& ref) const {
+    const ViewIndex& index = indices_[static_cast<std::size_t>(ref.view_idx)];
+    return MeasurePlane(
+        *index.view,
+        ToImageEdge(
+            index.edges->edges[static_cast<std::size_t>(ref.edge_idx)]));
+  }
+
+  std::vector<PlaneMeasurement> MeasureAll(
+      const std::vector<EdgeRef>& refs) const {
+    std::vector<PlaneMeasurement> measurements;
+    for (const EdgeRef& ref : refs) measurements.push_back(Measure(ref));
+    return measurements;
+  }
+
+  // nullopt if the view cannot tell.
+  std::optional<Look> LookIn(const ViewIndex& index,
+                             std::int32_t view_idx,
+                             const CurveTip& tip) const {
+    const auto projected = ProjectEdge(*index.view, tip.edge());
+    if (!projected || !index.view->Contains(projected->position)) {
+      return std::nullopt;
+    }
+    const double variance_px2 = tip.VarianceIn(*index.view, *projected);
+    if (variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {
+      return std::nullopt;
+    }
+    const double expected_px = std::sqrt(variance_px2 + sigma_px_ * sigma_px_);
+    const auto nearest =
+        NearestEdge(index,
+                    *projected,
+                    {std::min(kMaxNormalPx, kGateSigmas * expected_px),
+                     kMaxTangentialPx,
+                     std::cos(DegToRad(kMaxAngleDeg))});
+    Look look{std::nullopt, VoteWithoutSupport()};
+    if (!nearest || !claimed_.IsFree({view_idx, *nearest})) return look;
+    look.hit = EdgeRef{view_idx, *nearest};
+    const ImageEdge found =
+        ToImageEdge(index.edges->edges[static_cast<std::size_t>(*nearest)]);
+    const Eigen::Vector2d normal(-found.tangent.y(), found.tangent.x());
+    const double angle = AngleOf(projected->tangent);
+    look.vote = VoteWithSupport(
+        {normal.dot(projected->position - found.position),
+         expected_px,
+         UndirectedDifference(angle, AngleOf(found.tangent))},
+        index.density.Density(projected->position, angle));
+    return look;
+  }
+
+  static double AngleOf(const Eigen::Vector2d& direction) {
+    return std::atan2(direction.y(), direction.x());
+  }
+
+  // Moves the tip a step on; the hits that count are `trusted`.
+  GrownSample StepOn(CurveTip& tip,
+                     Streaks& streaks,
+                     std::vector<EdgeRef>& trusted) const {
+    tip.Step(kStepPx);
+    GrownSample grown;
+    Votes votes(indices_.size());
+    trusted.clear();
+    for (std::size_t v = 0; v < indices_.size(); ++v) {
+      const auto look =
+          LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
+      const bool is_hit = look && look->hit;
+      if (look) votes[v] = look->vote;
+      if (is_hit) grown.hits.push_back(*look->hit);
+      if (streaks.Count(v, is_hit)) trusted.push_back(*look->hit);
+    }
+    grown.evidence = Evidence(votes, neighbors_);
+    for (const EdgeRef& ref : trusted) tip.Correct(Measure(ref));
+    grown.edge = tip.edge();
+    grown.sigma = tip.Sigma();
+    return grown;
+  }
+
+  // The samples ahead of `first`, without it.
+  std::vector<GrownSample> Follow(CurveTip tip,
+                                  const GrownSample& first,
+                                  bool* closed) {
+    Streaks streaks(indices_.size(), first.hits);
+    double sum_evidence = kSeedWeight * first.evidence;
+    double num_evidence = kSeedWeight;
+    std::vector<GrownSample> path;
+    std::vector<EdgeRef> trusted;
+    std::size_t num_shown = 0;  // up to the last one that is shown
+    std::size_t num_claimed = 0;
+    while (static_cast<double>(path.size() - num_shown) * kStepPx <=
+           options_.max_gap_px) {
+      path.push_back(StepOn(tip, streaks, trusted));
+      const double evidence = path.back().evidence;
+      if (trusted.size() >= kMinNumSupports &&
+          evidence >= options_.min_evidence &&
+          evidence * num_evidence >=
+              options_.min_relative_evidence * sum_evidence) {
+        sum_evidence += evidence;
+        num_evidence += 1;
+        num_shown = path.size();
+      }
+      while (num_claimed + kUnclaimedSteps < num_shown) {
+        claimed_.Claim(path[num_claimed++].hits);
+      }
+      *closed = path.size() > kMinClosedSteps && Meets(tip, first);
+      if (*closed) return path;
+    }
+    path.resize(num_shown);
+    return path;
+  }
+
+  static bool Meets(const CurveTip& tip, const GrownSample& first) {
+    const Eigen::Vector3d offset = first.edge.position - tip.edge().position;
+    return offset.norm() < kClosePx * tip.pixel() &&
+           tip.edge().tangent.dot(first.edge.tangent) > kCloseCosine;
+  }
+
+  std::vector<GrownSample> GrowBothWays(const CurveTip& tip,
+                                        const GrownSample& first,
+                                        bool* closed) {
+    std::vector<GrownSample> path = {first};
+    std::vector<GrownSample> ahead = Follow(tip, first, closed);
+    path.insert(path.end(),
+                std::make_move_iterator(ahead.begin()),
+                std::make_move_iterator(ahead.end()));
+    if (*closed) return path;
+    CurveTip turned = tip;
+    turned.Reverse();
+    GrownSample turned_first = first;
+    turned_first.edge = turned.edge();
+    bool is_closed = false;
+    std::vector<GrownSample> behind = Follow(turned, turned_first, &is_closed);
+    std::reverse(behind.begin(), behind.end());
+    for (GrownSample& grown : behind) {
+      grown.edge.tangent = -grown.edge.tangent;
+    }
+    path.insert(path.begin(),
+                std::make_move_iterator(behind.begin()),
+                std::make_move_iterator(behind.end()));
+    return path;
+  }
+
+  bool Exists(const std::vector<GrownSample>& path) const {
+    double evidence = 0;
+    for (const GrownSample& grown : path) evidence += grown.evidence;
+    return path.size() >= kMinNumSamples &&
+           evidence >= options_.min_total_evidence;
+  }
+
+  // Leaves out the hits of a view in fewer than kStreak samples; one miss in
+  // between does not end a streak.
+  void DropShortStreaks(std::vector<GrownSample>& path) const {
+    std::vector<std::vector<std::size_t>> hit_samples(indices_.size());
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      for (const EdgeRef& hit : path[k].hits) {
+        hit_samples[static_cast<std::size_t>(hit.view_idx)].push_back(k);
+      }
+    }
+    for (std::size_t v = 0; v < hit_samples.size(); ++v) {
+      const std::vector<std::size_t>& samples = hit_samples[v];
+      std::size_t begin = 0;
+      for (std::size_t i = 1; i <= samples.size(); ++i) {
+        if (i < samples.size() && samples[i] <= samples[i - 1] + 2) continue;
+        if (i - begin < static_cast<std::size_t>(kStreak)) {
+          for (std::size_t j = begin; j < i; ++j) DropHit(path[samples[j]], v);
+        }
+        begin = i;
+      }
+    }
+  }
+
+  static void DropHit(GrownSample& grown, std::size_t view_idx) {
+    std::erase_if(grown.hits, [&](const EdgeRef& hit) {
+      return static_cast<std::size_t>(hit.view_idx) == view_idx;
+    });
+  }
+
+  CurveSample ToCurveSample(GrownSample grown) const {
+    CurveSample sample;
+    sample.position = grown.edge.position;
+    sample.tangent = grown.edge.tangent;
+    sample.evidence = grown.evidence;
+    sample.sigma = grown.sigma;
+    if (grown.hits.size() >= 2) {
+      const EdgeEstimate estimate =
+          AdjustEdge(grown.edge, MeasureAll(grown.hits), sigma_px_);
+      sample.sigma = std::sqrt(estimate.covariance.trace() / 2);
+    }
+    sample.support = std::move(grown.hits);
+    return sample;
+  }
+
+  const std::vector<PosedView>& views_;
+  const std::vector<ViewIndex>& indices_;
+  const std::vector<std::vector<ViewNeighbor>>& neighbors_;
+  double sigma_px_;
+  const CurveGrowthOptions& options_;
+  ClaimedEdges claimed_;
+};
+
+std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
+  std::vector<std::size_t> order(edges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(
+      order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return edges[a].evidence > edges[b].evidence;
+      });
+  return order;
+}
+
+}  // namespace
+
+std::vector<Curve> GrowCurves(
+    const std::vector<Edge3d>& seeds,
+    const std::vector<PosedView>& views,
+    const std::vector<ViewIndex>& indices,
+    const std::vector<std::vector<ViewNeighbor>>& neighbors,
+    double edge_sigma_px,
+    const CurveGrowthOptions& options) {
+  Grower grower(views, indices, neighbors, edge_sigma_px, options);
+  std::vector<Curve> curves;
+  for (const std::size_t i : ByFallingEvidence(seeds)) {
+    if (auto curve = grower.Grow(seeds[i])) {
+      curves.push_back(*std::move(curve));
+    }
+  }
+  return curves;
+}
+
+}  // namespace curvix

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). In place of Secs. 5 and 6: curves that grow from 3D
+// edges along the contours of the images.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/options.h>
+
+#include <vector>
+
+#include "model/posed_view.h"
+#include "validation/evidence.h"
+#include "validation/view_index.h"
+
+namespace curvix {
+
+// Grows a curve from each seed, those of most evidence first (ties: the smaller
+// index), unless earlier curves have most of its 2D edges.
+//
+// From the seed, and in both directions, the curve steps on by a pixel along its
+// tangent (CurveTip). Each view is asked for the nearest edge where it should
+// show the new place; edges of earlier curves do not count. Views that have
+// shown the curve three times in a row correct the tip, until they miss it three
+// times. A sample is shown if at least three such views support it and its
+// evidence (evidence.h) is at least options.min_evidence and the share
+// options.min_relative_evidence of the mean of the curve so far. A curve ends
+// with its last shown sample before a stretch of more than options.max_gap_px
+// without any; it is closed where it comes back to its seed.
+//
+// A curve exists if its evidence, summed over its samples, is at least
+// options.min_total_evidence; the others are left out and have no edges. How
+// surely its place is known has no part in that: the sigma of a sample is that
+// of a 3D edge with the same support.
+//
+// `indices` and `neighbors` by view. Samples are a pixel apart, of the view of
+// the seed's support that sees it largest. The curves are in the order of their
+// seeds' evidence.
+std::vector<Curve> GrowCurves(
+    const std::vector<Edge3d>& seeds,
+    const std::vector<PosedView>& views,
+    const std::vector<ViewIndex>& indices,
+    const std::vector<std::vector<ViewNeighbor>>& neighbors,
+    double edge_sigma_px,
+    const CurveGrowthOptions& options);
+
+}  // namespace curvix

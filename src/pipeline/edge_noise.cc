@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "pipeline/edge_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "base/median.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/image_edge.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kNumEdgesToAsk = 4000;  // in all views
+// The sketch must see larger distances than it expects.
+constexpr double kPilotSigmas = 2;
+constexpr std::size_t kMinNumSupports = 5;
+constexpr double kNumParameters = 2;  // a place across a 3D edge
+constexpr std::size_t kMinNumDistances = 100;
+constexpr double kSigmasOfMedianDistance = 1.4826;
+
+// Of the supports of `edge` from the place that agrees best with all of them,
+// as large as they would be from the true place.
+void AddDistances(const Edge3d& edge,
+                  const SketchInput& input,
+                  double sigma_px,
+                  std::vector<double>& distances_px) {
+  std::vector<PlaneMeasurement> measurements;
+  for (const EdgeRef& ref : edge.support) {
+    const auto v = static_cast<std::size_t>(ref.view_idx);
+    const auto i = static_cast<std::size_t>(ref.edge_idx);
+    measurements.push_back(MeasurePlane(
+        input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
+  }
+  const SpaceEdge adjusted =
+      AdjustEdge({edge.position, edge.tangent}, measurements, sigma_px).edge;
+  const double n = static_cast<double>(measurements.size());
+  for (const PlaneMeasurement& m : measurements) {
+    distances_px.push_back(std::abs(DistanceFrom(m, adjusted.position).px) *
+                           std::sqrt(n / (n - kNumParameters)));
+  }
+}
+
+}  // namespace
+
+double EstimateEdgeSigma(const SketchInput& input) {
+  const double least_px = input.sigma_px;
+  std::size_t num_edges = 0;
+  for (const EdgeMap& map : input.edge_maps) num_edges += map.edges.size();
+  SketchInput pilot = input;
+  pilot.sigma_px = kPilotSigmas * least_px;
+  pilot.h1_step = std::max<std::size_t>(1, num_edges / kNumEdgesToAsk);
+  const EdgeSketch sketch =
+      SketchByViews(pilot, [](int, int) { return true; });
+  std::vector<double> distances_px;
+  for (const Edge3d& edge : sketch.edges) {
+    if (edge.support.size() < kMinNumSupports) continue;
+    AddDistances(edge, input, pilot.sigma_px, distances_px);
+  }
+  if (distances_px.size() < kMinNumDistances) return least_px;
+  return std::max(least_px,
+                  kSigmasOfMedianDistance * Median(std::move(distances_px)));
+}
+
+}  // namespace curvix

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). How far 2D edges are off in this scene.
+#pragma once
+
+#include "pipeline/sketch_internal.h"
+
+namespace curvix {
+
+// The standard deviation of the distance of 2D edges from the 3D edges that
+// they support: what noise, blur, lens and poses leave. From a sketch of a few
+// thousand of the edges, by the median distance. At least
+// options.hypotheses.EdgeSigmaPx(), which is returned, too, if too few 3D edges
+// are found; renders with exact poses have less. Pixels.
+double EstimateEdgeSigma(const SketchInput& input);
+
+}  // namespace curvix
