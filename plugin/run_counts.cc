@@ -17,12 +17,14 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
     num_over_limit += map.num_dropped_over_limit;
   }
   StageCounts counts = {{"edges", num_edges}};
-  if (num_masked > 0) counts.emplace_back("dropped by masks", num_masked);
+  if (num_masked > 0) counts.emplace_back("left out by masks", num_masked);
   if (num_isolated > 0) {
-    counts.emplace_back("dropped as isolated", num_isolated);
+    counts.emplace_back("left out as noise", num_isolated);
   }
   if (num_over_limit > 0) {
-    counts.emplace_back("dropped over limit", num_over_limit);
+    counts.emplace_back(
+        "weak or short ones left out (EdgeDetection.max_edges_per_megapixel)",
+        num_over_limit);
   }
   return counts;
 }

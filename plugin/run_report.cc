@@ -137,6 +137,8 @@ Json CountsJson(const std::vector<StageReport>& stages) {
   return json;
 }
 
+double Milli(double value) { return std::round(value * 1000) / 1000; }
+
 Json ResultJson(const ResultSummary& result) {
   Json json;
   json["num_curves"] = result.num_curves;
@@ -145,12 +147,11 @@ Json ResultJson(const ResultSummary& result) {
   json["total_length"] = result.total_length;
   json["num_edges_3d"] = result.num_edges_3d;
   json["num_edges_2d"] = result.num_edges_2d;
+  json["edge_sigma_px"] = Milli(result.edge_sigma_px);
   json["files"] = result.files;
   json["why_empty"] = result.why_empty;
   return json;
 }
-
-double Milli(double value) { return std::round(value * 1000) / 1000; }
 
 Json CostJson(const StageReport& stage) {
   return {{"name", stage.name},
@@ -312,7 +313,12 @@ std::string SummaryText(const RunRecord& record) {
           Plural(result.num_edges_3d, "3D edge") + " in " +
           DurationText(record.total.wall_seconds) + " (CPU " +
           DurationText(record.total.cpu_seconds) + ", " +
-          GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n\n";
+          GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
+  if (result.edge_sigma_px > 0) {
+    text += "  edges lie " + FewDigits(Milli(result.edge_sigma_px)) +
+            " px beside where the curves are (standard deviation)\n";
+  }
+  text += "\n";
   return text + FilesText(result);
 }
 

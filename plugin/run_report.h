@@ -52,6 +52,7 @@ struct ResultSummary {
   std::filesystem::path output_path;
   std::int64_t num_edges_2d = 0;
   std::int64_t num_edges_3d = 0;
+  double edge_sigma_px = 0;  // EdgeSketch::edge_sigma_px; 0: not known
   std::int64_t num_curves = 0;
   std::int64_t num_closed = 0;
   std::int64_t num_samples = 0;

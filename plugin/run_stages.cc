@@ -81,6 +81,7 @@ Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
     if (!sketch.ok()) return sketch;
     Save(key, *sketch);
   }
+  record_.result.edge_sigma_px = sketch->edge_sigma_px;
   FinishStage(
       stopwatch.Read("sketch_edges"), CountsOf(*sketch), "", is_resumed);
   return sketch;

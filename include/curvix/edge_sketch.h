@@ -16,7 +16,8 @@ struct SketchCounts {
   std::int64_t hypotheses = 0;   // after consolidation (Sec. 4)
   std::int64_t unsupported = 0;  // hypotheses that other views did not confirm
   std::int64_t rivals = 0;       // confirmed, but another explains their edges
-  std::int64_t used_edges = 0;   // 2D edges that show a 3D edge or are next to one
+  // 2D edges that show a 3D edge or are next to one.
+  std::int64_t used_edges = 0;
 };
 
 struct EdgeSketch {

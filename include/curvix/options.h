@@ -30,8 +30,9 @@ struct EdgeDetectionOptions {
   // Short contours are weak if their mean gradient is below this many times the
   // weakest gradient kept; >= 0, and up to 1 drops none.
   double short_contour_factor = 2.0;
-  // Most edges of an image per million pixels, though any image may have
-  // 10,000: the contours with the steepest mean gradients are kept; > 0.
+  // Most edges of an image per million pixels, some more at times, though any
+  // image may have 10,000. Contours of images with more are thinned, and those
+  // that tell most of structure are kept, strong and straight ones; > 0.
   double max_edges_per_megapixel = 25000;
   // Parallel edges that blur has moved apart or together are moved back.
   bool separate_edges = true;
@@ -48,7 +49,8 @@ struct HypothesisOptions {
   ViewSelection view_selection = ViewSelection::kEveryView;
   // Delta gamma: how well an edge is localised. Pixels, > 0.
   double location_tolerance_px = 0.3;
-  // What estimates take for the standard deviation of an edge's place.
+  // The least that estimates take for the standard deviation of an edge's
+  // place; EdgeSketch::edge_sigma_px is that of the scene.
   double EdgeSigmaPx() const { return location_tolerance_px / 2; }
   // Partners of each view with kEveryView; >= 1.
   int num_partners = 4;
@@ -158,15 +160,15 @@ struct ConnectivityOptions {
   double min_length_px = 5.0;
 };
 
-// Instead of Secs. 5 and 6: curves that grow from 3D edges along the contours of
-// the images.
+// Instead of Secs. 5 and 6: curves that grow from 3D edges along the contours
+// of the images.
 struct CurveGrowthOptions {
   bool enabled = true;
   // Least evidence of a sample, as of ValidationOptions; >= 0.
-  double min_evidence = 3.0;
+  double min_evidence = 8.0;
   // Least evidence of a sample, as a share of the mean of its curve. 0..1.
   double min_relative_evidence = 0.3;
-  // Longest stretch without support that is gone over. Pixels, >= 0.
+  // Longest stretch without support that is gone over. Pixels, 0..1000.
   double max_gap_px = 10.0;
   // Least evidence of a curve: the sum over its samples, a pixel apart; >= 0.
   double min_total_evidence = 300.0;
@@ -177,8 +179,8 @@ struct CurveRefinementOptions {
   bool enabled = true;
   // Curves are left out whose place is known less surely than this many times
   // that of one 2D edge, across it; fewer times, where their edges scatter more
-  // than those of good curves or are blurred; more times, where the views cannot
-  // tell more. >= 0; 0: none are left out, blurred or not.
+  // than those of good curves or are blurred; more times, where the views
+  // cannot tell more. >= 0; 0: none are left out, blurred or not.
   double max_dilution = 3.0;
   // Curves of which so large a share of the 2D edges is blurred are left out as
   // borders of shading; with a smaller share, max_dilution falls in proportion.

@@ -94,8 +94,8 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "short contours are weak below this many times the weakest gradient "
       "kept");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
-      "most edges of an image per million pixels, at least 10,000 in all; the "
-      "contours with the steepest gradients are kept");
+      "most edges of an image per million pixels, at least 10,000 in all; "
+      "contours of others are thinned, strong and straight ones kept first");
   row.Switch("separate_edges", &o.separate_edges,
       "move parallel edges back that blur has moved apart or together");
 }
@@ -216,7 +216,7 @@ void AddRows(CurveGrowthOptions& o, Section row) {
       "curves end where the evidence of the images is less");
   row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
       "the same, as a share of the mean evidence of the curve");
-  row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
+  row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
       "longest stretch that the images need not show");
   row("min_total_evidence", &o.min_total_evidence, AtLeast(0), "", "",
       "least evidence of a curve, summed over its samples, a pixel apart");
@@ -227,7 +227,7 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "select, smooth and join curves as a person would draw them");
   row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
       "curves known so many times less surely than one 2D edge are left out, "
-      "up to 1.6 times as many where views cannot tell more; 0: none");
+      "unless the views cannot tell more; 0: none");
   row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
       "curves with so large a share of blurred edges are borders of shading "
       "and left out; 1: none");

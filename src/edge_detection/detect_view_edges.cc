@@ -19,8 +19,8 @@
 namespace curvix {
 namespace {
 
-// The weakest edges of a crowded image are dropped before they are linked: those
-// beyond so many times what is kept.
+// The weakest edges of a crowded image are dropped before they are linked:
+// those beyond so many times what is kept.
 constexpr std::int64_t kCrowd = 2;
 // Contours of crowded images are thinned to one edge a pixel, so that three
 // times as many of them fit into the limit.

@@ -43,8 +43,8 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        double min_gradient,
                        std::int64_t max_edges);
 
-// Edges of each contour that are `spacing_px` apart along it or more, as few as
-// there are no larger gaps than before, in the order of `edges`.
+// Of each contour the first edge, and each next one that is at least
+// `spacing_px` further along it; in the order of `edges`.
 std::vector<Edge2d> ThinContours(const std::vector<Edge2d>& edges,
                                  const std::vector<EdgeNeighbors>& neighbors,
                                  double spacing_px);

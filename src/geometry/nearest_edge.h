@@ -20,13 +20,15 @@ struct Gate {
 };
 
 // The edge of `grid` inside `gate` that is nearest to `expected`, distances
-// along the tangent counting half; ties: smaller edge index.
-inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
-                                               const ImageEdge& expected,
-                                               const Gate& gate) {
-  const double reach =
-      std::sqrt(gate.normal_px * gate.normal_px +
-                gate.tangential_px * gate.tangential_px);
+// along the tangent counting half, of those whose indices `accept` takes; ties:
+// smaller edge index.
+template <typename F>
+std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
+                                        const ImageEdge& expected,
+                                        const Gate& gate,
+                                        const F& accept) {
+  const double reach = std::sqrt(gate.normal_px * gate.normal_px +
+                                 gate.tangential_px * gate.tangential_px);
   std::optional<std::int32_t> nearest;
   double least = 0;
   const auto consider = [&](const IndexedEdge& edge) {
@@ -41,6 +43,7 @@ inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
         std::abs(along) > gate.tangential_px) {
       return;
     }
+    if (!accept(edge.edge_idx)) return;
     const double distance2 = across * across + 0.25 * along * along;
     if (!nearest || distance2 < least ||
         (distance2 == least && edge.edge_idx < *nearest)) {
@@ -50,6 +53,12 @@ inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
   };
   grid.VisitAround(expected.position, reach, consider);
   return nearest;
+}
+
+inline std::optional<std::int32_t> NearestEdge(const GridIndex& grid,
+                                               const ImageEdge& expected,
+                                               const Gate& gate) {
+  return NearestEdge(grid, expected, gate, [](std::int32_t) { return true; });
 }
 
 }  // namespace curvix

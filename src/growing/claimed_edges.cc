@@ -2,7 +2,6 @@
 // Paper: none (beyond it).
 #include "growing/claimed_edges.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace curvix {
@@ -19,16 +18,17 @@ ClaimedEdges::ClaimedEdges(const std::vector<ViewIndex>& indices)
   }
 }
 
-std::size_t ClaimedEdges::NumFree(const std::vector<EdgeRef>& refs) const {
-  return static_cast<std::size_t>(
-      std::count_if(refs.begin(), refs.end(), [this](const EdgeRef& ref) {
-        return IsFree(ref);
-      }));
+std::vector<EdgeRef> ClaimedEdges::FreeOf(std::vector<EdgeRef> refs) const {
+  std::erase_if(refs, [this](const EdgeRef& ref) { return !IsFree(ref); });
+  return refs;
 }
 
 void ClaimedEdges::Claim(const std::vector<EdgeRef>& hits) {
+  for (const EdgeRef& hit : hits) ClaimOne(hit);
+}
+
+void ClaimedEdges::ClaimAround(const std::vector<EdgeRef>& hits) {
   for (const EdgeRef& hit : hits) {
-    ClaimOne(hit);
     const std::vector<EdgeNeighbors>& neighbors =
         indices_[static_cast<std::size_t>(hit.view_idx)].edges->neighbors;
     for (const auto side : {&EdgeNeighbors::previous, &EdgeNeighbors::next}) {

@@ -4,7 +4,6 @@
 
 #include <curvix/edges.h>
 
-#include <cstddef>
 #include <vector>
 
 #include "validation/view_index.h"
@@ -20,10 +19,11 @@ class ClaimedEdges {
     return !is_claimed_[static_cast<std::size_t>(ref.view_idx)]
                        [static_cast<std::size_t>(ref.edge_idx)];
   }
-  std::size_t NumFree(const std::vector<EdgeRef>& refs) const;
+  std::vector<EdgeRef> FreeOf(std::vector<EdgeRef> refs) const;
 
-  // Claims `hits` and two edges to either side along their contours.
   void Claim(const std::vector<EdgeRef>& hits);
+  // Two edges to either side of each along its contour.
+  void ClaimAround(const std::vector<EdgeRef>& hits);
 
   // Gives back what was claimed since the last call of Keep().
   void GiveBack();

@@ -13,7 +13,8 @@ namespace {
 // Of the random walk of the direction, after a pixel.
 constexpr double kBendSigmaRad = 0.04;
 constexpr double kTangentSigmaRad = DegToRad(4);
-// Errors of an edge go on along its contour: so many pixels are one measurement.
+// Errors of an edge go on along its contour: so many pixels are one
+// measurement.
 constexpr double kCorrelatedPx = 3;
 // Of the direction of a seed, where its edges do not tell.
 constexpr double kSeedSlopeSigma = 0.3;
@@ -59,47 +60,50 @@ void CurveTip::Step(double step_px) {
   }
 }
 
-void CurveTip::Correct(const PlaneMeasurement& measurement) {
-  Eigen::Vector4d change = Eigen::Vector4d::Zero();
-  const auto update = [&](const Eigen::Vector4d& row,
-                          double residual,
-                          double sigma) {
-    const Eigen::Vector4d column = covariance_ * row;
-    const double predicted = row.dot(column);
-    const double innovation = residual - row.dot(change);
-    // Cauchy's weight, against what may be expected.
-    const double r2 =
-        innovation * innovation / (predicted + sigma * sigma);
-    const double variance = kCorrelatedPx * sigma * sigma * (1 + r2);
-    const Eigen::Vector4d gain = column / (predicted + variance);
-    change += gain * innovation;
-    covariance_ -= gain * column.transpose();
-  };
-  const SeenDistance distance = DistanceFrom(measurement, edge_.position);
-  Eigen::Vector4d row = Eigen::Vector4d::Zero();
-  row.head<2>() = pixel_ * axes_.transpose() * distance.gradient;
-  update(row, -distance.px, sigma_px_);
-  const Eigen::Vector3d normal = measurement.plane.normalized();
-  row.setZero();
-  row.tail<2>() = axes_.transpose() * normal;
-  update(row, -normal.dot(edge_.tangent), kTangentSigmaRad);
-  covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
-  FoldIn(change);
+void CurveTip::Correct(const std::vector<PlaneMeasurement>& measurements) {
+  Eigen::Matrix4d information = covariance_.inverse();
+  Eigen::Vector4d vector = Eigen::Vector4d::Zero();
+  const auto add =
+      [&](const Eigen::Vector4d& row, double innovation, double sigma) {
+        // Cauchy's weight, against what may be expected.
+        const double expected = row.dot(covariance_ * row) + sigma * sigma;
+        const double r2 = innovation * innovation / expected;
+        const double weight = 1 / (kCorrelatedPx * sigma * sigma * (1 + r2));
+        information += weight * row * row.transpose();
+        vector += weight * innovation * row;
+      };
+  for (const PlaneMeasurement& m : measurements) {
+    const SeenDistance distance = DistanceFrom(m, edge_.position);
+    Eigen::Vector4d row = Eigen::Vector4d::Zero();
+    row.head<2>() = pixel_ * axes_.transpose() * distance.gradient;
+    add(row, -distance.px, sigma_px_);
+    const Eigen::Vector3d normal = m.plane.normalized();
+    row.setZero();
+    row.tail<2>() = axes_.transpose() * normal;
+    add(row, -normal.dot(edge_.tangent), kTangentSigmaRad);
+  }
+  const Eigen::Matrix4d covariance = information.inverse();
+  if (!covariance.allFinite()) return;
+  covariance_ = (covariance + covariance.transpose()) / 2;
+  FoldIn(covariance_ * vector);
 }
 
+// The axes turn with the tangent, on the side on which they are.
 void CurveTip::FoldIn(const Eigen::Vector4d& change) {
   edge_.position += pixel_ * axes_ * change.head<2>();
   edge_.tangent = (edge_.tangent + axes_ * change.tail<2>()).normalized();
-  axes_.col(0) -= edge_.tangent.dot(axes_.col(0)) * edge_.tangent;
+  for (int i = 0; i < 2; ++i) {
+    axes_.col(i) -= edge_.tangent.dot(axes_.col(i)) * edge_.tangent;
+  }
   axes_.col(0).normalize();
-  axes_.col(1) = edge_.tangent.cross(axes_.col(0));
+  axes_.col(1) -= axes_.col(0).dot(axes_.col(1)) * axes_.col(0);
+  axes_.col(1).normalize();
 }
 
 double CurveTip::VarianceIn(const PosedView& view,
                             const ImageEdge& projected) const {
   const Eigen::Vector3d plane = EdgePlane(view, projected);
-  const double depth =
-      view.rotation.row(2).dot(edge_.position - view.center);
+  const double depth = view.rotation.row(2).dot(edge_.position - view.center);
   const Eigen::Vector2d gradient = pixel_ / depth * axes_.transpose() * plane;
   return gradient.dot(covariance_.topLeftCorner<2, 2>() * gradient);
 }

@@ -16,7 +16,7 @@ namespace curvix {
 // Kalman filter along the curve. The state is the offset across the tangent, in
 // pixels, and the slope of the tangent, both along two axes. Each 2D edge
 // measures the offset across its plane and the slope out of it. The direction
-// wanders from pixel to pixel as a random walk.
+// wanders from pixel to pixel as a random walk. The axes may be left-handed.
 class CurveTip {
  public:
   // `pixel`: of world units; `measurements`: those that gave `edge`.
@@ -28,9 +28,13 @@ class CurveTip {
   const SpaceEdge& edge() const { return edge_; }
   double pixel() const { return pixel_; }
 
+  // Turns the tip round.
   void Reverse();
+  // Predicts the tip that much further along.
   void Step(double step_px);
-  void Correct(const PlaneMeasurement& measurement);
+  // Moves and turns the tip to where these 2D edges show it, with Cauchy's
+  // weights. Their order makes no difference.
+  void Correct(const std::vector<PlaneMeasurement>& measurements);
 
   // Of the distance across the tangent from where the true curve is seen, px^2.
   double VarianceIn(const PosedView& view, const ImageEdge& projected) const;

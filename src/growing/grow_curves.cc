@@ -34,13 +34,14 @@ constexpr int kStreak = 3;
 constexpr std::size_t kMinNumSupports = 3;
 // Of samples, whose evidence that of the seed counts as.
 constexpr double kSeedWeight = 5;
-// The last steps do not claim their edges yet: they may be taken back.
-constexpr std::size_t kUnclaimedSteps = 8;
 constexpr std::size_t kMinNumSamples = 5;
 // Curves that come back to their seed so near are closed, if they are so long.
 constexpr double kClosePx = 2;
 constexpr double kCloseCosine = 0.9;
 constexpr std::size_t kMinClosedSteps = 32;
+// The last steps do not claim their edges yet, so that these are still there
+// for the next ones and for the other direction.
+constexpr std::size_t kUnclaimedSteps = 32;
 
 struct GrownSample {
   SpaceEdge edge;
@@ -98,27 +99,24 @@ class Grower {
         claimed_(indices) {}
 
   std::optional<Curve> Grow(const Edge3d& seed) {
-    const std::size_t num_free = claimed_.NumFree(seed.support);
-    const double pixel = PixelSize(seed.position, seed.support, views_);
-    if (num_free < kMinNumSupports || 2 * num_free < seed.support.size() ||
-        !(pixel > 0)) {
+    const std::vector<EdgeRef> support = claimed_.FreeOf(seed.support);
+    const double pixel = PixelSize(seed.position, support, views_);
+    if (support.size() < kMinNumSupports ||
+        2 * support.size() < seed.support.size() || !(pixel > 0)) {
       return std::nullopt;
     }
-    const CurveTip tip({seed.position, seed.tangent},
-                       MeasureAll(seed.support),
-                       sigma_px_,
-                       pixel);
-    const GrownSample first{
-        tip.edge(), tip.Sigma(), seed.evidence, seed.support};
+    const CurveTip tip(
+        {seed.position, seed.tangent}, MeasureAll(support), sigma_px_, pixel);
+    const GrownSample first{tip.edge(), tip.Sigma(), seed.evidence, support};
     Curve curve;
     std::vector<GrownSample> path = GrowBothWays(tip, first, &curve.closed);
+    claimed_.GiveBack();
     DropShortStreaks(path);
-    if (!Exists(path)) {
-      claimed_.GiveBack();
-      return std::nullopt;
-    }
+    if (!curve.closed) TrimEnds(path);
+    if (!Exists(path)) return std::nullopt;
     for (GrownSample& grown : path) {
       claimed_.Claim(grown.hits);
+      claimed_.ClaimAround(grown.hits);
       curve.samples.push_back(ToCurveSample(std::move(grown)));
     }
     claimed_.Keep();
@@ -155,23 +153,26 @@ class Grower {
     }
     const double expected_px = std::sqrt(variance_px2 + sigma_px_ * sigma_px_);
     const auto nearest =
-        NearestEdge(index,
+        NearestEdge(index.grid,
                     *projected,
                     {std::min(kMaxNormalPx, kGateSigmas * expected_px),
                      kMaxTangentialPx,
-                     std::cos(DegToRad(kMaxAngleDeg))});
+                     std::cos(DegToRad(kMaxAngleDeg))},
+                    [&](std::int32_t i) {
+                      return claimed_.IsFree({view_idx, i});
+                    });
     Look look{std::nullopt, VoteWithoutSupport()};
-    if (!nearest || !claimed_.IsFree({view_idx, *nearest})) return look;
+    if (!nearest) return look;
     look.hit = EdgeRef{view_idx, *nearest};
     const ImageEdge found =
         ToImageEdge(index.edges->edges[static_cast<std::size_t>(*nearest)]);
     const Eigen::Vector2d normal(-found.tangent.y(), found.tangent.x());
     const double angle = AngleOf(projected->tangent);
-    look.vote = VoteWithSupport(
-        {normal.dot(projected->position - found.position),
-         expected_px,
-         UndirectedDifference(angle, AngleOf(found.tangent))},
-        index.density.Density(projected->position, angle));
+    look.vote =
+        VoteWithSupport({normal.dot(projected->position - found.position),
+                         expected_px,
+                         UndirectedDifference(angle, AngleOf(found.tangent))},
+                        index.density.Density(projected->position, angle));
     return look;
   }
 
@@ -188,15 +189,16 @@ class Grower {
     Votes votes(indices_.size());
     trusted.clear();
     for (std::size_t v = 0; v < indices_.size(); ++v) {
-      const auto look =
-          LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
-      const bool is_hit = look && look->hit;
-      if (look) votes[v] = look->vote;
-      if (is_hit) grown.hits.push_back(*look->hit);
-      if (streaks.Count(v, is_hit)) trusted.push_back(*look->hit);
+      const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
+      if (!look) continue;
+      votes[v] = look->vote;
+      if (look->hit) grown.hits.push_back(*look->hit);
+      if (streaks.Count(v, look->hit.has_value())) {
+        trusted.push_back(*look->hit);
+      }
     }
     grown.evidence = Evidence(votes, neighbors_);
-    for (const EdgeRef& ref : trusted) tip.Correct(Measure(ref));
+    tip.Correct(MeasureAll(trusted));
     grown.edge = tip.edge();
     grown.sigma = tip.Sigma();
     return grown;
@@ -244,25 +246,28 @@ class Grower {
   std::vector<GrownSample> GrowBothWays(const CurveTip& tip,
                                         const GrownSample& first,
                                         bool* closed) {
-    std::vector<GrownSample> path = {first};
     std::vector<GrownSample> ahead = Follow(tip, first, closed);
+    std::vector<GrownSample> path;
+    if (!*closed) {
+      path = GrowBack(tip, first, closed);
+      if (*closed) ahead.clear();
+    }
+    path.push_back(first);
     path.insert(path.end(),
                 std::make_move_iterator(ahead.begin()),
                 std::make_move_iterator(ahead.end()));
-    if (*closed) return path;
-    CurveTip turned = tip;
-    turned.Reverse();
-    GrownSample turned_first = first;
-    turned_first.edge = turned.edge();
-    bool is_closed = false;
-    std::vector<GrownSample> behind = Follow(turned, turned_first, &is_closed);
-    std::reverse(behind.begin(), behind.end());
-    for (GrownSample& grown : behind) {
-      grown.edge.tangent = -grown.edge.tangent;
-    }
-    path.insert(path.begin(),
-                std::make_move_iterator(behind.begin()),
-                std::make_move_iterator(behind.end()));
+    return path;
+  }
+
+  // The samples behind `first`, in the order of those ahead.
+  std::vector<GrownSample> GrowBack(CurveTip tip,
+                                    GrownSample first,
+                                    bool* closed) {
+    tip.Reverse();
+    first.edge = tip.edge();
+    std::vector<GrownSample> path = Follow(tip, first, closed);
+    std::reverse(path.begin(), path.end());
+    for (GrownSample& grown : path) grown.edge.tangent = -grown.edge.tangent;
     return path;
   }
 
@@ -293,6 +298,16 @@ class Grower {
         begin = i;
       }
     }
+  }
+
+  // Down to samples that enough views show.
+  static void TrimEnds(std::vector<GrownSample>& path) {
+    const auto is_shown = [](const GrownSample& grown) {
+      return grown.hits.size() >= kMinNumSupports;
+    };
+    path.erase(std::find_if(path.rbegin(), path.rend(), is_shown).base(),
+               path.end());
+    path.erase(path.begin(), std::find_if(path.begin(), path.end(), is_shown));
   }
 
   static void DropHit(GrownSample& grown, std::size_t view_idx) {

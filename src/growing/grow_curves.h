@@ -18,15 +18,16 @@ namespace curvix {
 // Grows a curve from each seed, those of most evidence first (ties: the smaller
 // index), unless earlier curves have most of its 2D edges.
 //
-// From the seed, and in both directions, the curve steps on by a pixel along its
-// tangent (CurveTip). Each view is asked for the nearest edge where it should
-// show the new place; edges of earlier curves do not count. Views that have
-// shown the curve three times in a row correct the tip, until they miss it three
-// times. A sample is shown if at least three such views support it and its
-// evidence (evidence.h) is at least options.min_evidence and the share
-// options.min_relative_evidence of the mean of the curve so far. A curve ends
-// with its last shown sample before a stretch of more than options.max_gap_px
-// without any; it is closed where it comes back to its seed.
+// From the seed, and in both directions, the curve steps on by a pixel along
+// its tangent (CurveTip). Each view is asked for the nearest edge where it
+// should show the new place, of those that no earlier curve has. Views that
+// have shown the curve three times in a row correct the tip, until they miss it
+// three times; views that cannot tell do neither. A sample is shown if at least
+// three such views support it and its evidence (evidence.h) is at least
+// options.min_evidence and the share options.min_relative_evidence of the mean
+// of the curve so far. A curve ends with its last shown sample before a stretch
+// of more than options.max_gap_px without any; it is closed where it comes back
+// to its seed.
 //
 // A curve exists if its evidence, summed over its samples, is at least
 // options.min_total_evidence; the others are left out and have no edges. How

@@ -44,6 +44,7 @@ bool IsIn(const std::optional<std::int32_t>& idx, std::size_t size) {
 
 bool IsSound(const EdgeMap& map) {
   if (map.neighbors.size() != map.edges.size()) return false;
+  if (!(map.spacing_px > 0) || !std::isfinite(map.spacing_px)) return false;
   for (const Edge2d& edge : map.edges) {
     const bool is_near = edge.position.cwiseAbs().maxCoeff() <= kFarthestPx;
     if (!edge.position.allFinite() || !is_near || !std::isfinite(edge.angle)) {
@@ -118,13 +119,15 @@ Status CheckEdgeMaps(const Scene& scene,
 
 Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
                        const EdgeSketch& sketch) {
-  const bool is_sound = std::all_of(
-      sketch.edges.begin(), sketch.edges.end(), [&](const Edge3d& edge) {
-        return IsSound(edge, edge_maps);
-      });
+  const bool is_sound =
+      sketch.edge_sigma_px > 0 && std::isfinite(sketch.edge_sigma_px) &&
+      std::all_of(sketch.edges.begin(),
+                  sketch.edges.end(),
+                  [&](const Edge3d& edge) { return IsSound(edge, edge_maps); });
   if (is_sound) return {};
   return Invalid(
-      "the 3D edges are not sound: finite numbers and, in the order of views, "
+      "the 3D edges are not sound: finite numbers, a positive edge_sigma_px "
+      "and, in the order of views, "
       "at most one 2D edge per view are needed, and these among the edges");
 }
 

@@ -33,8 +33,8 @@ void AddDistances(const Edge3d& edge,
   for (const EdgeRef& ref : edge.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
     const auto i = static_cast<std::size_t>(ref.edge_idx);
-    measurements.push_back(MeasurePlane(
-        input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
+    measurements.push_back(
+        MeasurePlane(input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
   }
   const SpaceEdge adjusted =
       AdjustEdge({edge.position, edge.tangent}, measurements, sigma_px).edge;
@@ -47,7 +47,7 @@ void AddDistances(const Edge3d& edge,
 
 }  // namespace
 
-double EstimateEdgeSigma(const SketchInput& input) {
+double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
   const double least_px = input.sigma_px;
   std::size_t num_edges = 0;
   for (const EdgeMap& map : input.edge_maps) num_edges += map.edges.size();
@@ -55,7 +55,7 @@ double EstimateEdgeSigma(const SketchInput& input) {
   pilot.sigma_px = kPilotSigmas * least_px;
   pilot.h1_step = std::max<std::size_t>(1, num_edges / kNumEdgesToAsk);
   const EdgeSketch sketch =
-      SketchByViews(pilot, [](int, int) { return true; });
+      SketchByViews(pilot, [&](int, int total) { return step_done(0, total); });
   std::vector<double> distances_px;
   for (const Edge3d& edge : sketch.edges) {
     if (edge.support.size() < kMinNumSupports) continue;

@@ -10,7 +10,8 @@ namespace curvix {
 // they support: what noise, blur, lens and poses leave. From a sketch of a few
 // thousand of the edges, by the median distance. At least
 // options.hypotheses.EdgeSigmaPx(), which is returned, too, if too few 3D edges
-// are found; renders with exact poses have less. Pixels.
-double EstimateEdgeSigma(const SketchInput& input);
+// are found; renders with exact poses have less. Pixels. `step_done` is asked
+// whether to go on.
+double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done);
 
 }  // namespace curvix

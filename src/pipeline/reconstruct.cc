@@ -9,9 +9,9 @@
 #include "alignment/align_edges.h"
 #include "connectivity/group_edges.h"
 #include "edge_detection/detect_view_edges.h"
+#include "geometry/posed_views.h"
 #include "growing/grow_curves.h"
 #include "hypotheses/view_overlap.h"
-#include "geometry/posed_views.h"
 #include "model/curve_junctions.h"
 #include "neighborhood/link_edges.h"
 #include "pipeline/check_input.h"
@@ -190,7 +190,8 @@ Result<Reconstruction> ReconstructCurves(const Scene& scene,
   RunRecorder run(progress);
   const std::vector<PosedView> views = MakePosedViews(scene);
   const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
-  Reconstruction result = Connect(scene, views, edge_maps, sketch, options, run);
+  Reconstruction result =
+      Connect(scene, views, edge_maps, sketch, options, run);
   if (run.cancelled()) return run.CancelledStatus();
   return result;
 }

@@ -290,12 +290,11 @@ std::vector<H1Result> Ask(const SketchInput& input,
   const std::vector<std::int32_t> edge_idxs = EveryOtherAlongContours(
       UnusedEdgesOf(h1, map, used, input.h1_step), map.neighbors);
   std::vector<H1Result> results(edge_idxs.size());
-  ParallelFor(edge_idxs.size(),
-              input.options.runtime.num_threads,
-              [&](std::size_t k) {
-                const auto i = static_cast<std::size_t>(edge_idxs[k]);
-                results[k] = sketcher.Sketch(map.edges[i], view);
-              });
+  ParallelFor(
+      edge_idxs.size(), input.options.runtime.num_threads, [&](std::size_t k) {
+        const auto i = static_cast<std::size_t>(edge_idxs[k]);
+        results[k] = sketcher.Sketch(map.edges[i], view);
+      });
   return results;
 }
 

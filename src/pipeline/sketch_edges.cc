@@ -50,7 +50,7 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView:
-      input.sigma_px = EstimateEdgeSigma(input);
+      input.sigma_px = EstimateEdgeSigma(input, step_done);
       return SketchByViews(input, step_done);
   }
   return {};

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -51,7 +50,7 @@ void AddSupport(const CurveSample& sample,
 }
 
 // If all views that look at the sample had an edge where it is projected.
-// Infinite, if less than two look at it.
+// 0 if less than two look at it.
 double LeastDilution(const CurveSample& sample,
                      const std::vector<PosedView>& views) {
   const SpaceEdge edge{sample.position, sample.tangent};
@@ -62,7 +61,7 @@ double LeastDilution(const CurveSample& sample,
       measurements.push_back(MeasurePlane(view, *projected));
     }
   }
-  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
+  if (measurements.size() < 2) return 0;
   const double pixel = PixelSize(sample.position, sample.support, views);
   const Eigen::Matrix2d covariance =
       AdjustEdge(edge, measurements, 1).covariance;
@@ -76,7 +75,8 @@ double BlurredShare(const Support& support,
   for (const auto& [view_idx, sharpness] : support.sharpness) {
     const double count = static_cast<double>(sharpness.size());
     num_edges += count;
-    if (Median(sharpness) < least_sharpness[static_cast<std::size_t>(view_idx)]) {
+    if (Median(sharpness) <
+        least_sharpness[static_cast<std::size_t>(view_idx)]) {
       num_blurred += count;
     }
   }

@@ -158,8 +158,7 @@ class CurveInViews {
       const double share = sum.weight / total_weight;
       const Eigen::Vector2d gradient =
           axes.transpose() * sum.gradient / sum.weight;
-      result.scatter.Add(
-          share, sum.distance_px / sum.weight, edge_sigma_px_);
+      result.scatter.Add(share, sum.distance_px / sum.weight, edge_sigma_px_);
       information += share * gradient * gradient.transpose();
       pulls.push_back(share * gradient);
       rays.push_back((centers_[sum.view] - sample.position).normalized());

@@ -23,8 +23,8 @@ namespace curvix {
 // where a_v is how fast the distance in view v grows, in pixels per world unit,
 // rho_vw the correlation of two views, which falls with the angle between their
 // rays, and s the standard deviation of the mean distances, robustly (Huber's,
-// for Cauchy's loss of edge_sigma_px); where few views see the stretch, s leans on that of all
-// curves together.
+// for Cauchy's loss of edge_sigma_px); where few views see the stretch, s leans
+// on that of all curves together.
 //
 // What all views have in common, as when all poses are off alike, is not in
 // it. Samples without two views that cross stay as they are.

@@ -40,8 +40,13 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
           ? EstimateToneCurve(
                 refined, views, edge_maps, edge_sigma_px, num_threads)
           : ToneCurve();
-  refined = FitToImages(
-      std::move(refined), views, edge_maps, tone, edge_sigma_px, options, num_threads);
+  refined = FitToImages(std::move(refined),
+                        views,
+                        edge_maps,
+                        tone,
+                        edge_sigma_px,
+                        options,
+                        num_threads);
   if (options.separate_touching) {
     refined = CutAtTouches(std::move(refined), views);
   }
@@ -55,8 +60,13 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
       refined.push_back(std::move(contour));
     }
   }
-  return EstimateCovariances(
-      std::move(refined), views, edge_maps, tone, edge_sigma_px, options, num_threads);
+  return EstimateCovariances(std::move(refined),
+                             views,
+                             edge_maps,
+                             tone,
+                             edge_sigma_px,
+                             options,
+                             num_threads);
 }
 
 }  // namespace curvix

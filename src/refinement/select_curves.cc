@@ -67,9 +67,8 @@ Verdict Judge(const CurveTraits& traits,
   if (options.max_dilution == 0) return Verdict::kEdge;
   const double dilution =
       traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
-  const double allowed =
-      std::max(options.max_dilution,
-               kTimesLeastDilution * traits.least_dilution);
+  const double allowed = std::max(options.max_dilution,
+                                  kTimesLeastDilution * traits.least_dilution);
   if (dilution > allowed) return Verdict::kOccludingContour;
   if (options.max_blurred_share == 1) return Verdict::kEdge;
   const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
@@ -86,11 +85,11 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
                             double edge_sigma_px,
                             const CurveRefinementOptions& options,
                             int num_threads) {
-  const std::vector<double> sharpness = LeastSharpness(edge_maps);
+  const std::vector<double> least_sharpness = LeastSharpness(edge_maps);
   AllTraits all_traits(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    all_traits[i] =
-        MeasureCurve(curves[i], views, edge_maps, sharpness, edge_sigma_px);
+    all_traits[i] = MeasureCurve(
+        curves[i], views, edge_maps, least_sharpness, edge_sigma_px);
   });
   const double typical_scatter =
       TypicalScatter(curves, all_traits, options.max_blurred_share);

@@ -12,7 +12,7 @@ namespace curvix {
 namespace {
 
 constexpr double kCellPx = 16;
-constexpr int kNumBins = 12;            // of 15 degrees
+constexpr int kNumBins = 12;  // of 15 degrees
 
 int Clamp(double value, int count) {
   if (!(value > 0)) return 0;

@@ -25,7 +25,7 @@ class EdgeDensity {
  private:
   int columns_ = 0;
   int rows_ = 0;
-  double spacing_px_ = 0.5;  // of edges along a contour
+  double spacing_px_ = 0.5;            // of edges along a contour
   std::vector<std::uint16_t> counts_;  // [row][column][bin], saturating
 };
 

@@ -61,10 +61,10 @@ const void* Address(const OptionRow& row) {
 
 TEST(OptionTable, HasOneRowForEveryField) {
   Options options;
-  const auto& [a, b, c, d, e, f, g, h, i, j, k] =
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l] =
       options;  // every struct of Options
   const auto rows = OptionTable(options);
-  EXPECT_EQ(rows.size(), NumFieldsOf(a, b, c, d, e, f, g, h, i, j, k))
+  EXPECT_EQ(rows.size(), NumFieldsOf(a, b, c, d, e, f, g, h, i, j, k, l))
       << "options.h and option_table.cc do not list the same fields";
 
   std::set<const void*> fields;

@@ -125,6 +125,45 @@ TEST_F(KeepContoursTest, KeepsTheFirstOfEquals) {
   EXPECT_EQ(kept.edges[0].position.x(), 0);
 }
 
+TEST_F(KeepContoursTest, KeepsStraightContoursBeforeBentOnesAsStrong) {
+  Build({{12, 30}, {12, 31}});
+  // The second contour turns by 20 degrees from edge to edge.
+  for (std::size_t i = 12; i < 24; ++i) {
+    edges_[i].angle = 0.35f * static_cast<float>(i);
+  }
+  EXPECT_EQ(Strengths(Keep(12)), (std::vector<float>{30}));
+}
+
+TEST_F(KeepContoursTest, KeepsLongWeakLinesBeforeShortSteepOnes) {
+  Build({{5, 30}, {100, 12}, {5, 30}});
+  EXPECT_EQ(Strengths(Keep(105)), (std::vector<float>{30, 12}));
+  EXPECT_EQ(Strengths(Keep(100)), (std::vector<float>{12}));
+}
+
+TEST(ThinContours, LeavesNoLargerGapsThanItMust) {
+  std::vector<Edge2d> edges;
+  std::vector<EdgeNeighbors> neighbors;
+  AppendChain(10, 1, edges, neighbors);
+  AppendChain(2, 2, edges, neighbors);
+  for (Edge2d& edge : edges) edge.position *= 0.5;
+  const std::vector<Edge2d> thinned = ThinContours(edges, neighbors, 1);
+  ASSERT_EQ(thinned.size(), 6u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(thinned[i].position.x(), static_cast<double>(i));
+  }
+  EXPECT_EQ(thinned[5].strength, 2) << "every contour is still there";
+  EXPECT_EQ(ThinContours(edges, neighbors, 0.5).size(), edges.size());
+}
+
+TEST(ThinContours, ThinsClosedContours) {
+  std::vector<Edge2d> edges;
+  std::vector<EdgeNeighbors> neighbors;
+  AppendChain(8, 1, edges, neighbors);
+  neighbors.front().previous = 7;
+  neighbors.back().next = 0;
+  EXPECT_EQ(ThinContours(edges, neighbors, 2).size(), 4u);
+}
+
 TEST_F(KeepContoursTest, KeepsTheOrderAndAcceptsNoEdges) {
   EXPECT_TRUE(Keep(10).edges.empty());
   Build({{5, 20}, {5, 60}, {5, 40}});

@@ -39,8 +39,8 @@ class Seen {
       }
     }
     for (int i = 0; i < kNumViews; ++i) {
-      neighbors_.push_back({{(i + kNumViews - 1) % kNumViews, 0.7},
-                            {(i + 1) % kNumViews, 0.7}});
+      neighbors_.push_back(
+          {{(i + kNumViews - 1) % kNumViews, 0.7}, {(i + 1) % kNumViews, 0.7}});
     }
   }
 
@@ -135,8 +135,7 @@ TEST(GrowCurves, OneSeedGivesAWholeCircleOnce) {
 
 TEST(GrowCurves, TangentsLeadAlongTheCurve) {
   const Seen seen({kLine, kCircle});
-  for (const Curve& curve :
-       seen.Grow({seen.Seed(0, 0.4), seen.Seed(1, 0.1)})) {
+  for (const Curve& curve : seen.Grow({seen.Seed(0, 0.4), seen.Seed(1, 0.1)})) {
     for (std::size_t k = 1; k < curve.samples.size(); ++k) {
       const Vector3d step =
           curve.samples[k].position - curve.samples[k - 1].position;
@@ -178,8 +177,8 @@ TEST(GrowCurves, EachEdgeSupportsOneCurve) {
                    kCircle},
                   0.1);
   std::map<EdgeRef, std::set<std::size_t>> curves_of;
-  const std::vector<Curve> curves = seen.Grow(
-      {seen.Seed(0, 0.2), seen.Seed(1, 0.2), seen.Seed(2, 0.2)});
+  const std::vector<Curve> curves =
+      seen.Grow({seen.Seed(0, 0.2), seen.Seed(1, 0.2), seen.Seed(2, 0.2)});
   EXPECT_EQ(curves.size(), 3u) << "lines that cross go on";
   for (std::size_t i = 0; i < curves.size(); ++i) {
     for (const CurveSample& sample : curves[i].samples) {

@@ -21,6 +21,7 @@ constexpr std::uint64_t kKey = 0x123456789abcdef0;
 std::vector<EdgeMap> SomeEdgeMaps() {
   std::vector<EdgeMap> maps(3);
   maps[0].noise = 0.1;
+  maps[1].spacing_px = 1.3;
   maps[0].num_dropped_isolated = 7;
   maps[2].num_dropped_masked = 3;
   maps[2].num_dropped_over_limit = 5;
@@ -43,6 +44,7 @@ std::vector<EdgeMap> SomeEdgeMaps() {
 EdgeSketch SomeSketch() {
   EdgeSketch sketch;
   sketch.counts = {1, 2, 3, 4, 5, 6'000'000'000};
+  sketch.edge_sigma_px = 0.23;
   for (int i = 0; i < 3; ++i) {
     Edge3d edge;
     edge.position = {i / 3.0, -1e-300, 1e300};
@@ -71,6 +73,7 @@ TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
     const EdgeMap& a = maps[i];
     const EdgeMap& b = (*read)[i];
     EXPECT_EQ(a.noise, b.noise);
+    EXPECT_EQ(a.spacing_px, b.spacing_px);
     EXPECT_EQ(a.num_dropped_masked, b.num_dropped_masked);
     EXPECT_EQ(a.num_dropped_isolated, b.num_dropped_isolated);
     EXPECT_EQ(a.num_dropped_over_limit, b.num_dropped_over_limit);
@@ -96,6 +99,7 @@ TEST_F(StageIo, GivesASketchBackBitByBit) {
   EXPECT_EQ(read->counts.view_pairs, 1);
   EXPECT_EQ(read->counts.unsupported, 4);
   EXPECT_EQ(read->counts.used_edges, 6'000'000'000);
+  EXPECT_EQ(read->edge_sigma_px, 0.23);
   ExpectIdentical(read->edges, sketch.edges);
 }
 

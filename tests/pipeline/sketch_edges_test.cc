@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <vector>
 
+#include "geometry/image_edge.h"
+#include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 #include "tests/support/test_views.h"
 
@@ -27,6 +30,29 @@ TEST(SketchEdges, DoesNotGrowWithTheNumberOfViews) {
   const std::size_t of_many = SketchOf(circle, 192).edges.size();
   EXPECT_GT(of_few, 300u);
   EXPECT_LT(static_cast<double>(of_many), 1.5 * static_cast<double>(of_few));
+}
+
+// Errors go on along a contour, so each view has one.
+double EdgeSigmaOf(double noise_px) {
+  const std::vector<PosedView> views = RingOfViews(32);
+  std::vector<EdgeMap> maps =
+      ExactEdgeMaps({CircleCurve({0, 0, 0}, 0.8)}, views, 1);
+  Random random(3);
+  for (EdgeMap& map : maps) {
+    const double off_px = noise_px * random.Normal();
+    for (Edge2d& edge : map.edges) {
+      const Eigen::Vector2d t = ToImageEdge(edge).tangent;
+      edge.position += off_px * Eigen::Vector2d(-t.y(), t.x());
+    }
+  }
+  return SketchEdges(views, maps, {}, Options(), [](int, int) { return true; })
+      .edge_sigma_px;
+}
+
+TEST(SketchEdges, FindsOutHowFarEdgesAreOff) {
+  EXPECT_EQ(EdgeSigmaOf(0), Options().hypotheses.EdgeSigmaPx());
+  EXPECT_NEAR(EdgeSigmaOf(0.2), 0.2, 0.04);
+  EXPECT_NEAR(EdgeSigmaOf(0.3), 0.3, 0.06);
 }
 
 }  // namespace

@@ -110,8 +110,13 @@ TEST(EstimateCovariances, ErrorsAreAsLargeAsTheySay) {
          {std::pair{0.05, 0.05}, std::pair{0.08, 0.0}}) {
       SeenCurves seen =
           DisturbedLines(60, ViewsAround(num_views, step), shared_px, own_px);
-      seen.curves = FitToImages(
-          std::move(seen.curves), seen.views, seen.edge_maps, {}, kEdgeSigmaPx, kOptions, 1);
+      seen.curves = FitToImages(std::move(seen.curves),
+                                seen.views,
+                                seen.edge_maps,
+                                {},
+                                kEdgeSigmaPx,
+                                kOptions,
+                                1);
       EXPECT_NEAR(NormalisedSpread(Estimate(seen)), 1, 0.3)
           << num_views << " views, " << shared_px << " and " << own_px << " px";
     }

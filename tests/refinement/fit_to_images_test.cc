@@ -44,8 +44,13 @@ Curve WithNoise(Curve curve) {
 Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
   CurveRefinementOptions options;
   options.smoothing_px = smoothing_px;
-  return FitToImages(
-      {WithNoise(seen.truth)}, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, options, 1)[0];
+  return FitToImages({WithNoise(seen.truth)},
+                     seen.views,
+                     seen.edge_maps,
+                     {},
+                     kEdgeSigmaPx,
+                     options,
+                     1)[0];
 }
 
 TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
