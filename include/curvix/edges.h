@@ -52,6 +52,15 @@ struct EdgeMap {
   std::int32_t num_dropped_masked = 0;
 };
 
+// Whether images had so many edges that contours were thinned, as photographs
+// have: curves then grow (CurveGrowthOptions).
+inline bool AreCrowded(const std::vector<EdgeMap>& edge_maps) {
+  for (const EdgeMap& map : edge_maps) {
+    if (map.spacing_px > EdgeMap().spacing_px) return true;
+  }
+  return false;
+}
+
 // Names an edge of a view. Ordered by view, then edge.
 struct EdgeRef {
   std::int32_t view_idx = 0;

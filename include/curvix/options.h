@@ -160,8 +160,8 @@ struct ConnectivityOptions {
   double min_length_px = 5.0;
 };
 
-// Instead of Secs. 5 and 6: curves that grow from 3D edges along the contours
-// of the images.
+// Instead of Secs. 5 and 6, where images are crowded (AreCrowded()): curves
+// that grow from 3D edges along the contours of the images.
 struct CurveGrowthOptions {
   bool enabled = true;
   // Least evidence of a sample, as of ValidationOptions; >= 0.
@@ -181,7 +181,7 @@ struct CurveRefinementOptions {
   // that of one 2D edge, across it; fewer times, where their edges scatter more
   // than those of good curves or are blurred; more times, where the views
   // cannot tell more. >= 0; 0: none are left out, blurred or not.
-  double max_dilution = 3.0;
+  double max_dilution = 2.5;
   // Curves of which so large a share of the 2D edges is blurred are left out as
   // borders of shading; with a smaller share, max_dilution falls in proportion.
   // > 0, <= 1; 1: curves may be as blurred as they like.

@@ -91,13 +91,11 @@ void CurveTip::Correct(const std::vector<PlaneMeasurement>& measurements) {
 // The axes turn with the tangent, on the side on which they are.
 void CurveTip::FoldIn(const Eigen::Vector4d& change) {
   edge_.position += pixel_ * axes_ * change.head<2>();
-  edge_.tangent = (edge_.tangent + axes_ * change.tail<2>()).normalized();
-  for (int i = 0; i < 2; ++i) {
-    axes_.col(i) -= edge_.tangent.dot(axes_.col(i)) * edge_.tangent;
-  }
-  axes_.col(0).normalize();
-  axes_.col(1) -= axes_.col(0).dot(axes_.col(1)) * axes_.col(0);
-  axes_.col(1).normalize();
+  const Eigen::Vector3d before = edge_.tangent;
+  edge_.tangent = (before + axes_ * change.tail<2>()).normalized();
+  axes_ = Eigen::Quaterniond::FromTwoVectors(before, edge_.tangent)
+              .toRotationMatrix() *
+          axes_;
 }
 
 double CurveTip::VarianceIn(const PosedView& view,

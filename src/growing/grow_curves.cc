@@ -200,8 +200,17 @@ class Grower {
     grown.evidence = Evidence(votes, neighbors_);
     tip.Correct(MeasureAll(trusted));
     grown.edge = tip.edge();
-    grown.sigma = tip.Sigma();
+    grown.sigma = SigmaOf(grown, tip);
     return grown;
+  }
+
+  // As of a 3D edge with this support, which is what the selection of curves
+  // knows; that of the tip is smaller.
+  double SigmaOf(const GrownSample& grown, const CurveTip& tip) const {
+    if (grown.hits.size() < 2) return tip.Sigma();
+    const EdgeEstimate estimate =
+        AdjustEdge(grown.edge, MeasureAll(grown.hits), sigma_px_);
+    return std::sqrt(estimate.covariance.trace() / 2);
   }
 
   // The samples ahead of `first`, without it.
@@ -316,17 +325,12 @@ class Grower {
     });
   }
 
-  CurveSample ToCurveSample(GrownSample grown) const {
+  static CurveSample ToCurveSample(GrownSample grown) {
     CurveSample sample;
     sample.position = grown.edge.position;
     sample.tangent = grown.edge.tangent;
     sample.evidence = grown.evidence;
     sample.sigma = grown.sigma;
-    if (grown.hits.size() >= 2) {
-      const EdgeEstimate estimate =
-          AdjustEdge(grown.edge, MeasureAll(grown.hits), sigma_px_);
-      sample.sigma = std::sqrt(estimate.covariance.trace() / 2);
-    }
     sample.support = std::move(grown.hits);
     return sample;
   }

@@ -11,6 +11,7 @@
 #include "base/median.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/image_edge.h"
+#include "geometry/rim.h"
 
 namespace curvix {
 namespace {
@@ -18,13 +19,14 @@ namespace {
 constexpr std::size_t kNumEdgesToAsk = 4000;  // in all views
 // The sketch must see larger distances than it expects.
 constexpr double kPilotSigmas = 2;
-constexpr std::size_t kMinNumSupports = 5;
-constexpr double kNumParameters = 2;  // a place across a 3D edge
+constexpr std::size_t kMinNumSupports = 6;
+constexpr double kNumParameters = 3;  // a place across a rim, its radius
 constexpr std::size_t kMinNumDistances = 100;
 constexpr double kSigmasOfMedianDistance = 1.4826;
 
-// Of the supports of `edge` from the place that agrees best with all of them,
-// as large as they would be from the true place.
+// Of the supports of `edge` from the rim that agrees best with all of them, as
+// large as they would be from the true one. On an edge the radius is zero, and
+// rims of smooth bodies do not count as noise.
 void AddDistances(const Edge3d& edge,
                   const SketchInput& input,
                   double sigma_px,
@@ -36,12 +38,13 @@ void AddDistances(const Edge3d& edge,
     measurements.push_back(
         MeasurePlane(input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
   }
-  const SpaceEdge adjusted =
-      AdjustEdge({edge.position, edge.tangent}, measurements, sigma_px).edge;
+  Rim start;
+  start.axis = {edge.position, edge.tangent};
+  const Rim rim = AdjustRim(start, measurements, sigma_px);
   const double n = static_cast<double>(measurements.size());
   for (const PlaneMeasurement& m : measurements) {
-    distances_px.push_back(std::abs(DistanceFrom(m, adjusted.position).px) *
-                           std::sqrt(n / (n - kNumParameters)));
+    const double px = DistanceFrom(m, SeenFrom(rim, m.center).position).px;
+    distances_px.push_back(std::abs(px) * std::sqrt(n / (n - kNumParameters)));
   }
 }
 

@@ -73,7 +73,7 @@ Reconstruction Connect(const Scene& scene,
                        RunRecorder& run) {
   const int num_threads = options.runtime.num_threads;
   Reconstruction result;
-  if (options.curve_growth.enabled) {
+  if (options.curve_growth.enabled && AreCrowded(edge_maps)) {
     run.Begin("grow_curves");
     result.edges = sketch.edges;
     result.curves.curves =

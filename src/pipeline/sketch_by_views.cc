@@ -7,9 +7,9 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "hypotheses/every_other_edge.h"
 #include "hypotheses/select_validators.h"
 #include "hypotheses/select_views.h"
+#include "hypotheses/split_along_contours.h"
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
 #include "pipeline/view_indices.h"
@@ -280,22 +280,44 @@ std::vector<std::int32_t> UnusedEdgesOf(int view_idx,
   return edge_idxs;
 }
 
-// What every other unused edge of view h1 leads to, in their order.
-std::vector<H1Result> Ask(const SketchInput& input,
-                          const ViewSketcher& sketcher,
-                          int h1,
-                          const H1View& view,
-                          const UsedEdges& used) {
+// What the unused edges of view h1 that ask lead to, in their order: every
+// other one along a contour, then those next to one that led to a 3D edge,
+// unless curves will grow over these.
+std::vector<H1Result> AskInTurns(const SketchInput& input,
+                                 const ViewSketcher& sketcher,
+                                 int h1,
+                                 const H1View& view,
+                                 const UsedEdges& used) {
   const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(h1)];
-  const std::vector<std::int32_t> edge_idxs = EveryOtherAlongContours(
+  std::vector<std::optional<H1Result>> results(map.edges.size());
+  const auto ask = [&](const std::vector<std::int32_t>& edge_idxs) {
+    ParallelFor(edge_idxs.size(),
+                input.options.runtime.num_threads,
+                [&](std::size_t k) {
+                  const auto i = static_cast<std::size_t>(edge_idxs[k]);
+                  results[i] = sketcher.Sketch(map.edges[i], view);
+                });
+  };
+  const auto has_found = [&](const std::optional<std::int32_t>& edge_idx) {
+    if (!edge_idx) return false;
+    const auto& result = results[static_cast<std::size_t>(*edge_idx)];
+    return result && !result->tracked.empty();
+  };
+  TwoTurns turns = SplitAlongContours(
       UnusedEdgesOf(h1, map, used, input.h1_step), map.neighbors);
-  std::vector<H1Result> results(edge_idxs.size());
-  ParallelFor(
-      edge_idxs.size(), input.options.runtime.num_threads, [&](std::size_t k) {
-        const auto i = static_cast<std::size_t>(edge_idxs[k]);
-        results[k] = sketcher.Sketch(map.edges[i], view);
-      });
-  return results;
+  ask(turns.first);
+  if (AreCrowded(input.edge_maps)) turns.second.clear();
+  std::erase_if(turns.second, [&](std::int32_t edge_idx) {
+    const EdgeNeighbors& neighbors =
+        map.neighbors[static_cast<std::size_t>(edge_idx)];
+    return !has_found(neighbors.previous) && !has_found(neighbors.next);
+  });
+  ask(turns.second);
+  std::vector<H1Result> asked;
+  for (std::optional<H1Result>& result : results) {
+    if (result) asked.push_back(*std::move(result));
+  }
+  return asked;
 }
 
 void Add(H1Result result,
@@ -328,7 +350,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     done[static_cast<std::size_t>(*h1)] = true;
     const H1View view = sketcher.Prepare(*h1);
     sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
-    for (H1Result& result : Ask(input, sketcher, *h1, view, used)) {
+    for (H1Result& result : AskInTurns(input, sketcher, *h1, view, used)) {
       Add(std::move(result), input.edge_maps, used, sketch);
     }
   }

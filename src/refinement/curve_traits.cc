@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -50,7 +51,7 @@ void AddSupport(const CurveSample& sample,
 }
 
 // If all views that look at the sample had an edge where it is projected.
-// 0 if less than two look at it.
+// Infinite, if less than two look at it.
 double LeastDilution(const CurveSample& sample,
                      const std::vector<PosedView>& views) {
   const SpaceEdge edge{sample.position, sample.tangent};
@@ -61,7 +62,7 @@ double LeastDilution(const CurveSample& sample,
       measurements.push_back(MeasurePlane(view, *projected));
     }
   }
-  if (measurements.size() < 2) return 0;
+  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
   const double pixel = PixelSize(sample.position, sample.support, views);
   const Eigen::Matrix2d covariance =
       AdjustEdge(edge, measurements, 1).covariance;

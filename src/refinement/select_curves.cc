@@ -18,8 +18,12 @@ constexpr double kLeastScatterPx = 0.06;
 // Curves of a smaller share of blurred edges tell how far good curves scatter,
 // if there are any.
 constexpr double kSharp = 0.1;
-// Where the views cannot tell more, curves may be as dilute as this.
-constexpr double kTimesLeastDilution = 15;
+// Where the views cannot tell more, curves may be as dilute as this ...
+constexpr double kTimesLeastDilution = 6;
+// ... but no more than that. In crowded images, where depth is less sure, any
+// such limit takes what exists.
+constexpr double kMostTimesMaxDilution = 1.6;
+constexpr double kTimesLeastDilutionInCrowd = 15;
 
 using AllTraits = std::vector<std::optional<CurveTraits>>;
 
@@ -61,14 +65,26 @@ double TypicalScatter(const std::vector<Curve>& curves,
 
 enum class Verdict { kEdge, kOccludingContour, kBorderOfShading };
 
+double LargestDilution(const CurveTraits& traits,
+                       bool are_crowded,
+                       const CurveRefinementOptions& options) {
+  if (are_crowded) {
+    return std::max(options.max_dilution,
+                    kTimesLeastDilutionInCrowd * traits.least_dilution);
+  }
+  return std::clamp(kTimesLeastDilution * traits.least_dilution,
+                    options.max_dilution,
+                    kMostTimesMaxDilution * options.max_dilution);
+}
+
 Verdict Judge(const CurveTraits& traits,
               double typical_scatter,
+              bool are_crowded,
               const CurveRefinementOptions& options) {
   if (options.max_dilution == 0) return Verdict::kEdge;
   const double dilution =
       traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
-  const double allowed = std::max(options.max_dilution,
-                                  kTimesLeastDilution * traits.least_dilution);
+  const double allowed = LargestDilution(traits, are_crowded, options);
   if (dilution > allowed) return Verdict::kOccludingContour;
   if (options.max_blurred_share == 1) return Verdict::kEdge;
   const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
@@ -93,11 +109,13 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
   });
   const double typical_scatter =
       TypicalScatter(curves, all_traits, options.max_blurred_share);
+  const bool are_crowded = AreCrowded(edge_maps);
   SelectedCurves selected;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const Verdict verdict =
-        all_traits[i] ? Judge(*all_traits[i], typical_scatter, options)
-                      : Verdict::kEdge;
+        all_traits[i]
+            ? Judge(*all_traits[i], typical_scatter, are_crowded, options)
+            : Verdict::kEdge;
     if (verdict == Verdict::kEdge) {
       selected.edges.push_back(std::move(curves[i]));
     } else if (verdict == Verdict::kOccludingContour) {

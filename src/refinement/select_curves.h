@@ -20,8 +20,9 @@ struct SelectedCurves {
 //  * an occluding contour, if
 //      dilution * max(1, s / r) > allowed
 //    with s its scatter, r that of good curves of this scene, and allowed
-//    options.max_dilution; where views cannot tell places so well, 15 times the
-//    least dilution,
+//    options.max_dilution; where views cannot tell places so well, 6 times the
+//    least dilution, up to 1.6 options.max_dilution; of crowded images
+//    (AreCrowded()), 15 times the least dilution,
 //  * an edge of the scene, if also
 //      dilution * max(1, s / r) <= allowed * (1 - blurred / max_blurred_share)
 //    or options.max_blurred_share is 1,

@@ -41,7 +41,7 @@ std::vector<PosedView> Around(int num_views) {
 // be sqrt(2 / n).
 class Scene {
  public:
-  explicit Scene(int num_views = 128)
+  explicit Scene(int num_views = 16)
       : views_(Around(num_views)), edge_maps_(views_.size()) {
     for (int k = 0; k < 1000; ++k) {  // what else the views show
       for (EdgeMap& map : edge_maps_) {
@@ -148,8 +148,9 @@ TEST(SelectCurves, AsksForMoreWhereEdgesScatterMoreThanInThisScene) {
 }
 
 TEST(SelectCurves, AsksForLessWhereTheViewsCannotTellMore) {
-  ExpectLimit(15 * std::sqrt(2.0 / 8), {}, Scene(8));
-  ExpectLimit(15 * std::sqrt(2.0 / 32), {}, Scene(32));
+  ExpectLimit(6 * std::sqrt(2.0 / 8), {}, Scene(8));
+  ExpectLimit(1.6 * 2.5, {}, Scene(4));
+  ExpectLimit(1.6 * 2.5, {}, Scene(2));  // both in one plane with the curve
 }
 
 TEST(SelectCurves, AsksForMoreOfBlurredCurves) {

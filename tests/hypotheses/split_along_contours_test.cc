@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hypotheses/every_other_edge.h"
+#include "hypotheses/split_along_contours.h"
 
 #include <gtest/gtest.h>
 
@@ -29,21 +29,27 @@ EdgeIdxs UpTo(std::int32_t num_edges) {
   return edge_idxs;
 }
 
-TEST(EveryOtherAlongContours, TakesEveryOtherEdgeOfAContour) {
-  EXPECT_EQ(EveryOtherAlongContours(UpTo(5), Contour(5)), (EdgeIdxs{0, 2, 4}));
+TEST(SplitAlongContours, TakesEveryOtherEdgeOfAContourFirst) {
+  const TwoTurns turns = SplitAlongContours(UpTo(5), Contour(5));
+  EXPECT_EQ(turns.first, (EdgeIdxs{0, 2, 4}));
+  EXPECT_EQ(turns.second, (EdgeIdxs{1, 3}));
 }
 
-TEST(EveryOtherAlongContours, CountsOnlyTheEdgesThatAreGiven) {
-  EXPECT_EQ(EveryOtherAlongContours({1, 2, 4}, Contour(5)), (EdgeIdxs{1, 4}));
+TEST(SplitAlongContours, CountsOnlyTheEdgesThatAreAsked) {
+  const TwoTurns turns = SplitAlongContours({1, 2, 4}, Contour(5));
+  EXPECT_EQ(turns.first, (EdgeIdxs{1, 4}));
+  EXPECT_EQ(turns.second, (EdgeIdxs{2}));
 }
 
-TEST(EveryOtherAlongContours, TakesEdgesWithoutNeighbors) {
+TEST(SplitAlongContours, TakesEdgesWithoutNeighborsFirst) {
   const std::vector<EdgeNeighbors> none(3);
-  EXPECT_EQ(EveryOtherAlongContours(UpTo(3), none), UpTo(3));
+  const TwoTurns turns = SplitAlongContours(UpTo(3), none);
+  EXPECT_EQ(turns.first, UpTo(3));
+  EXPECT_TRUE(turns.second.empty());
 }
 
 // Links that cross, meet, and go one way only.
-TEST(EveryOtherAlongContours, LeavesOutOnlyEdgesThatLinkToOneThatIsTaken) {
+TEST(SplitAlongContours, LeavesEachEdgeOfTheSecondTurnNextToOneOfTheFirst) {
   constexpr std::int32_t kNumEdges = 101;
   std::vector<EdgeNeighbors> neighbors(kNumEdges);
   const auto links_to = [&](std::int32_t i, const EdgeIdxs& others) {
@@ -58,11 +64,16 @@ TEST(EveryOtherAlongContours, LeavesOutOnlyEdgesThatLinkToOneThatIsTaken) {
     if (i % 3 != 0) links.previous = (i * 37 + 11) % kNumEdges;
     if (i % 5 != 0) links.next = (i * 53 + 29) % kNumEdges;
   }
-  const EdgeIdxs taken = EveryOtherAlongContours(UpTo(kNumEdges), neighbors);
-  for (std::int32_t i = 0; i < kNumEdges; ++i) {
-    const auto at = std::lower_bound(taken.begin(), taken.end(), i);
-    const bool is_taken = at != taken.end() && *at == i;
-    EXPECT_EQ(is_taken, !links_to(i, EdgeIdxs(taken.begin(), at))) << i;
+  const TwoTurns turns = SplitAlongContours(UpTo(kNumEdges), neighbors);
+  EdgeIdxs all = turns.first;
+  all.insert(all.end(), turns.second.begin(), turns.second.end());
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(all, UpTo(kNumEdges));
+  for (const std::int32_t i : turns.second) {
+    EXPECT_TRUE(links_to(i, turns.first)) << i;
+  }
+  for (auto i = turns.first.begin(); i != turns.first.end(); ++i) {
+    EXPECT_FALSE(links_to(*i, EdgeIdxs(turns.first.begin(), i))) << *i;
   }
 }
 
