@@ -136,6 +136,15 @@ class Grower {
       const std::vector<EdgeRef>& refs) const {
     std::vector<PlaneMeasurement> measurements;
     for (const EdgeRef& ref : refs) measurements.push_back(Measure(ref));
+    // Sums must not depend on the order of views.
+    std::sort(measurements.begin(),
+              measurements.end(),
+              [](const PlaneMeasurement& m, const PlaneMeasurement& n) {
+                return std::lexicographical_compare(m.plane.begin(),
+                                                    m.plane.end(),
+                                                    n.plane.begin(),
+                                                    n.plane.end());
+              });
     return measurements;
   }
 

@@ -52,12 +52,13 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
     text << "None of " << num_curves
          << " curves passes the filters; lower the --CurveFilter options.";
   } else {
-    text << sketch.edges.size() << " 3D edges were found, but no curve "
-         << (options.curve_growth.enabled
-                 ? "that grows from them is shown clearly enough; see "
-                   "edges.ply, or lower --CurveGrowth.min_total_evidence."
-                 : "through them is long enough; see edges.ply, or lower "
-                   "--Connectivity.min_length_px.");
+    text << sketch.edges.size()
+         << (options.curve_growth.enabled && AreCrowded(edge_maps)
+                 ? " 3D edges were found, but no curve that grows from them is "
+                   "shown clearly enough; see edges.ply, or lower "
+                   "--CurveGrowth.min_total_evidence."
+                 : " 3D edges were found, but no run of them is long enough; "
+                   "see edges.ply, or lower --Connectivity.min_length_px.");
   }
   return text.str();
 }

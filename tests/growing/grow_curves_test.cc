@@ -119,7 +119,8 @@ TEST(GrowCurves, OneSeedGivesAWholeLine) {
     const CurveSample& sample = curves[0].samples[k];
     const bool is_end = k < 2 || k + 2 >= size;
     EXPECT_LT(seen.DistancePx(sample.position), is_end ? 1.2 : 0.3) << k;
-    EXPECT_GE(sample.support.size(), is_end ? 3u : 8u) << k;
+    // The seed itself has six.
+    EXPECT_GE(sample.support.size(), is_end ? 3u : 6u) << k;
     EXPECT_GT(sample.sigma, 0);
   }
 }
