@@ -137,14 +137,13 @@ class Grower {
     std::vector<PlaneMeasurement> measurements;
     for (const EdgeRef& ref : refs) measurements.push_back(Measure(ref));
     // Sums must not depend on the order of views.
-    std::sort(measurements.begin(),
-              measurements.end(),
-              [](const PlaneMeasurement& m, const PlaneMeasurement& n) {
-                return std::lexicographical_compare(m.plane.begin(),
-                                                    m.plane.end(),
-                                                    n.plane.begin(),
-                                                    n.plane.end());
-              });
+    std::sort(
+        measurements.begin(),
+        measurements.end(),
+        [](const PlaneMeasurement& m, const PlaneMeasurement& n) {
+          return std::lexicographical_compare(
+              m.plane.begin(), m.plane.end(), n.plane.begin(), n.plane.end());
+        });
     return measurements;
   }
 
@@ -206,7 +205,8 @@ class Grower {
         trusted.push_back(*look->hit);
       }
     }
-    grown.evidence = Evidence(votes, neighbors_);
+    // Rounded, so that the order of views makes no difference.
+    grown.evidence = std::round(1e6 * Evidence(votes, neighbors_)) / 1e6;
     tip.Correct(MeasureAll(trusted));
     grown.edge = tip.edge();
     grown.sigma = SigmaOf(grown, tip);
@@ -357,7 +357,14 @@ std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(
       order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return edges[a].evidence > edges[b].evidence;
+        // Ties must not depend on the last bits of sums.
+        const double first = std::round(1e6 * edges[a].evidence);
+        const double second = std::round(1e6 * edges[b].evidence);
+        if (first != second) return first > second;
+        return std::lexicographical_compare(edges[a].position.begin(),
+                                            edges[a].position.end(),
+                                            edges[b].position.begin(),
+                                            edges[b].position.end());
       });
   return order;
 }

@@ -65,8 +65,10 @@ double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
     AddDistances(edge, input, pilot.sigma_px, distances_px);
   }
   if (distances_px.size() < kMinNumDistances) return least_px;
-  return std::max(least_px,
-                  kSigmasOfMedianDistance * Median(std::move(distances_px)));
+  const double sigma_px =
+      kSigmasOfMedianDistance * Median(std::move(distances_px));
+  // Rounded, so that the last bits of sums make no difference.
+  return std::max(least_px, std::round(sigma_px * 1000) / 1000);
 }
 
 }  // namespace curvix
