@@ -16,7 +16,7 @@
 namespace curvix {
 
 // Grows a curve from each seed, those of most evidence first (ties: the smaller
-// index), unless earlier curves have most of its 2D edges.
+// position, by its coordinates), unless earlier curves have most of its 2D edges.
 //
 // From the seed, and in both directions, the curve steps on by a pixel along
 // its tangent (CurveTip). Each view is asked for the nearest edge where it
@@ -32,7 +32,7 @@ namespace curvix {
 // A curve exists if its evidence, summed over its samples, is at least
 // options.min_total_evidence; the others are left out and have no edges. How
 // surely its place is known has no part in that: the sigma of a sample is that
-// of a 3D edge with the same support.
+// of a 3D edge with the same support, before hits of too few in a row go.
 //
 // `indices` and `neighbors` by view. Samples are a pixel apart, of the view of
 // the seed's support that sees it largest. The curves are in the order of their
