@@ -52,13 +52,15 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
     text << "None of " << num_curves
          << " curves passes the filters; lower the --CurveFilter options.";
   } else {
-    text << sketch.edges.size()
-         << (options.curve_growth.enabled && AreCrowded(edge_maps)
-                 ? " 3D edges were found, but no curve that grows from them is "
-                   "shown clearly enough; see edges.ply, or lower "
-                   "--CurveGrowth.min_total_evidence."
-                 : " 3D edges were found, but no run of them is long enough; "
-                   "see edges.ply, or lower --Connectivity.min_length_px.");
+    text << sketch.edges.size() << " 3D edges were found, but no ";
+    if (options.curve_growth.enabled && AreCrowded(edge_maps)) {
+      text << "curve that grows from them is shown clearly enough; see "
+              "edges.ply, or lower --CurveGrowth.min_total_evidence.";
+    } else {
+      text << "run of them is " << options.connectivity.min_length_px
+           << " pixels long; see edges.ply, or lower "
+              "--Connectivity.min_length_px.";
+    }
   }
   return text.str();
 }
