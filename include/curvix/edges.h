@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -53,16 +54,13 @@ struct EdgeMap {
   std::int32_t num_dropped_masked = 0;
 };
 
-// Whether there are more than six views whose images had so many edges that
-// contours were thinned, as photographs have: curves then grow
-// (CurveGrowthOptions).
+// Whether an image had so many edges that contours were thinned, as photographs
+// have: curves then grow (CurveGrowthOptions).
 inline bool AreCrowded(const std::vector<EdgeMap>& edge_maps) {
-  constexpr std::size_t kFewViews = 6;
-  if (edge_maps.size() <= kFewViews) return false;
-  for (const EdgeMap& map : edge_maps) {
-    if (map.spacing_px > EdgeMap().spacing_px) return true;
-  }
-  return false;
+  return std::any_of(
+      edge_maps.begin(), edge_maps.end(), [](const EdgeMap& map) {
+        return map.spacing_px > EdgeMap().spacing_px;
+      });
 }
 
 // Names an edge of a view. Ordered by view, then edge.

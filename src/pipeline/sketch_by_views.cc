@@ -3,6 +3,7 @@
 // partners, for the edges that nothing explains yet; see docs/paper_map.md.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "base/angles.h"
@@ -250,9 +251,22 @@ Edge3d ToEdge3d(TrackedEdge tracked) {
   return edge;
 }
 
+// In an order that has nothing to do with that of views.
+bool IsBefore(const EdgeMap& a, const EdgeMap& b) {
+  return std::lexicographical_compare(
+      a.edges.begin(),
+      a.edges.end(),
+      b.edges.begin(),
+      b.edges.end(),
+      [](const Edge2d& edge, const Edge2d& other) {
+        return std::tie(edge.position.y(), edge.position.x()) <
+               std::tie(other.position.y(), other.position.x());
+      });
+}
+
 // The view with most unused edges among those not done; ties: that with more
-// edges in all, so that the order of views makes no difference, then the
-// smaller index.
+// edges in all, then that whose edges come first. So the order of views makes
+// no difference: many views may have as many edges as they are allowed.
 std::optional<int> NextView(const SketchInput& input,
                             const std::vector<int>& num_unused,
                             const std::vector<bool>& done) {
@@ -260,8 +274,12 @@ std::optional<int> NextView(const SketchInput& input,
   const auto rank = [&](std::size_t i) {
     return std::pair(num_unused[i], input.edge_maps[i].edges.size());
   };
+  const auto is_better = [&](std::size_t i) {
+    if (rank(i) != rank(*best)) return rank(i) > rank(*best);
+    return IsBefore(input.edge_maps[i], input.edge_maps[*best]);
+  };
   for (std::size_t i = 0; i < done.size(); ++i) {
-    if (!done[i] && (!best || rank(i) > rank(*best))) best = i;
+    if (!done[i] && (!best || is_better(i))) best = i;
   }
   if (!best) return std::nullopt;
   return static_cast<int>(*best);
