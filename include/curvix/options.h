@@ -163,14 +163,15 @@ struct ConnectivityOptions {
 // that grow from 3D edges along the contours of the images.
 struct CurveGrowthOptions {
   bool enabled = true;
-  // Least evidence of a sample, as of ValidationOptions; >= 0.
-  double min_evidence = 8.0;
-  // Least evidence of a sample, as a share of the mean of its curve. 0..1.
+  // Least evidence of a sample (as of ValidationOptions), as a share of the mean
+  // of its curve. 0..1.
   double min_relative_evidence = 0.3;
   // Longest stretch without support that is gone over. Pixels, 0..1000.
   double max_gap_px = 10.0;
-  // Least evidence of a curve: the sum over its samples, a pixel apart; >= 0.
-  double min_total_evidence = 300.0;
+  // Least evidence of a curve: the sum over its samples, a pixel apart, over the
+  // square root of how often a view was asked for one, times its contrast over
+  // that of the scene. >= 0.
+  double min_significance = 16.0;
 };
 
 // Beyond the paper: curves as a person would draw them.

@@ -212,14 +212,12 @@ void AddRows(ConnectivityOptions& o, Section row) {
 void AddRows(CurveGrowthOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "grow curves along the contours of the images, instead of Secs. 5 and 6");
-  row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
-      "curves end where the evidence of the images is less");
   row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
-      "the same, as a share of the mean evidence of the curve");
+      "curves end where the evidence falls to less than this share of its mean");
   row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
       "longest stretch that the images need not show");
-  row("min_total_evidence", &o.min_total_evidence, AtLeast(0), "", "",
-      "least evidence of a curve, summed over its samples, a pixel apart");
+  row("min_significance", &o.min_significance, AtLeast(0), "", "",
+      "least evidence of a curve, over the square root of what was asked");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {

@@ -2,12 +2,12 @@
 // Paper: none (beyond it).
 #include "growing/claimed_edges.h"
 
-#include <optional>
+#include "model/along_contour.h"
 
 namespace curvix {
 namespace {
 
-constexpr int kStepsAlongContour = 2;
+constexpr int kLinksAlongContour = 2;
 
 }  // namespace
 
@@ -29,18 +29,11 @@ void ClaimedEdges::Claim(const std::vector<EdgeRef>& hits) {
 
 void ClaimedEdges::ClaimAround(const std::vector<EdgeRef>& hits) {
   for (const EdgeRef& hit : hits) {
-    const std::vector<EdgeNeighbors>& neighbors =
-        indices_[static_cast<std::size_t>(hit.view_idx)].edges->neighbors;
-    for (const auto side : {&EdgeNeighbors::previous, &EdgeNeighbors::next}) {
-      EdgeRef at = hit;
-      for (int k = 0; k < kStepsAlongContour; ++k) {
-        const std::optional<std::int32_t> next =
-            neighbors[static_cast<std::size_t>(at.edge_idx)].*side;
-        if (!next) break;
-        at.edge_idx = *next;
-        ClaimOne(at);
-      }
-    }
+    ForEachAlongContour(
+        indices_[static_cast<std::size_t>(hit.view_idx)].edges->neighbors,
+        hit.edge_idx,
+        kLinksAlongContour,
+        [&](std::int32_t edge_idx) { ClaimOne({hit.view_idx, edge_idx}); });
   }
 }
 

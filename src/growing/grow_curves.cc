@@ -17,6 +17,7 @@
 #include "geometry/pixel_size.h"
 #include "growing/claimed_edges.h"
 #include "growing/curve_tip.h"
+#include "growing/keep_significant.h"
 
 namespace curvix {
 namespace {
@@ -48,6 +49,7 @@ struct GrownSample {
   double sigma = 0;  // world units
   double evidence = 0;
   std::vector<EdgeRef> hits;  // ascending
+  std::int64_t num_looks = 0;
 };
 
 // What one view says of a place.
@@ -98,7 +100,7 @@ class Grower {
         options_(options),
         claimed_(indices) {}
 
-  std::optional<Curve> Grow(const Edge3d& seed) {
+  std::optional<GrownCurve> Grow(const Edge3d& seed) {
     const std::vector<EdgeRef> support = claimed_.FreeOf(seed.support);
     const double pixel = PixelSize(seed.position, support, views_);
     if (support.size() < kMinNumSupports ||
@@ -107,20 +109,26 @@ class Grower {
     }
     const CurveTip tip(
         {seed.position, seed.tangent}, MeasureAll(support), sigma_px_, pixel);
-    const GrownSample first{tip.edge(), tip.Sigma(), seed.evidence, support};
-    Curve curve;
-    std::vector<GrownSample> path = GrowBothWays(tip, first, &curve.closed);
+    const GrownSample first{tip.edge(),
+                            tip.Sigma(),
+                            seed.evidence,
+                            support,
+                            static_cast<std::int64_t>(support.size())};
+    GrownCurve grown;
+    std::vector<GrownSample> path =
+        GrowBothWays(tip, first, &grown.curve.closed);
     claimed_.GiveBack();
     DropShortStreaks(path);
-    if (!curve.closed) TrimEnds(path);
-    if (!Exists(path)) return std::nullopt;
-    for (GrownSample& grown : path) {
-      claimed_.Claim(grown.hits);
-      claimed_.ClaimAround(grown.hits);
-      curve.samples.push_back(ToCurveSample(std::move(grown)));
+    if (!grown.curve.closed) TrimEnds(path);
+    if (path.size() < kMinNumSamples) return std::nullopt;
+    for (GrownSample& sample : path) {
+      claimed_.Claim(sample.hits);
+      claimed_.ClaimAround(sample.hits);
+      grown.num_looks += sample.num_looks;
+      grown.curve.samples.push_back(ToCurveSample(std::move(sample)));
     }
     claimed_.Keep();
-    return curve;
+    return grown;
   }
 
  private:
@@ -199,6 +207,7 @@ class Grower {
     for (std::size_t v = 0; v < indices_.size(); ++v) {
       const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
       if (!look) continue;
+      ++grown.num_looks;
       votes[v] = look->vote;
       if (look->hit) grown.hits.push_back(*look->hit);
       if (streaks.Count(v, look->hit.has_value())) {
@@ -238,7 +247,6 @@ class Grower {
       path.push_back(StepOn(tip, streaks, trusted));
       const double evidence = path.back().evidence;
       if (trusted.size() >= kMinNumSupports &&
-          evidence >= options_.min_evidence &&
           evidence * num_evidence >=
               options_.min_relative_evidence * sum_evidence) {
         sum_evidence += evidence;
@@ -287,13 +295,6 @@ class Grower {
     std::reverse(path.begin(), path.end());
     for (GrownSample& grown : path) grown.edge.tangent = -grown.edge.tangent;
     return path;
-  }
-
-  bool Exists(const std::vector<GrownSample>& path) const {
-    double evidence = 0;
-    for (const GrownSample& grown : path) evidence += grown.evidence;
-    return path.size() >= kMinNumSamples &&
-           evidence >= options_.min_total_evidence;
   }
 
   // Leaves out the hits of a view in fewer than kStreak samples; one miss in
@@ -379,13 +380,14 @@ std::vector<Curve> GrowCurves(
     double edge_sigma_px,
     const CurveGrowthOptions& options) {
   Grower grower(views, indices, neighbors, edge_sigma_px, options);
-  std::vector<Curve> curves;
+  std::vector<GrownCurve> curves;
   for (const std::size_t i : ByFallingEvidence(seeds)) {
-    if (auto curve = grower.Grow(seeds[i])) {
-      curves.push_back(*std::move(curve));
+    if (auto grown = grower.Grow(seeds[i])) {
+      curves.push_back(*std::move(grown));
     }
   }
-  return curves;
+  return KeepSignificant(
+      std::move(curves), indices, options.min_significance);
 }
 
 }  // namespace curvix

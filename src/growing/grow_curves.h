@@ -23,16 +23,16 @@ namespace curvix {
 // should show the new place, of those that no earlier curve has. Views that
 // have shown the curve three times in a row correct the tip, until they miss it
 // three times; views that cannot tell do neither. A sample is shown if at least
-// three such views support it and its evidence (evidence.h) is at least
-// options.min_evidence and the share options.min_relative_evidence of the mean
-// of the curve so far. A curve ends with its last shown sample before a stretch
+// three such views support it and its evidence (evidence.h) is at least the
+// share options.min_relative_evidence of the mean of the curve so far. A curve ends with its last shown sample before a stretch
 // of more than options.max_gap_px without any; it is closed where it comes back
 // to its seed.
 //
-// A curve exists if its evidence, summed over its samples, is at least
-// options.min_total_evidence; the others are left out and have no edges. How
-// surely its place is known has no part in that: the sigma of a sample is that
-// of a 3D edge with the same support, before hits of too few in a row go.
+// A curve exists if it is significant (keep_significant.h,
+// options.min_significance); the others are left out, and their edges show no
+// other curve. How surely its place is known has no part in that: the sigma of
+// a sample is that of a 3D edge with the same support, before hits of too few
+// in a row go.
 //
 // `indices` and `neighbors` by view. Samples are a pixel apart, of the view of
 // the seed's support that sees it largest. The curves are in the order of their

@@ -2,26 +2,26 @@
 // Paper: none (beyond it).
 #include "hypotheses/split_along_contours.h"
 
-#include <cstddef>
-#include <optional>
+#include "model/along_contour.h"
 
 namespace curvix {
 
 TwoTurns SplitAlongContours(const std::vector<std::int32_t>& edge_idxs,
-                            const std::vector<EdgeNeighbors>& neighbors) {
+                            const std::vector<EdgeNeighbors>& neighbors,
+                            int step) {
   TwoTurns turns;
   std::vector<bool> is_first(neighbors.size(), false);
-  const auto leads_to_first = [&](const std::optional<std::int32_t>& link) {
-    return link && is_first[static_cast<std::size_t>(*link)];
-  };
   for (const std::int32_t edge_idx : edge_idxs) {
-    const auto i = static_cast<std::size_t>(edge_idx);
-    if (leads_to_first(neighbors[i].previous) ||
-        leads_to_first(neighbors[i].next)) {
+    bool leads_to_first = false;
+    ForEachAlongContour(
+        neighbors, edge_idx, step - 1, [&](std::int32_t other) {
+          leads_to_first |= is_first[static_cast<std::size_t>(other)];
+        });
+    if (leads_to_first) {
       turns.second.push_back(edge_idx);
     } else {
       turns.first.push_back(edge_idx);
-      is_first[i] = true;
+      is_first[static_cast<std::size_t>(edge_idx)] = true;
     }
   }
   return turns;

@@ -13,13 +13,16 @@ namespace curvix {
 // fate: what the first turn finds tells which edges of the second are worth
 // their cost.
 struct TwoTurns {
-  std::vector<std::int32_t> first;   // none links to one before it
-  std::vector<std::int32_t> second;  // each links to one of `first`
+  // Fewer than `step` links lead from none of them to one before it,
+  std::vector<std::int32_t> first;
+  // and from each of these to one of `first`.
+  std::vector<std::int32_t> second;
 };
 
-// Splits `edge_idxs`, in their order; `neighbors` by edge index. Takes
-// O(edges).
+// Splits `edge_idxs`, in their order; `neighbors` by edge index; `step` >= 2.
+// Takes O(edges * step).
 TwoTurns SplitAlongContours(const std::vector<std::int32_t>& edge_idxs,
-                            const std::vector<EdgeNeighbors>& neighbors);
+                            const std::vector<EdgeNeighbors>& neighbors,
+                            int step);
 
 }  // namespace curvix

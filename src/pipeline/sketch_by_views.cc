@@ -11,6 +11,7 @@
 #include "hypotheses/select_validators.h"
 #include "hypotheses/select_views.h"
 #include "hypotheses/split_along_contours.h"
+#include "model/along_contour.h"
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
 #include "pipeline/view_indices.h"
@@ -226,18 +227,26 @@ class ViewSketcher {
   double sigma_px_;
 };
 
-// The edge itself and its neighbours along the contour: a 3D edge takes one 2D
-// edge per view, although contours are sampled at different steps.
+// Links along a contour from one edge that asks to the next: every other one
+// asks, fewer where curves will grow from what they find.
+int LinksBetweenAsking(const std::vector<EdgeMap>& edge_maps) {
+  return AreCrowded(edge_maps) ? 4 : 2;
+}
+
+// The edge itself and its neighbours along the contour, as far as the next ones
+// that ask: a 3D edge takes one 2D edge per view, although contours are sampled
+// at different steps.
 void MarkSupport(const std::vector<EdgeRef>& support,
                  const std::vector<EdgeMap>& edge_maps,
+                 int num_links,
                  UsedEdges& used) {
   for (const EdgeRef& ref : support) {
     used.Mark(ref);
-    const EdgeNeighbors& neighbors =
-        edge_maps[static_cast<std::size_t>(ref.view_idx)]
-            .neighbors[static_cast<std::size_t>(ref.edge_idx)];
-    if (neighbors.previous) used.Mark({ref.view_idx, *neighbors.previous});
-    if (neighbors.next) used.Mark({ref.view_idx, *neighbors.next});
+    ForEachAlongContour(
+        edge_maps[static_cast<std::size_t>(ref.view_idx)].neighbors,
+        ref.edge_idx,
+        num_links,
+        [&](std::int32_t edge_idx) { used.Mark({ref.view_idx, edge_idx}); });
   }
 }
 
@@ -298,9 +307,9 @@ std::vector<std::int32_t> UnusedEdgesOf(int view_idx,
   return edge_idxs;
 }
 
-// What the unused edges of view h1 that ask lead to, in their order: every
-// other one along a contour, then those next to one that led to a 3D edge,
-// unless curves will grow over these.
+// What the unused edges of view h1 that ask lead to, in their order: some along
+// each contour, then those next to one that led to a 3D edge, unless curves
+// will grow over these.
 std::vector<H1Result> AskInTurns(const SketchInput& input,
                                  const ViewSketcher& sketcher,
                                  int h1,
@@ -321,8 +330,10 @@ std::vector<H1Result> AskInTurns(const SketchInput& input,
     const auto& result = results[static_cast<std::size_t>(*edge_idx)];
     return result && !result->tracked.empty();
   };
-  TwoTurns turns = SplitAlongContours(
-      UnusedEdgesOf(h1, map, used, input.h1_step), map.neighbors);
+  TwoTurns turns =
+      SplitAlongContours(UnusedEdgesOf(h1, map, used, input.h1_step),
+                         map.neighbors,
+                         LinksBetweenAsking(input.edge_maps));
   ask(turns.first);
   if (AreCrowded(input.edge_maps)) turns.second.clear();
   std::erase_if(turns.second, [&](std::int32_t edge_idx) {
@@ -342,13 +353,14 @@ void Add(H1Result result,
          const std::vector<EdgeMap>& edge_maps,
          UsedEdges& used,
          EdgeSketch& sketch) {
+  const int num_links = LinksBetweenAsking(edge_maps) - 1;
   ++sketch.counts.h1_edges;
   sketch.counts.hypotheses += result.hypotheses;
   sketch.counts.unsupported += result.unsupported;
   sketch.counts.rivals += result.rivals;
-  MarkSupport(result.also_shown, edge_maps, used);
+  MarkSupport(result.also_shown, edge_maps, num_links, used);
   for (TrackedEdge& tracked : result.tracked) {
-    MarkSupport(tracked.support, edge_maps, used);
+    MarkSupport(tracked.support, edge_maps, num_links, used);
     sketch.edges.push_back(ToEdge3d(std::move(tracked)));
   }
 }

@@ -55,7 +55,7 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
     text << sketch.edges.size() << " 3D edges were found, but no ";
     if (options.curve_growth.enabled && AreCrowded(edge_maps)) {
       text << "curve that grows from them is shown clearly enough; see "
-              "edges.ply, or lower --CurveGrowth.min_total_evidence.";
+              "edges.ply, or lower --CurveGrowth.min_significance.";
     } else {
       text << "run of them is " << options.connectivity.min_length_px
            << " pixels long; see edges.ply, or lower "

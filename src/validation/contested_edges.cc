@@ -6,16 +6,16 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "geometry/pixel_size.h"
+#include "model/along_contour.h"
 
 namespace curvix {
 namespace {
 
 // A contour is sampled about every half pixel.
-constexpr int kStepsAlongContour = 2;
+constexpr int kLinksAlongContour = 2;
 constexpr double kSamePlacePx = 0.5;
 constexpr double kSamePlaceSigmas = 4;
 constexpr std::int32_t kNobody = -1;
@@ -49,14 +49,17 @@ class Claims {
   void Claim(std::size_t edge_idx) {
     for (const EdgeRef& ref : edges_[edge_idx].support) {
       ClaimOne(ref, edge_idx);
-      ClaimAlong(ref, &EdgeNeighbors::previous, edge_idx);
-      ClaimAlong(ref, &EdgeNeighbors::next, edge_idx);
+      ForEachAlongContour(
+          edge_maps_[static_cast<std::size_t>(ref.view_idx)].neighbors,
+          ref.edge_idx,
+          kLinksAlongContour,
+          [&](std::int32_t other) {
+            ClaimOne({ref.view_idx, other}, edge_idx);
+          });
     }
   }
 
  private:
-  using Neighbor = std::optional<std::int32_t> EdgeNeighbors::*;
-
   bool AreAtSamePlace(std::size_t i, std::size_t k) const {
     const Edge3d& edge = edges_[i];
     const Edge3d& other = edges_[k];
@@ -71,18 +74,6 @@ class Claims {
     std::int32_t& owner = owners_[static_cast<std::size_t>(ref.view_idx)]
                                  [static_cast<std::size_t>(ref.edge_idx)];
     if (owner == kNobody) owner = static_cast<std::int32_t>(edge_idx);
-  }
-
-  void ClaimAlong(EdgeRef ref, Neighbor neighbor, std::size_t edge_idx) {
-    const std::vector<EdgeNeighbors>& neighbors =
-        edge_maps_[static_cast<std::size_t>(ref.view_idx)].neighbors;
-    for (int step = 0; step < kStepsAlongContour; ++step) {
-      const std::optional<std::int32_t> next =
-          neighbors[static_cast<std::size_t>(ref.edge_idx)].*neighbor;
-      if (!next) return;
-      ref.edge_idx = *next;
-      ClaimOne(ref, edge_idx);
-    }
   }
 
   const std::vector<Edge3d>& edges_;

@@ -217,12 +217,12 @@ TEST(GrowCurves, GoesOverShortGapsOnly) {
   }
 }
 
-TEST(GrowCurves, WhatHasTooLittleEvidenceLeavesItsEdgesToOthers) {
+TEST(GrowCurves, WhatIsTooShortLeavesItsEdgesToOthers) {
   const Seen seen({kLine});
   CurveGrowthOptions options;
-  options.min_total_evidence = 1e6;
+  options.min_significance = 1e6;
   EXPECT_TRUE(seen.Grow({seen.Seed(0, 0.3)}, options).empty());
-  options.min_total_evidence = 0;
+  options.min_significance = 0;
   options.max_gap_px = 0;
   // The strongest seed is turned away from the line and finds nothing.
   Edge3d wrong = seen.Seed(0, 0.5, 90);

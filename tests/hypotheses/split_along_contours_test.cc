@@ -30,20 +30,26 @@ EdgeIdxs UpTo(std::int32_t num_edges) {
 }
 
 TEST(SplitAlongContours, TakesEveryOtherEdgeOfAContourFirst) {
-  const TwoTurns turns = SplitAlongContours(UpTo(5), Contour(5));
+  const TwoTurns turns = SplitAlongContours(UpTo(5), Contour(5), 2);
   EXPECT_EQ(turns.first, (EdgeIdxs{0, 2, 4}));
   EXPECT_EQ(turns.second, (EdgeIdxs{1, 3}));
 }
 
+TEST(SplitAlongContours, TakesFewerWithALargerStep) {
+  const TwoTurns turns = SplitAlongContours(UpTo(10), Contour(10), 4);
+  EXPECT_EQ(turns.first, (EdgeIdxs{0, 4, 8}));
+  EXPECT_EQ(turns.second, (EdgeIdxs{1, 2, 3, 5, 6, 7, 9}));
+}
+
 TEST(SplitAlongContours, CountsOnlyTheEdgesThatAreAsked) {
-  const TwoTurns turns = SplitAlongContours({1, 2, 4}, Contour(5));
+  const TwoTurns turns = SplitAlongContours({1, 2, 4}, Contour(5), 2);
   EXPECT_EQ(turns.first, (EdgeIdxs{1, 4}));
   EXPECT_EQ(turns.second, (EdgeIdxs{2}));
 }
 
 TEST(SplitAlongContours, TakesEdgesWithoutNeighborsFirst) {
   const std::vector<EdgeNeighbors> none(3);
-  const TwoTurns turns = SplitAlongContours(UpTo(3), none);
+  const TwoTurns turns = SplitAlongContours(UpTo(3), none, 2);
   EXPECT_EQ(turns.first, UpTo(3));
   EXPECT_TRUE(turns.second.empty());
 }
@@ -64,7 +70,7 @@ TEST(SplitAlongContours, LeavesEachEdgeOfTheSecondTurnNextToOneOfTheFirst) {
     if (i % 3 != 0) links.previous = (i * 37 + 11) % kNumEdges;
     if (i % 5 != 0) links.next = (i * 53 + 29) % kNumEdges;
   }
-  const TwoTurns turns = SplitAlongContours(UpTo(kNumEdges), neighbors);
+  const TwoTurns turns = SplitAlongContours(UpTo(kNumEdges), neighbors, 2);
   EdgeIdxs all = turns.first;
   all.insert(all.end(), turns.second.begin(), turns.second.end());
   std::sort(all.begin(), all.end());
