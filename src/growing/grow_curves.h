@@ -16,7 +16,8 @@
 namespace curvix {
 
 // Grows a curve from each seed, those of most evidence first (ties: the smaller
-// position, by its coordinates), unless earlier curves have most of its 2D edges.
+// position, by its coordinates), unless earlier curves have most of its 2D
+// edges.
 //
 // From the seed, and in both directions, the curve steps on by a pixel along
 // its tangent (CurveTip). Each view is asked for the nearest edge where it
@@ -24,9 +25,9 @@ namespace curvix {
 // have shown the curve three times in a row correct the tip, until they miss it
 // three times; views that cannot tell do neither. A sample is shown if at least
 // three such views support it and its evidence (evidence.h) is at least the
-// share options.min_relative_evidence of the mean of the curve so far. A curve ends with its last shown sample before a stretch
-// of more than options.max_gap_px without any; it is closed where it comes back
-// to its seed.
+// share options.min_relative_evidence of the mean of the curve so far. A curve
+// ends with its last shown sample before a stretch of more than
+// options.max_gap_px without any; it is closed where it comes back to its seed.
 //
 // A curve exists if it is significant (keep_significant.h,
 // options.min_significance); the others are left out, and their edges show no

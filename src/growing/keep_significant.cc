@@ -15,7 +15,8 @@ double MeanStrength(const Curve& curve, const std::vector<ViewIndex>& indices) {
   double count = 0;
   for (const CurveSample& sample : curve.samples) {
     for (const EdgeRef& ref : sample.support) {
-      const EdgeMap& map = *indices[static_cast<std::size_t>(ref.view_idx)].edges;
+      const EdgeMap& map =
+          *indices[static_cast<std::size_t>(ref.view_idx)].edges;
       sum += map.edges[static_cast<std::size_t>(ref.edge_idx)].strength;
       count += 1;
     }
