@@ -30,8 +30,9 @@ struct EdgeDetectionOptions {
   // Short contours are weak if their mean gradient is below this many times the
   // weakest gradient kept; >= 0, and up to 1 drops none.
   double short_contour_factor = 2.0;
-  // Most edges of an image per million pixels, though any image may have 10,000. Contours of images with more are thinned, and those
-  // that tell most of structure are kept, strong and straight ones; > 0.
+  // Most edges of an image per million pixels, though any image may have
+  // 10,000. Contours of images with more are thinned, and those that tell most
+  // of structure are kept, strong and straight ones; > 0.
   double max_edges_per_megapixel = 25000;
   // Parallel edges that blur has moved apart or together are moved back.
   bool separate_edges = true;

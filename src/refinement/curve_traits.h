@@ -40,8 +40,7 @@ struct CurveTraits {
 // median sharpness of the steeper half of its edges, or five standard
 // deviations below it, if these differ more, as in photographs, of which some
 // parts are out of focus. The standard deviation is that of the logarithm, from
-// the lower quartile. 0, which nothing is blurred for, if
-// it is not known.
+// the lower quartile. 0 if it is not known: then nothing counts as blurred.
 std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps);
 
 // `edge_sigma_px`: the standard deviation of a 2D edge's place that the sigmas
