@@ -19,8 +19,8 @@
 namespace curvix {
 namespace {
 
-// The weakest edges of a crowded image are dropped before they are linked:
-// those beyond so many times what is kept.
+// The least prominent edges of a crowded image are dropped before they are
+// linked: those beyond so many times what is kept.
 constexpr std::int64_t kCrowd = 2;
 // Contours of crowded images are thinned to one edge a pixel, so that three
 // times as many of them fit into the limit.
@@ -85,14 +85,14 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   std::vector<Edge2d> edges = LocateEdges(*image, options, min_gradient);
   const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
   if (!num_masked.ok()) return num_masked.status();
-  const std::int32_t num_weakest =
-      DropWeakest(kCrowd * kThinning * max_edges, &edges);
+  const std::int32_t num_unlinked =
+      DropLeastProminent(kCrowd * kThinning * max_edges, &edges);
   KeptEdges kept = KeepContours(edges,
                                 LinkNeighbors(edges, options),
                                 options,
                                 min_gradient,
                                 kThinning * max_edges);
-  map.num_dropped_over_limit = num_weakest + kept.num_over_limit;
+  map.num_dropped_over_limit = num_unlinked + kept.num_over_limit;
   map.edges = std::move(kept.edges);
   OrientEdges(*image, options, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);

@@ -12,6 +12,7 @@
 
 #include "base/angles.h"
 #include "base/check.h"
+#include "edge_detection/prominence.h"
 
 namespace curvix {
 namespace {
@@ -112,17 +113,13 @@ double MeanStraightRun(const std::vector<Edge2d>& edges, const Path& path) {
 struct Contour {
   std::int64_t num_edges = 0;
   double strength = 0;  // mean of its edges
-  // How much it tells of structure: strength times the square root of the
-  // length of its straight runs. Foliage and gravel are short and bent.
-  double structure = 0;
   bool is_kept = false;
 };
 
 std::vector<Contour> Measure(const std::vector<Edge2d>& edges,
-                             const std::vector<EdgeNeighbors>& neighbors,
-                             const std::vector<std::int32_t>& labels) {
+                             const std::vector<Path>& paths) {
   std::vector<Contour> contours;
-  for (const Path& path : OrderAlong(neighbors, labels)) {
+  for (const Path& path : paths) {
     Contour& contour = contours.emplace_back();
     contour.num_edges = static_cast<std::int64_t>(path.size());
     for (const std::int32_t i : path) {
@@ -130,14 +127,40 @@ std::vector<Contour> Measure(const std::vector<Edge2d>& edges,
           static_cast<double>(edges[static_cast<std::size_t>(i)].strength);
     }
     contour.strength /= static_cast<double>(path.size());
-    contour.structure =
-        contour.strength * std::sqrt(MeanStraightRun(edges, path));
   }
   return contours;
 }
 
+// How much each contour tells of structure: the mean prominence of its edges
+// times the square root of the length of its straight runs. Foliage and gravel
+// are short, bent and crowded.
+std::vector<double> MeasureStructure(const std::vector<Edge2d>& edges,
+                                     const std::vector<Path>& paths) {
+  const std::vector<double> prominence = Prominence(edges);
+  std::vector<double> structure;
+  structure.reserve(paths.size());
+  for (const Path& path : paths) {
+    double sum = 0;
+    for (const std::int32_t i : path) {
+      sum += prominence[static_cast<std::size_t>(i)];
+    }
+    structure.push_back(sum / static_cast<double>(path.size()) *
+                        std::sqrt(MeanStraightRun(edges, path)));
+  }
+  return structure;
+}
+
+std::int64_t NumKept(const std::vector<Contour>& contours) {
+  std::int64_t num_edges = 0;
+  for (const Contour& contour : contours) {
+    if (contour.is_kept) num_edges += contour.num_edges;
+  }
+  return num_edges;
+}
+
 // Of the contours that are kept, keeps the first that fit.
-void KeepStructure(std::int64_t min_contour_edges,
+void KeepStructure(const std::vector<double>& structure,
+                   std::int64_t min_contour_edges,
                    std::int64_t max_edges,
                    std::vector<Contour>& contours) {
   std::vector<std::size_t> order;
@@ -146,7 +169,7 @@ void KeepStructure(std::int64_t min_contour_edges,
   }
   const auto rank = [&](std::size_t i) {
     const bool is_short = contours[i].num_edges < min_contour_edges;
-    return std::tuple(is_short, -contours[i].structure, i);
+    return std::tuple(is_short, -structure[i], i);
   };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return rank(a) < rank(b);
@@ -160,16 +183,19 @@ void KeepStructure(std::int64_t min_contour_edges,
 
 }  // namespace
 
-std::int32_t DropWeakest(std::int64_t max_edges, std::vector<Edge2d>* edges) {
+std::int32_t DropLeastProminent(std::int64_t max_edges,
+                                std::vector<Edge2d>* edges) {
   if (static_cast<std::int64_t>(edges->size()) <= max_edges) return 0;
-  std::vector<float> strengths;
-  strengths.reserve(edges->size());
-  for (const Edge2d& edge : *edges) strengths.push_back(edge.strength);
-  const auto last =
-      strengths.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
-  std::nth_element(strengths.begin(), last, strengths.end(), std::greater<>());
-  return static_cast<std::int32_t>(std::erase_if(
-      *edges, [&](const Edge2d& edge) { return edge.strength < *last; }));
+  const std::vector<double> prominence = Prominence(*edges);
+  std::vector<double> falling = prominence;
+  const auto last = falling.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
+  std::nth_element(falling.begin(), last, falling.end(), std::greater<>());
+  std::vector<Edge2d> kept;
+  for (std::size_t i = 0; i < edges->size(); ++i) {
+    if (prominence[i] >= *last) kept.push_back((*edges)[i]);
+  }
+  std::swap(kept, *edges);
+  return static_cast<std::int32_t>(kept.size() - edges->size());
 }
 
 std::vector<std::int32_t> LabelContours(
@@ -195,7 +221,8 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        std::int64_t max_edges) {
   CURVIX_CHECK(edges.size() == neighbors.size(), edges.size() << " edges");
   const std::vector<std::int32_t> labels = LabelContours(neighbors);
-  std::vector<Contour> contours = Measure(edges, neighbors, labels);
+  const std::vector<Path> paths = OrderAlong(neighbors, labels);
+  std::vector<Contour> contours = Measure(edges, paths);
   const double weak = options.short_contour_factor * min_gradient;
   KeptEdges kept;
   for (Contour& contour : contours) {
@@ -204,7 +231,12 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
     if (contour.is_kept) continue;
     kept.num_isolated += static_cast<std::int32_t>(contour.num_edges);
   }
-  KeepStructure(options.min_contour_edges, max_edges, contours);
+  if (NumKept(contours) > max_edges) {
+    KeepStructure(MeasureStructure(edges, paths),
+                  options.min_contour_edges,
+                  max_edges,
+                  contours);
+  }
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (contours[static_cast<std::size_t>(labels[i])].is_kept) {
       kept.edges.push_back(edges[i]);

@@ -10,10 +10,11 @@
 
 namespace curvix {
 
-// Drops the weakest edges, all but `max_edges` (>= 1) and what is as strong as
-// the last of these; keeps the order of the others. Returns how many it
-// dropped.
-std::int32_t DropWeakest(std::int64_t max_edges, std::vector<Edge2d>* edges);
+// Drops the edges of least Prominence(), all but `max_edges` (>= 1) and what is
+// as prominent as the last of these; keeps the order of the others. Returns how
+// many it dropped.
+std::int32_t DropLeastProminent(std::int64_t max_edges,
+                                std::vector<Edge2d>* edges);
 
 // The contour of each edge: edges joined by mutual links have the same number.
 // Contours are numbered from 0 in the order of their first edges.
@@ -33,10 +34,10 @@ struct KeptEdges {
 // options.short_contour_factor * min_gradient. (Strong short contours are
 // corners and tight bends.) If more than `max_edges` are left, keeps
 // whole contours in turn, those that tell most of structure first: those of
-// options.min_contour_edges before shorter ones, then by mean strength times
+// options.min_contour_edges before shorter ones, then by mean Prominence() times
 // the square root of the mean length of their straight runs, then by number, up
-// to the first that does not fit. Edges and `neighbors`
-// correspond; `min_gradient` is that of the detector.
+// to the first that does not fit. Edges and `neighbors` correspond;
+// `min_gradient` is that of the detector.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,

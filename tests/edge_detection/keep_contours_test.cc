@@ -48,16 +48,17 @@ class KeepContoursTest : public ::testing::Test {
   std::vector<EdgeNeighbors> neighbors_;
 };
 
-TEST(DropWeakest, KeepsTheOrderAndWhatIsAsStrongAsTheLast) {
+TEST(DropLeastProminent, KeepsTheOrderAndWhatIsAsProminentAsTheLast) {
   std::vector<Edge2d> edges(6);
   const std::vector<float> strengths = {3, 1, 4, 2, 3, 5};
   for (std::size_t i = 0; i < edges.size(); ++i) {
+    edges[i].position.x() = 100.0 * static_cast<double>(i);
     edges[i].strength = strengths[i];
   }
   std::vector<Edge2d> all = edges;
-  EXPECT_EQ(DropWeakest(6, &all), 0);
+  EXPECT_EQ(DropLeastProminent(6, &all), 0);
   EXPECT_EQ(all.size(), 6u);
-  EXPECT_EQ(DropWeakest(3, &edges), 2) << "two of the four are equally strong";
+  EXPECT_EQ(DropLeastProminent(3, &edges), 2) << "two of the four are equally prominent";
   ASSERT_EQ(edges.size(), 4u);
   EXPECT_EQ(edges[0].strength, 3);
   EXPECT_EQ(edges[1].strength, 4);
@@ -138,6 +139,19 @@ TEST_F(KeepContoursTest, KeepsLongWeakLinesBeforeShortSteepOnes) {
   Build({{5, 30}, {100, 12}, {5, 30}});
   EXPECT_EQ(Strengths(Keep(105)), (std::vector<float>{30, 12}));
   EXPECT_EQ(Strengths(Keep(100)), (std::vector<float>{12}));
+}
+
+TEST_F(KeepContoursTest, KeepsBordersBeforeTextureSomewhatStronger) {
+  Build({{40, 25}, {40, 30}, {40, 30}, {40, 30}});
+  // The first line stands alone; the others are the middle of three, and two
+  // that have an empty side.
+  const std::vector<double> ys = {100, 20, 12, 28};
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    edges_[i].position = {static_cast<double>(i % 40), ys[i / 40]};
+  }
+  const KeptEdges kept = Keep(120);
+  ASSERT_EQ(kept.edges.size(), 120u);
+  for (const Edge2d& edge : kept.edges) EXPECT_NE(edge.position.y(), 20);
 }
 
 TEST(ThinContours, LeavesNoLargerGapsThanItMust) {

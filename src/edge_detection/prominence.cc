@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Structure apart from texture.
+#include "edge_detection/prominence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace curvix {
+namespace {
+
+constexpr double kDistancePx = 8;
+constexpr int kSquarePx = 9;
+// A mean strength beside an edge, as a share of its own, that halves its
+// prominence.
+constexpr double kCrowded = 0.2;
+
+cv::Point PixelAt(const Eigen::Vector2d& position) {
+  return {static_cast<int>(std::floor(position.x())),
+          static_cast<int>(std::floor(position.y()))};
+}
+
+// The mean strength in the square about each pixel. Only as much of the image
+// as has edges.
+cv::Mat1f StrengthPerPixel(const std::vector<Edge2d>& edges) {
+  cv::Point last(0, 0);
+  for (const Edge2d& edge : edges) {
+    const cv::Point pixel = PixelAt(edge.position);
+    last = {std::max(last.x, pixel.x), std::max(last.y, pixel.y)};
+  }
+  cv::Mat1f strengths(last.y + 1, last.x + 1, 0.0f);
+  for (const Edge2d& edge : edges) {
+    strengths(PixelAt(edge.position)) += edge.strength;
+  }
+  cv::boxFilter(strengths,
+                strengths,
+                CV_32F,
+                {kSquarePx, kSquarePx},
+                {-1, -1},
+                true,
+                cv::BORDER_CONSTANT);
+  return strengths;
+}
+
+}  // namespace
+
+std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
+  const cv::Mat1f strengths = StrengthPerPixel(edges);
+  const cv::Rect inside({0, 0}, strengths.size());
+  const auto strength_at = [&](const Eigen::Vector2d& position) {
+    const cv::Point pixel = PixelAt(position);
+    return inside.contains(pixel) ? strengths(pixel) : 0.0f;
+  };
+  std::vector<double> prominence;
+  prominence.reserve(edges.size());
+  for (const Edge2d& edge : edges) {
+    const double angle = static_cast<double>(edge.angle);
+    const Eigen::Vector2d aside =
+        kDistancePx * Eigen::Vector2d(-std::sin(angle), std::cos(angle));
+    const float emptier = std::min(strength_at(edge.position + aside),
+                                   strength_at(edge.position - aside));
+    const double strength = static_cast<double>(edge.strength);
+    prominence.push_back(
+        strength /
+        (1 + static_cast<double>(emptier) / (kCrowded * strength)));
+  }
+  return prominence;
+}
+
+}  // namespace curvix

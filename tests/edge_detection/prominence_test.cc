@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_detection/prominence.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace curvix {
+namespace {
+
+// Horizontal lines of 60 edges, one a pixel, in rows `ys`.
+std::vector<Edge2d> Lines(const std::vector<double>& ys, float strength) {
+  std::vector<Edge2d> edges;
+  for (const double y : ys) {
+    for (int x = 20; x < 80; ++x) {
+      Edge2d edge;
+      edge.position = {x + 0.5, y};
+      edge.strength = strength;
+      edges.push_back(edge);
+    }
+  }
+  return edges;
+}
+
+float AtMiddle(const std::vector<Edge2d>& edges, std::size_t line) {
+  return static_cast<float>(Prominence(edges).at(60 * line + 30));
+}
+
+TEST(Prominence, CountsTheEmptierSide) {
+  EXPECT_FLOAT_EQ(AtMiddle(Lines({50}, 10), 0), 10);
+  const std::vector<Edge2d> three = Lines({42, 50, 58}, 10);
+  EXPECT_FLOAT_EQ(AtMiddle(three, 0), 10) << "the first line is a border";
+  EXPECT_NEAR(AtMiddle(three, 1), 10 / (1 + 9.0 / 81 / 0.2), 1e-5)
+      << "nine edges in a square of 81 pixels, each as strong";
+  EXPECT_FLOAT_EQ(AtMiddle(three, 2), 10);
+}
+
+TEST(Prominence, IsLittleLessAmongWeakerEdges) {
+  std::vector<Edge2d> edges = Lines({42, 50, 58}, 10);
+  for (std::size_t i = 60; i < 120; ++i) edges[i].strength = 100;
+  EXPECT_NEAR(AtMiddle(edges, 1), 100 / (1 + 0.9 / 81 / 0.2), 1e-4);
+}
+
+TEST(Prominence, DoesNotDependOnWhichSideIsBright) {
+  std::vector<Edge2d> edges = Lines({30, 38, 46, 54}, 10);
+  const std::vector<double> before = Prominence(edges);
+  for (Edge2d& edge : edges) edge.angle += 3.14159265f;
+  const std::vector<double> after = Prominence(edges);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    EXPECT_NEAR(before[i], after[i], 1e-6);
+  }
+}
+
+TEST(Prominence, AcceptsNoEdgesAndTheBorderOfTheImage) {
+  EXPECT_TRUE(Prominence({}).empty());
+  Edge2d corner;
+  corner.strength = 1;
+  EXPECT_EQ(Prominence({corner}), std::vector<double>{1});
+}
+
+}  // namespace
+}  // namespace curvix
