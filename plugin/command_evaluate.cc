@@ -60,8 +60,9 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
       {"Against photographs held out, with a workspace",
        {RowFlag({.name = "holdout_every",
                  .field = &settings->holdout_every,
-                 .help = "reconstruct the workspace without every N-th view "
-                         "and look there for its curves; 2 or more"})}}};
+                 .help = "reconstruct the workspace without one of N views "
+                         "and look there for its curves, or for those of "
+                         "--curves_path; 2 or more"})}}};
   for (FlagSection& section : ReconstructSections(&settings->run)) {
     for (Flag& flag : section.flags) flag.is_required = false;
     sections.push_back(std::move(section));
@@ -72,11 +73,13 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
 Status EvaluateWorkspace(const EvaluateSettings& settings) {
   Status valid = Validate(settings.run.options);
   if (!valid.ok()) return valid;
-  HoldoutOptions options;
-  options.every = settings.holdout_every;
   ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  return RunHoldout(
-      settings.run, options, settings.format(), progress, std::cout);
+  return RunHoldout(settings.run,
+                    settings.curves_path,
+                    settings.holdout_every,
+                    settings.format(),
+                    progress,
+                    std::cout);
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 // Paper: none (beyond it).
 #include "plugin/evaluate_holdout.h"
 
+#include <curvix/curve_io.h>
+
+#include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugin/text.h"
@@ -14,80 +18,85 @@
 namespace curvix {
 namespace {
 
-void PrintRow(const char* name,
-              const char* format,
-              double all,
-              double expected,
+std::string Cell(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%9.1f", value);
+  return text.data();
+}
+
+void PrintRow(std::string name,
+              const ShareAboveChance& share,
               std::ostream& out) {
-  std::string row(name);
-  row.resize(32, ' ');
-  for (const double value : {all, expected}) {
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), format, value);
-    std::string cell(text.data());
-    if (cell.size() < 12) cell.insert(0, 12 - cell.size(), ' ');
-    row += cell;
-  }
-  out << row << '\n';
+  name.resize(40, ' ');
+  out << name << Cell(100 * share.share) << Cell(100 * share.chance)
+      << Cell(100 * share.Lift()) << '\n';
 }
 
-void PrintTable(const Holdout& holdout, std::ostream& out) {
-  const HoldoutAgreement& all = holdout.all;
-  const HoldoutAgreement& expected = holdout.expected;
-  const ResultSummary curves = SummarizeCurves(holdout.reconstruction.curves);
-  out << holdout.num_held_out << " views held out, "
-      << GroupDigits(curves.num_curves) << " curves of total length "
-      << curves.total_length << " from the others\n\n"
-      << "in the views held out              anywhere    expected\n";
-  PrintRow(
-      "on an edge, %", "%.1f", 100 * all.support, 100 * expected.support, out);
-  PrintRow("the same by chance, %",
-           "%.1f",
-           100 * all.chance,
-           100 * expected.chance,
+void PrintTable(const HoldoutResult& result, std::ostream& out) {
+  const PhotographAgreement& agreement = result.agreement;
+  std::string head = "in the photographs held out, %";
+  head.resize(40, ' ');
+  out << result.num_held_out << " views held out, "
+      << GroupDigits(result.curves.num_curves) << " curves of total length "
+      << result.curves.total_length << "\n\n"
+      << head << "    share   chance     lift\n";
+  PrintRow("curves on a contour (precision)", agreement.precision, out);
+  PrintRow("the same where they should be seen",
+           agreement.expected_precision,
            out);
-  PrintRow("median distance from it, px",
-           "%.3f",
-           all.median_distance_px,
-           expected.median_distance_px,
-           out);
-  PrintRow("projections of samples",
-           "%.0f",
-           static_cast<double>(all.num_projections),
-           static_cast<double>(expected.num_projections),
-           out);
-  out << "\nExpected: those that the two views in most like direction see.\n";
+  PrintRow("strong contours with a curve", agreement.strong_contours, out);
+  PrintRow("long lines with a curve", agreement.long_lines, out);
+  out << "median length of a curve: " << Cell(agreement.median_piece_px).substr(2)
+      << " px\n\nChance: the same after moving by 12 pixels across. Lift: what "
+         "is above chance, of\nwhat can be. Hidden curves count as being on no "
+         "contour.\n";
 }
 
-void PrintJson(const Holdout& holdout, std::ostream& out) {
-  const ResultSummary curves = SummarizeCurves(holdout.reconstruction.curves);
+void PrintJson(const HoldoutResult& result, std::ostream& out) {
+  const PhotographAgreement& agreement = result.agreement;
   nlohmann::ordered_json json;
-  json["held_out"] = holdout.num_held_out;
-  const auto add = [&json](const std::string& prefix,
-                           const HoldoutAgreement& agreement) {
-    json[prefix + "support"] = agreement.support;
-    json[prefix + "chance"] = agreement.chance;
-    json[prefix + "median_px"] = agreement.median_distance_px;
-    json[prefix + "projections"] = agreement.num_projections;
+  json["held_out"] = result.num_held_out;
+  json["curves"] = result.curves.num_curves;
+  json["length"] = result.curves.total_length;
+  json["piece_px"] = agreement.median_piece_px;
+  const auto add = [&json](const std::string& name,
+                           const ShareAboveChance& share) {
+    json[name] = 100 * share.share;
+    json[name + "_chance"] = 100 * share.chance;
+    json[name + "_lift"] = 100 * share.Lift();
   };
-  add("", holdout.all);
-  add("expected_", holdout.expected);
-  json["curves"] = curves.num_curves;
-  json["length"] = curves.total_length;
+  add("precision", agreement.precision);
+  add("expected_precision", agreement.expected_precision);
+  add("strong", agreement.strong_contours);
+  add("lines", agreement.long_lines);
   out << json.dump() << '\n';
+}
+
+Result<CurveSet> ReconstructOthers(const Scene& scene,
+                                   const Options& options,
+                                   int every,
+                                   ProgressPrinter& progress) {
+  const Result<std::vector<EdgeMap>> edge_maps =
+      DetectEdges(scene, options, progress.Callback());
+  if (!edge_maps.ok()) return edge_maps.status();
+  Result<Holdout> holdout = ReconstructWithHoldout(
+      scene, *edge_maps, options, every, progress.Callback());
+  if (!holdout.ok()) return holdout.status();
+  return std::move(holdout->reconstruction.curves);
 }
 
 }  // namespace
 
-void PrintHoldout(const Holdout& holdout,
+void PrintHoldout(const HoldoutResult& result,
                   EvaluationFormat format,
                   std::ostream& out) {
-  if (format == EvaluationFormat::kJson) return PrintJson(holdout, out);
-  PrintTable(holdout, out);
+  if (format == EvaluationFormat::kJson) return PrintJson(result, out);
+  PrintTable(result, out);
 }
 
 Status RunHoldout(const RunSettings& settings,
-                  const HoldoutOptions& options,
+                  const std::filesystem::path& curves_path,
+                  int every,
                   EvaluationFormat format,
                   ProgressPrinter& progress,
                   std::ostream& out) {
@@ -99,15 +108,28 @@ Status RunHoldout(const RunSettings& settings,
   if (!workspace.ok()) return workspace.status();
   const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
   if (!input.ok()) return input.status();
+  const Scene& scene = input->scene;
+  const Result<std::vector<int>> view_idxs =
+      ViewsHeldOut(scene.views.size(), every);
+  if (!view_idxs.ok()) return view_idxs.status();
   for (const std::string& note : input->notes) progress.Note(note);
-  const Result<std::vector<EdgeMap>> edge_maps =
-      DetectEdges(input->scene, settings.options, progress.Callback());
-  if (!edge_maps.ok()) return edge_maps.status();
-  const Result<Holdout> holdout = EvaluateHoldout(
-      input->scene, *edge_maps, settings.options, options, progress.Callback());
-  if (!holdout.ok()) return holdout.status();
+  const Result<CurveSet> curves =
+      curves_path.empty()
+          ? ReconstructOthers(scene, settings.options, every, progress)
+          : ReadCurves(curves_path, scene);
+  if (!curves.ok()) return curves.status();
+  const Result<PhotographAgreement> agreement =
+      CompareWithPhotographs(curves->curves,
+                             scene,
+                             *view_idxs,
+                             settings.options.runtime.num_threads);
+  if (!agreement.ok()) return agreement.status();
   progress.Finish();
-  PrintHoldout(*holdout, format, out);
+  PrintHoldout({static_cast<int>(view_idxs->size()),
+                SummarizeCurves(*curves),
+                *agreement},
+               format,
+               out);
   return {};
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). `evaluate --holdout_every`: the curves of a
-// workspace against those of its own photographs that were held out.
+// Paper: none (beyond it). `evaluate --holdout_every`: curves against those
+// photographs of a workspace that had no part in them.
 #pragma once
 
 #include <curvix/holdout.h>
 #include <curvix/status.h>
 
+#include <filesystem>
 #include <iosfwd>
 
 #include "plugin/evaluate.h"
@@ -14,18 +15,27 @@
 
 namespace curvix {
 
-// Prints a table for people, or one JSON object with the keys held_out,
-// support, chance, median_px, projections, expected_support, expected_chance,
-// expected_median_px, expected_projections, curves, length.
-void PrintHoldout(const Holdout& holdout,
+struct HoldoutResult {
+  int num_held_out = 0;  // views
+  ResultSummary curves;
+  PhotographAgreement agreement;
+};
+
+// Prints a table for people, or one JSON object: held_out, curves, length,
+// piece_px, and in percent precision, precision_chance, precision_lift, the
+// same of expected_precision, strong and lines.
+void PrintHoldout(const HoldoutResult& result,
                   EvaluationFormat format,
                   std::ostream& out);
 
-// Reads the workspace, reconstructs without the held-out views, measures and
-// prints. Poses are taken as they are. Nothing is written to disk. Fails as
-// RunWorkspace and EvaluateHoldout do.
+// Reads the workspace, reconstructs without one of `every` views, compares with
+// the photographs of these, and prints. Poses are taken as they are. With a
+// `curves_path`, these curves are compared, whoever made them, and nothing is
+// reconstructed. Nothing is written to disk. Fails as RunWorkspace,
+// ReconstructWithHoldout, ReadCurves and CompareWithPhotographs do.
 Status RunHoldout(const RunSettings& settings,
-                  const HoldoutOptions& options,
+                  const std::filesystem::path& curves_path,
+                  int every,
                   EvaluationFormat format,
                   ProgressPrinter& progress,
                   std::ostream& out);

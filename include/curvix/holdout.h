@@ -10,51 +10,70 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 namespace curvix {
 
-struct HoldoutOptions {
-  // Of the views in order, number `every`, 2 * every, ... are held out; >= 2.
-  int every = 8;
-  // A sample of a curve is on an edge if its projection is no further from the
-  // edge's tangent line, and its direction differs by no more. > 0.
-  double max_distance_px = 1;
-  double max_angle_deg = 15;
-  // How far projections are moved across the curve, to both sides, to find how
-  // often chance puts them on an edge. Pixels, > 0.
-  double shift_px = 10;
+// A share, and how large it is after everything was moved by 12 pixels across,
+// to either side: 0..1.
+struct ShareAboveChance {
+  double share = 0;
+  double chance = 0;
+
+  // What is above chance, of what can be: (share - chance) / (1 - chance); 0 if
+  // chance is 1.
+  double Lift() const {
+    return chance < 1 ? (share - chance) / (1 - chance) : 0;
+  }
 };
 
-// Samples of curves, projected into held-out views.
-struct HoldoutAgreement {
-  std::int64_t num_projections = 0;
-  double support = 0;  // share of them on an edge; 0..1
-  double chance = 0;   // the same after they were moved; 0..1
-  // Of those on an edge, from it. Pixels; 0 if there are none.
-  double median_distance_px = 0;
+// Curves and photographs. What is in a photograph is found by Canny's edges and
+// LSD's lines, not by the edges that curves are made of. Hidden curves are not
+// left out.
+struct PhotographAgreement {
+  // Of the projected length of curves, what lies on a contour: within 1.5
+  // pixels and 15 degrees.
+  ShareAboveChance precision;
+  // The same of those samples only that should be seen: of the other views, the
+  // two in most like direction support it. 0 if there are none.
+  ShareAboveChance expected_precision;
+  // Of the strongest fifth of all contours, what lies within 2 pixels and 15
+  // degrees of a curve.
+  ShareAboveChance strong_contours;
+  // Of the length of straight lines that are 2 % of the image's diagonal and
+  // longer, what lies within 3 pixels and 10 degrees of a curve.
+  ShareAboveChance long_lines;
+  // Median length of a curve in a photograph. Pixels; 0 if there is none.
+  double median_piece_px = 0;
 };
+
+// Compares curves of any origin with the photographs of `view_idxs`, by their
+// image files. Fails if an image cannot be read.
+Result<PhotographAgreement> CompareWithPhotographs(
+    const std::vector<Curve>& curves,
+    const Scene& scene,
+    const std::vector<int>& view_idxs,
+    int num_threads);
+
+// The views that are held out if it is one of `every` (>= 2), from the middle
+// of the first `every` on: of 8, numbers 4, 12, 20 and so on, from 0.
+// kInvalidArgument: `every` is less than 2, or no view is held out.
+Result<std::vector<int>> ViewsHeldOut(std::size_t num_views, int every);
 
 struct Holdout {
-  int num_held_out = 0;  // views
-  // All projections into the images, also of what something hides there.
-  HoldoutAgreement all;
-  // Only those that should be seen: of the views used, the two in most like
-  // direction from the sample support it.
-  HoldoutAgreement expected;
+  std::vector<int> view_idxs;     // held out
   Reconstruction reconstruction;  // from the other views; support, too, refers
                                   // to the views as they are in the scene
 };
 
-// Reconstructs without the held-out views and measures in these. `edge_maps`:
-// one per view of the scene. Fails as ReconstructCurves does, and with
-// kInvalidArgument if an option is out of range, no view is held out, or fewer
-// than three are left.
-Result<Holdout> EvaluateHoldout(const Scene& scene,
-                                const std::vector<EdgeMap>& edge_maps,
-                                const Options& options,
-                                const HoldoutOptions& holdout_options,
-                                const Progress& progress = {});
+// Reconstructs without the views that ViewsHeldOut() names. `edge_maps`: one
+// per view of the scene. Fails as ReconstructCurves does, with too few views
+// left, say, and as ViewsHeldOut().
+Result<Holdout> ReconstructWithHoldout(const Scene& scene,
+                                       const std::vector<EdgeMap>& edge_maps,
+                                       const Options& options,
+                                       int every,
+                                       const Progress& progress = {});
 
 }  // namespace curvix

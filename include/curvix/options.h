@@ -172,7 +172,7 @@ struct CurveGrowthOptions {
   // Least evidence of a curve: the sum over its samples, a pixel apart, over the
   // square root of how often a view was asked for one, times its contrast over
   // that of the scene. >= 0.
-  double min_significance = 16.0;
+  double min_significance = 14.0;
 };
 
 // Beyond the paper: curves as a person would draw them.

@@ -39,6 +39,24 @@ double PixelSize(const Eigen::Vector3d& position,
   return smallest < kNone ? smallest : 0;
 }
 
+double PixelSizeAlong(const SpaceEdge& edge,
+                      const std::vector<EdgeRef>& support,
+                      const std::vector<PosedView>& views) {
+  double largest = -1;  // pixels per world unit
+  for (const EdgeRef& ref : support) {
+    const PosedView& view = views[static_cast<std::size_t>(ref.view_idx)];
+    const Eigen::Vector3d in_camera = view.InCamera(edge.position);
+    if (!(in_camera.z() > 0)) continue;
+    // Of the pixel K x / z, x on the edge.
+    const Eigen::Vector3d along = view.rotation * edge.tangent;
+    const Eigen::Vector3d speed =
+        view.calibration *
+        (along - along.z() / in_camera.z() * in_camera) / in_camera.z();
+    largest = std::max(largest, speed.head<2>().norm());
+  }
+  return largest < 0 ? 0 : 1 / largest;
+}
+
 std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
                                const std::vector<PosedView>& views) {
   std::vector<double> sizes;

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -21,6 +22,14 @@ namespace curvix {
 double PixelSize(const Eigen::Vector3d& position,
                  const std::vector<EdgeRef>& support,
                  const std::vector<PosedView>& views);
+
+// The length in space, world units, that fills one pixel along the tangent of
+// `edge` in the view of `support` that sees it largest; PixelSize() or longer,
+// since edges that lead towards the views are foreshortened. 0 if none of the
+// views has it in front, infinite if it leads to the centre of all.
+double PixelSizeAlong(const SpaceEdge& edge,
+                      const std::vector<EdgeRef>& support,
+                      const std::vector<PosedView>& views);
 
 // The pixel size of each edge.
 std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,

@@ -17,12 +17,16 @@
 #include "geometry/pixel_size.h"
 #include "growing/claimed_edges.h"
 #include "growing/curve_tip.h"
+#include "growing/grown_path.h"
 #include "growing/keep_significant.h"
 
 namespace curvix {
 namespace {
 
+// Steps are a pixel long in the view that sees them largest, but no longer than
+// so many where all see them foreshortened.
 constexpr double kStepPx = 1;
+constexpr double kMaxForeshortening = 4;
 // Where a view's edge may be, as for 3D edges (track_support.h).
 constexpr double kMaxNormalPx = 1;
 constexpr double kGateSigmas = 4;
@@ -30,60 +34,21 @@ constexpr double kMaxTangentialPx = 1;
 constexpr double kMaxAngleDeg = 15;
 // Views in which the place is known less surely are not asked.
 constexpr double kMaxPredictedSigmaPx = 0.7;
-// Hits and misses in a row that count.
-constexpr int kStreak = 3;
-constexpr std::size_t kMinNumSupports = 3;
 // Of samples, whose evidence that of the seed counts as.
 constexpr double kSeedWeight = 5;
 constexpr std::size_t kMinNumSamples = 5;
 // Curves that come back to their seed so near are closed, if they are so long.
-constexpr double kClosePx = 2;
+constexpr double kCloseSteps = 2;
 constexpr double kCloseCosine = 0.9;
 constexpr std::size_t kMinClosedSteps = 32;
 // The last steps do not claim their edges yet, so that these are still there
 // for the next ones and for the other direction.
 constexpr std::size_t kUnclaimedSteps = 32;
 
-struct GrownSample {
-  SpaceEdge edge;
-  double sigma = 0;  // world units
-  double evidence = 0;
-  std::vector<EdgeRef> hits;  // ascending
-  std::int64_t num_looks = 0;
-};
-
 // What one view says of a place.
 struct Look {
   std::optional<EdgeRef> hit;
   double vote = 0;
-};
-
-// Which views have shown a curve lately.
-class Streaks {
- public:
-  Streaks(std::size_t num_views, const std::vector<EdgeRef>& seed_support)
-      : streaks_(num_views) {
-    for (const EdgeRef& ref : seed_support) {
-      streaks_[static_cast<std::size_t>(ref.view_idx)].is_trusted = true;
-    }
-  }
-
-  // Whether the hit of view `v`, if it is one, counts.
-  bool Count(std::size_t v, bool is_hit) {
-    Streak& streak = streaks_[v];
-    streak.length = streak.is_of_hits == is_hit ? streak.length + 1 : 1;
-    streak.is_of_hits = is_hit;
-    if (streak.length >= kStreak) streak.is_trusted = is_hit;
-    return is_hit && streak.is_trusted;
-  }
-
- private:
-  struct Streak {
-    bool is_of_hits = false;
-    int length = 0;
-    bool is_trusted = false;
-  };
-  std::vector<Streak> streaks_;
 };
 
 class Grower {
@@ -118,7 +83,7 @@ class Grower {
     std::vector<GrownSample> path =
         GrowBothWays(tip, first, &grown.curve.closed);
     claimed_.GiveBack();
-    DropShortStreaks(path);
+    DropShortStreaks(indices_.size(), path);
     if (!grown.curve.closed) TrimEnds(path);
     if (path.size() < kMinNumSamples) return std::nullopt;
     for (GrownSample& sample : path) {
@@ -196,11 +161,21 @@ class Grower {
     return std::atan2(direction.y(), direction.x());
   }
 
-  // Moves the tip a step on; the hits that count are `trusted`.
+  // A step that is a pixel long in the view of `support` that sees it largest,
+  // in pixels of the tip.
+  double StepAlong(const CurveTip& tip,
+                   const std::vector<EdgeRef>& support) const {
+    const double foreshortening =
+        PixelSizeAlong(tip.edge(), support, views_) / tip.pixel();
+    return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
+  }
+
+  // Moves the tip a step on; the hits that count are `trusted`, at first those
+  // of the step before.
   GrownSample StepOn(CurveTip& tip,
                      Streaks& streaks,
                      std::vector<EdgeRef>& trusted) const {
-    tip.Step(kStepPx);
+    tip.Step(StepAlong(tip, trusted));
     GrownSample grown;
     Votes votes(indices_.size());
     trusted.clear();
@@ -239,7 +214,7 @@ class Grower {
     double sum_evidence = kSeedWeight * first.evidence;
     double num_evidence = kSeedWeight;
     std::vector<GrownSample> path;
-    std::vector<EdgeRef> trusted;
+    std::vector<EdgeRef> trusted = first.hits;
     std::size_t num_shown = 0;  // up to the last one that is shown
     std::size_t num_claimed = 0;
     while (static_cast<double>(path.size() - num_shown) * kStepPx <=
@@ -256,16 +231,19 @@ class Grower {
       while (num_claimed + kUnclaimedSteps < num_shown) {
         claimed_.Claim(path[num_claimed++].hits);
       }
-      *closed = path.size() > kMinClosedSteps && Meets(tip, first);
+      *closed = path.size() > kMinClosedSteps &&
+                Meets(tip, first, StepAlong(tip, trusted));
       if (*closed) return path;
     }
     path.resize(num_shown);
     return path;
   }
 
-  static bool Meets(const CurveTip& tip, const GrownSample& first) {
+  static bool Meets(const CurveTip& tip,
+                    const GrownSample& first,
+                    double step_px) {
     const Eigen::Vector3d offset = first.edge.position - tip.edge().position;
-    return offset.norm() < kClosePx * tip.pixel() &&
+    return offset.norm() < kCloseSteps * step_px * tip.pixel() &&
            tip.edge().tangent.dot(first.edge.tangent) > kCloseCosine;
   }
 
@@ -295,54 +273,6 @@ class Grower {
     std::reverse(path.begin(), path.end());
     for (GrownSample& grown : path) grown.edge.tangent = -grown.edge.tangent;
     return path;
-  }
-
-  // Leaves out the hits of a view in fewer than kStreak samples; one miss in
-  // between does not end a streak.
-  void DropShortStreaks(std::vector<GrownSample>& path) const {
-    std::vector<std::vector<std::size_t>> hit_samples(indices_.size());
-    for (std::size_t k = 0; k < path.size(); ++k) {
-      for (const EdgeRef& hit : path[k].hits) {
-        hit_samples[static_cast<std::size_t>(hit.view_idx)].push_back(k);
-      }
-    }
-    for (std::size_t v = 0; v < hit_samples.size(); ++v) {
-      const std::vector<std::size_t>& samples = hit_samples[v];
-      std::size_t begin = 0;
-      for (std::size_t i = 1; i <= samples.size(); ++i) {
-        if (i < samples.size() && samples[i] <= samples[i - 1] + 2) continue;
-        if (i - begin < static_cast<std::size_t>(kStreak)) {
-          for (std::size_t j = begin; j < i; ++j) DropHit(path[samples[j]], v);
-        }
-        begin = i;
-      }
-    }
-  }
-
-  // Down to samples that enough views show.
-  static void TrimEnds(std::vector<GrownSample>& path) {
-    const auto is_shown = [](const GrownSample& grown) {
-      return grown.hits.size() >= kMinNumSupports;
-    };
-    path.erase(std::find_if(path.rbegin(), path.rend(), is_shown).base(),
-               path.end());
-    path.erase(path.begin(), std::find_if(path.begin(), path.end(), is_shown));
-  }
-
-  static void DropHit(GrownSample& grown, std::size_t view_idx) {
-    std::erase_if(grown.hits, [&](const EdgeRef& hit) {
-      return static_cast<std::size_t>(hit.view_idx) == view_idx;
-    });
-  }
-
-  static CurveSample ToCurveSample(GrownSample grown) {
-    CurveSample sample;
-    sample.position = grown.edge.position;
-    sample.tangent = grown.edge.tangent;
-    sample.evidence = grown.evidence;
-    sample.sigma = grown.sigma;
-    sample.support = std::move(grown.hits);
-    return sample;
   }
 
   const std::vector<PosedView>& views_;

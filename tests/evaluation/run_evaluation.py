@@ -185,17 +185,16 @@ def table_b(program, scenes):
 
 
 def evaluate_holdout(program, scene, num_views):
-    """Support and chance in percent, anywhere and expected; median, pixels."""
+    """Precision and chance, anywhere and expected; lifts; all in percent."""
     every = '8' if num_views and num_views >= 16 else '4'
     run = subprocess.run([program, 'evaluate', '--json', '--holdout_every',
                           every, '--workspace_path', scene],
                          capture_output=True, text=True)
     scores = json.loads(run.stdout) if run.returncode == 0 else {}
-    percent = [100 * scores[key] if key in scores else None
-               for key in ('support', 'chance', 'expected_support',
-                           'expected_chance')]
-    return ([cell(value, 1) for value in percent]
-            + [cell(scores.get('median_px'), 2)])
+    return [cell(scores.get(key), 1)
+            for key in ('precision', 'precision_chance', 'expected_precision',
+                        'expected_precision_chance', 'precision_lift',
+                        'strong_lift', 'lines_lift')]
 
 
 def table_c(program, scenes):
@@ -212,8 +211,9 @@ def table_c(program, scenes):
                      *evaluate_holdout(program, scene, num_views),
                      cell(scores['cpu'], 0), cell(scores['mb'], 0)])
     return table(['scene', 'views', '2D edges', '3D edges', 'curves', 'length',
-                  'support %', 'chance %', 'expected %', 'chance %',
-                  'median px', 'CPU s', 'MB'], rows)
+                  'precision %', 'chance %', 'expected %', 'chance %',
+                  'precision, lift', 'strong, lift', 'lines, lift', 'CPU s',
+                  'MB'], rows)
 
 
 def evaluate_harder(program, scene, script, flags):

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "tests/support/test_views.h"
@@ -45,6 +46,41 @@ TEST(PixelSize, IsZeroWhereNoViewLooks) {
 
 TEST(PixelSize, RefusesViewsThatAreNotThere) {
   EXPECT_THROW(PixelSize({0, 0, 0}, {{2, 0}}, FarAndNear()), std::logic_error);
+}
+
+TEST(PixelSizeAlong, AStepAlongTheEdgeIsAPixelLong) {
+  const std::vector<PosedView> views = {LookAt({8, 0, 0}, {0, 0, 0})};
+  for (const Eigen::Vector3d& along :
+       {Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 1, 0.4)}) {
+    const SpaceEdge edge{{1, 0.5, -0.3}, along.normalized()};
+    // A thousandth of it, since projection is not linear.
+    const Eigen::Vector3d moved =
+        edge.position +
+        1e-3 * PixelSizeAlong(edge, {{0, 0}}, views) * edge.tangent;
+    EXPECT_NEAR((views[0].Pixel(views[0].InCamera(moved)) -
+                 views[0].Pixel(views[0].InCamera(edge.position)))
+                    .norm(),
+                1e-3,
+                1e-6);
+  }
+}
+
+TEST(PixelSizeAlong, IsThatOfTheViewThatSeesTheEdgeLargest) {
+  const double depth_over_focal = 8.0 / 800;
+  const std::vector<PosedView> views = {LookAt({8, 0, 0}, {0, 0, 0}),
+                                        LookAt({0, 8, 0}, {0, 0, 0})};
+  const double root3 = std::sqrt(3.0);
+  const SpaceEdge edge{{0, 0, 0}, {root3 / 2, 0.5, 0}};
+  EXPECT_NEAR(PixelSizeAlong(edge, {{0, 0}}, views), 2 * depth_over_focal, 1e-12);
+  EXPECT_NEAR(PixelSizeAlong(edge, {{0, 0}, {1, 0}}, views),
+              2 / root3 * depth_over_focal,
+              1e-12);
+}
+
+TEST(PixelSizeAlong, IsZeroBehindTheViewsAndInfiniteTowardsThem) {
+  const std::vector<PosedView> views = {LookAt({8, 0, 0}, {0, 0, 0})};
+  EXPECT_EQ(PixelSizeAlong({{9, 0, 0}, {0, 1, 0}}, {{0, 0}}, views), 0);
+  EXPECT_GT(PixelSizeAlong({{0, 0, 0}, {1, 0, 0}}, {{0, 0}}, views), 1e9);
 }
 
 }  // namespace

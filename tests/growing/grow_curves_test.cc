@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/image_edge.h"
+#include "geometry/pixel_size.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 
@@ -77,6 +78,13 @@ class Seen {
     return GrowCurves(seeds, views_, indices, neighbors_, kSigmaPx, options);
   }
 
+  // The length of a step at the sample, which is a pixel in an image.
+  double StepPx(const CurveSample& sample) const {
+    return PixelSizeAlong(
+               {sample.position, sample.tangent}, sample.support, views_) /
+           kPixel;
+  }
+
   double DistancePx(const Vector3d& x) const {
     double least = 1e9;
     for (const TestCurve& curve : curves_) {
@@ -118,7 +126,9 @@ TEST(GrowCurves, OneSeedGivesAWholeLine) {
   for (std::size_t k = 0; k < size; ++k) {
     const CurveSample& sample = curves[0].samples[k];
     const bool is_end = k < 2 || k + 2 >= size;
-    EXPECT_LT(seen.DistancePx(sample.position), is_end ? 1.2 : 0.3) << k;
+    EXPECT_LT(seen.DistancePx(sample.position),
+              is_end ? 1.2 * seen.StepPx(sample) : 0.3)
+        << k;
     // The seed itself has six.
     EXPECT_GE(sample.support.size(), is_end ? 3u : 6u) << k;
     EXPECT_GT(sample.sigma, 0);
@@ -153,8 +163,10 @@ TEST(GrowCurves, ComesBackFromAWrongStart) {
   const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.5, 30, 0.8)});
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_NEAR(Length(curves[0]), kLine.length, 6 * kPixel);
-  EXPECT_LT(seen.DistancePx(curves[0].samples.front().position), 1.2);
-  EXPECT_LT(seen.DistancePx(curves[0].samples.back().position), 1.2);
+  for (const CurveSample& end :
+       {curves[0].samples.front(), curves[0].samples.back()}) {
+    EXPECT_LT(seen.DistancePx(end.position), 1.2 * seen.StepPx(end));
+  }
 }
 
 TEST(GrowCurves, ParallelLinesStayTwo) {

@@ -44,23 +44,41 @@ inline void ExpectIdentical(const Reconstruction& a, const Reconstruction& b) {
   }
 }
 
-inline double DistanceToSamples(const Eigen::Vector3d& place,
-                                const CurveSet& curves) {
+inline double DistanceToSegment(const Eigen::Vector3d& place,
+                                const Eigen::Vector3d& from,
+                                const Eigen::Vector3d& to) {
+  const Eigen::Vector3d along = to - from;
+  const double length2 = along.squaredNorm();
+  const double t =
+      length2 > 0 ? std::clamp((place - from).dot(along) / length2, 0.0, 1.0)
+                  : 0;
+  return (place - from - t * along).norm();
+}
+
+inline double DistanceToCurves(const Eigen::Vector3d& place,
+                               const CurveSet& curves) {
   double least = std::numeric_limits<double>::infinity();
   for (const Curve& curve : curves.curves) {
-    for (const CurveSample& sample : curve.samples) {
-      least = std::min(least, (sample.position - place).norm());
+    const std::size_t size = curve.samples.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const bool is_last = k + 1 == size && !curve.closed;
+      least = std::min(
+          least,
+          DistanceToSegment(place,
+                            curve.samples[k].position,
+                            curve.samples[is_last ? k : (k + 1) % size]
+                                .position));
     }
   }
   return least;
 }
 
-// The largest distance from a sample of `a` to the nearest sample of `b`.
+// The largest distance from a sample of `a` to the nearest curve of `b`.
 inline double Deviation(const CurveSet& a, const CurveSet& b) {
   double worst = 0;
   for (const Curve& curve : a.curves) {
     for (const CurveSample& sample : curve.samples) {
-      worst = std::max(worst, DistanceToSamples(sample.position, b));
+      worst = std::max(worst, DistanceToCurves(sample.position, b));
     }
   }
   return worst;

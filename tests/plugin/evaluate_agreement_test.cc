@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "plugin/evaluate.h"
+#include "plugin/evaluate_holdout.h"
 #include "tests/plugin/temporary_folder.h"
 #include "tests/support/data_folder.h"
 
@@ -25,13 +26,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path ScriptPath() { return DataFolder() / ".." / "eval" / "evaluate.py"; }
+fs::path ScriptPath(const std::string& name) {
+  return DataFolder() / ".." / "eval" / name;
+}
 
-// A Python that has what the script needs; empty if there is none.
-std::string FindPython() {
+// A Python that has these modules; empty if there is none.
+std::string FindPython(const std::string& modules) {
   for (const char* python : {"python3", "/usr/bin/python3"}) {
     const std::string probe =
-        std::string(python) + " -c 'import numpy, scipy' 2>/dev/null";
+        std::string(python) + " -c 'import " + modules + "' 2>/dev/null";
     if (std::system(probe.c_str()) == 0) return python;
   }
   return "";
@@ -51,8 +54,10 @@ std::string RunCommand(const std::string& command) {
 class EvaluateAgreement : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(ScriptPath())) GTEST_SKIP() << "no evaluation script";
-    python_ = FindPython();
+    if (!fs::exists(ScriptPath("evaluate.py"))) {
+      GTEST_SKIP() << "no evaluation script";
+    }
+    python_ = FindPython("numpy, scipy");
     if (python_.empty()) GTEST_SKIP() << "no python3 with numpy and scipy";
   }
 
@@ -66,7 +71,7 @@ class EvaluateAgreement : public ::testing::Test {
     ASSERT_TRUE(status.ok()) << status.message();
     const auto actual = nlohmann::json::parse(ours.str());
     const auto expected = nlohmann::json::parse(
-        RunCommand(python_ + " " + ScriptPath().string() + " " + path.string() +
+        RunCommand(python_ + " " + ScriptPath("evaluate.py").string() + " " + path.string() +
                    " " + truth_path.string() + " --json"));
     ASSERT_EQ(expected.size(), 26u);
     for (const auto& [key, value] : expected.items()) {
@@ -158,6 +163,39 @@ TEST_F(EvaluateAgreement, PiecesOfAPublishedObject) {
   const auto truth = ReadGroundTruth(path);
   ASSERT_TRUE(truth.ok()) << truth.status().message();
   ExpectAgreement(Perturb(*truth, 0.001, 0.004), path);
+}
+
+// Lines of another program in photographs of a room.
+TEST(HoldoutAgreement, AnIndependentScriptFindsTheSameFigures) {
+  const fs::path script = ScriptPath("photo_referee.py");
+  const fs::path workspace = DataFolder() / "photos" / "room";
+  const fs::path lines = DataFolder() / "peers" / "line3dpp" / "room.obj";
+  for (const fs::path& path : {script, workspace, lines}) {
+    if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
+  }
+  const std::string python = FindPython("numpy, scipy, cv2");
+  if (python.empty()) GTEST_SKIP() << "no python3 with numpy, scipy and cv2";
+  RunSettings settings;
+  settings.workspace_path = workspace;
+  std::ostringstream ours, words;
+  ProgressPrinter progress(words, false);
+  const Status status = RunHoldout(
+      settings, lines, 4, EvaluationFormat::kJson, progress, ours);
+  ASSERT_TRUE(status.ok()) << status.message();
+  const auto actual = nlohmann::json::parse(ours.str());
+  const auto expected = nlohmann::json::parse(
+      RunCommand(python + " " + script.string() + " " + workspace.string() +
+                 " " + lines.string() + " --every 4 --json"));
+  EXPECT_EQ(actual["held_out"], expected["held"]);
+  for (const char* figure : {"precision",
+                             "precision_lift",
+                             "strong",
+                             "strong_lift",
+                             "lines",
+                             "lines_lift"}) {
+    EXPECT_NEAR(actual[figure].get<double>(), expected[figure].get<double>(), 1)
+        << figure;
+  }
 }
 
 }  // namespace

@@ -47,6 +47,8 @@ const std::map<std::string, Rule>& Rules() {
       {"poses", Stage()},
       {"refinement", Stage({"ceres"})},
       {"parts", Stage()},
+      {"evaluation",
+       {{"base", "geometry", "model", "edge_detection"}, {"opencv2"}}},
       {"fitting", Stage()},
       {"output", Stage({"pcl"})},
       {"synthetic", Stage()},
