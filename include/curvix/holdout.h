@@ -32,8 +32,8 @@ struct ShareAboveChance {
 // LSD's lines, not by the edges that curves are made of. Hidden curves are not
 // left out.
 struct PhotographAgreement {
-  // Of the projected length of curves, what lies on a contour: within 1.5
-  // pixels and 15 degrees.
+  // Of the steps of 2 pixels that the projected curves take, each segment at
+  // least one, those that lie on a contour: within 1.5 pixels and 15 degrees.
   ShareAboveChance precision;
   // The same of those samples only that should be seen: of the other views, the
   // two in most like direction support it. 0 if there are none.

@@ -14,6 +14,8 @@
 #include "edge_detection/load_image.h"
 #include "evaluation/image_contours.h"
 #include "evaluation/photograph_agreement.h"
+#include "geometry/pixel_size.h"
+#include "geometry/posed_views.h"
 
 namespace curvix {
 namespace {
@@ -32,30 +34,69 @@ bool IsSupportedBy(const CurveSample& sample, std::size_t view_idx) {
 class Pen {
  public:
   // `used`: the views that curves may have been made of.
-  Pen(const Scene& scene, std::size_t view_idx, std::vector<std::size_t> used)
-      : scene_(scene),
+  Pen(const Scene& scene,
+      const std::vector<PosedView>& views,
+      std::size_t view_idx,
+      std::vector<std::size_t> used)
+      : views_(views),
+        posed_view_(views[view_idx]),
         view_(scene.views[view_idx]),
         camera_(scene.cameras[static_cast<std::size_t>(view_.camera_idx)]),
         used_(std::move(used)) {}
 
   DrawnCurve Draw(const Curve& curve) const {
     const std::vector<CurveSample>& samples = curve.samples;
-    std::vector<std::optional<Eigen::Vector2d>> pixels;
-    pixels.reserve(samples.size());
-    for (const CurveSample& sample : samples) {
-      pixels.push_back(ProjectPoint(sample.position, view_, camera_));
-    }
     DrawnCurve drawn;
-    const std::size_t num_steps = samples.size() - (curve.closed ? 0 : 1);
-    for (std::size_t i = 0; i < num_steps; ++i) {
-      const auto& from = pixels[i];
-      const auto& to = pixels[(i + 1) % samples.size()];
-      if (from && to) DrawStep(*from, *to, IsExpected(samples[i]), &drawn);
+    const std::size_t num_segments = samples.size() - (curve.closed ? 0 : 1);
+    for (std::size_t i = 0; i < num_segments; ++i) {
+      DrawSegment(samples[i],
+                  samples[(i + 1) % samples.size()].position,
+                  &drawn);
     }
     return drawn;
   }
 
  private:
+  // In pieces short enough for lenses that bend lines, and for lines that are
+  // in the image only in part.
+  void DrawSegment(const CurveSample& from,
+                   const Eigen::Vector3d& to,
+                   DrawnCurve* drawn) const {
+    const Eigen::Vector3d along = to - from.position;
+    const int n = NumPieces(from.position, to);
+    const bool is_expected = IsExpected(from);
+    std::optional<Eigen::Vector2d> begin =
+        ProjectPoint(from.position, view_, camera_);
+    const std::size_t first = drawn->size();
+    double length_px = 0;
+    for (int i = 1; i <= n; ++i) {
+      const std::optional<Eigen::Vector2d> end =
+          ProjectPoint(from.position + i * along / n, view_, camera_);
+      if (begin && end) {
+        DrawStep(*begin, *end, is_expected, drawn);
+        length_px += (*end - *begin).norm();
+      }
+      begin = end;
+    }
+    const double num_steps = std::ceil(length_px / kSpacingPx);
+    for (std::size_t i = first; i < drawn->size(); ++i) {
+      DrawnPlace& place = (*drawn)[i];
+      place.num_steps = num_steps * place.length_px / length_px;
+    }
+  }
+
+  int NumPieces(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    constexpr double kMaxPieces = 10000;
+    const double pixel_from = PixelSize(from, {}, {posed_view_});
+    const double pixel_to = PixelSize(to, {}, {posed_view_});
+    const double pixel = pixel_from > 0 && pixel_to > 0
+                             ? std::min(pixel_from, pixel_to)
+                             : std::max(pixel_from, pixel_to);
+    if (!(pixel > 0)) return 1;
+    const double pieces = (to - from).norm() / (kSpacingPx * pixel);
+    return static_cast<int>(std::clamp(std::ceil(pieces), 1.0, kMaxPieces));
+  }
+
   void DrawStep(const Eigen::Vector2d& from,
                 const Eigen::Vector2d& to,
                 bool is_expected,
@@ -65,13 +106,12 @@ class Pen {
     if (!(length_px > 0)) return;
     const int n = static_cast<int>(std::ceil(length_px / kSpacingPx));
     for (int i = 0; i < n; ++i) {
-      Edge2d place;
-      place.position = from + (i + 0.5) / n * along;
-      place.angle = static_cast<float>(std::atan2(along.y(), along.x()));
-      if (!IsInside(place.position)) continue;
-      drawn->places.push_back(place);
-      drawn->is_expected.push_back(is_expected);
-      drawn->length_px += length_px / n;
+      DrawnPlace place;
+      place.edge.position = from + (i + 0.5) / n * along;
+      place.edge.angle = static_cast<float>(std::atan2(along.y(), along.x()));
+      place.length_px = length_px / n;
+      place.is_expected = is_expected;
+      if (IsInside(place.edge.position)) drawn->push_back(place);
     }
   }
 
@@ -85,11 +125,11 @@ class Pen {
   // views in equally like direction the smaller index comes first.
   bool IsExpected(const CurveSample& sample) const {
     if (used_.size() < 2 || sample.support.empty()) return false;
-    const Eigen::Vector3d direction = Direction(view_, sample);
+    const Eigen::Vector3d direction = Direction(posed_view_, sample);
     std::pair<double, std::size_t> best(-2, 0), second(-2, 0);
     for (const std::size_t i : used_) {
       const std::pair<double, std::size_t> candidate(
-          direction.dot(Direction(scene_.views[i], sample)), i);
+          direction.dot(Direction(views_[i], sample)), i);
       if (candidate.first > best.first) {
         second = std::exchange(best, candidate);
       } else if (candidate.first > second.first) {
@@ -100,14 +140,13 @@ class Pen {
            IsSupportedBy(sample, second.second);
   }
 
-  static Eigen::Vector3d Direction(const View& view,
+  static Eigen::Vector3d Direction(const PosedView& view,
                                    const CurveSample& sample) {
-    const Eigen::Vector3d center =
-        view.cam_from_world.Inverse().translation;
-    return (center - sample.position).normalized();
+    return (view.center - sample.position).normalized();
   }
 
-  const Scene& scene_;
+  const std::vector<PosedView>& views_;
+  const PosedView& posed_view_;
   const View& view_;
   const Camera& camera_;
   std::vector<std::size_t> used_;
@@ -115,6 +154,7 @@ class Pen {
 
 Result<PhotographTally> CompareWithView(const std::vector<Curve>& curves,
                                         const Scene& scene,
+                                        const std::vector<PosedView>& views,
                                         std::size_t view_idx,
                                         std::vector<std::size_t> used) {
   const View& view = scene.views[view_idx];
@@ -123,12 +163,12 @@ Result<PhotographTally> CompareWithView(const std::vector<Curve>& curves,
   const Result<GrayImage> image =
       LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
   if (!image.ok()) return image.status();
-  const Pen pen(scene, view_idx, std::move(used));
+  const Pen pen(scene, views, view_idx, std::move(used));
   std::vector<DrawnCurve> drawn;
   for (const Curve& curve : curves) {
     if (curve.samples.empty()) continue;
     DrawnCurve in_view = pen.Draw(curve);
-    if (!in_view.places.empty()) drawn.push_back(std::move(in_view));
+    if (!in_view.empty()) drawn.push_back(std::move(in_view));
   }
   return CompareWithPhotograph(
       drawn, FindContours(*image), FindLongLines(*image));
@@ -148,10 +188,11 @@ Result<PhotographAgreement> CompareWithPhotographs(
       used.push_back(i);
     }
   }
+  const std::vector<PosedView> views = MakePosedViews(scene);
   std::vector<std::optional<Result<PhotographTally>>> tallies(view_idxs.size());
   ParallelFor(view_idxs.size(), num_threads, [&](std::size_t i) {
     tallies[i] = CompareWithView(
-        curves, scene, static_cast<std::size_t>(view_idxs[i]), used);
+        curves, scene, views, static_cast<std::size_t>(view_idxs[i]), used);
   });
   PhotographTally total;
   for (const std::optional<Result<PhotographTally>>& tally : tallies) {

@@ -51,17 +51,19 @@ class Counterparts {
   double min_cosine_;
 };
 
-ShareTally Look(const Edge2d& place, const Counterparts& counterparts) {
+ShareTally Look(const Edge2d& place,
+                const Counterparts& counterparts,
+                double amount = 1) {
   const double angle = static_cast<double>(place.angle);
   const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
   const Eigen::Vector2d across =
       kShiftPx * Eigen::Vector2d(-direction.y(), direction.x());
   ShareTally tally;
-  tally.num = 1;
-  tally.num_hits = counterparts.Has(place.position, direction) ? 1 : 0;
+  tally.amount = amount;
+  if (counterparts.Has(place.position, direction)) tally.hits = amount;
   for (const Eigen::Vector2d& shift : {across, Eigen::Vector2d(-across)}) {
     if (counterparts.Has(place.position + shift, direction)) {
-      tally.num_by_chance += 0.5;
+      tally.hits_by_chance += amount / 2;
     }
   }
   return tally;
@@ -72,10 +74,10 @@ void LookForCurves(const std::vector<DrawnCurve>& drawn,
                    PhotographTally* tally) {
   const Counterparts on_contour(contours, kCurveOnContour);
   for (const DrawnCurve& curve : drawn) {
-    for (std::size_t i = 0; i < curve.places.size(); ++i) {
-      const ShareTally looked = Look(curve.places[i], on_contour);
+    for (const DrawnPlace& place : curve) {
+      const ShareTally looked = Look(place.edge, on_contour, place.num_steps);
       tally->precision.Add(looked);
-      if (curve.is_expected[i]) tally->expected_precision.Add(looked);
+      if (place.is_expected) tally->expected_precision.Add(looked);
     }
   }
 }
@@ -104,9 +106,8 @@ ShareTally LookForStrongContours(const std::vector<Edge2d>& contours,
     all.Add(looked);
     if (pixel.strength >= strong_from) strong.Add(looked);
   }
-  if (all.num > 0) {
-    strong.num_by_chance = all.num_by_chance * static_cast<double>(strong.num) /
-                           static_cast<double>(all.num);
+  if (all.amount > 0) {
+    strong.hits_by_chance = all.hits_by_chance * strong.amount / all.amount;
   }
   return strong;
 }
@@ -114,15 +115,14 @@ ShareTally LookForStrongContours(const std::vector<Edge2d>& contours,
 }  // namespace
 
 void ShareTally::Add(const ShareTally& other) {
-  num += other.num;
-  num_hits += other.num_hits;
-  num_by_chance += other.num_by_chance;
+  amount += other.amount;
+  hits += other.hits;
+  hits_by_chance += other.hits_by_chance;
 }
 
 ShareAboveChance ShareTally::Summarize() const {
-  if (num == 0) return {};
-  const double n = static_cast<double>(num);
-  return {static_cast<double>(num_hits) / n, num_by_chance / n};
+  if (!(amount > 0)) return {};
+  return {hits / amount, hits_by_chance / amount};
 }
 
 void PhotographTally::Add(const PhotographTally& other) {
@@ -149,8 +149,12 @@ PhotographTally CompareWithPhotograph(const std::vector<DrawnCurve>& drawn,
   LookForCurves(drawn, contours, &tally);
   std::vector<Edge2d> places;
   for (const DrawnCurve& curve : drawn) {
-    places.insert(places.end(), curve.places.begin(), curve.places.end());
-    tally.pieces_px.push_back(curve.length_px);
+    double length_px = 0;
+    for (const DrawnPlace& place : curve) {
+      places.push_back(place.edge);
+      length_px += place.length_px;
+    }
+    tally.pieces_px.push_back(length_px);
   }
   tally.strong_contours =
       LookForStrongContours(contours, Counterparts(places, kContourOnCurve));

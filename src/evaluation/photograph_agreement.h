@@ -5,29 +5,33 @@
 #include <curvix/edges.h>
 #include <curvix/holdout.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace curvix {
 
-// Places that were looked at, and those that had a counterpart. Chance is
-// counted twice, for moves to both sides. Sums do not depend on the order.
+// How much was looked at, how much of it had a counterpart, and how much after
+// it was moved, the mean of both sides.
 struct ShareTally {
-  std::int64_t num = 0;
-  std::int64_t num_hits = 0;
-  double num_by_chance = 0;
+  double amount = 0;
+  double hits = 0;
+  double hits_by_chance = 0;
 
   void Add(const ShareTally& other);
   ShareAboveChance Summarize() const;
 };
 
-// A curve in a photograph: places no more than 2 pixels apart, with the angle
-// of the curve.
-struct DrawnCurve {
-  std::vector<Edge2d> places;
-  std::vector<bool> is_expected;  // one per place: it should be seen
-  double length_px = 0;           // > 0
+// A stretch of at most 2 pixels of a curve in a photograph: its middle with the
+// angle of the curve.
+struct DrawnPlace {
+  Edge2d edge;
+  double length_px = 0;      // > 0
+  // What it counts: of the steps of 2 pixels that its segment takes, its share.
+  // A segment shorter than 2 pixels is one step.
+  double num_steps = 1;
+  bool is_expected = false;  // it should be seen
 };
+
+using DrawnCurve = std::vector<DrawnPlace>;
 
 struct PhotographTally {
   ShareTally precision;

@@ -31,9 +31,9 @@ std::vector<Edge2d> Join(const std::vector<std::vector<Edge2d>>& lines) {
 }
 
 DrawnCurve Drawn(const std::vector<Edge2d>& places, bool is_expected = true) {
-  return {places,
-          std::vector<bool>(places.size(), is_expected),
-          static_cast<double>(places.size())};
+  DrawnCurve drawn;
+  for (const Edge2d& edge : places) drawn.push_back({edge, 1, 1, is_expected});
+  return drawn;
 }
 
 PhotographAgreement Compare(const std::vector<DrawnCurve>& drawn,
@@ -108,7 +108,14 @@ TEST(CompareWithPhotograph, ExpectedPlacesAreCountedApart) {
   EXPECT_EQ(agreement.expected_precision.share, 1);
 }
 
-TEST(CompareWithPhotograph, NothingIsNoErrors) {
+TEST(CompareWithPhotograph, StepsCountNotPlaces) {
+  const std::vector<Edge2d> contour = Line(0, 100, 50);
+  DrawnCurve wrong = Drawn(Line(0, 100, 70));
+  for (DrawnPlace& place : wrong) place.num_steps = 0.25;
+  EXPECT_EQ(Compare({Drawn(contour), wrong}, contour).precision.share, 0.8);
+}
+
+TEST(CompareWithPhotograph, NothingHasNoShares) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
   EXPECT_EQ(Compare({}, contour, contour).precision.share, 0);
   EXPECT_EQ(Compare({}, contour, contour).long_lines.share, 0);
