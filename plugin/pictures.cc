@@ -110,6 +110,56 @@ Result<std::string> SmallPinholeJpeg(const View& view,
   return Encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
 }
 
+cv::Scalar Color(std::size_t curve_id) {
+  const auto [red, green, blue] = CurveColor(curve_id);
+  return {static_cast<double>(blue),
+          static_cast<double>(green),
+          static_cast<double>(red)};
+}
+
+void DrawLines(const std::vector<std::vector<Eigen::Vector2d>>& lines,
+               const cv::Scalar& color,
+               int width,
+               cv::Mat* image) {
+  constexpr int kSubpixelBits = 4;
+  const auto in_subpixels = [](double pixel) {
+    return static_cast<int>(std::lround((pixel - 0.5) * (1 << kSubpixelBits)));
+  };
+  for (const std::vector<Eigen::Vector2d>& line : lines) {
+    std::vector<cv::Point> points;
+    for (const Eigen::Vector2d& p : line) {
+      points.emplace_back(in_subpixels(p.x()), in_subpixels(p.y()));
+    }
+    cv::polylines(
+        *image, points, false, color, width, cv::LINE_AA, kSubpixelBits);
+  }
+}
+
+bool IsShownIn(int view_idx, const CurveSample& sample) {
+  return std::any_of(
+      sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {
+        return ref.view_idx == view_idx;
+      });
+}
+
+// The stretches of `curve` of which the view shows every third sample or more.
+std::vector<Curve> StretchesShownIn(int view_idx, const Curve& curve) {
+  constexpr std::size_t kMaxGap = 3;
+  std::vector<Curve> stretches;
+  std::size_t last_shown = 0;
+  const std::size_t size = curve.samples.size();
+  for (std::size_t i = 0; i < size + (curve.closed ? 1 : 0); ++i) {
+    if (!IsShownIn(view_idx, curve.samples[i % size])) continue;
+    const bool goes_on = !stretches.empty() && i - last_shown <= kMaxGap;
+    if (!goes_on) stretches.emplace_back();
+    for (std::size_t k = goes_on ? last_shown + 1 : i; k <= i; ++k) {
+      stretches.back().samples.push_back(curve.samples[k % size]);
+    }
+    last_shown = i;
+  }
+  return stretches;
+}
+
 }  // namespace
 
 std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
@@ -129,31 +179,25 @@ std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
 }
 
 Result<std::string> OverlayPng(const CurveSource& curves,
-                               const View& view,
-                               const Camera& camera) {
+                               const Scene& scene,
+                               int view_idx) {
   constexpr double kPhotoShare = 0.55;  // the rest is white
-  constexpr int kSubpixelBits = 4;
+  constexpr double kPaleShare = 0.4;    // of a colour, the rest is white
+  const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+  const Camera& camera =
+      scene.cameras[static_cast<std::size_t>(view.camera_idx)];
   Result<cv::Mat> photo = ReadPhoto(view, cv::IMREAD_COLOR);
   if (!photo.ok()) return photo.status();
   photo->convertTo(*photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));
   const int width = std::max(2, std::max(camera.width, camera.height) / 500);
   curves.ForEach([&](std::size_t id, const Curve& curve) {
-    const auto [red, green, blue] = CurveColor(id);
-    for (const auto& stretch : ProjectCurve(curve, view, camera)) {
-      std::vector<cv::Point> line;
-      for (const Eigen::Vector2d& p : stretch) {
-        line.emplace_back(
-            static_cast<int>(std::lround((p.x() - 0.5) * (1 << kSubpixelBits))),
-            static_cast<int>(
-                std::lround((p.y() - 0.5) * (1 << kSubpixelBits))));
-      }
-      cv::polylines(*photo,
-                    line,
-                    false,
-                    cv::Scalar(blue, green, red),
-                    width,
-                    cv::LINE_AA,
-                    kSubpixelBits);
+    const cv::Scalar pale =
+        kPaleShare * Color(id) + cv::Scalar::all(255 * (1 - kPaleShare));
+    DrawLines(ProjectCurve(curve, view, camera), pale, width / 2, &*photo);
+  });
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    for (const Curve& shown : StretchesShownIn(view_idx, curve)) {
+      DrawLines(ProjectCurve(shown, view, camera), Color(id), width, &*photo);
     }
   });
   return Encode(".png", *photo, {});

@@ -19,11 +19,12 @@ std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
                                            int max_size_px,
                                            int num_threads);
 
-// A PNG of the photograph, faded, with the curves drawn over it in their
-// colours where it sees them, hidden ones too. kNotFound or kDataLoss if the
-// photograph cannot be read.
+// A PNG of a view's photograph, faded, with the curves drawn over it in their
+// colours: where edges of the view support them, and thin and pale where none
+// does, which is where something hides them or they are wrong. kNotFound or
+// kDataLoss if the photograph cannot be read.
 Result<std::string> OverlayPng(const CurveSource& curves,
-                               const View& view,
-                               const Camera& camera);
+                               const Scene& scene,
+                               int view_idx);
 
 }  // namespace curvix

@@ -83,7 +83,7 @@ Status WriteOverlays(const CurveRecord& record,
   for (const int idx : SpreadViews(record.scene, count)) {
     const View& view = record.scene.views[static_cast<std::size_t>(idx)];
     const Result<std::string> png =
-        OverlayPng(record.curves, view, CameraOf(record.scene, view));
+        OverlayPng(record.curves, record.scene, idx);
     if (!record.curves.status().ok()) return record.curves.status();
     if (!png.ok()) return png.status();
     fs::path path = folder / view.name;
