@@ -41,12 +41,12 @@ void PrintTable(const HoldoutResult& result, std::ostream& out) {
       << result.curves.total_length << "\n\n"
       << head << "    share   chance     lift\n";
   PrintRow("curves on a contour (precision)", agreement.precision, out);
-  PrintRow("the same where they should be seen",
-           agreement.expected_precision,
-           out);
+  PrintRow(
+      "the same where they should be seen", agreement.expected_precision, out);
   PrintRow("strong contours with a curve", agreement.strong_contours, out);
   PrintRow("long lines with a curve", agreement.long_lines, out);
-  out << "median length of a curve: " << Cell(agreement.median_piece_px).substr(2)
+  out << "median length of a curve: "
+      << Cell(agreement.median_piece_px).substr(2)
       << " px\n\nChance: the same after moving by 12 pixels across. Lift: what "
          "is above chance, of\nwhat can be. Hidden curves count as being on no "
          "contour.\n";
@@ -118,11 +118,8 @@ Status RunHoldout(const RunSettings& settings,
           ? ReconstructOthers(scene, settings.options, every, progress)
           : ReadCurves(curves_path, scene);
   if (!curves.ok()) return curves.status();
-  const Result<PhotographAgreement> agreement =
-      CompareWithPhotographs(curves->curves,
-                             scene,
-                             *view_idxs,
-                             settings.options.runtime.num_threads);
+  const Result<PhotographAgreement> agreement = CompareWithPhotographs(
+      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
   if (!agreement.ok()) return agreement.status();
   progress.Finish();
   PrintHoldout({static_cast<int>(view_idxs->size()),

@@ -23,7 +23,8 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
   }
   if (num_over_limit > 0) {
     counts.emplace_back(
-        "weak, short or crowded ones left out (EdgeDetection.max_edges_per_megapixel)",
+        "weak, short or crowded ones left out "
+        "(EdgeDetection.max_edges_per_megapixel)",
         num_over_limit);
   }
   return counts;

@@ -164,14 +164,14 @@ struct ConnectivityOptions {
 // that grow from 3D edges along the contours of the images.
 struct CurveGrowthOptions {
   bool enabled = true;
-  // Least evidence of a sample (as of ValidationOptions), as a share of the mean
-  // of its curve. 0..1.
+  // Least evidence of a sample (as of ValidationOptions), as a share of the
+  // mean of its curve. 0..1.
   double min_relative_evidence = 0.3;
   // Longest stretch without support that is gone over. Pixels, 0..1000.
   double max_gap_px = 10.0;
-  // Least evidence of a curve: the sum over its samples, a pixel apart, over the
-  // square root of how often a view was asked for one, times its contrast over
-  // that of the scene. >= 0.
+  // Least evidence of a curve: the sum over its samples, a pixel apart, over
+  // the square root of how often a view was asked for one, times its contrast
+  // over that of the scene. >= 0.
   double min_significance = 14.0;
 };
 

@@ -188,7 +188,8 @@ std::int32_t DropLeastProminent(std::int64_t max_edges,
   if (static_cast<std::int64_t>(edges->size()) <= max_edges) return 0;
   const std::vector<double> prominence = Prominence(*edges);
   std::vector<double> falling = prominence;
-  const auto last = falling.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
+  const auto last =
+      falling.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
   std::nth_element(falling.begin(), last, falling.end(), std::greater<>());
   std::vector<Edge2d> kept;
   for (std::size_t i = 0; i < edges->size(); ++i) {

@@ -34,9 +34,9 @@ struct KeptEdges {
 // options.short_contour_factor * min_gradient. (Strong short contours are
 // corners and tight bends.) If more than `max_edges` are left, keeps
 // whole contours in turn, those that tell most of structure first: those of
-// options.min_contour_edges before shorter ones, then by mean Prominence() times
-// the square root of the mean length of their straight runs, then by number, up
-// to the first that does not fit. Edges and `neighbors` correspond;
+// options.min_contour_edges before shorter ones, then by mean Prominence()
+// times the square root of the mean length of their straight runs, then by
+// number, up to the first that does not fit. Edges and `neighbors` correspond;
 // `min_gradient` is that of the detector.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,

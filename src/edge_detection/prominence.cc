@@ -62,8 +62,7 @@ std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
                                    strength_at(edge.position - aside));
     const double strength = static_cast<double>(edge.strength);
     prominence.push_back(
-        strength /
-        (1 + static_cast<double>(emptier) / (kCrowded * strength)));
+        strength / (1 + static_cast<double>(emptier) / (kCrowded * strength)));
   }
   return prominence;
 }

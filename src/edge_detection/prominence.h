@@ -8,8 +8,8 @@
 
 namespace curvix {
 
-// How much each edge stands out from what surrounds it: its strength, less where
-// there are edges as strong on both sides. Grey levels per pixel.
+// How much each edge stands out from what surrounds it: its strength, less
+// where there are edges as strong on both sides. Grey levels per pixel.
 //
 // Where a surface or an object ends, one side is empty, or its edges are
 // weaker; inside brick, foliage and gravel both sides are crowded. What counts

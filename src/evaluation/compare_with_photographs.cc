@@ -49,9 +49,8 @@ class Pen {
     DrawnCurve drawn;
     const std::size_t num_segments = samples.size() - (curve.closed ? 0 : 1);
     for (std::size_t i = 0; i < num_segments; ++i) {
-      DrawSegment(samples[i],
-                  samples[(i + 1) % samples.size()].position,
-                  &drawn);
+      DrawSegment(
+          samples[i], samples[(i + 1) % samples.size()].position, &drawn);
     }
     return drawn;
   }

@@ -88,10 +88,10 @@ float StrongFrom(const std::vector<Edge2d>& contours) {
   std::vector<float> strengths;
   strengths.reserve(contours.size());
   for (const Edge2d& pixel : contours) strengths.push_back(pixel.strength);
-  const auto least = strengths.begin() +
-                     static_cast<std::ptrdiff_t>(std::ceil(
-                         (1 - kStrongShare) *
-                         static_cast<double>(strengths.size() - 1)));
+  const auto least =
+      strengths.begin() +
+      static_cast<std::ptrdiff_t>(std::ceil(
+          (1 - kStrongShare) * static_cast<double>(strengths.size() - 1)));
   std::nth_element(strengths.begin(), least, strengths.end());
   return *least;
 }

@@ -24,7 +24,7 @@ struct ShareTally {
 // angle of the curve.
 struct DrawnPlace {
   Edge2d edge;
-  double length_px = 0;      // > 0
+  double length_px = 0;  // > 0
   // What it counts: of the steps of 2 pixels that its segment takes, its share.
   // A segment shorter than 2 pixels is one step.
   double num_steps = 1;

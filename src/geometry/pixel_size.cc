@@ -50,8 +50,8 @@ double PixelSizeAlong(const SpaceEdge& edge,
     // Of the pixel K x / z, x on the edge.
     const Eigen::Vector3d along = view.rotation * edge.tangent;
     const Eigen::Vector3d speed =
-        view.calibration *
-        (along - along.z() / in_camera.z() * in_camera) / in_camera.z();
+        view.calibration * (along - along.z() / in_camera.z() * in_camera) /
+        in_camera.z();
     largest = std::max(largest, speed.head<2>().norm());
   }
   return largest < 0 ? 0 : 1 / largest;

@@ -316,8 +316,7 @@ std::vector<Curve> GrowCurves(
       curves.push_back(*std::move(grown));
     }
   }
-  return KeepSignificant(
-      std::move(curves), indices, options.min_significance);
+  return KeepSignificant(std::move(curves), indices, options.min_significance);
 }
 
 }  // namespace curvix

@@ -44,8 +44,8 @@ class Streaks {
   std::vector<Streak> streaks_;
 };
 
-// Leaves out the hits of a view in fewer than three samples; one miss in between
-// does not end a streak.
+// Leaves out the hits of a view in fewer than three samples; one miss in
+// between does not end a streak.
 void DropShortStreaks(std::size_t num_views, std::vector<GrownSample>& path);
 
 // Down to samples that kMinNumSupports views show.

@@ -58,7 +58,8 @@ TEST(DropLeastProminent, KeepsTheOrderAndWhatIsAsProminentAsTheLast) {
   std::vector<Edge2d> all = edges;
   EXPECT_EQ(DropLeastProminent(6, &all), 0);
   EXPECT_EQ(all.size(), 6u);
-  EXPECT_EQ(DropLeastProminent(3, &edges), 2) << "two of the four are equally prominent";
+  EXPECT_EQ(DropLeastProminent(3, &edges), 2)
+      << "two of the four are equally prominent";
   ASSERT_EQ(edges.size(), 4u);
   EXPECT_EQ(edges[0].strength, 3);
   EXPECT_EQ(edges[1].strength, 4);

@@ -134,8 +134,7 @@ TEST_F(ProgramRun, ViewsHeldOutShowItsCurves) {
       json::parse(outcome.output.substr(outcome.output.find('{')));
   EXPECT_EQ(scores["held_out"], 3);
   EXPECT_GT(scores["curves"], 0);
-  EXPECT_GT(scores["precision"],
-            3 * scores["precision_chance"].get<double>());
+  EXPECT_GT(scores["precision"], 3 * scores["precision_chance"].get<double>());
   for (const char* figure : {"strong_lift", "lines_lift"}) {
     EXPECT_GT(scores[figure], 50) << figure;
   }

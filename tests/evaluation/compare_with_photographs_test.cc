@@ -19,8 +19,7 @@ using ::testing::HasSubstr;
 class WallTest : public ::testing::Test {
  protected:
   WallTest() {
-    scene_.cameras = {
-        {CameraModel::kSimplePinhole, 200, 160, {100, 100, 80}}};
+    scene_.cameras = {{CameraModel::kSimplePinhole, 200, 160, {100, 100, 80}}};
     for (int i = 0; i < 3; ++i) {
       View view;
       view.name = std::to_string(i) + ".png";
@@ -48,7 +47,8 @@ class WallTest : public ::testing::Test {
 
   PhotographAgreement Compare(const Curve& curve,
                               const std::vector<int>& view_idxs) const {
-    const auto agreement = CompareWithPhotographs({curve}, scene_, view_idxs, 2);
+    const auto agreement =
+        CompareWithPhotographs({curve}, scene_, view_idxs, 2);
     EXPECT_TRUE(agreement.ok()) << agreement.status().message();
     return *agreement;
   }
@@ -93,8 +93,7 @@ TEST_F(WallTest, SamplesAreExpectedIfTheNextViewsSupportThem) {
 
 TEST_F(WallTest, AMissingPhotographIsAnError) {
   scene_.views[1].image_path = folder_.path() / "none.png";
-  const auto agreement =
-      CompareWithPhotographs({}, scene_, {0, 1}, 2);
+  const auto agreement = CompareWithPhotographs({}, scene_, {0, 1}, 2);
   ASSERT_FALSE(agreement.ok());
   EXPECT_THAT(agreement.status().message(), HasSubstr("none.png"));
 }

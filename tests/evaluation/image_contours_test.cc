@@ -43,8 +43,7 @@ GrayImage Rectangle() {
 
 double DistanceToBorder(const Eigen::Vector2d& position) {
   const Eigen::Vector2d place = InRectangle(position);
-  return std::abs(
-      std::max(std::abs(place.x()) - 60, std::abs(place.y()) - 30));
+  return std::abs(std::max(std::abs(place.x()) - 60, std::abs(place.y()) - 30));
 }
 
 // Whether the edge has the direction of the nearer side; not near corners.
@@ -53,8 +52,7 @@ bool IsAlongItsSide(const Edge2d& edge) {
   const double to_long_side = 30 - std::abs(place.y());
   const double to_short_side = 60 - std::abs(place.x());
   if (std::abs(to_long_side - to_short_side) < 8) return true;
-  const double angle =
-      to_long_side < to_short_side ? kAngle : kAngle + kPi / 2;
+  const double angle = to_long_side < to_short_side ? kAngle : kAngle + kPi / 2;
   return UndirectedDifference(static_cast<double>(edge.angle), angle) < 0.15;
 }
 

@@ -10,7 +10,9 @@ namespace curvix {
 namespace {
 
 // Places one pixel apart on a horizontal line.
-std::vector<Edge2d> Line(double x_begin, double x_end, double y,
+std::vector<Edge2d> Line(double x_begin,
+                         double x_end,
+                         double y,
                          float strength = 1) {
   std::vector<Edge2d> places;
   for (double x = x_begin; x < x_end; ++x) {
@@ -102,8 +104,8 @@ TEST(CompareWithPhotograph, OfContoursTheStrongestFifthIsLookedFor) {
 
 TEST(CompareWithPhotograph, ExpectedPlacesAreCountedApart) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
-  const PhotographAgreement agreement = Compare(
-      {Drawn(contour, true), Drawn(Line(0, 300, 70), false)}, contour);
+  const PhotographAgreement agreement =
+      Compare({Drawn(contour, true), Drawn(Line(0, 300, 70), false)}, contour);
   EXPECT_EQ(agreement.precision.share, 0.25);
   EXPECT_EQ(agreement.expected_precision.share, 1);
 }

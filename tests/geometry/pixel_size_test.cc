@@ -71,7 +71,8 @@ TEST(PixelSizeAlong, IsThatOfTheViewThatSeesTheEdgeLargest) {
                                         LookAt({0, 8, 0}, {0, 0, 0})};
   const double root3 = std::sqrt(3.0);
   const SpaceEdge edge{{0, 0, 0}, {root3 / 2, 0.5, 0}};
-  EXPECT_NEAR(PixelSizeAlong(edge, {{0, 0}}, views), 2 * depth_over_focal, 1e-12);
+  EXPECT_NEAR(
+      PixelSizeAlong(edge, {{0, 0}}, views), 2 * depth_over_focal, 1e-12);
   EXPECT_NEAR(PixelSizeAlong(edge, {{0, 0}, {1, 0}}, views),
               2 / root3 * depth_over_focal,
               1e-12);

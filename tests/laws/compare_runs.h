@@ -62,12 +62,12 @@ inline double DistanceToCurves(const Eigen::Vector3d& place,
     const std::size_t size = curve.samples.size();
     for (std::size_t k = 0; k < size; ++k) {
       const bool is_last = k + 1 == size && !curve.closed;
-      least = std::min(
-          least,
-          DistanceToSegment(place,
-                            curve.samples[k].position,
-                            curve.samples[is_last ? k : (k + 1) % size]
-                                .position));
+      least =
+          std::min(least,
+                   DistanceToSegment(
+                       place,
+                       curve.samples[k].position,
+                       curve.samples[is_last ? k : (k + 1) % size].position));
     }
   }
   return least;

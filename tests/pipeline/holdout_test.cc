@@ -30,11 +30,9 @@ TEST(ReconstructWithHoldout, UsesNothingOfTheViewsHeldOut) {
     blank.edge_maps[i] = EdgeMap();
   }
   const auto a =
-      ReconstructWithHoldout(
-          wires.scene, wires.edge_maps, Options(), kEvery);
+      ReconstructWithHoldout(wires.scene, wires.edge_maps, Options(), kEvery);
   const auto b =
-      ReconstructWithHoldout(
-          blank.scene, blank.edge_maps, Options(), kEvery);
+      ReconstructWithHoldout(blank.scene, blank.edge_maps, Options(), kEvery);
   ASSERT_TRUE(a.ok() && b.ok());
   const std::vector<Curve>& curves = a->reconstruction.curves.curves;
   const std::vector<Curve>& others = b->reconstruction.curves.curves;
@@ -51,8 +49,7 @@ TEST(ReconstructWithHoldout, UsesNothingOfTheViewsHeldOut) {
 TEST(ReconstructWithHoldout, NamesSupportingViewsAsInTheScene) {
   const WireScene wires = Wires();
   const auto holdout =
-      ReconstructWithHoldout(
-          wires.scene, wires.edge_maps, Options(), kEvery);
+      ReconstructWithHoldout(wires.scene, wires.edge_maps, Options(), kEvery);
   ASSERT_TRUE(holdout.ok());
   std::set<std::int32_t> view_idxs;
   for (const Edge3d& edge : holdout->reconstruction.edges) {
@@ -65,8 +62,8 @@ TEST(ReconstructWithHoldout, NamesSupportingViewsAsInTheScene) {
 TEST(ReconstructWithHoldout, SaysWhatItCannotHoldOut) {
   const WireScene wires = Wires();
   const auto message = [&wires](int every) {
-    const auto holdout = ReconstructWithHoldout(
-        wires.scene, wires.edge_maps, Options(), every);
+    const auto holdout =
+        ReconstructWithHoldout(wires.scene, wires.edge_maps, Options(), every);
     EXPECT_FALSE(holdout.ok());
     return holdout.status().message();
   };

@@ -71,8 +71,8 @@ class EvaluateAgreement : public ::testing::Test {
     ASSERT_TRUE(status.ok()) << status.message();
     const auto actual = nlohmann::json::parse(ours.str());
     const auto expected = nlohmann::json::parse(
-        RunCommand(python_ + " " + ScriptPath("evaluate.py").string() + " " + path.string() +
-                   " " + truth_path.string() + " --json"));
+        RunCommand(python_ + " " + ScriptPath("evaluate.py").string() + " " +
+                   path.string() + " " + truth_path.string() + " --json"));
     ASSERT_EQ(expected.size(), 26u);
     for (const auto& [key, value] : expected.items()) {
       ASSERT_TRUE(actual.contains(key)) << key;
@@ -179,8 +179,8 @@ TEST(HoldoutAgreement, AnIndependentScriptFindsTheSameFigures) {
   settings.workspace_path = workspace;
   std::ostringstream ours, words;
   ProgressPrinter progress(words, false);
-  const Status status = RunHoldout(
-      settings, lines, 4, EvaluationFormat::kJson, progress, ours);
+  const Status status =
+      RunHoldout(settings, lines, 4, EvaluationFormat::kJson, progress, ours);
   ASSERT_TRUE(status.ok()) << status.message();
   const auto actual = nlohmann::json::parse(ours.str());
   const auto expected = nlohmann::json::parse(

@@ -20,8 +20,7 @@ namespace {
 class OverlayTest : public ::testing::Test {
  protected:
   OverlayTest() {
-    scene_.cameras = {
-        {CameraModel::kSimplePinhole, 200, 100, {100, 100, 50}}};
+    scene_.cameras = {{CameraModel::kSimplePinhole, 200, 100, {100, 100, 50}}};
     const std::filesystem::path path = folder_.path() / "photograph.png";
     cv::imwrite(path.string(), cv::Mat3b(100, 200, {0, 0, 0}));
     for (int i = 0; i < 2; ++i) {
