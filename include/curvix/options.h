@@ -32,7 +32,7 @@ struct EdgeDetectionOptions {
   double short_contour_factor = 2.0;
   // Most edges of an image per million pixels, though any image may have
   // 10,000. Contours of images with more are thinned, and those that tell most
-  // of structure are kept, strong and straight ones; > 0.
+  // of structure are kept: strong, straight and not crowded ones; > 0.
   double max_edges_per_megapixel = 25000;
   // Parallel edges that blur has moved apart or together are moved back.
   bool separate_edges = true;

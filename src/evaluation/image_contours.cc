@@ -9,8 +9,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "base/angles.h"
-
 namespace curvix {
 namespace {
 

@@ -3,7 +3,6 @@
 #include "evaluation/photograph_agreement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
