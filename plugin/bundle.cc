@@ -4,7 +4,6 @@
 
 #include <curvix/camera_model.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -89,55 +88,6 @@ bool DropWeak(std::size_t num_images, std::vector<BundlePoint>* points) {
   return dropped;
 }
 
-// Observed minus projected, and how it changes with the position.
-struct Linearization {
-  Eigen::Vector2d residual;
-  Eigen::Matrix<double, 2, 3> jacobian;
-};
-
-std::optional<Linearization> Linearize(const Camera& camera,
-                                       const Rigid3& pose,
-                                       const Eigen::Vector3d& position,
-                                       const Eigen::Vector2d& pixel) {
-  const std::optional<Eigen::Vector2d> seen = Project(camera, pose, position);
-  if (!seen) return std::nullopt;
-  const Eigen::Vector3d x = pose * position;
-  const Eigen::Vector2d uv = x.hnormalized();
-  Eigen::Matrix<double, 2, 3> uv_from_x;
-  uv_from_x << 1, 0, -uv.x(), 0, 1, -uv.y();
-  return Linearization{pixel - *seen,
-                       ImageFromIdealJacobian(camera, uv) * uv_from_x / x.z() *
-                           pose.rotation.toRotationMatrix()};
-}
-
-// The sum of Cauchy's loss over the observations.
-double Cost(const Bundle& bundle, const BundlePoint& point) {
-  double sum = 0;
-  for (const double error : ReprojectionErrors(bundle, point)) {
-    sum += std::log1p(error * error);
-  }
-  return sum;
-}
-
-// The Gauss-Newton step of one point; zero where there is none.
-Eigen::Vector3d Step(const Bundle& bundle, const BundlePoint& point) {
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  for (const BundleObservation& seen : point.observations) {
-    const BundleView& view = bundle.views[seen.view_idx];
-    const auto linear = Linearize(bundle.cameras[view.camera_idx],
-                                  view.cam_from_world,
-                                  point.position,
-                                  seen.pixel);
-    if (!linear) continue;
-    const double weight = 1 / (1 + linear->residual.squaredNorm());
-    hessian += weight * linear->jacobian.transpose() * linear->jacobian;
-    gradient += weight * linear->jacobian.transpose() * linear->residual;
-  }
-  const Eigen::Vector3d step = hessian.ldlt().solve(gradient);
-  return step.allFinite() ? step : Eigen::Vector3d::Zero();
-}
-
 }  // namespace
 
 Bundle BundleFromModel(const ColmapModel& model) {
@@ -189,16 +139,6 @@ ColmapModel ModelWithBundle(ColmapModel model, const Bundle& bundle) {
   return model;
 }
 
-std::optional<Eigen::Vector2d> Project(const Camera& camera,
-                                       const Rigid3& cam_from_world,
-                                       const Eigen::Vector3d& position) {
-  const Eigen::Vector3d x = cam_from_world * position;
-  if (!(x.z() > 0)) return std::nullopt;
-  const Eigen::Vector2d pixel = ImageFromIdeal(camera, x.hnormalized());
-  if (!pixel.allFinite()) return std::nullopt;
-  return pixel;
-}
-
 std::vector<double> ReprojectionErrors(const Bundle& bundle,
                                        const BundlePoint& point) {
   std::vector<double> errors;
@@ -212,25 +152,14 @@ std::vector<double> ReprojectionErrors(const Bundle& bundle,
 }
 
 Eigen::Vector3d FitPoint(const Bundle& bundle, const BundlePoint& point) {
-  constexpr int kMaxNumSteps = 20;
-  constexpr int kMaxNumHalvings = 8;
-  constexpr double kMinGain = 1e-9;  // of the cost
-  BundlePoint best = point;
-  double cost = Cost(bundle, best);
-  for (int i = 0; i < kMaxNumSteps; ++i) {
-    Eigen::Vector3d step = Step(bundle, best);
-    const double previous = cost;
-    for (int k = 0; k < kMaxNumHalvings && cost == previous; ++k, step /= 2) {
-      BundlePoint trial = best;
-      trial.position += step;
-      const double trial_cost = Cost(bundle, trial);
-      if (!(trial_cost < cost)) continue;
-      cost = trial_cost;
-      best.position = trial.position;
-    }
-    if (!(cost < previous * (1 - kMinGain))) break;
+  std::vector<PointInImage> seen;
+  for (const BundleObservation& observation : point.observations) {
+    const BundleView& view = bundle.views[observation.view_idx];
+    seen.push_back({&bundle.cameras[view.camera_idx],
+                    view.cam_from_world,
+                    observation.pixel});
   }
-  return best.position;
+  return FitPoint(point.position, seen);
 }
 
 void FitPoints(Bundle* bundle) {

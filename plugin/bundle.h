@@ -4,11 +4,11 @@
 // points are seen.
 #pragma once
 
+#include <curvix/camera_model.h>
 #include <curvix/scene.h>
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "plugin/colmap_model.h"
@@ -52,20 +52,12 @@ Bundle BundleFromModel(const ColmapModel& model);
 // errors; what is not in `bundle` stays.
 ColmapModel ModelWithBundle(ColmapModel model, const Bundle& bundle);
 
-// Where `view` sees `position`; nullopt behind the camera and where the model
-// has no pixel.
-std::optional<Eigen::Vector2d> Project(const Camera& camera,
-                                       const Rigid3& cam_from_world,
-                                       const Eigen::Vector3d& position);
-
 // Distances in pixels from observed to projected; infinite where nothing is
 // projected.
 std::vector<double> ReprojectionErrors(const Bundle& bundle,
                                        const BundlePoint& point);
 
-// The position that fits the observations best under the bundle's poses, with
-// Cauchy's loss of scale 1 px: Gauss-Newton steps from the point's position, as
-// long as they help. The position itself where none does.
+// The position that fits the observations best under the bundle's poses.
 Eigen::Vector3d FitPoint(const Bundle& bundle, const BundlePoint& point);
 
 // The same of every point.

@@ -4,6 +4,7 @@
 
 #include <curvix/file_io.h>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <system_error>
@@ -100,17 +101,36 @@ Status RefuseUnwritableNames(const ColmapModel& model) {
   return {};
 }
 
-// The views that see `point`, ascending, without repeats and unknown images.
-std::vector<int> ViewsOf(const ColmapPoint3D& point,
-                         const std::map<std::uint32_t, int>& view_idxs) {
-  std::vector<int> views;
-  for (const ColmapTrackElement& element : point.track) {
-    const auto found = view_idxs.find(element.image_id);
-    if (found != view_idxs.end()) views.push_back(found->second);
+// A view of the scene and its image in the model.
+struct SceneView {
+  int view_idx = 0;
+  const ColmapImage* image = nullptr;
+};
+
+Eigen::Vector2d PixelOf(const ColmapImage& image, std::size_t point2D_idx) {
+  if (point2D_idx >= image.points2D.size()) {
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
-  std::sort(views.begin(), views.end());
-  views.erase(std::unique(views.begin(), views.end()), views.end());
-  return views;
+  return {image.points2D[point2D_idx].x, image.points2D[point2D_idx].y};
+}
+
+// Without images that are no views; of several places in one image the first.
+ScenePoint MakeScenePoint(const ColmapPoint3D& point,
+                          const std::map<std::uint32_t, SceneView>& views) {
+  std::map<int, Eigen::Vector2d> pixels;
+  for (const ColmapTrackElement& element : point.track) {
+    const auto found = views.find(element.image_id);
+    if (found == views.end()) continue;
+    const auto& [view_idx, image] = found->second;
+    pixels.emplace(view_idx, PixelOf(*image, element.point2D_idx));
+  }
+  ScenePoint scene_point;
+  scene_point.position = point.position;
+  for (const auto& [view_idx, pixel] : pixels) {
+    scene_point.view_idxs.push_back(view_idx);
+    scene_point.pixels.push_back(pixel);
+  }
+  return scene_point;
 }
 
 }  // namespace
@@ -240,12 +260,17 @@ Scene SceneFromColmapModel(const ColmapModel& model,
   std::sort(scene.views.begin(),
             scene.views.end(),
             [](const View& a, const View& b) { return a.name < b.name; });
-  std::map<std::uint32_t, int> view_idxs;
+  std::map<std::uint32_t, SceneView> views;
   for (const View& view : scene.views) {
-    view_idxs.emplace(view.image_id, static_cast<int>(view_idxs.size()));
+    views.emplace(view.image_id,
+                  SceneView{static_cast<int>(views.size()), nullptr});
+  }
+  for (const ColmapImage& image : model.images) {
+    const auto found = views.find(image.image_id);
+    if (found != views.end()) found->second.image = &image;
   }
   for (const ColmapPoint3D& point : model.points) {
-    ScenePoint scene_point{point.position, ViewsOf(point, view_idxs)};
+    ScenePoint scene_point = MakeScenePoint(point, views);
     if (scene_point.view_idxs.empty()) continue;
     scene.points.push_back(std::move(scene_point));
   }

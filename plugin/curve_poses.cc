@@ -2,44 +2,31 @@
 // Paper: none (engineering).
 #include "plugin/curve_poses.h"
 
+#include <curvix/camera_model.h>
+
 #include <cstdio>
 #include <map>
 #include <utility>
 
 #include "plugin/bundle.h"
-#include "plugin/similarity.h"
+#include "plugin/median.h"
 #include "plugin/text.h"
 
 namespace curvix {
 namespace {
 
-// Brings the unit of the world back to that of `scene`; false if the poses do
-// not resemble its.
-bool RestoreUnit(const Scene& scene, CurvePoseRecord* record) {
-  std::vector<Rigid3> input;
-  for (const View& view : scene.views) input.push_back(view.cam_from_world);
-  std::vector<Rigid3>& poses = record->poses.cam_from_world;
-  const std::optional<Similarity3> aligned = AlignPoses(poses, input);
-  if (!aligned) return false;
-  record->scale_removed = 1 / aligned->scale;
-  // Place and direction are right already, as the pictures tell them.
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const Rigid3& pose : poses) center += pose.Inverse().translation;
-  center /= static_cast<double>(poses.size());
-  Similarity3 back;
-  back.scale = aligned->scale;
-  back.translation = (1 - back.scale) * center;
-  for (Rigid3& pose : poses) pose = MovePose(back, pose);
-  return true;
-}
-
-// `model` with the poses of the views of `scene`, and points that fit them.
+// `model` with the poses of the views of `scene` and its cameras, and points
+// that fit them.
 ColmapModel WithPoses(ColmapModel model,
                       const Scene& scene,
-                      const std::vector<Rigid3>& cam_from_world) {
+                      const CurvePoses& refined) {
   std::map<std::uint32_t, Rigid3> poses;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    poses[scene.views[i].image_id] = cam_from_world[i];
+    poses[scene.views[i].image_id] = refined.cam_from_world[i];
+  }
+  // A scene has all cameras of its model, in order.
+  for (std::size_t i = 0; i < model.cameras.size(); ++i) {
+    model.cameras[i].camera = refined.cameras[i];
   }
   for (ColmapImage& image : model.images) {
     const auto found = poses.find(image.image_id);
@@ -50,28 +37,46 @@ ColmapModel WithPoses(ColmapModel model,
   return ModelWithBundle(std::move(model), bundle);
 }
 
-// What the points say; nothing if there are too few.
-std::optional<PoseJudgement> JudgeByPoints(const ColmapModel& before,
-                                           const ColmapModel& after) {
-  Bundle old_bundle = BundleFromModel(before);
-  Bundle new_bundle = old_bundle;
-  const std::vector<BundlePoint> check_points = TakeCheckPoints(&old_bundle);
-  if (check_points.size() < kMinCheckPoints) return std::nullopt;
-  for (BundleView& view : new_bundle.views) {
-    view.cam_from_world = after.images[view.image_idx].cam_from_world;
+// Of pixels between two lenses, once both look the same way at the middle of
+// the image: the median over the image.
+double ShiftOfImage(const Camera& from, const Camera& to) {
+  constexpr int kSteps = 10;
+  const Eigen::Vector2d size(from.width, from.height);
+  const auto shift_at = [&](const Eigen::Vector2d& pixel) {
+    const auto ideal = IdealFromImage(from, pixel);
+    return ideal ? Eigen::Vector2d(ImageFromIdeal(to, *ideal) - pixel)
+                 : Eigen::Vector2d(0, 0);
+  };
+  const Eigen::Vector2d middle = shift_at(size / 2);
+  std::vector<double> shifts;
+  for (int y = 0; y <= kSteps; ++y) {
+    for (int x = 0; x <= kSteps; ++x) {
+      const Eigen::Vector2d pixel =
+          Eigen::Array2d(x, y) / kSteps * size.array();
+      shifts.push_back((shift_at(pixel) - middle).norm());
+    }
   }
-  return JudgePoses(old_bundle, new_bundle, check_points);
-}
-
-void Refuse(const std::string& reason, CurvePoses* poses) {
-  poses->accepted = false;
-  poses->reason = reason;
+  return MedianOrNan(std::move(shifts));
 }
 
 std::string Errors(double before_px, double after_px) {
   char text[64];
   std::snprintf(text, sizeof(text), "%.3f to %.3f px", before_px, after_px);
   return text;
+}
+
+std::string CamerasText(const std::vector<CameraChange>& cameras) {
+  if (cameras.empty()) return "";
+  std::string text = ", " +
+                     GroupDigits(static_cast<std::int64_t>(cameras.size())) +
+                     (cameras.size() == 1 ? " camera" : " cameras");
+  char shift[64];
+  std::snprintf(shift,
+                sizeof(shift),
+                " (%s, %.2f px)",
+                std::string(ModelName(cameras.front().to.model)).c_str(),
+                cameras.front().median_shift_px);
+  return text + shift;
 }
 
 }  // namespace
@@ -86,7 +91,8 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
       shifts, sizeof(shifts), ", shifts up to %.2f px", poses.max_shift_px);
   return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
          " views, " + Errors(poses.before.mean_px, poses.after.mean_px) +
-         shifts + (poses.accepted ? "" : ", refused");
+         CamerasText(record.cameras) + shifts +
+         (poses.accepted ? "" : ", refused");
 }
 
 CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
@@ -98,21 +104,15 @@ CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
   result.record.largest_shift_image =
       scene.views[poses.max_shift_view_idx].name;
   if (!poses.accepted) return result;
-  if (!RestoreUnit(scene, &result.record)) {
-    Refuse("its cameras do not resemble the input", &poses);
-    return result;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (poses.cameras[i] == scene.cameras[i]) continue;
+    result.record.cameras.push_back(
+        {model.cameras[i].camera_id,
+         scene.cameras[i],
+         poses.cameras[i],
+         ShiftOfImage(scene.cameras[i], poses.cameras[i])});
   }
-  ColmapModel with_poses = WithPoses(model, scene, poses.cam_from_world);
-  result.record.points = JudgeByPoints(model, with_poses);
-  if (const auto& points = result.record.points;
-      points &&
-      !(points->after.mean_px <= points->before.mean_px * (1 + kMinGain))) {
-    Refuse("the points fit worse: their mean error went from " +
-               Errors(points->before.mean_px, points->after.mean_px),
-           &poses);
-    return result;
-  }
-  result.model = std::move(with_poses);
+  result.model = WithPoses(model, scene, poses);
   return result;
 }
 

@@ -1,28 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-// Poses refined with curves, for a COLMAP model: the world keeps its place and
-// its unit, and the points of the model have a say, too.
+// Poses and cameras refined with curves, for a COLMAP model: the world keeps
+// its place and its unit.
 #pragma once
 
 #include <curvix/refine_poses.h>
 #include <curvix/scene.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "plugin/colmap_model.h"
-#include "plugin/pose_judgement.h"
 
 namespace curvix {
+
+// A camera of the model, refined.
+struct CameraChange {
+  std::uint32_t camera_id = 0;
+  Camera from;
+  Camera to;
+  // By how much pixels of its images shift, the change that a turn of the
+  // camera would make taken off: the median over the image. Pixels.
+  double median_shift_px = 0;
+};
 
 // What was done, for report.json.
 struct CurvePoseRecord {
   CurvePoses poses;
-  double scale_removed = 1;         // by which the world had grown
-  std::string largest_shift_image;  // name
-  // Of the model's points, fitted to the poses before and after, if there are
-  // enough to judge by.
-  std::optional<PoseJudgement> points;
+  std::string largest_shift_image;    // name
+  std::vector<CameraChange> cameras;  // those that changed
 };
 
 struct CurvePoseRefinement {
@@ -37,8 +45,7 @@ struct CurvePoseRefinement {
 std::string CurvePosesText(const CurvePoseRecord& record);
 
 // What RefinePosesWithCurves() has made of `scene` for `model`. The scene is
-// that of the model, without the views whose images are missing. Refused, too,
-// if points no longer fit: if their mean error rises by more than 1 %.
+// that of the model, without the views whose images are missing.
 CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
                                         const Scene& scene,
                                         CurvePoses refined);

@@ -49,13 +49,13 @@ class Refiner {
  private:
   Result<Bundle> RunCeres(const Bundle& bundle) {
     result_->record.refiner = "ceres";
-    return RefineWithCeres(bundle, settings_.refine_intrinsics, keep_going_);
+    return RefineWithCeres(bundle, false, keep_going_);
   }
 
   Result<Bundle> RunColmap(const Bundle& bundle,
                            const std::filesystem::path& program) {
     const ColmapRun run{program,
-                        settings_.refine_intrinsics,
+                        false,
                         settings_.refiner_timeout_s,
                         log_path_};
     PoseRefinementRecord& record = result_->record;

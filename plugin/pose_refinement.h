@@ -26,7 +26,7 @@ namespace curvix {
 struct PoseRefinementSettings {
   std::string refiner = "colmap";        // or "ceres" or "none"
   std::filesystem::path colmap_path;     // the program; empty: found
-  bool refine_intrinsics = false;        // focal lengths and distortion, too
+  bool refine_intrinsics = true;  // with curves, if it proves better
   double refiner_timeout_s = 1800;       // COLMAP is ended after this
   bool refine_poses_with_curves = true;  // afterwards; see curve_poses.h
 };

@@ -101,8 +101,13 @@ Json PosesJson(const PoseRefinementRecord& poses) {
   return json;
 }
 
-Json EdgeErrorsJson(const EdgeErrors& errors) {
+Json ErrorsJson(const ErrorsOfViews& errors) {
   return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
+}
+
+Json CameraJson(const Camera& camera) {
+  return {{"model", std::string(ModelName(camera.model))},
+          {"params", camera.params}};
 }
 
 Json CurvePosesJson(const CurvePoseRecord& record) {
@@ -114,15 +119,25 @@ Json CurvePosesJson(const CurvePoseRecord& record) {
   json["num_held_out_places"] = poses.num_check_samples;
   json["num_held_out_observations"] = poses.num_check_observations;
   json["num_views_moved"] = poses.num_views_moved;
-  json["error_before"] = EdgeErrorsJson(poses.before);
-  json["error_after"] = EdgeErrorsJson(poses.after);
+  json["error_before"] = ErrorsJson(poses.before);
+  json["error_after"] = ErrorsJson(poses.after);
   json["median_shift_px"] = poses.median_shift_px;
   json["max_shift_px"] = poses.max_shift_px;
   json["max_shift_image"] = Printable(record.largest_shift_image);
-  json["scale_removed"] = record.scale_removed;
-  if (record.points) {
-    json["point_error_before"] = ErrorsJson(record.points->before);
-    json["point_error_after"] = ErrorsJson(record.points->after);
+  json["significance"] = poses.significance;
+  if (poses.num_points > 0) {
+    json["num_points"] = poses.num_points;
+    json["num_held_out_points"] = poses.num_check_points;
+    json["point_error_before"] = ErrorsJson(poses.points_before);
+    json["point_error_after"] = ErrorsJson(poses.points_after);
+  }
+  json["refined_cameras"] = Json::array();
+  for (const CameraChange& change : record.cameras) {
+    json["refined_cameras"].push_back(
+        {{"camera_id", change.camera_id},
+         {"from", CameraJson(change.from)},
+         {"to", CameraJson(change.to)},
+         {"median_shift_px", change.median_shift_px}});
   }
   return json;
 }

@@ -47,12 +47,17 @@ Result<CurvePoseRefinement> RunStages::RefinePosesWithCurves(
   const Stopwatch stopwatch;
   progress_.Update("refine_poses_with_curves", 0, 0);
   const Options& options = record_.settings.options;
-  const std::uint64_t key = SketchKey(scene, options);
+  const std::uint64_t key =
+      CurvePosesKey(scene, options, record_.settings.poses.refine_intrinsics);
   std::optional<CurvePoses> poses = store_.LoadCurvePoses(key);
   const bool is_resumed = poses.has_value();
   if (!is_resumed) {
-    Result<CurvePoses> refined = curvix::RefinePosesWithCurves(
-        scene, edge_maps, options, progress_.Callback());
+    Result<CurvePoses> refined =
+        curvix::RefinePosesWithCurves(scene,
+                                      edge_maps,
+                                      options,
+                                      record_.settings.poses.refine_intrinsics,
+                                      progress_.Callback());
     if (!refined.ok()) return refined.status();
     poses = std::move(refined).value();
     Save(key, *poses);

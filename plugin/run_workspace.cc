@@ -72,11 +72,15 @@ Result<RunRecord> Job::Run() {
 
   Result<Scene> scene = RefinePoses(*input);
   if (!scene.ok()) return scene.status();
-  const Result<std::vector<EdgeMap>> edge_maps = stages.Detect(*scene);
+  Result<std::vector<EdgeMap>> edge_maps = stages.Detect(*scene);
   if (!edge_maps.ok()) return edge_maps.status();
   if (record_.settings.poses.refine_poses_with_curves) {
-    scene = RefinePosesWithCurves(*input, *scene, *edge_maps, stages);
-    if (!scene.ok()) return scene.status();
+    Result<Scene> refined =
+        RefinePosesWithCurves(*input, *scene, *edge_maps, stages);
+    if (!refined.ok()) return refined.status();
+    edge_maps = EdgesWithCameras(*scene, *edge_maps, refined->cameras);
+    if (!edge_maps.ok()) return edge_maps.status();
+    scene = std::move(refined);
   }
   const Result<Reconstruction> reconstruction =
       stages.Reconstruct(*scene, *edge_maps);
@@ -131,7 +135,7 @@ Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
   return MakeScene(workspace_, *refined_model_, input.missing_images);
 }
 
-// The same with the edges of the views, which stay where they are.
+// The same with the edges of the views.
 Result<Scene> Job::RefinePosesWithCurves(const WorkspaceScene& input,
                                          const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,

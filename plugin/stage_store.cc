@@ -138,6 +138,21 @@ std::uint64_t SketchKey(const Scene& scene, const Options& options) {
   return key.key();
 }
 
+std::uint64_t CurvePosesKey(const Scene& scene,
+                            const Options& options,
+                            bool refine_intrinsics) {
+  KeyMaker key;
+  key.Add(SketchKey(scene, options));
+  key.Add(static_cast<int>(refine_intrinsics));
+  for (const ScenePoint& point : scene.points) {
+    for (const Eigen::Vector2d& pixel : point.pixels) {
+      key.Add(pixel.x());
+      key.Add(pixel.y());
+    }
+  }
+  return key.key();
+}
+
 std::optional<std::vector<EdgeMap>> StageStore::LoadEdges(
     std::uint64_t key) const {
   return ValueOf(ReadEdgeMaps(folder_ / kEdgesName, key));

@@ -30,6 +30,9 @@ std::uint64_t EdgesKey(const Scene& scene, const Options& options);
 // options of hypotheses, consolidation and validation. Poses refined with
 // curves depend on the same, of the scene before.
 std::uint64_t SketchKey(const Scene& scene, const Options& options);
+std::uint64_t CurvePosesKey(const Scene& scene,
+                            const Options& options,
+                            bool refine_intrinsics);
 
 // The stages that take long: files in a folder. A file
 // that another key was meant for, or that is broken, is as good as none. If the

@@ -15,23 +15,35 @@
 
 namespace curvix {
 
-// Distances, in pixels, of projected samples of curves from the nearest edges
-// of like direction; 1 where there is none within a pixel.
-struct EdgeErrors {
+// Distances in pixels.
+struct ErrorsOfViews {
   double mean_px = 0;
   double median_px = 0;
 };
 
 struct CurvePoses {
-  // Refined if accepted, else those of the scene; by view.
+  // Refined if accepted, else those of the scene; by view and by camera.
   std::vector<Rigid3> cam_from_world;
+  std::vector<Camera> cameras;
   bool accepted = false;
   std::string reason;  // why, or why not: part of a sentence, no full stop
   std::size_t num_samples = 0;        // places on curves that took part
   std::size_t num_check_samples = 0;  // held out to judge by
   std::size_t num_check_observations = 0;
-  EdgeErrors before;  // of the samples held out, fitted to the poses before
-  EdgeErrors after;   // and to those after
+  // Of projected samples that were held out from the nearest edges of like
+  // direction, 1 where there is none within a pixel; the samples are fitted to
+  // the poses before and to those after.
+  ErrorsOfViews before;
+  ErrorsOfViews after;
+  std::size_t num_points = 0;        // sparse points that took part
+  std::size_t num_check_points = 0;  // held out to judge by
+  // Of the points held out from where they are seen, cut at 2 px; fitted to the
+  // poses before and to those after.
+  ErrorsOfViews points_before;
+  ErrorsOfViews points_after;
+  // How far the gain of what is held out stands out of chance; see
+  // RefinePosesWithCurves.
+  double significance = 0;
   std::size_t num_views_moved = 0;  // views that the new poses serve better
   // How far the samples that a view sees, at their places before, shift in its
   // image: the median over these samples; of all views the median and the
@@ -56,6 +68,15 @@ struct CurvePoses {
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,
+                                         bool refine_intrinsics = true,
                                          const Progress& progress = {});
+
+// The edges of a scene as other cameras have them, in the same order. Cameras
+// and edges must be as many as the scene's. kInvalidArgument if a camera cannot
+// be inverted at an edge.
+Result<std::vector<EdgeMap>> EdgesWithCameras(
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<Camera>& cameras);
 
 }  // namespace curvix

@@ -63,6 +63,11 @@ struct Camera {
   int width = 0;               // pixels
   int height = 0;              // pixels
   std::vector<double> params;  // in COLMAP's order for the model
+
+  friend bool operator==(const Camera& a, const Camera& b) {
+    return a.model == b.model && a.width == b.width && a.height == b.height &&
+           a.params == b.params;
+  }
 };
 
 // One registered image.
@@ -81,6 +86,9 @@ struct View {
 struct ScenePoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   std::vector<int> view_idxs;  // ascending, without repeats
+  // Where these views see it, in pixels of their images; not finite where that
+  // is not known. One per view, or empty.
+  std::vector<Eigen::Vector2d> pixels;
 };
 
 // Views are sorted by name. `points` may be empty: known poses are enough.

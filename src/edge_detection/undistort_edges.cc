@@ -4,8 +4,6 @@
 
 #include <curvix/camera_model.h>
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,27 +12,17 @@
 #include <vector>
 
 #include "base/check.h"
+#include "geometry/image_edge.h"
+#include "geometry/lens.h"
 
 namespace curvix {
 namespace {
 
-std::optional<Edge2d> UndistortEdge(const Edge2d& edge,
-                                    const Camera& camera,
-                                    const Eigen::Matrix3d& calibration) {
-  const std::optional<Eigen::Vector2d> ideal =
-      IdealFromImage(camera, edge.position);
-  if (!ideal) return std::nullopt;
-  const Eigen::Matrix2d image_from_ideal =
-      ImageFromIdealJacobian(camera, *ideal);
-  if (!(image_from_ideal.determinant() > 0)) return std::nullopt;
-  const Eigen::Vector2d tangent(std::cos(edge.angle), std::sin(edge.angle));
-  const Eigen::Vector2d ideal_tangent =
-      calibration.topLeftCorner<2, 2>() * image_from_ideal.inverse() * tangent;
-  Edge2d undistorted = edge;
-  undistorted.position = (calibration * ideal->homogeneous()).head<2>();
-  undistorted.angle =
-      static_cast<float>(std::atan2(ideal_tangent.y(), ideal_tangent.x()));
-  return undistorted;
+// `edge` at another place.
+Edge2d Moved(Edge2d edge, const ImageEdge& to) {
+  edge.position = to.position;
+  edge.angle = static_cast<float>(std::atan2(to.tangent.y(), to.tangent.x()));
+  return edge;
 }
 
 using NewIndices = std::vector<std::optional<std::int32_t>>;
@@ -51,7 +39,6 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   CURVIX_CHECK(distorted.edges.size() == distorted.neighbors.size(),
                distorted.edges.size() << " edges");
   if (IsPinhole(camera)) return distorted;
-  const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   EdgeMap ideal;
   ideal.noise = distorted.noise;
   ideal.spacing_px = distorted.spacing_px;
@@ -60,11 +47,11 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   ideal.num_dropped_masked = distorted.num_dropped_masked;
   NewIndices new_idx(distorted.edges.size());
   for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
-    const std::optional<Edge2d> edge =
-        UndistortEdge(distorted.edges[i], camera, calibration);
+    const auto edge =
+        EdgeInIdealImage(ToImageEdge(distorted.edges[i]), camera);
     if (!edge) continue;
     new_idx[i] = static_cast<std::int32_t>(ideal.edges.size());
-    ideal.edges.push_back(*edge);
+    ideal.edges.push_back(Moved(distorted.edges[i], *edge));
   }
   ideal.neighbors.reserve(ideal.edges.size());
   for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
@@ -74,6 +61,19 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
         {Renumbered(new_idx, links.previous), Renumbered(new_idx, links.next)});
   }
   return ideal;
+}
+
+std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
+                                  const Camera& from,
+                                  const Camera& to) {
+  if (from == to) return edges;
+  EdgeMap carried = edges;
+  for (Edge2d& edge : carried.edges) {
+    const auto moved = CarryEdge(ToImageEdge(edge), from, to);
+    if (!moved) return std::nullopt;
+    edge = Moved(edge, *moved);
+  }
+  return carried;
 }
 
 }  // namespace curvix

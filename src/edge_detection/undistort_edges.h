@@ -5,6 +5,8 @@
 #include <curvix/edges.h>
 #include <curvix/scene.h>
 
+#include <optional>
+
 namespace curvix {
 
 // Carries the edges of `distorted`, in pixels of the camera's images, to the
@@ -14,5 +16,11 @@ namespace curvix {
 // mirrors the image, are dropped and links to them removed; the others keep
 // their order. Pinhole cameras give back what they got.
 EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera);
+
+// The edges of the ideal pinhole of `from` in that of `to`, in the same order;
+// nothing if `to` cannot be inverted at one of them.
+std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
+                                  const Camera& from,
+                                  const Camera& to);
 
 }  // namespace curvix

@@ -30,6 +30,26 @@ Rigid3 TakePose(ByteReader& in) {
   return pose;
 }
 
+constexpr std::size_t kMinCameraBytes = 20;
+
+void Put(const Camera& camera, ByteWriter& out) {
+  out.Put(static_cast<std::int32_t>(camera.model));
+  out.Put(static_cast<std::int32_t>(camera.width));
+  out.Put(static_cast<std::int32_t>(camera.height));
+  out.PutCount(camera.params.size());
+  for (const double param : camera.params) out.Put(param);
+}
+
+Camera TakeCamera(ByteReader& in) {
+  Camera camera;
+  camera.model = static_cast<CameraModel>(in.Take<std::int32_t>());
+  camera.width = in.Take<std::int32_t>();
+  camera.height = in.Take<std::int32_t>();
+  camera.params.resize(in.TakeCount(sizeof(double)));
+  for (double& param : camera.params) param = in.Take<double>();
+  return camera;
+}
+
 void Put(const std::string& text, ByteWriter& out) {
   out.PutCount(text.size());
   for (const char c : text) out.Put(c);
@@ -156,11 +176,15 @@ Status WriteCurvePoses(const fs::path& path,
   ByteWriter out;
   out.PutCount(poses.cam_from_world.size());
   for (const Rigid3& pose : poses.cam_from_world) Put(pose, out);
+  out.PutCount(poses.cameras.size());
+  for (const Camera& camera : poses.cameras) Put(camera, out);
   out.Put(static_cast<std::uint8_t>(poses.accepted));
   Put(poses.reason, out);
   for (const std::size_t count : {poses.num_samples,
                                   poses.num_check_samples,
                                   poses.num_check_observations,
+                                  poses.num_points,
+                                  poses.num_check_points,
                                   poses.num_views_moved,
                                   poses.max_shift_view_idx}) {
     out.PutCount(count);
@@ -169,6 +193,11 @@ Status WriteCurvePoses(const fs::path& path,
                              poses.before.median_px,
                              poses.after.mean_px,
                              poses.after.median_px,
+                             poses.points_before.mean_px,
+                             poses.points_before.median_px,
+                             poses.points_after.mean_px,
+                             poses.points_after.median_px,
+                             poses.significance,
                              poses.median_shift_px,
                              poses.max_shift_px}) {
     out.Put(error);
@@ -184,11 +213,15 @@ Result<CurvePoses> ReadCurvePoses(const fs::path& path, std::uint64_t key) {
   CurvePoses poses;
   poses.cam_from_world.resize(in.TakeCount(kPoseBytes));
   for (Rigid3& pose : poses.cam_from_world) pose = TakePose(in);
+  poses.cameras.resize(in.TakeCount(kMinCameraBytes));
+  for (Camera& camera : poses.cameras) camera = TakeCamera(in);
   poses.accepted = in.Take<std::uint8_t>() != 0;
   poses.reason = TakeText(in);
   for (std::size_t* count : {&poses.num_samples,
                              &poses.num_check_samples,
                              &poses.num_check_observations,
+                             &poses.num_points,
+                             &poses.num_check_points,
                              &poses.num_views_moved,
                              &poses.max_shift_view_idx}) {
     *count = static_cast<std::size_t>(in.Take<std::uint64_t>());
@@ -197,6 +230,11 @@ Result<CurvePoses> ReadCurvePoses(const fs::path& path, std::uint64_t key) {
                         &poses.before.median_px,
                         &poses.after.mean_px,
                         &poses.after.median_px,
+                        &poses.points_before.mean_px,
+                        &poses.points_before.median_px,
+                        &poses.points_after.mean_px,
+                        &poses.points_after.median_px,
+                        &poses.significance,
                         &poses.median_shift_px,
                         &poses.max_shift_px}) {
     *error = in.Take<double>();

@@ -34,14 +34,16 @@ Subset UsedViews(const Scene& scene,
     used.scene.views.push_back(scene.views[i]);
     used.edge_maps.push_back(edge_maps[i]);
   }
-  for (ScenePoint point : scene.points) {
-    std::vector<int> view_idxs;
-    for (const int view_idx : point.view_idxs) {
-      const int new_idx = new_idxs[static_cast<std::size_t>(view_idx)];
-      if (new_idx >= 0) view_idxs.push_back(new_idx);
+  for (const ScenePoint& point : scene.points) {
+    ScenePoint& left = used.scene.points.emplace_back();
+    left.position = point.position;
+    for (std::size_t i = 0; i < point.view_idxs.size(); ++i) {
+      const int new_idx =
+          new_idxs[static_cast<std::size_t>(point.view_idxs[i])];
+      if (new_idx < 0) continue;
+      left.view_idxs.push_back(new_idx);
+      if (!point.pixels.empty()) left.pixels.push_back(point.pixels[i]);
     }
-    point.view_idxs = std::move(view_idxs);
-    used.scene.points.push_back(std::move(point));
   }
   return used;
 }

@@ -2,13 +2,19 @@
 // Paper: none (beyond it).
 #include "pipeline/posed_edges.h"
 
+#include <curvix/camera_model.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "base/angles.h"
+#include "base/parallel.h"
+#include "edge_detection/undistort_edges.h"
 #include "geometry/image_edge.h"
+#include "geometry/lens.h"
 #include "geometry/posed_views.h"
 
 namespace curvix {
@@ -39,17 +45,50 @@ PosedEdges::PosedEdges(const Scene& scene,
       depths_(FindDepthRanges(
           views_, scene.points, options.hypotheses.depth_margin)),
       neighbors_(NeighborsInDirection(overlaps_)),
-      motions_(views_.size()) {}
+      moved_{std::vector<Rigid3>(views_.size()), scene.cameras} {}
 
-void PosedEdges::SetMotions(std::vector<Rigid3> new_cam_from_cam) {
-  motions_ = std::move(new_cam_from_cam);
+const Camera& PosedEdges::CameraOf(std::size_t view_idx) const {
+  return moved_
+      .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
+}
+
+Rigid3 PosedEdges::PoseOf(std::size_t view_idx) const {
+  return moved_.new_cam_from_cam[view_idx] *
+         scene_.views[view_idx].cam_from_world;
+}
+
+void PosedEdges::Move(const MovedCameras& moved) {
+  moved_ = moved;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    const Rigid3 pose = motions_[i] * scene_.views[i].cam_from_world;
+    const Rigid3 pose = PoseOf(i);
     PosedView& view = views_[i];
+    view.calibration = PinholeCalibration(CameraOf(i));
     view.rotation = pose.rotation.toRotationMatrix();
     view.translation = pose.translation;
     view.center = -(view.rotation.transpose() * view.translation);
   }
+}
+
+const Camera& PosedEdges::InputCameraOf(std::size_t view_idx) const {
+  return scene_
+      .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
+}
+
+std::optional<ImageEdge> PosedEdges::Seen(const Rim& rim,
+                                          std::size_t view_idx) const {
+  const PosedView& view = views_[view_idx];
+  const auto seen = ProjectEdge(view, SeenFrom(rim, view.center));
+  if (!seen || !view.Contains(seen->position)) return std::nullopt;
+  return CarryEdge(*seen, CameraOf(view_idx), InputCameraOf(view_idx));
+}
+
+std::vector<EdgeMap> PosedEdges::CarriedMaps() const {
+  std::vector<EdgeMap> carried(views_.size());
+  ParallelFor(views_.size(), options_.runtime.num_threads, [&](std::size_t i) {
+    auto edges = CarryEdges(edge_maps_[i], InputCameraOf(i), CameraOf(i));
+    if (edges) carried[i] = *std::move(edges);
+  });
+  return carried;
 }
 
 std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
@@ -62,9 +101,12 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
   options.hypotheses.location_tolerance_px = 2 * sigma_px;
   options.validation.max_distance_px =
       std::max(options.validation.max_distance_px, kGateSigmas * sigma_px);
+  const bool is_as_input = moved_.cameras == scene_.cameras;
+  const std::vector<EdgeMap> carried =
+      is_as_input ? std::vector<EdgeMap>() : CarriedMaps();
   const EdgeSketch sketch =
       SketchByViews({views_,
-                     edge_maps_,
+                     is_as_input ? edge_maps_ : carried,
                      overlaps_,
                      depths_,
                      options,
@@ -102,9 +144,8 @@ std::vector<EdgeRef> PosedEdges::FindEdges(
     const std::vector<double>& gates_px) const {
   std::vector<EdgeRef> found;
   for (const std::size_t i : views) {
-    const auto projected =
-        ProjectEdge(views_[i], SeenFrom(rim, views_[i].center));
-    if (!projected || !views_[i].Contains(projected->position)) continue;
+    const auto projected = Seen(rim, i);
+    if (!projected) continue;
     const Gate gate{gates_px[i], kMaxTangentialPx, kMinCosine};
     const auto nearest = NearestEdge(indices_[i], *projected, gate);
     if (nearest) found.push_back({static_cast<std::int32_t>(i), *nearest});
@@ -127,9 +168,8 @@ std::vector<EdgesAround> PosedEdges::LookAround(
     double reach_px) const {
   std::vector<EdgesAround> result;
   for (const CurvePlace* place : places) {
-    const auto projected = ProjectEdge(
-        views_[view_idx], SeenFrom(place->rim, views_[view_idx].center));
-    if (!projected || !views_[view_idx].Contains(projected->position)) continue;
+    const auto projected = Seen(place->rim, view_idx);
+    if (!projected) continue;
     const Eigen::Vector2d& tangent = projected->tangent;
     EdgesAround around;
     around.normal = {-tangent.y(), tangent.x()};
@@ -155,42 +195,59 @@ std::vector<EdgesAround> PosedEdges::LookAround(
   return result;
 }
 
-ImageEdge PosedEdges::EdgeOf(const EdgeRef& ref) const {
+ImageEdge PosedEdges::InputEdge(const EdgeRef& ref) const {
   return ToImageEdge(edge_maps_[static_cast<std::size_t>(ref.view_idx)]
                          .edges[static_cast<std::size_t>(ref.edge_idx)]);
 }
 
-double PosedEdges::Distance(const Rim& rim, const EdgeRef& ref) const {
-  const PosedView& view = views_[static_cast<std::size_t>(ref.view_idx)];
-  const ImageEdge edge = EdgeOf(ref);
-  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
-  const Eigen::Vector2d pixel =
-      view.Pixel(view.InCamera(SeenFrom(rim, view.center).position));
-  return std::abs(normal.dot(pixel - edge.position));
+ImageEdge PosedEdges::EdgeInPhotograph(const EdgeRef& ref) const {
+  const auto i = static_cast<std::size_t>(ref.view_idx);
+  return curvix::EdgeInPhotograph(InputEdge(ref), InputCameraOf(i));
 }
 
-std::vector<std::vector<double>> PosedEdges::ShiftsByView(
-    const std::vector<CurvePlace>& places) const {
-  std::vector<std::vector<double>> shifts(views_.size());
-  for (const CurvePlace& place : places) {
-    const Eigen::Vector3d x = MiddleOf(place.rim);
-    for (const EdgeRef& ref : place.support) {
-      const auto i = static_cast<std::size_t>(ref.view_idx);
-      const PosedView& from = input_views_[i];
-      const PosedView& to = views_[i];
-      shifts[i].push_back(
-          (to.Pixel(to.InCamera(x)) - from.Pixel(from.InCamera(x))).norm());
-    }
+double PosedEdges::Distance(const Rim& rim, const EdgeRef& ref) const {
+  const auto seen = Seen(rim, static_cast<std::size_t>(ref.view_idx));
+  if (!seen) return std::numeric_limits<double>::infinity();
+  const ImageEdge edge = InputEdge(ref);
+  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
+  return std::abs(normal.dot(seen->position - edge.position));
+}
+
+std::vector<PointInImage> PosedEdges::Observed(const PointSample& point) const {
+  std::vector<PointInImage> seen;
+  for (const PointSample::Observation& at : point.observations) {
+    const auto i = static_cast<std::size_t>(at.view_idx);
+    seen.push_back({&CameraOf(i), PoseOf(i), at.pixel});
   }
-  return shifts;
+  return seen;
+}
+
+std::optional<Eigen::Vector2d> PosedEdges::PixelByInputCamera(
+    std::size_t view_idx, const Eigen::Vector3d& x) const {
+  const auto seen = Project(CameraOf(view_idx), PoseOf(view_idx), x);
+  if (!seen) return std::nullopt;
+  const auto k = static_cast<std::size_t>(scene_.views[view_idx].camera_idx);
+  const auto ideal = IdealFromImage(scene_.cameras[k], *seen);
+  if (!ideal) return std::nullopt;
+  return (input_views_[view_idx].calibration * ideal->homogeneous()).head<2>();
+}
+
+std::optional<double> PosedEdges::ShiftIn(std::size_t view_idx,
+                                          const Eigen::Vector3d& x) const {
+  const View& view = scene_.views[view_idx];
+  const auto from = Project(InputCameraOf(view_idx), view.cam_from_world, x);
+  const auto to = Project(CameraOf(view_idx), PoseOf(view_idx), x);
+  if (!from || !to) return std::nullopt;
+  return (*to - *from).norm();
 }
 
 Rim PosedEdges::Adjusted(const CurvePlace& place, double sigma_px) const {
   if (place.support.size() < 2) return place.rim;
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : place.support) {
-    measurements.push_back(MeasurePlane(
-        views_[static_cast<std::size_t>(ref.view_idx)], EdgeOf(ref)));
+    const auto i = static_cast<std::size_t>(ref.view_idx);
+    const auto edge = CarryEdge(InputEdge(ref), InputCameraOf(i), CameraOf(i));
+    if (edge) measurements.push_back(MeasurePlane(views_[i], *edge));
   }
   return AdjustRim(place.rim, measurements, sigma_px);
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). The edges of views whose poses change, and samples
-// of the curves that they show.
+// Paper: none (beyond it). The edges of views whose poses and cameras
+// change, and samples of the curves that they show.
 #pragma once
 
+#include <curvix/camera_model.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geometry/rim.h"
@@ -36,11 +38,15 @@ class PosedEdges {
   PosedEdges(const PosedEdges&) = delete;
   PosedEdges& operator=(const PosedEdges&) = delete;
 
-  // With the poses of the scene, each followed by its motion.
+  // With the poses of the scene, each followed by its motion, and the cameras
+  // that are set.
   const std::vector<PosedView>& views() const { return views_; }
   const std::vector<PosedView>& input_views() const { return input_views_; }
-  const std::vector<Rigid3>& motions() const { return motions_; }
-  void SetMotions(std::vector<Rigid3> new_cam_from_cam);
+  const MovedCameras& moved() const { return moved_; }
+  const Camera& CameraOf(std::size_t view_idx) const;
+  // The pose of the scene followed by the view's motion.
+  Rigid3 PoseOf(std::size_t view_idx) const;
+  void Move(const MovedCameras& moved);
 
   // Places on curves, from some thousand edges spread over the views. Edges
   // are expected within a few times `sigma_px` of where the poses put them.
@@ -64,17 +70,33 @@ class PosedEdges {
       std::size_t view_idx,
       double reach_px) const;
 
-  ImageEdge EdgeOf(const EdgeRef& ref) const;
+  // In pixels of the photograph.
+  ImageEdge EdgeInPhotograph(const EdgeRef& ref) const;
   // Pixels; of the projection of `rim` from the line of the edge.
   double Distance(const Rim& rim, const EdgeRef& ref) const;
-  // Pixels that the supported places have moved by, from the poses of the
-  // scene, in each view.
-  std::vector<std::vector<double>> ShiftsByView(
-      const std::vector<CurvePlace>& places) const;
+  // Where views see the point, with their poses and cameras as they are.
+  std::vector<PointInImage> Observed(const PointSample& point) const;
+  // The pixel of the photograph in which a view sees `x`, in the ideal pinhole
+  // of the scene's camera; nothing where there is none.
+  std::optional<Eigen::Vector2d> PixelByInputCamera(
+      std::size_t view_idx, const Eigen::Vector3d& x) const;
+  // By how many pixels the photograph of a view shows a place elsewhere than by
+  // the scene's own pose and camera; nothing where either does not see it.
+  std::optional<double> ShiftIn(std::size_t view_idx,
+                                const Eigen::Vector3d& x) const;
   // The rim of the place, adjusted to its support.
   Rim Adjusted(const CurvePlace& place, double sigma_px) const;
 
  private:
+  const Camera& InputCameraOf(std::size_t view_idx) const;
+  ImageEdge InputEdge(const EdgeRef& ref) const;
+  // Where a view sees the rim, in the ideal image of the input camera, in which
+  // edges are indexed; nothing outside the image.
+  std::optional<ImageEdge> Seen(const Rim& rim, std::size_t view_idx) const;
+  // The edges in the ideal images of the cameras as they are; none of a view
+  // whose camera cannot be inverted.
+  std::vector<EdgeMap> CarriedMaps() const;
+
   const Scene& scene_;
   const std::vector<EdgeMap>& edge_maps_;
   const Options& options_;
@@ -84,7 +106,7 @@ class PosedEdges {
   std::vector<std::vector<ViewOverlap>> overlaps_;
   std::vector<DepthRange> depths_;
   std::vector<std::vector<ViewNeighbor>> neighbors_;
-  std::vector<Rigid3> motions_;
+  MovedCameras moved_;
 };
 
 }  // namespace curvix

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Sketch, shift, and in turns find edges and adjust;
-// see docs/stages/poses.md.
+// Paper: none (beyond it). What is refined, in which order, and what of it is
+// accepted; see docs/stages/poses.md.
 #include <curvix/option_table.h>
 #include <curvix/refine_poses.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "edge_detection/undistort_edges.h"
+#include "geometry/lens.h"
 #include "pipeline/check_input.h"
-#include "pipeline/judge_poses.h"
-#include "pipeline/posed_edges.h"
+#include "pipeline/held_out.h"
+#include "pipeline/pose_search.h"
 #include "pipeline/run_recorder.h"
-#include "poses/adjust_poses.h"
-#include "poses/find_shift.h"
-#include "poses/hold_world.h"
-#include "poses/residual_spread.h"
 
 namespace curvix {
 namespace {
@@ -26,231 +25,307 @@ constexpr double kSmallShiftPx = 0.1;  // asks for no second sketch
 // Edges of exact poses are half as far off; poses a quarter of a pixel off make
 // it twice as much.
 constexpr double kGoodEnoughPx = 0.06;
-constexpr int kNumRounds = 6;
-constexpr double kMinGainOfRound = 0.01;
-// Sketches expect larger errors until they find so many places.
-constexpr std::size_t kMinPlaces = 100;
-constexpr double kMaxSketchSigmaPx = 1.2;
-constexpr std::size_t kMinDistancesPerView = 12;
-constexpr double kReachPx = 6;  // of the search for shifts
-// Standard deviations of edges around projections.
-constexpr double kFirstSigmaPx = 0.5;
-constexpr double kMinSigmaPx = 0.15;
-constexpr double kMaxSigmaPx = 1.5;
-constexpr double kSigmaPerSpread = 1.5;
-constexpr double kGateSigmas = 4;
-constexpr double kPlaceSigmaPx = 0.3;
-constexpr double kFirstPriorPx = 10;
-constexpr double kMinPriorPx = 0.02;
+constexpr int kNumFinalRounds = 2;
+constexpr std::size_t kMinHeldOut = 20;  // places and points
+// A lens of fewer views is hardly told from poses and from what they show.
+constexpr int kMinViewsPerLens = 5;
+
+ErrorsOfViews Summarize(std::vector<double> errors) {
+  ErrorsOfViews summary;
+  for (const double error : errors) {
+    summary.mean_px += error / static_cast<double>(errors.size());
+  }
+  summary.median_px = MedianOr(0, std::move(errors));
+  return summary;
+}
 
 class Refiner {
  public:
   Refiner(const Scene& scene,
           const std::vector<EdgeMap>& edge_maps,
           const Options& options,
+          bool refine_intrinsics,
           RunRecorder* run)
       : scene_(scene),
-        options_(options),
-        run_(*run),
-        edges_(scene, edge_maps, options) {}
-
-  CurvePoses Run() {
-    for (int i = 0; i < kNumSketches && !run_.cancelled(); ++i) {
-      places_ = Sketch();
-      std::vector<CurvePlace> check_places = TakeCheckPlaces(&places_);
-      const bool has_shifted = ShiftViews();
-      if (i == 0) check_places_ = std::move(check_places);
-      if (i == 0 && !has_shifted) {
-        CurvePoses as_they_are = Judge();
-        if (IsGoodEnough(as_they_are)) {
-          as_they_are.reason = "the edges are where the poses put them";
-          return as_they_are;
-        }
-      }
-      Adjust();
-      if (prior_px_ < kSmallShiftPx) break;
-    }
-    HoldTheWorld();
-    return Judge();
+        num_threads_(options.runtime.num_threads),
+        search_(scene, edge_maps, options, run->Steps()) {
+    if (refine_intrinsics) shared_lenses_ = SharedLenses();
   }
 
- private:
-  CurvePoses Judge() {
-    CurvePoses result = JudgeMotions(
-        check_places_, scene_, options_.runtime.num_threads, &edges_);
-    result.num_samples = places_.size() + check_places_.size();
+  CurvePoses Run() {
+    Begin();
+    const bool has_shifted = search_.ShiftViews(evidence_.places);
+    if (!has_shifted && IsGoodEnough()) {
+      CurvePoses as_they_are = Judge();
+      as_they_are.reason = "the edges are where the poses put them";
+      return as_they_are;
+    }
+    if (!evidence_.points.empty()) AdjustToPoints();
+    for (int i = 0; i < kNumSketches && !search_.is_stopped(); ++i) {
+      search_.AdjustInTurns(&evidence_);
+      if (i + 1 == kNumSketches ||
+          search_.MedianShift(evidence_) < kSmallShiftPx) {
+        break;
+      }
+      SketchAgain();
+      search_.ShiftViews(evidence_.places);
+    }
+    TryLenses();
+    search_.HoldTheWorld(&evidence_);
+    CurvePoses result = Judge();
+    if (result.accepted) Finish(&result);
     return result;
   }
 
-  // Brings the world back to where the input poses show it.
-  void HoldTheWorld() {
-    std::vector<SeenPlace> seen;
-    for (const CurvePlace& place : places_) {
-      for (const EdgeRef& ref : place.support) {
-        const auto i = static_cast<std::size_t>(ref.view_idx);
-        const PosedView& view = edges_.views()[i];
-        const Eigen::Vector3d x = MiddleOf(place.rim);
-        seen.push_back({i, x, view.Pixel(view.InCamera(x))});
-      }
-    }
-    const Rigid3 new_from_old = HoldWorld(edges_.input_views(), seen).Inverse();
-    std::vector<Rigid3> motions = edges_.motions();
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      const Rigid3& pose = scene_.views[i].cam_from_world;
-      motions[i] = motions[i] * pose * new_from_old * pose.Inverse();
-    }
-    edges_.SetMotions(std::move(motions));
+ private:
+  // Places and points by the input, and what of them is held out.
+  void Begin() {
+    ChosenPoints points =
+        ChoosePoints(UsablePoints(scene_), scene_.views.size());
+    evidence_ = {search_.Sketch(), std::move(points.chosen)};
+    cells_ = SpaceCells(PositionsOf(evidence_));
+    held_out_ = {TakeHeldOut(cells_, &evidence_.places),
+                 std::move(points.held_out)};
+    before_ = Measure();
+  }
+
+  void SketchAgain() {
+    evidence_.places = search_.Sketch();
+    TakeHeldOut(cells_, &evidence_.places);
+  }
+
+  HeldOutErrors Measure() const {
+    return MeasureHeldOut(held_out_, num_threads_, search_.edges());
   }
 
   // Saves the time of looking for what cannot be found.
-  static bool IsGoodEnough(const CurvePoses& as_they_are) {
-    return as_they_are.num_check_observations > 0 &&
-           as_they_are.before.median_px < kGoodEnoughPx;
-  }
-
-  std::vector<CurvePlace> Sketch() {
-    double sigma_px = options_.hypotheses.EdgeSigmaPx();
-    std::vector<CurvePlace> places = edges_.Sketch(sigma_px, run_.Steps());
-    while (places.size() < kMinPlaces && 2 * sigma_px <= kMaxSketchSigmaPx &&
-           !run_.cancelled()) {
-      sigma_px *= 2;
-      places = edges_.Sketch(sigma_px, run_.Steps());
+  bool IsGoodEnough() const {
+    std::vector<double> errors;
+    for (const ErrorPair& pair :
+         PairErrors(held_out_, before_, before_, search_.edges())) {
+      errors.push_back(pair.before);
     }
-    return places;
+    return !errors.empty() && Median(std::move(errors)) < kGoodEnoughPx;
   }
 
-  // Turns each camera such that its picture shifts to where most places agree.
-  // Whether any did.
-  bool ShiftViews() {
-    const std::size_t num_views = edges_.views().size();
-    std::vector<Rigid3> motions = edges_.motions();
-    std::vector<Eigen::Vector2d> shifts(num_views, Eigen::Vector2d::Zero());
-    const auto places = edges_.PlacesByView(places_);
-    ParallelFor(num_views, options_.runtime.num_threads, [&](std::size_t i) {
-      shifts[i] =
-          FindShift(edges_.LookAround(places[i], i, kReachPx), kReachPx);
-      const Eigen::Vector2d& shift = shifts[i];
-      if (shift.isZero(0)) return;
-      const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
-      const Eigen::Vector3d turn(
-          -shift.y() / calibration(1, 1), shift.x() / calibration(0, 0), 0);
-      Rigid3 motion;
-      motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-      motions[i] = motion * motions[i];
-    });
-    edges_.SetMotions(std::move(motions));
-    sigmas_px_.assign(num_views, kFirstSigmaPx);
-    return std::any_of(shifts.begin(), shifts.end(), [](const auto& shift) {
-      return !shift.isZero(0);
-    });
+  // Poses and lenses from points alone; then places by these.
+  void AdjustToPoints() {
+    evidence_.places.clear();
+    search_.Adjust(&evidence_);
+    TryLenses();
+    SketchAgain();
   }
 
-  // Finds edges and adjusts poses in turns, until edges come no nearer.
-  void Adjust() {
-    double error_px = kMaxSigmaPx;
-    for (int round = 0; round < kNumRounds && !run_.cancelled(); ++round) {
-      FindEdges();
-      UpdateSigmas();
-      AdjustOnce();
-      const double previous = std::exchange(error_px, MedianOr(0, Distances()));
-      if (round > 1 && error_px > previous * (1 - kMinGainOfRound)) break;
+  // By camera: whether enough views share it.
+  std::vector<bool> SharedLenses() const {
+    std::vector<int> counts(scene_.cameras.size(), 0);
+    for (const View& view : scene_.views) {
+      ++counts[static_cast<std::size_t>(view.camera_idx)];
     }
-  }
-
-  void FindEdges() {
-    std::vector<double> gates_px;
-    for (const double sigma : sigmas_px_) {
-      gates_px.push_back(kGateSigmas * sigma);
+    std::vector<bool> is_shared;
+    for (const int count : counts) {
+      is_shared.push_back(count >= kMinViewsPerLens);
     }
-    ParallelFor(
-        places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
-          CurvePlace& place = places_[i];
-          place.support =
-              edges_.FindEdges(place.rim, edges_.ViewsToAsk(place), gates_px);
-        });
-    std::erase_if(places_, [](const CurvePlace& place) {
-      return place.support.size() < kMinSupportsOfPlace;
-    });
+    return is_shared;
   }
 
-  std::vector<std::vector<double>> DistancesByView() const {
-    std::vector<std::vector<double>> distances(edges_.views().size());
-    for (const CurvePlace& place : places_) {
-      for (const EdgeRef& ref : place.support) {
-        distances[static_cast<std::size_t>(ref.view_idx)].push_back(
-            edges_.Distance(place.rim, ref));
+  // The shared cameras by models with more terms.
+  std::vector<Camera> Extended(std::vector<Camera> cameras) const {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      if (shared_lenses_[i]) cameras[i] = WithMoreTerms(cameras[i]);
+    }
+    return cameras;
+  }
+
+  // Refines shared cameras, by their own terms and by more, and keeps what what
+  // is held out proves: that poses adjusted to it fit better with these
+  // cameras than without.
+  void TryLenses() {
+    if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
+      return;
+    }
+    struct Lenses {
+      MovedCameras moved;
+      PoseEvidence evidence;
+      std::vector<bool> free_lenses;
+    };
+    const Lenses without{
+        search_.edges().moved(), evidence_, search_.free_lenses()};
+    const std::vector<double> losses = search_.LossesOf(held_out_);
+    Lenses best = without;
+    double best_gain = 0;
+    std::vector<Camera> cameras = without.moved.cameras;
+    while (!search_.is_stopped()) {
+      evidence_ = without.evidence;
+      search_.Move({without.moved.new_cam_from_cam, cameras});
+      search_.FreeLenses(shared_lenses_);
+      search_.Adjust(&evidence_);
+      const double gain = ProvenGain(losses, search_.LossesOf(held_out_));
+      if (gain > best_gain) {
+        best_gain = gain;
+        best = {search_.edges().moved(), evidence_, shared_lenses_};
       }
+      std::vector<Camera> longer = Extended(cameras);
+      if (longer == cameras) break;
+      cameras = std::move(longer);
     }
-    return distances;
+    search_.Move(best.moved);
+    search_.FreeLenses(best.free_lenses);
+    evidence_ = std::move(best.evidence);
   }
 
-  std::vector<double> Distances() const {
-    return Concatenate(DistancesByView());
-  }
-
-  // Where few edges are found, the search becomes wider.
-  void UpdateSigmas() {
-    const std::vector<std::vector<double>> distances = DistancesByView();
-    ParallelFor(
-        sigmas_px_.size(), options_.runtime.num_threads, [&](std::size_t i) {
-          const double sigma_px =
-              distances[i].size() < kMinDistancesPerView
-                  ? 2 * sigmas_px_[i]
-                  : kSigmaPerSpread *
-                        FitSpread(distances[i], kGateSigmas * sigmas_px_[i]);
-          sigmas_px_[i] = std::clamp(sigma_px, kMinSigmaPx, kMaxSigmaPx);
-        });
-  }
-
-  void AdjustOnce() {
-    std::vector<PoseSample> samples;
-    for (const CurvePlace& place : places_) {
-      PoseSample& sample = samples.emplace_back();
-      sample.rim = place.rim;
-      for (const EdgeRef& ref : place.support) {
-        sample.observations.push_back({ref.view_idx, edges_.EdgeOf(ref)});
-      }
+  // By how much the losses of what is held out fall; zero if that may be
+  // chance.
+  double ProvenGain(const std::vector<double>& before,
+                    const std::vector<double>& after) const {
+    const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out_);
+    GainsByCell gains(cells_);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      gains.Add(positions[i], before[i] - after[i]);
     }
-    AdjustedPoses adjusted =
-        AdjustPoses({edges_.input_views(), sigmas_px_, samples, prior_px_},
-                    edges_.motions(),
-                    options_.runtime.num_threads,
-                    [this] { return run_.Steps()(0, 0); });
-    edges_.SetMotions(std::move(adjusted.new_cam_from_cam));
-    ParallelFor(
-        places_.size(), options_.runtime.num_threads, [&](std::size_t i) {
-          places_[i].rim = adjusted.rims[i];
-          places_[i].rim = edges_.Adjusted(places_[i], kPlaceSigmaPx);
-        });
-    prior_px_ = std::max(kMinPriorPx, MedianShift());
+    return gains.Significance() >= kSignificant ? gains.Sum() : 0;
   }
 
-  // How far pictures have shifted so far: what the typical pose is off by.
-  double MedianShift() const {
-    std::vector<double> medians;
-    for (std::vector<double>& shifts : edges_.ShiftsByView(places_)) {
-      if (shifts.size() >= kMinDistancesPerView) {
-        medians.push_back(Median(std::move(shifts)));
-      }
+  // Views whose places come away from their edges keep their poses, unless
+  // lenses have changed: then old poses are of no use.
+  void RestoreWorseViews(const HeldOutErrors& after) {
+    if (!search_.free_lenses().empty()) return;
+    const std::vector<bool> worse =
+        WorseViews(PairErrors(held_out_, before_, after, search_.edges()),
+                   scene_.views.size());
+    MovedCameras moved = search_.edges().moved();
+    for (std::size_t i = 0; i < worse.size(); ++i) {
+      if (worse[i]) moved.new_cam_from_cam[i] = Rigid3();
     }
-    return MedianOr(0, std::move(medians));
+    search_.Move(moved);
+  }
+
+  CurvePoses Judge() {
+    CurvePoses result;
+    result.num_samples = evidence_.places.size() + held_out_.places.size();
+    result.num_points = evidence_.points.size() + held_out_.points.size();
+    result.num_check_samples = held_out_.places.size();
+    result.num_check_points = held_out_.points.size();
+    RestoreWorseViews(Measure());
+    const HeldOutErrors after = Measure();
+    SummarizeErrors(after, &result);
+    Decide(CompareErrors(held_out_, cells_, before_, after, search_.edges()),
+           &result);
+    PutPoses(held_out_, &result);
+    return result;
+  }
+
+  void SummarizeErrors(const HeldOutErrors& after, CurvePoses* result) const {
+    std::vector<double> from, to;
+    for (const ErrorPair& pair :
+         PairErrors(held_out_, before_, after, search_.edges())) {
+      from.push_back(pair.before);
+      to.push_back(pair.after);
+    }
+    result->num_check_observations = from.size();
+    result->before = Summarize(std::move(from));
+    result->after = Summarize(std::move(to));
+    result->points_before = Summarize(Concatenate(before_.points));
+    result->points_after = Summarize(Concatenate(after.points));
+  }
+
+  static void Decide(const SignificanceOfGain& gain, CurvePoses* result) {
+    char text[256];
+    std::snprintf(text,
+                  sizeof(text),
+                  "what was held out comes nearer by %.1f standard deviations "
+                  "(edges %.1f, points %.1f)",
+                  gain.all,
+                  gain.places,
+                  gain.points);
+    result->significance = gain.all;
+    result->accepted = IsBetter(gain);
+    result->reason = text;
+    if (!result->accepted) result->reason = "may be chance: " + result->reason;
+    if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
+      result->accepted = false;
+      result->reason = "too little is left to judge by";
+    }
+  }
+
+  // Adjusts to all there is, what was held out included.
+  void Finish(CurvePoses* result) {
+    for (PointSample& point : held_out_.points) {
+      point.position = search_.Fitted(point);
+    }
+    evidence_.places.insert(evidence_.places.end(),
+                            held_out_.places.begin(),
+                            held_out_.places.end());
+    evidence_.points.insert(evidence_.points.end(),
+                            held_out_.points.begin(),
+                            held_out_.points.end());
+    for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
+      search_.FindEdges(&evidence_.places);
+      search_.Adjust(&evidence_);
+    }
+    search_.HoldTheWorld(&evidence_);
+    PutPoses(evidence_, result);
+  }
+
+  void PutPoses(const PoseEvidence& evidence, CurvePoses* result) const {
+    std::vector<double> shifts;
+    for (const std::optional<double>& shift : search_.Shifts(evidence)) {
+      shifts.push_back(shift.value_or(0));
+    }
+    const auto largest = std::max_element(shifts.begin(), shifts.end());
+    result->max_shift_px = *largest;
+    result->max_shift_view_idx =
+        static_cast<std::size_t>(largest - shifts.begin());
+    result->num_views_moved = static_cast<std::size_t>(std::count_if(
+        shifts.begin(), shifts.end(), [](double shift) { return shift > 0; }));
+    result->median_shift_px = MedianOr(0, std::move(shifts));
+    result->cameras =
+        result->accepted ? search_.edges().moved().cameras : scene_.cameras;
+    result->cam_from_world.clear();
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      result->cam_from_world.push_back(result->accepted
+                                           ? search_.edges().PoseOf(i)
+                                           : scene_.views[i].cam_from_world);
+    }
   }
 
   const Scene& scene_;
-  const Options& options_;
-  RunRecorder& run_;
-  PosedEdges edges_;
-  std::vector<CurvePlace> places_;
-  std::vector<CurvePlace> check_places_;
-  std::vector<double> sigmas_px_;
-  double prior_px_ = kFirstPriorPx;
+  const int num_threads_;
+  PoseSearch search_;
+  std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
+  PoseEvidence evidence_;
+  PoseEvidence held_out_;
+  SpaceCells cells_{{}};
+  HeldOutErrors before_;
 };
 
 }  // namespace
 
+Result<std::vector<EdgeMap>> EdgesWithCameras(
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<Camera>& cameras) {
+  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+    return status;
+  }
+  std::vector<EdgeMap> carried;
+  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
+    const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
+    auto edges = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
+    if (!edges) {
+      return Status(StatusCode::kInvalidArgument,
+                    "the camera of " + scene.views[i].name +
+                        " cannot be inverted at an edge");
+    }
+    carried.push_back(*std::move(edges));
+  }
+  return carried;
+}
+
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,
+                                         bool refine_intrinsics,
                                          const Progress& progress) {
   if (Status status = CheckScene(scene); !status.ok()) return status;
   if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
@@ -259,7 +334,8 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
   if (Status status = Validate(options); !status.ok()) return status;
   RunRecorder run(progress);
   run.Begin("refine_poses_with_curves");
-  CurvePoses result = Refiner(scene, edge_maps, options, &run).Run();
+  CurvePoses result =
+      Refiner(scene, edge_maps, options, refine_intrinsics, &run).Run();
   if (run.cancelled()) return run.CancelledStatus();
   return result;
 }

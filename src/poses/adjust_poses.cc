@@ -2,6 +2,7 @@
 // Paper: none (beyond it).
 #include "poses/adjust_poses.h"
 
+#include <curvix/camera_model.h>
 #include <curvix/parallel.h>
 
 #include <Eigen/Dense>
@@ -13,6 +14,8 @@
 
 #include "base/median.h"
 #include "geometry/axes_across.h"
+#include "geometry/lens.h"
+#include "poses/pose_observations.h"
 #include "poses/solve_steps.h"
 
 namespace curvix {
@@ -20,9 +23,12 @@ namespace {
 
 // A pose that is off by many times what is usual is let go.
 constexpr double kPriorLossScale = 3;
+// Of each parameter of a camera: standard deviation of what it does to the
+// image. COLMAP's cameras are hardly off by more.
+constexpr double kLensPriorPx = 3;
 // Edges are looked up anew after each solution, so none need be exact.
-constexpr int kMaxNumIterations = 10;
-constexpr double kMinGain = 1e-3;
+constexpr int kMaxNumIterations = 25;
+constexpr double kMinGain = 1e-4;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 
@@ -69,34 +75,14 @@ struct Loss {
     return 1 / std::sqrt(1 + square / scale2);
   }
 };
-constexpr Loss kEdgeLoss{1};
+constexpr Loss kLoss{1};
 constexpr Loss kPriorLoss{kPriorLossScale * kPriorLossScale};
-
-// A sample and the line of its edge, in the camera as it was in the beginning.
-struct SeenSample {
-  Eigen::Vector3d position;
-  Eigen::Matrix3d moves;  // of the position, by the unknowns of the sample
-  Eigen::Vector3d line;   // residual = line . x / x.z
-};
-
-SeenSample SeenBy(const PosedView& view,
-                  const Rim& rim,
-                  const ImageEdge& edge,
-                  double sigma_px) {
-  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
-  Eigen::Vector3d line = view.calibration.topRows<2>().transpose() * normal;
-  line.z() -= normal.dot(edge.position);
-  Eigen::Matrix3d moves;
-  moves << AxesAcross(rim.axis.tangent), SideSeenFrom(rim, view.center);
-  return {view.InCamera(SeenFrom(rim, view.center).position),
-          view.rotation * moves,
-          line / sigma_px};
-}
 
 // Where the search stands.
 struct State {
-  std::vector<Motion> motions;  // by view
-  // By sample: of the axis across itself, and of the radius.
+  std::vector<Motion> motions;     // by view
+  std::vector<LensChange> lenses;  // by camera
+  // By sample: of the axis across itself, and of the radius. Then by point.
   std::vector<Eigen::Vector3d> offsets;
 };
 
@@ -108,36 +94,27 @@ std::vector<Rigid3> RigidMotions(const State& state) {
   return motions;
 }
 
-EquationOwners OwnersOf(const PoseProblem& problem) {
-  std::vector<EquationOwners::Owner> owners;
-  for (std::size_t i = 0; i < problem.samples.size(); ++i) {
-    for (const PoseSample::Observation& seen :
-         problem.samples[i].observations) {
-      owners.push_back({static_cast<std::size_t>(seen.view_idx), i});
-    }
-  }
-  return {std::move(owners), problem.views.size(), problem.samples.size()};
-}
-
 class Search {
  public:
-  Search(const PoseProblem& problem,
-         const std::vector<Rigid3>& start,
-         int num_threads)
-      : num_threads_(num_threads), owners_(OwnersOf(problem)) {
-    for (const Rigid3& motion : start) {
+  Search(const PoseProblem& problem, const MovedCameras& start, int num_threads)
+      : num_threads_(num_threads),
+        owners_(OwnersOf(problem)),
+        seen_(ObservationsOf(problem)) {
+    for (const Rigid3& motion : start.new_cam_from_cam) {
       state_.motions.push_back(ToMotion(motion));
     }
-    state_.offsets.assign(problem.samples.size(), Eigen::Vector3d::Zero());
-    for (const PoseSample& sample : problem.samples) {
-      for (const PoseSample::Observation& seen : sample.observations) {
-        const auto i = static_cast<std::size_t>(seen.view_idx);
-        seen_.push_back(SeenBy(
-            problem.views[i], sample.rim, seen.edge, problem.sigmas_px[i]));
-      }
-    }
-    for (std::size_t i = 0; i < problem.views.size(); ++i) {
+    for (const Camera& camera : start.cameras) lenses_.emplace_back(camera);
+    state_.lenses.assign(lenses_.size(), LensChange::Zero());
+    state_.offsets.assign(problem.samples.size() + problem.points.size(),
+                          Eigen::Vector3d::Zero());
+    for (std::size_t i = 0; i < problem.scene.views.size(); ++i) {
       prior_factors_.push_back(PriorFactors(problem, i));
+    }
+    const std::vector<bool>& is_free = problem.free_lenses;
+    if (std::find(is_free.begin(), is_free.end(), true) != is_free.end()) {
+      is_free_ = is_free;
+      lens_factors_.assign(lenses_.size(),
+                           LensChange::Constant(1 / kLensPriorPx));
     }
   }
 
@@ -164,7 +141,34 @@ class Search {
 
   const State& state() const { return state_; }
 
+  std::vector<double> CostsBySample() const {
+    std::vector<double> sums(state_.offsets.size(), 0);
+    const std::vector<double> costs = Costs(state_);
+    for (std::size_t e = 0; e < costs.size(); ++e) {
+      sums[owners_.of_equation[e].sample_idx] += costs[e];
+    }
+    return sums;
+  }
+
+  std::vector<Camera> Cameras() const {
+    std::vector<Camera> cameras;
+    for (const CameraState& camera : CameraStates(state_, false)) {
+      cameras.push_back(camera.camera());
+    }
+    return cameras;
+  }
+
  private:
+  std::vector<CameraState> CameraStates(const State& state,
+                                        bool has_derivatives) const {
+    std::vector<CameraState> cameras;
+    for (std::size_t i = 0; i < lenses_.size(); ++i) {
+      cameras.emplace_back(
+          lenses_[i], state.lenses[i], has_derivatives && IsFree(i));
+    }
+    return cameras;
+  }
+
   // What a motion is multiplied by to give six residuals, each 1 where it
   // shifts the image by prior_px. None for a view without samples.
   Vector6d PriorFactors(const PoseProblem& problem,
@@ -175,31 +179,48 @@ class Search {
     }
     Vector6d factors = Vector6d::Zero();
     if (depths.empty()) return factors;
-    const double turn =
-        problem.views[view_idx].calibration(0, 0) / problem.prior_px;
+    const View& view = problem.scene.views[view_idx];
+    const Camera& camera =
+        problem.scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const double turn = PinholeCalibration(camera)(0, 0) / problem.prior_px;
     factors.head<3>().setConstant(turn);
     factors.tail<3>().setConstant(turn / Median(std::move(depths)));
     return factors;
   }
 
-  // Infinite if a sample is behind a camera.
-  double Cost(const State& state) const {
+  bool IsFree(std::size_t camera_idx) const {
+    return !is_free_.empty() && is_free_[camera_idx];
+  }
+
+  // By observation; infinite if a sample is behind a camera.
+  std::vector<double> Costs(const State& state) const {
     const std::vector<Rigid3> motions = RigidMotions(state);
+    const std::vector<CameraState> cameras = CameraStates(state, false);
     std::vector<double> costs(seen_.size());
     ParallelFor(costs.size(), num_threads_, [&](std::size_t e) {
       const auto [view_idx, sample_idx] = owners_.of_equation[e];
+      const PoseObservation& seen = seen_[e];
       const Eigen::Vector3d x =
           motions[view_idx] *
-          (seen_[e].position + seen_[e].moves * state.offsets[sample_idx]);
-      const double residual = seen_[e].line.dot(x) / x.z();
-      costs[e] = x.z() > 0 ? kEdgeLoss(residual * residual)
+          (seen.position + seen.moves * state.offsets[sample_idx]);
+      const double residual = seen.direction.dot(
+          ImageFromIdeal(cameras[seen.camera_idx].camera(), x.hnormalized()) -
+          seen.pixel);
+      costs[e] = x.z() > 0 ? kLoss(residual * residual)
                            : std::numeric_limits<double>::infinity();
     });
+    return costs;
+  }
+
+  double Cost(const State& state) const {
     double sum = 0;
-    for (const double cost : costs) sum += cost;
-    for (std::size_t i = 0; i < motions.size(); ++i) {
+    for (const double cost : Costs(state)) sum += cost;
+    for (std::size_t i = 0; i < state.motions.size(); ++i) {
       sum += kPriorLoss(
           prior_factors_[i].cwiseProduct(state.motions[i]).squaredNorm());
+    }
+    for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
+      sum += lens_factors_[i].cwiseProduct(state.lenses[i]).squaredNorm();
     }
     return sum;
   }
@@ -207,15 +228,24 @@ class Search {
   State Next(double damping) const {
     std::vector<StepEquation> equations(seen_.size());
     std::vector<StepPrior> priors(state_.motions.size());
+    const std::vector<CameraState> cameras = CameraStates(state_, true);
     ParallelFor(priors.size(), num_threads_, [&](std::size_t i) {
-      Linearise(i, equations);
+      Linearise(i, cameras, equations);
       priors[i] = LinearPrior(i);
     });
-    const Steps steps =
-        SolveSteps(owners_, equations, priors, damping, num_threads_);
+    std::vector<LensPrior> lens_priors;
+    for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
+      lens_priors.push_back(
+          {lens_factors_[i], lens_factors_[i].cwiseProduct(state_.lenses[i])});
+    }
+    const Steps steps = SolveSteps(
+        owners_, equations, priors, lens_priors, damping, num_threads_);
     State next = state_;
     for (std::size_t i = 0; i < next.motions.size(); ++i) {
       next.motions[i] += steps.motions[i];
+    }
+    for (std::size_t i = 0; i < steps.lenses.size(); ++i) {
+      next.lenses[i] += steps.lenses[i];
     }
     for (std::size_t i = 0; i < next.offsets.size(); ++i) {
       next.offsets[i] += steps.offsets[i];
@@ -225,26 +255,39 @@ class Search {
 
   // Writes the equations of one view.
   void Linearise(std::size_t view_idx,
+                 const std::vector<CameraState>& cameras,
                  std::vector<StepEquation>& equations) const {
     const Motion& motion = state_.motions[view_idx];
     const Rigid3 rigid = FromMotion(motion);
     const Eigen::Matrix3d rotation = rigid.rotation.toRotationMatrix();
     const Eigen::Matrix3d left_jacobian = LeftJacobian(motion.head<3>());
     for (const std::size_t e : owners_.by_view[view_idx]) {
-      const auto& [position, moves, line] = seen_[e];
+      const PoseObservation& seen = seen_[e];
+      const CameraState& camera = cameras[seen.camera_idx];
       const std::size_t sample_idx = owners_.of_equation[e].sample_idx;
       const Eigen::Vector3d turned =
-          rotation * (position + moves * state_.offsets[sample_idx]);
+          rotation * (seen.position + seen.moves * state_.offsets[sample_idx]);
       const Eigen::Vector3d x = turned + rigid.translation;
-      const double residual = line.dot(x) / x.z();
-      const double root = kEdgeLoss.RootOfWeight(residual * residual);
-      const Eigen::Vector3d by_x =
-          root / x.z() * (line - residual * Eigen::Vector3d::UnitZ());
+      const Eigen::Vector2d ideal = x.hnormalized();
+      const double residual = seen.direction.dot(
+          ImageFromIdeal(camera.camera(), ideal) - seen.pixel);
+      const double root = kLoss.RootOfWeight(residual * residual);
+      const Eigen::Vector2d direction = root * seen.direction;
+      const Eigen::Vector2d by_ideal =
+          ImageFromIdealJacobian(camera.camera(), ideal).transpose() *
+          direction;
+      const Eigen::Vector3d by_x(by_ideal.x() / x.z(),
+                                 by_ideal.y() / x.z(),
+                                 -by_ideal.dot(ideal) / x.z());
       StepEquation& equation = equations[e];
       equation.residual = root * residual;
       equation.by_motion << left_jacobian.transpose() * turned.cross(by_x),
           by_x;
-      equation.by_offset = moves.transpose() * (rotation.transpose() * by_x);
+      equation.by_offset =
+          seen.moves.transpose() * (rotation.transpose() * by_x);
+      if (IsFree(seen.camera_idx)) {
+        equation.by_lens = camera.Derivatives(direction, ideal);
+      }
     }
   }
 
@@ -257,26 +300,36 @@ class Search {
 
   const int num_threads_;
   const EquationOwners owners_;
-  std::vector<SeenSample> seen_;         // by equation
-  std::vector<Vector6d> prior_factors_;  // by view
+  const std::vector<PoseObservation> seen_;  // by equation
+  std::vector<Lens> lenses_;                 // by camera
+  std::vector<Vector6d> prior_factors_;      // by view
+  std::vector<bool> is_free_;                // by camera; empty if none is
+  std::vector<LensChange> lens_factors_;     // by camera; none if cameras stay
   State state_;
 };
 
 }  // namespace
 
 AdjustedPoses AdjustPoses(const PoseProblem& problem,
-                          const std::vector<Rigid3>& start,
+                          const MovedCameras& start,
                           int num_threads,
                           const std::function<bool()>& keep_going) {
   Search search(problem, start, num_threads);
   AdjustedPoses adjusted;
-  adjusted.new_cam_from_cam =
-      search.Run(keep_going) ? RigidMotions(search.state()) : start;
-  for (std::size_t i = 0; i < problem.samples.size(); ++i) {
-    Rim& rim = adjusted.rims.emplace_back(problem.samples[i].rim);
-    const Eigen::Vector3d& offset = search.state().offsets[i];
+  adjusted.moved = start;
+  if (search.Run(keep_going)) {
+    adjusted.moved = {RigidMotions(search.state()), search.Cameras()};
+  }
+  adjusted.costs = search.CostsBySample();
+  std::size_t next = 0;
+  for (const PoseSample& sample : problem.samples) {
+    Rim& rim = adjusted.rims.emplace_back(sample.rim);
+    const Eigen::Vector3d& offset = search.state().offsets[next++];
     rim.axis.position += AxesAcross(rim.axis.tangent) * offset.head<2>();
     rim.radius += offset.z();
+  }
+  for (const PointSample& point : problem.points) {
+    adjusted.points.push_back(point.position + search.state().offsets[next++]);
   }
   return adjusted;
 }

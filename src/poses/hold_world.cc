@@ -4,12 +4,16 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+
+#include "base/median.h"
 
 namespace curvix {
 namespace {
 
-constexpr int kNumIterations = 10;
-constexpr double kLossScalePx = 2;
+constexpr int kNumIterations = 20;
+constexpr double kMinLossScalePx = 0.05;
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
@@ -26,11 +30,35 @@ struct NormalEquations {
   Vector6d vector = Vector6d::Zero();
 };
 
+// How far `view` sees `position` from `pixel`, if it is in front.
+std::optional<double> DistanceSeen(const PosedView& view,
+                                   const Eigen::Vector3d& position,
+                                   const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d x = view.InCamera(position);
+  if (!(x.z() > 0)) return std::nullopt;
+  return (view.Pixel(x) - pixel).norm();
+}
+
+// Of the distances at which places are seen: what is bent more than most is
+// outvoted.
+double LossScale(const std::vector<PosedView>& views,
+                 const std::vector<SeenPlace>& places,
+                 const Rigid3& motion) {
+  std::vector<double> distances;
+  for (const SeenPlace& place : places) {
+    const auto distance = DistanceSeen(
+        views[place.view_idx], motion * place.position, place.pixel);
+    if (distance) distances.push_back(*distance);
+  }
+  return std::max(kMinLossScalePx, MedianOr(0, std::move(distances)));
+}
+
 // Unknowns: a turn about `center` of the places, then a shift, both small.
 void Add(const PosedView& view,
          const Eigen::Vector3d& position,
          const Eigen::Vector3d& center,
          const Eigen::Vector2d& pixel,
+         double loss_scale_px,
          NormalEquations* sum) {
   const Eigen::Vector3d x = view.InCamera(position);
   if (!(x.z() > 0)) return;
@@ -43,7 +71,7 @@ void Add(const PosedView& view,
   by_motion.leftCols<3>() = -by_position * CrossMatrix(position - center);
   by_motion.rightCols<3>() = by_position;
   const double weight =
-      1 / (1 + residual.squaredNorm() / (kLossScalePx * kLossScalePx));
+      1 / (1 + residual.squaredNorm() / (loss_scale_px * loss_scale_px));
   sum->matrix += weight * by_motion.transpose() * by_motion;
   sum->vector += weight * by_motion.transpose() * residual;
 }
@@ -58,12 +86,14 @@ Rigid3 HoldWorld(const std::vector<PosedView>& views,
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     for (const SeenPlace& place : places) center += motion * place.position;
     center /= static_cast<double>(places.size());
+    const double loss_scale_px = LossScale(views, places, motion);
     NormalEquations sum;
     for (const SeenPlace& place : places) {
       Add(views[place.view_idx],
           motion * place.position,
           center,
           place.pixel,
+          loss_scale_px,
           &sum);
     }
     const Vector6d step = -sum.matrix.ldlt().solve(sum.vector);

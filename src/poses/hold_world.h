@@ -23,7 +23,7 @@ struct SeenPlace {
 // old poses, see the places nearest to where the new poses see them. Cameras
 // alone would tell it badly: that of a small turn and a small shift has hardly
 // an effect on the picture, but moves the camera. Gauss-Newton with Cauchy's
-// weights of scale 2 px; the identity without places.
+// weights, of the median distance so far; the identity without places.
 Rigid3 HoldWorld(const std::vector<PosedView>& views,
                  const std::vector<SeenPlace>& places);
 

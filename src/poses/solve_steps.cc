@@ -6,7 +6,9 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "base/check.h"
@@ -22,23 +24,83 @@ constexpr double kMinDiagonal = 1e-6;
 constexpr double kRadiusDamping = 1e-9;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
+using Matrix83d = Eigen::Matrix<double, 8, 3>;
+using Matrix86d = Eigen::Matrix<double, 8, 6>;
 
 template <typename Matrix>
 void Damp(double damping, Matrix& matrix) {
   matrix.diagonal() += damping * matrix.diagonal().cwiseMax(kMinDiagonal);
 }
 
+// Sums of matrices by an index, in the order in which indices come first.
+template <typename Matrix>
+class BlockRow {
+ public:
+  explicit BlockRow(std::size_t num_indices) : places_(num_indices) {}
+
+  Matrix& operator[](std::size_t index) {
+    if (!places_[index]) {
+      places_[index] = blocks_.size();
+      blocks_.emplace_back(index, Matrix::Zero());
+    }
+    return blocks_[*places_[index]].second;
+  }
+  const std::vector<std::pair<std::size_t, Matrix>>& blocks() const {
+    return blocks_;
+  }
+
+ private:
+  std::vector<std::optional<std::size_t>> places_;
+  std::vector<std::pair<std::size_t, Matrix>> blocks_;
+};
+
+template <typename Matrix>
+using Blocks = std::vector<std::pair<std::size_t, Matrix>>;
+
 // The normal equations of one sample.
 struct SampleNormal {
   Eigen::Matrix3d inverse;
   Eigen::Vector3d gradient;
+  Blocks<Matrix83d> by_camera;  // the cameras that see it, ascending
 };
 
-// The normal equations of one view without samples, up to its own column.
+// The normal equations of one view without samples: with the views up to its
+// own, and with cameras.
 struct ViewNormal {
-  std::vector<std::size_t> view_idxs;
-  std::vector<Matrix6d> blocks;
+  Blocks<Matrix6d> with_views;
+  Blocks<Matrix86d> with_cameras;
   Vector6d gradient;
+};
+
+// Of one camera without samples, with the cameras up to its own.
+struct CameraNormal {
+  Blocks<Matrix8d> with_cameras;
+  Vector8d gradient;
+};
+
+// The lower half of a symmetric matrix, by blocks.
+class LowerBlocks {
+ public:
+  template <typename Matrix>
+  void Add(int row, int column, const Matrix& block) {
+    for (int c = 0; c < block.cols(); ++c) {
+      for (int r = 0; r < block.rows(); ++r) {
+        triplets_.emplace_back(row + r, column + c, block(r, c));
+      }
+    }
+  }
+  // The solution for `vector`; empty if there is none.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& vector) const {
+    Eigen::SparseMatrix<double> matrix(vector.size(), vector.size());
+    matrix.setFromTriplets(triplets_.begin(), triplets_.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+    if (solver.info() != Eigen::Success) return {};
+    return solver.solve(vector);
+  }
+
+ private:
+  std::vector<Eigen::Triplet<double>> triplets_;
 };
 
 class System {
@@ -46,11 +108,13 @@ class System {
   System(const EquationOwners& owners,
          const std::vector<StepEquation>& equations,
          const std::vector<StepPrior>& priors,
+         const std::vector<LensPrior>& lens_priors,
          double damping,
          int num_threads)
       : owners_(owners),
         equations_(equations),
         priors_(priors),
+        lens_priors_(lens_priors),
         damping_(damping),
         num_threads_(num_threads),
         samples_(owners.first_of_sample.size() - 1) {}
@@ -63,11 +127,14 @@ class System {
     ParallelFor(views.size(), num_threads_, [&](std::size_t i) {
       views[i] = NormalOfView(i);
     });
-    Steps steps;
-    steps.motions = SolveMotions(views);
+    std::vector<CameraNormal> cameras(lens_priors_.size());
+    ParallelFor(cameras.size(), num_threads_, [&](std::size_t i) {
+      cameras[i] = NormalOfCamera(i);
+    });
+    Steps steps = SolveReduced(views, cameras);
     steps.offsets.resize(samples_.size());
     ParallelFor(samples_.size(), num_threads_, [&](std::size_t i) {
-      steps.offsets[i] = OffsetOf(i, steps.motions);
+      steps.offsets[i] = OffsetOf(i, steps);
     });
     return steps;
   }
@@ -82,16 +149,34 @@ class System {
     }
   }
 
+  bool HasLenses() const { return !lens_priors_.empty(); }
+
   SampleNormal NormalOfSample(std::size_t sample_idx) const {
+    SampleNormal normal;
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-    VisitSample(sample_idx, [&](const StepEquation& equation, std::size_t) {
+    normal.gradient.setZero();
+    VisitSample(sample_idx, [&](const StepEquation& equation, std::size_t i) {
       matrix += equation.by_offset * equation.by_offset.transpose();
-      gradient += equation.residual * equation.by_offset;
+      normal.gradient += equation.residual * equation.by_offset;
+      if (HasLenses()) AddLens(equation, owners_.camera_of_view[i], &normal);
     });
     matrix(2, 2) += kRadiusDamping * matrix.trace();
     Damp(damping_, matrix);
-    return {matrix.inverse(), gradient};
+    normal.inverse = matrix.inverse();
+    return normal;
+  }
+
+  static void AddLens(const StepEquation& equation,
+                      std::size_t camera_idx,
+                      SampleNormal* normal) {
+    auto& blocks = normal->by_camera;
+    auto place = std::find_if(blocks.begin(), blocks.end(), [&](const auto& b) {
+      return b.first >= camera_idx;
+    });
+    if (place == blocks.end() || place->first != camera_idx) {
+      place = blocks.insert(place, {camera_idx, Matrix83d::Zero()});
+    }
+    place->second += equation.by_lens * equation.by_offset.transpose();
   }
 
   // Of the view's equations alone, as if samples stayed.
@@ -105,18 +190,11 @@ class System {
   }
 
   ViewNormal NormalOfView(std::size_t view_idx) const {
-    ViewNormal normal;
-    std::vector<std::optional<std::size_t>> places(view_idx + 1);
-    const auto block_of = [&](std::size_t other_idx) -> Matrix6d& {
-      if (!places[other_idx]) {
-        places[other_idx] = normal.blocks.size();
-        normal.view_idxs.push_back(other_idx);
-        normal.blocks.push_back(Matrix6d::Zero());
-      }
-      return normal.blocks[*places[other_idx]];
-    };
-    block_of(view_idx) = OwnBlock(view_idx);
+    BlockRow<Matrix6d> views(view_idx + 1);
+    BlockRow<Matrix86d> cameras(lens_priors_.size());
+    views[view_idx] = OwnBlock(view_idx);
     const StepPrior& prior = priors_[view_idx];
+    ViewNormal normal;
     normal.gradient = prior.factors.cwiseProduct(prior.residuals);
     for (const std::size_t e : owners_.by_view[view_idx]) {
       const StepEquation& own = equations_[e];
@@ -128,47 +206,108 @@ class System {
       VisitSample(sample_idx, [&](const StepEquation& other, std::size_t i) {
         if (i > view_idx) return;
         const Vector6d pulled = pull.dot(other.by_offset) * own.by_motion;
-        block_of(i).noalias() -= pulled * other.by_motion.transpose();
+        views[i].noalias() -= pulled * other.by_motion.transpose();
       });
+      if (!HasLenses()) continue;
+      cameras[owners_.camera_of_view[view_idx]] +=
+          own.by_lens * own.by_motion.transpose();
+      for (const auto& [camera_idx, by_lens] : sample.by_camera) {
+        cameras[camera_idx] -= (by_lens * pull) * own.by_motion.transpose();
+      }
     }
+    normal.with_views = views.blocks();
+    normal.with_cameras = cameras.blocks();
     return normal;
   }
 
-  static std::vector<Vector6d> SolveMotions(
-      const std::vector<ViewNormal>& views) {
-    const auto size = static_cast<Eigen::Index>(6 * views.size());
-    Eigen::VectorXd gradient(size);
-    std::vector<Eigen::Triplet<double>> lower;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      const auto row = static_cast<int>(6 * i);
-      gradient.segment<6>(row) = views[i].gradient;
-      for (std::size_t k = 0; k < views[i].blocks.size(); ++k) {
-        const auto column = static_cast<int>(6 * views[i].view_idxs[k]);
-        for (int c = 0; c < 6; ++c) {
-          for (int r = 0; r < 6; ++r) {
-            lower.emplace_back(row + r, column + c, views[i].blocks[k](r, c));
-          }
-        }
+  // As OwnBlock() and the gradient with it, of a camera.
+  std::pair<Matrix8d, Vector8d> OwnOfCamera(std::size_t camera_idx) const {
+    const LensPrior& prior = lens_priors_[camera_idx];
+    Matrix8d block = prior.factors.cwiseAbs2().asDiagonal();
+    Vector8d gradient = prior.factors.cwiseProduct(prior.residuals);
+    for (std::size_t i = 0; i < owners_.by_view.size(); ++i) {
+      if (owners_.camera_of_view[i] != camera_idx) continue;
+      for (const std::size_t e : owners_.by_view[i]) {
+        const Vector8d& by_lens = equations_[e].by_lens;
+        block += by_lens * by_lens.transpose();
+        gradient += equations_[e].residual * by_lens;
       }
     }
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(lower.begin(), lower.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    std::vector<Vector6d> steps(views.size(), Vector6d::Zero());
-    if (solver.info() != Eigen::Success) return steps;
-    const Eigen::VectorXd solution = solver.solve(-gradient);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      steps[i] = solution.segment<6>(static_cast<Eigen::Index>(6 * i));
+    Damp(damping_, block);
+    return {block, gradient};
+  }
+
+  CameraNormal NormalOfCamera(std::size_t camera_idx) const {
+    BlockRow<Matrix8d> cameras(camera_idx + 1);
+    CameraNormal normal;
+    std::tie(cameras[camera_idx], normal.gradient) = OwnOfCamera(camera_idx);
+    for (const SampleNormal& sample : samples_) {
+      const auto own = std::find_if(
+          sample.by_camera.begin(), sample.by_camera.end(), [&](const auto& b) {
+            return b.first == camera_idx;
+          });
+      if (own == sample.by_camera.end()) continue;
+      const Matrix83d pull = own->second * sample.inverse;
+      normal.gradient -= pull * sample.gradient;
+      for (const auto& [other_idx, by_lens] : sample.by_camera) {
+        if (other_idx > camera_idx) break;
+        cameras[other_idx].noalias() -= pull * by_lens.transpose();
+      }
+    }
+    normal.with_cameras = cameras.blocks();
+    return normal;
+  }
+
+  // The steps of views and cameras, those of views first; all zero if the
+  // equations have no solution.
+  static Steps SolveReduced(const std::vector<ViewNormal>& views,
+                            const std::vector<CameraNormal>& cameras) {
+    const auto row_of_view = [](std::size_t i) {
+      return static_cast<int>(6 * i);
+    };
+    const auto row_of_camera = [&](std::size_t i) {
+      return static_cast<int>(6 * views.size() + 8 * i);
+    };
+    Eigen::VectorXd gradient(row_of_camera(cameras.size()));
+    LowerBlocks lower;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      gradient.segment<6>(row_of_view(i)) = views[i].gradient;
+      for (const auto& [k, block] : views[i].with_views) {
+        lower.Add(row_of_view(i), row_of_view(k), block);
+      }
+      for (const auto& [k, block] : views[i].with_cameras) {
+        lower.Add(row_of_camera(k), row_of_view(i), block);
+      }
+    }
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      gradient.segment<8>(row_of_camera(i)) = cameras[i].gradient;
+      for (const auto& [k, block] : cameras[i].with_cameras) {
+        lower.Add(row_of_camera(i), row_of_camera(k), block);
+      }
+    }
+    Steps steps;
+    steps.motions.assign(views.size(), Vector6d::Zero());
+    steps.lenses.assign(cameras.size(), Vector8d::Zero());
+    const Eigen::VectorXd solution = lower.Solve(-gradient);
+    if (solution.size() == 0) return steps;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      steps.motions[i] = solution.segment<6>(row_of_view(i));
+    }
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      steps.lenses[i] = solution.segment<8>(row_of_camera(i));
     }
     return steps;
   }
 
-  // The step of a sample once those of the motions are known.
-  Eigen::Vector3d OffsetOf(std::size_t sample_idx,
-                           const std::vector<Vector6d>& motions) const {
+  // The step of a sample once those of views and cameras are known.
+  Eigen::Vector3d OffsetOf(std::size_t sample_idx, const Steps& steps) const {
     Eigen::Vector3d gradient = samples_[sample_idx].gradient;
     VisitSample(sample_idx, [&](const StepEquation& equation, std::size_t i) {
-      gradient += equation.by_motion.dot(motions[i]) * equation.by_offset;
+      double step = equation.by_motion.dot(steps.motions[i]);
+      if (HasLenses()) {
+        step += equation.by_lens.dot(steps.lenses[owners_.camera_of_view[i]]);
+      }
+      gradient += step * equation.by_offset;
     });
     return -(samples_[sample_idx].inverse * gradient);
   }
@@ -176,6 +315,7 @@ class System {
   const EquationOwners& owners_;
   const std::vector<StepEquation>& equations_;
   const std::vector<StepPrior>& priors_;
+  const std::vector<LensPrior>& lens_priors_;
   const double damping_;
   const int num_threads_;
   std::vector<SampleNormal> samples_;
@@ -184,11 +324,12 @@ class System {
 }  // namespace
 
 EquationOwners::EquationOwners(std::vector<Owner> of_equation_,
-                               std::size_t num_views,
+                               std::vector<std::size_t> camera_of_view_,
                                std::size_t num_samples)
     : of_equation(std::move(of_equation_)),
-      by_view(num_views),
-      first_of_sample(num_samples + 1, 0) {
+      by_view(camera_of_view_.size()),
+      first_of_sample(num_samples + 1, 0),
+      camera_of_view(std::move(camera_of_view_)) {
   for (std::size_t e = 0; e < of_equation.size(); ++e) {
     by_view[of_equation[e].view_idx].push_back(e);
     ++first_of_sample[of_equation[e].sample_idx + 1];
@@ -201,10 +342,12 @@ EquationOwners::EquationOwners(std::vector<Owner> of_equation_,
 Steps SolveSteps(const EquationOwners& owners,
                  const std::vector<StepEquation>& equations,
                  const std::vector<StepPrior>& priors,
+                 const std::vector<LensPrior>& lens_priors,
                  double damping,
                  int num_threads) {
   CURVIX_CHECK(damping > 0, "damping is " << damping);
-  return System(owners, equations, priors, damping, num_threads).Solve();
+  return System(owners, equations, priors, lens_priors, damping, num_threads)
+      .Solve();
 }
 
 }  // namespace curvix

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Steps of cameras and samples that bring both to
-// agree, by normal equations of which the samples are eliminated.
+// Paper: none (beyond it). Steps of views, cameras and samples that bring them
+// to agree, by normal equations of which the samples are eliminated.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,21 +10,27 @@
 namespace curvix {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+// Of the parameters of a camera; zero for those that it does not have.
+using Vector8d = Eigen::Matrix<double, 8, 1>;
 
-// residual + by_motion . step of the view + by_offset . step of the sample = 0,
-// already times the root of its weight.
+// residual + by_motion . step of the view + by_lens . step of its camera +
+// by_offset . step of the sample = 0, already times the root of its weight.
 struct StepEquation {
   double residual = 0;
   Vector6d by_motion = Vector6d::Zero();
   Eigen::Vector3d by_offset = Eigen::Vector3d::Zero();
+  Vector8d by_lens = Vector8d::Zero();  // not read if cameras stay
 };
 
-// Six equations of the motion of a view alone: factors * step = -residuals,
-// element by element.
-struct StepPrior {
-  Vector6d factors = Vector6d::Zero();
-  Vector6d residuals = Vector6d::Zero();
+// Equations of the motion of a view, or of the lens of a camera, alone:
+// factors * step = -residuals, element by element.
+template <typename Vector>
+struct PriorEquations {
+  Vector factors = Vector::Zero();
+  Vector residuals = Vector::Zero();
 };
+using StepPrior = PriorEquations<Vector6d>;
+using LensPrior = PriorEquations<Vector8d>;
 
 // Which equation is whose; those of one sample follow each other.
 struct EquationOwners {
@@ -34,25 +40,29 @@ struct EquationOwners {
   std::vector<Owner> of_equation;
   std::vector<std::vector<std::size_t>> by_view;  // equations, ascending
   std::vector<std::size_t> first_of_sample;       // and the end
+  std::vector<std::size_t> camera_of_view;
 
   EquationOwners(std::vector<Owner> of_equation,
-                 std::size_t num_views,
+                 std::vector<std::size_t> camera_of_view,
                  std::size_t num_samples);
 };
 
 struct Steps {
   std::vector<Vector6d> motions;         // by view
+  std::vector<Vector8d> lenses;          // by camera; none if cameras stay
   std::vector<Eigen::Vector3d> offsets;  // by sample
 };
 
 // The steps of least squares, once the diagonal of the normal equations has
 // grown by its `damping`-fold (> 0), as Marquardt does, and that of each third
 // unknown of a sample by 1e-9 of the sample's trace before. If the motions have
-// none, they are zero, and the offsets those of the samples alone. The same for
+// none, they are zero, and the offsets those of the samples alone. Cameras stay
+// if there are no `lens_priors`, of which there is one a camera. The same for
 // any number of threads.
 Steps SolveSteps(const EquationOwners& owners,
                  const std::vector<StepEquation>& equations,
                  const std::vector<StepPrior>& priors,
+                 const std::vector<LensPrior>& lens_priors,
                  double damping,
                  int num_threads);
 

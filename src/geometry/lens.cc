@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "geometry/lens.h"
+
+#include <curvix/camera_model.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace curvix {
+namespace {
+
+constexpr int kGridSteps = 4;  // of the image, where changes are measured
+constexpr double kSmallChange = 1e-6;
+
+std::vector<Eigen::Vector2d> IdealGrid(const Camera& camera) {
+  std::vector<Eigen::Vector2d> grid;
+  for (int y = 0; y <= kGridSteps; ++y) {
+    for (int x = 0; x <= kGridSteps; ++x) {
+      const Eigen::Vector2d pixel(camera.width * x / double{kGridSteps},
+                                  camera.height * y / double{kGridSteps});
+      if (const auto ideal = IdealFromImage(camera, pixel)) {
+        grid.push_back(*ideal);
+      }
+    }
+  }
+  return grid;
+}
+
+std::size_t NumUsed(const Camera& camera) {
+  return std::min(camera.params.size(),
+                  static_cast<std::size_t>(LensChange::SizeAtCompileTime));
+}
+
+Camera WithParams(const Camera& camera,
+                  CameraModel model,
+                  std::vector<double> params) {
+  Camera result = camera;
+  result.model = model;
+  result.params = std::move(params);
+  return result;
+}
+
+}  // namespace
+
+ImageEdge EdgeInPhotograph(const ImageEdge& ideal, const Camera& camera) {
+  if (IsPinhole(camera)) return ideal;
+  const Eigen::Matrix3d calibration = PinholeCalibration(camera);
+  const Eigen::Array2d focal = calibration.diagonal().head<2>();
+  const Eigen::Vector2d uv =
+      (ideal.position - calibration.topRightCorner<2, 1>()).array() / focal;
+  return {ImageFromIdeal(camera, uv),
+          (ImageFromIdealJacobian(camera, uv) *
+           (ideal.tangent.array() / focal).matrix())
+              .normalized()};
+}
+
+std::optional<ImageEdge> EdgeInIdealImage(const ImageEdge& in_photograph,
+                                          const Camera& camera) {
+  if (IsPinhole(camera)) return in_photograph;
+  const auto uv = IdealFromImage(camera, in_photograph.position);
+  if (!uv) return std::nullopt;
+  const Eigen::Matrix2d image_from_ideal = ImageFromIdealJacobian(camera, *uv);
+  if (!(image_from_ideal.determinant() > 0)) return std::nullopt;
+  const Eigen::Matrix3d calibration = PinholeCalibration(camera);
+  return ImageEdge{(calibration * uv->homogeneous()).head<2>(),
+                   (calibration.topLeftCorner<2, 2>() *
+                    image_from_ideal.inverse() * in_photograph.tangent)
+                       .normalized()};
+}
+
+std::optional<ImageEdge> CarryEdge(const ImageEdge& edge,
+                                   const Camera& from,
+                                   const Camera& to) {
+  if (from == to) return edge;
+  return EdgeInIdealImage(EdgeInPhotograph(edge, from), to);
+}
+
+Lens::Lens(const Camera& start) : start_(start) {
+  const std::vector<Eigen::Vector2d> grid = IdealGrid(start);
+  for (std::size_t i = 0; i < NumUsed(start); ++i) {
+    Camera changed = start;
+    changed.params[i] += kSmallChange;
+    double largest_px = 0;
+    for (const Eigen::Vector2d& ideal : grid) {
+      const Eigen::Vector2d shift =
+          ImageFromIdeal(changed, ideal) - ImageFromIdeal(start, ideal);
+      largest_px = std::max(largest_px, shift.norm());
+    }
+    if (largest_px > 0) {
+      units_[static_cast<Eigen::Index>(i)] = kSmallChange / largest_px;
+    }
+  }
+}
+
+Camera Lens::Changed(const LensChange& change) const {
+  Camera camera = start_;
+  for (std::size_t i = 0; i < NumUsed(start_); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    camera.params[i] += units_[k] * change[k];
+  }
+  return camera;
+}
+
+Camera WithMoreTerms(const Camera& camera) {
+  const std::vector<double>& p = camera.params;
+  switch (camera.model) {
+    case CameraModel::kSimplePinhole:
+      return WithParams(
+          camera, CameraModel::kSimpleRadial, {p[0], p[1], p[2], 0});
+    case CameraModel::kSimpleRadial:
+      return WithParams(
+          camera, CameraModel::kRadial, {p[0], p[1], p[2], p[3], 0});
+    case CameraModel::kPinhole:
+      return WithParams(
+          camera, CameraModel::kOpenCV, {p[0], p[1], p[2], p[3], 0, 0, 0, 0});
+    case CameraModel::kRadial:
+      return WithParams(camera,
+                        CameraModel::kOpenCV,
+                        {p[0], p[0], p[1], p[2], p[3], p[4], 0, 0});
+    case CameraModel::kSimpleFisheye:
+      return WithParams(
+          camera, CameraModel::kSimpleRadialFisheye, {p[0], p[1], p[2], 0});
+    case CameraModel::kSimpleRadialFisheye:
+      return WithParams(
+          camera, CameraModel::kRadialFisheye, {p[0], p[1], p[2], p[3], 0});
+    case CameraModel::kRadialFisheye:
+      return WithParams(camera,
+                        CameraModel::kOpenCVFisheye,
+                        {p[0], p[0], p[1], p[2], p[3], p[4], 0, 0});
+    default:
+      return camera;
+  }
+}
+
+}  // namespace curvix

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Lenses: what they do to edges, and how they change.
+#pragma once
+
+#include <curvix/scene.h>
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "geometry/edge_geometry.h"
+
+namespace curvix {
+
+// An edge of the camera's ideal pinhole in its photographs.
+ImageEdge EdgeInPhotograph(const ImageEdge& ideal, const Camera& camera);
+
+// An edge of the camera's photographs in its ideal pinhole; nothing where the
+// camera cannot be inverted or mirrors the image.
+std::optional<ImageEdge> EdgeInIdealImage(const ImageEdge& in_photograph,
+                                          const Camera& camera);
+
+// An edge of the ideal pinhole of `from` in that of `to`, in the same
+// photograph; nothing as above.
+std::optional<ImageEdge> CarryEdge(const ImageEdge& edge,
+                                   const Camera& from,
+                                   const Camera& to);
+
+// Of the first eight parameters of a camera model, in COLMAP's order; of
+// models with fewer the rest is not used.
+using LensChange = Eigen::Matrix<double, 8, 1>;
+
+// A camera around `start`, by changes of its parameters. Each is measured by
+// what it does to the image: 1 moves the pixel that it moves most by 1 px.
+class Lens {
+ public:
+  // `start` must be valid.
+  explicit Lens(const Camera& start);
+
+  Camera Changed(const LensChange& change) const;
+
+ private:
+  Camera start_;
+  LensChange units_ = LensChange::Zero();  // parameter per px
+};
+
+// The same camera by the next of COLMAP's models that has all of its terms and
+// more: SIMPLE_PINHOLE and PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV; or
+// SIMPLE_FISHEYE, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE, OPENCV_FISHEYE. As it
+// is, if there is none.
+Camera WithMoreTerms(const Camera& camera);
+
+}  // namespace curvix
