@@ -90,9 +90,9 @@ Status CheckScene(const Scene& scene) {
     if (Status status = CheckView(scene, view); !status.ok()) return status;
   }
   for (const ScenePoint& point : scene.points) {
-    bool sound = point.position.allFinite() &&
-                 (point.pixels.empty() ||
-                  point.pixels.size() == point.view_idxs.size());
+    bool sound =
+        point.position.allFinite() &&
+        (point.pixels.empty() || point.pixels.size() == point.view_idxs.size());
     for (const int idx : point.view_idxs) {
       sound = sound && idx >= 0 &&
               static_cast<std::size_t>(idx) < scene.views.size();

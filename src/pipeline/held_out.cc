@@ -147,6 +147,11 @@ SignificanceOfGain CompareErrors(const PoseEvidence& held_out,
                      loss_of_points(after.points[i][k]));
     }
   }
+  return Together(places, points);
+}
+
+SignificanceOfGain Together(const GainsByCell& places,
+                            const GainsByCell& points) {
   SignificanceOfGain gain{places.Significance(), points.Significance(), 0};
   const int num_kinds = (gain.places != 0) + (gain.points != 0);
   gain.all = (gain.places + gain.points) / std::sqrt(std::max(1, num_kinds));

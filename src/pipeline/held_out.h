@@ -67,6 +67,9 @@ struct SignificanceOfGain {
   double all = 0;
 };
 
+SignificanceOfGain Together(const GainsByCell& places,
+                            const GainsByCell& points);
+
 SignificanceOfGain CompareErrors(const PoseEvidence& held_out,
                                  const SpaceCells& cells,
                                  const HeldOutErrors& before,

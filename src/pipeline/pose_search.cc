@@ -54,6 +54,24 @@ double MedianRatio(const std::vector<Eigen::Vector3d>& positions,
   return MedianOr(1, std::move(ratios));
 }
 
+// The standard deviation of a pixel of a point, in x and in y.
+double PointSigma(const Scene& scene) {
+  std::vector<double> residuals;
+  for (const PointSample& point : UsablePoints(scene)) {
+    for (const PointSample::Observation& seen : point.observations) {
+      const View& view = scene.views[static_cast<std::size_t>(seen.view_idx)];
+      const auto pixel =
+          Project(scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+                  view.cam_from_world,
+                  point.position);
+      residuals.push_back(std::abs(pixel->x() - seen.pixel.x()));
+      residuals.push_back(std::abs(pixel->y() - seen.pixel.y()));
+    }
+  }
+  return std::max(kMinSigmaPx,
+                  kSigmaPerMedian * MedianOr(1, std::move(residuals)));
+}
+
 }  // namespace
 
 PoseSearch::PoseSearch(const Scene& scene,
@@ -67,6 +85,7 @@ PoseSearch::PoseSearch(const Scene& scene,
         is_stopped_ = is_stopped_ || !step(done, all);
         return !is_stopped_;
       }),
+      point_sigma_px_(PointSigma(scene)),
       edges_(scene, edge_maps, options),
       sigmas_px_(scene.views.size(), kFirstSigmaPx),
       prior_px_(kFirstPriorPx) {}
@@ -155,22 +174,6 @@ void PoseSearch::AdjustInTurns(PoseEvidence* evidence) {
   }
 }
 
-// The standard deviation of a pixel of a point, in x and in y.
-double PoseSearch::PointSigma(const std::vector<PointSample>& points) const {
-  std::vector<double> residuals;
-  for (const PointSample& point : points) {
-    for (const PointInImage& seen : edges_.Observed(point)) {
-      const auto pixel =
-          Project(*seen.camera, seen.cam_from_world, point.position);
-      if (!pixel) continue;
-      residuals.push_back(std::abs(pixel->x() - seen.pixel.x()));
-      residuals.push_back(std::abs(pixel->y() - seen.pixel.y()));
-    }
-  }
-  return std::max(kMinSigmaPx,
-                  kSigmaPerMedian * MedianOr(1, std::move(residuals)));
-}
-
 AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                                 double prior_px,
                                 const std::vector<bool>& free_lenses) {
@@ -187,7 +190,7 @@ AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                       samples,
                       evidence.points,
                       sigmas_px_,
-                      PointSigma(evidence.points),
+                      point_sigma_px_,
                       prior_px,
                       free_lenses},
                      edges_.moved(),

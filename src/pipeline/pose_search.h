@@ -73,7 +73,6 @@ class PoseSearch {
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;
   void UpdateSigmas(const std::vector<CurvePlace>& places);
-  double PointSigma(const std::vector<PointSample>& points) const;
   AdjustedPoses Solve(const PoseEvidence& evidence,
                       double prior_px,
                       const std::vector<bool>& free_lenses);
@@ -84,6 +83,8 @@ class PoseSearch {
   const int num_threads_;
   const double edge_sigma_px_;
   const StepDone step_done_;
+  // Of a pixel of a point, in x and in y, by the poses of the scene.
+  const double point_sigma_px_;
   PosedEdges edges_;
   std::vector<double> sigmas_px_;  // by view, of edges about projections
   double prior_px_;

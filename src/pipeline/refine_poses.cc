@@ -70,7 +70,10 @@ class Refiner {
       SketchAgain();
       search_.ShiftViews(evidence_.places);
     }
-    TryLenses();
+    if (TryLenses()) {
+      SketchAgain();
+      search_.AdjustInTurns(&evidence_);
+    }
     search_.HoldTheWorld(&evidence_);
     CurvePoses result = Judge();
     if (result.accepted) Finish(&result);
@@ -139,10 +142,10 @@ class Refiner {
 
   // Refines shared cameras, by their own terms and by more, and keeps what what
   // is held out proves: that poses adjusted to it fit better with these
-  // cameras than without.
-  void TryLenses() {
+  // cameras than without. Whether there is such.
+  bool TryLenses() {
     if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
-      return;
+      return false;
     }
     struct Lenses {
       MovedCameras moved;
@@ -151,18 +154,17 @@ class Refiner {
     };
     const Lenses without{
         search_.edges().moved(), evidence_, search_.free_lenses()};
-    const std::vector<double> losses = search_.LossesOf(held_out_);
+    std::vector<double> best_losses = search_.LossesOf(held_out_);
     Lenses best = without;
-    double best_gain = 0;
     std::vector<Camera> cameras = without.moved.cameras;
     while (!search_.is_stopped()) {
       evidence_ = without.evidence;
       search_.Move({without.moved.new_cam_from_cam, cameras});
       search_.FreeLenses(shared_lenses_);
       search_.Adjust(&evidence_);
-      const double gain = ProvenGain(losses, search_.LossesOf(held_out_));
-      if (gain > best_gain) {
-        best_gain = gain;
+      std::vector<double> losses = search_.LossesOf(held_out_);
+      if (IsProven(best_losses, losses)) {
+        best_losses = std::move(losses);
         best = {search_.edges().moved(), evidence_, shared_lenses_};
       }
       std::vector<Camera> longer = Extended(cameras);
@@ -172,18 +174,19 @@ class Refiner {
     search_.Move(best.moved);
     search_.FreeLenses(best.free_lenses);
     evidence_ = std::move(best.evidence);
+    return best.moved.cameras != without.moved.cameras;
   }
 
-  // By how much the losses of what is held out fall; zero if that may be
-  // chance.
-  double ProvenGain(const std::vector<double>& before,
-                    const std::vector<double>& after) const {
+  // Whether the losses of what is held out fall, and not by chance.
+  bool IsProven(const std::vector<double>& before,
+                const std::vector<double>& after) const {
     const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out_);
-    GainsByCell gains(cells_);
+    GainsByCell places(cells_), points(cells_);
     for (std::size_t i = 0; i < positions.size(); ++i) {
+      GainsByCell& gains = i < held_out_.places.size() ? places : points;
       gains.Add(positions[i], before[i] - after[i]);
     }
-    return gains.Significance() >= kSignificant ? gains.Sum() : 0;
+    return IsBetter(Together(places, points));
   }
 
   // Views whose places come away from their edges keep their poses, unless

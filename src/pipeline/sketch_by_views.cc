@@ -246,7 +246,9 @@ void MarkSupport(const std::vector<EdgeRef>& support,
         edge_maps[static_cast<std::size_t>(ref.view_idx)].neighbors,
         ref.edge_idx,
         num_links,
-        [&](std::int32_t edge_idx) { used.Mark({ref.view_idx, edge_idx}); });
+        [&](std::int32_t edge_idx) {
+          used.Mark({ref.view_idx, edge_idx});
+        });
   }
 }
 
