@@ -68,8 +68,8 @@ struct CurvePoses {
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,
-                                         bool refine_intrinsics = true,
-                                         const Progress& progress = {});
+                                         const Progress& progress = {},
+                                         bool refine_intrinsics = true);
 
 // The edges of a scene as other cameras have them, in the same order. Cameras
 // and edges must be as many as the scene's. kInvalidArgument if a camera cannot

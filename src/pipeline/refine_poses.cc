@@ -328,8 +328,8 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,
-                                         bool refine_intrinsics,
-                                         const Progress& progress) {
+                                         const Progress& progress,
+                                         bool refine_intrinsics) {
   if (Status status = CheckScene(scene); !status.ok()) return status;
   if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
     return status;

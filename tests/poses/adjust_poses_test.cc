@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <curvix/camera_model.h>
+
 #include <cmath>
 
+#include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {
@@ -30,6 +33,35 @@ std::vector<PoseSample> ExactSamples(const std::vector<PosedView>& views) {
   return samples;
 }
 
+// Pinholes of the size and the calibration of `views`.
+Scene SceneOf(const std::vector<PosedView>& views) {
+  Scene scene;
+  for (const PosedView& view : views) {
+    const Eigen::Matrix3d& k = view.calibration;
+    scene.cameras.push_back({CameraModel::kPinhole,
+                             view.width,
+                             view.height,
+                             {k(0, 0), k(1, 1), k(0, 2), k(1, 2)}});
+    View& out = scene.views.emplace_back();
+    out.camera_idx = static_cast<int>(scene.cameras.size()) - 1;
+    out.cam_from_world.rotation = view.rotation;
+    out.cam_from_world.translation = view.translation;
+  }
+  return scene;
+}
+
+// Without lenses and points, with edges 0.2 px about their curves.
+AdjustedPoses Adjust(const Scene& scene,
+                     const std::vector<PoseSample>& samples,
+                     double prior_px,
+                     const std::function<bool()>& keep_going = KeepGoing) {
+  const std::vector<double> sigmas(scene.views.size(), 0.2);
+  return AdjustPoses({scene, samples, {}, sigmas, 1, prior_px},
+                     {std::vector<Rigid3>(scene.views.size()), scene.cameras},
+                     1,
+                     keep_going);
+}
+
 PosedView Moved(PosedView view, const Rigid3& motion) {
   view.rotation = motion.rotation.toRotationMatrix() * view.rotation;
   view.translation = motion * view.translation;
@@ -46,7 +78,7 @@ TEST(AdjustPoses, LeavesExactPosesAndPlacesAlone) {
                                              1,
                                              KeepGoing);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    EXPECT_LT(adjusted.new_cam_from_cam[i].translation.norm(), 1e-6);
+    EXPECT_LT(adjusted.moved.new_cam_from_cam[i].translation.norm(), 1e-6);
   }
   for (std::size_t i = 0; i < samples.size(); ++i) {
     EXPECT_LT(
@@ -77,17 +109,14 @@ TEST(AdjustPoses, IsNotMovedByRims) {
     sample.rim.axis = SeenFrom(body, views[2].center);
     sample.rim.radius = 0;
   }
-  const std::vector<double> sigmas(views.size(), 0.2);
-  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 10},
-                                             std::vector<Rigid3>(views.size()),
-                                             1,
-                                             KeepGoing);
+  const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 10);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     EXPECT_NEAR(
         adjusted.rims[i].radius, 0.2 + 0.02 * static_cast<double>(i), 0.02);
   }
   for (std::size_t v = 0; v < num_seeing; ++v) {
-    EXPECT_LT(adjusted.new_cam_from_cam[v].translation.norm(), 0.003) << v;
+    EXPECT_LT(adjusted.moved.new_cam_from_cam[v].translation.norm(), 0.003)
+        << v;
   }
 }
 
@@ -98,13 +127,9 @@ TEST(AdjustPoses, BringsAMovedCameraBack) {
   motion.rotation = Eigen::AngleAxisd(0.003, Eigen::Vector3d::UnitY());
   motion.translation = {0.01, -0.005, 0.02};
   views[3] = Moved(views[3], motion);
-  const std::vector<double> sigmas(views.size(), 0.2);
-  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
-                                             std::vector<Rigid3>(views.size()),
-                                             1,
-                                             KeepGoing);
+  const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 3);
   // All cameras share the way back, which the places do not tell from one.
-  const PosedView back = Moved(views[3], adjusted.new_cam_from_cam[3]);
+  const PosedView back = Moved(views[3], adjusted.moved.new_cam_from_cam[3]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto seen =
         ProjectEdge(back, SeenFrom(adjusted.rims[i], back.center));
@@ -118,13 +143,11 @@ TEST(AdjustPoses, BringsAMovedCameraBack) {
 
 TEST(AdjustPoses, LeavesPosesAloneWithoutSamples) {
   const std::vector<PosedView> views = RingOfViews(3);
-  const std::vector<double> sigmas(views.size(), 0.2);
-  const std::vector<PoseSample> none;
   const std::vector<Rigid3> start(views.size());
-  const AdjustedPoses adjusted =
-      AdjustPoses({views, sigmas, none}, start, 1, KeepGoing);
-  ASSERT_EQ(adjusted.new_cam_from_cam.size(), views.size());
-  EXPECT_EQ(adjusted.new_cam_from_cam[1].translation, start[1].translation);
+  const AdjustedPoses adjusted = Adjust(SceneOf(views), {}, 10);
+  ASSERT_EQ(adjusted.moved.new_cam_from_cam.size(), views.size());
+  EXPECT_EQ(adjusted.moved.new_cam_from_cam[1].translation,
+            start[1].translation);
   EXPECT_TRUE(adjusted.rims.empty());
 }
 
@@ -134,12 +157,10 @@ TEST(AdjustPoses, StopsWhenAsked) {
   Rigid3 motion;
   motion.translation = {0.01, 0, 0};
   views[3] = Moved(views[3], motion);
-  const std::vector<double> sigmas(views.size(), 0.2);
-  const AdjustedPoses adjusted = AdjustPoses(
-      {views, sigmas, samples, 3}, std::vector<Rigid3>(views.size()), 1, [] {
-        return false;
-      });
-  EXPECT_EQ(adjusted.new_cam_from_cam[3].translation, Eigen::Vector3d::Zero());
+  const AdjustedPoses adjusted =
+      Adjust(SceneOf(views), samples, 3, [] { return false; });
+  EXPECT_EQ(adjusted.moved.new_cam_from_cam[3].translation,
+            Eigen::Vector3d::Zero());
 }
 
 TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
@@ -148,13 +169,83 @@ TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
   const Eigen::Vector3d behind =
       views[3].center - views[3].rotation.row(2).transpose();
   samples[5].rim.axis.position = behind;
-  const std::vector<double> sigmas(views.size(), 0.2);
-  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 3},
-                                             std::vector<Rigid3>(views.size()),
-                                             1,
-                                             KeepGoing);
-  EXPECT_EQ(adjusted.new_cam_from_cam[3].translation, Eigen::Vector3d::Zero());
+  const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 3);
+  EXPECT_EQ(adjusted.moved.new_cam_from_cam[3].translation,
+            Eigen::Vector3d::Zero());
   EXPECT_EQ(adjusted.rims[5].axis.position, behind);
+}
+
+// Random points before a ring of views that share a camera, and their pixels.
+struct PointScene {
+  Scene scene;
+  std::vector<PointSample> points;
+};
+
+PointScene PointsSeenBy(const Camera& camera) {
+  PointScene made;
+  made.scene = SceneOf(RingOfViews(12));
+  made.scene.cameras = {camera};
+  for (View& view : made.scene.views) view.camera_idx = 0;
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    PointSample& point = made.points.emplace_back();
+    point.position = 0.6 * random.NormalVector();
+    for (std::size_t v = 0; v < made.scene.views.size(); ++v) {
+      const auto pixel =
+          Project(camera, made.scene.views[v].cam_from_world, point.position);
+      if (pixel) {
+        point.observations.push_back({static_cast<std::int32_t>(v), *pixel});
+      }
+    }
+  }
+  return made;
+}
+
+TEST(AdjustPoses, FindsTheLensFromPoints) {
+  const PosedView view = RingOfViews(1).front();
+  const double f = view.calibration(0, 0);
+  const Eigen::Vector2d center = view.calibration.topRightCorner<2, 1>();
+  const Camera truth{CameraModel::kRadial,
+                     view.width,
+                     view.height,
+                     {f, center.x() + 3, center.y() - 2, -0.05, 0.01}};
+  PointScene made = PointsSeenBy(truth);
+  made.scene.cameras = {{CameraModel::kRadial,
+                         view.width,
+                         view.height,
+                         {1.003 * f, center.x(), center.y(), -0.045, 0}}};
+  const std::vector<double> sigmas(made.scene.views.size(), 0.2);
+  MovedCameras moved{std::vector<Rigid3>(made.scene.views.size()),
+                     made.scene.cameras};
+  for (int i = 0; i < 3; ++i) {
+    const AdjustedPoses adjusted =
+        AdjustPoses({made.scene, {}, made.points, sigmas, 0.2, 50, {true}},
+                    moved,
+                    2,
+                    KeepGoing);
+    moved = adjusted.moved;
+    for (std::size_t k = 0; k < made.points.size(); ++k) {
+      made.points[k].position = adjusted.points[k];
+    }
+  }
+  const std::vector<double>& params = moved.cameras[0].params;
+  EXPECT_NEAR(params[0], f, 1e-3 * f);
+  EXPECT_NEAR(params[1], truth.params[1], 0.3);
+  EXPECT_NEAR(params[2], truth.params[2], 0.3);
+  EXPECT_NEAR(params[3], truth.params[3], 2e-3);
+  EXPECT_NEAR(params[4], truth.params[4], 5e-3);
+}
+
+TEST(AdjustPoses, LeavesCamerasAloneThatAreNotFree) {
+  PointScene made = PointsSeenBy(SceneOf(RingOfViews(1)).cameras[0]);
+  made.scene.cameras[0].params[0] *= 1.01;
+  const std::vector<double> sigmas(made.scene.views.size(), 0.2);
+  const AdjustedPoses adjusted = AdjustPoses(
+      {made.scene, {}, made.points, sigmas, 0.2, 50, {false}},
+      {std::vector<Rigid3>(made.scene.views.size()), made.scene.cameras},
+      1,
+      KeepGoing);
+  EXPECT_EQ(adjusted.moved.cameras[0].params, made.scene.cameras[0].params);
 }
 
 }  // namespace

@@ -12,16 +12,25 @@ namespace {
 
 constexpr std::size_t kNumViews = 5;
 constexpr std::size_t kNumSamples = 30;
+constexpr std::size_t kNumCameras = 2;
 constexpr double kDamping = 0.1;
 
 // Every sample is seen by four of the views, of which the last sees nothing.
+// Views share two cameras in turns.
 struct TestProblem {
   EquationOwners owners;
   std::vector<StepEquation> equations;
   std::vector<StepPrior> priors;
+  std::vector<LensPrior> lens_priors;  // none: cameras stay
 };
 
-TestProblem MakeProblem() {
+Vector8d Vector8(Random& random) {
+  Vector8d v;
+  for (double& value : v) value = random.Normal();
+  return v;
+}
+
+TestProblem MakeProblem(bool with_lenses = false) {
   Random random(7);
   const auto vector6 = [&] {
     Vector6d v;
@@ -33,25 +42,38 @@ TestProblem MakeProblem() {
   for (std::size_t i = 0; i < kNumSamples; ++i) {
     for (std::size_t k = 0; k < 4; ++k) {
       owners.push_back({(i + k) % (kNumViews - 1), i});
-      equations.push_back({random.Normal(), vector6(), random.NormalVector()});
+      equations.push_back(
+          {random.Normal(), vector6(), random.NormalVector(), Vector8(random)});
     }
   }
   std::vector<StepPrior> priors(kNumViews);
   for (std::size_t i = 0; i + 1 < kNumViews; ++i) {
     priors[i] = {vector6(), vector6()};
   }
-  return {{owners, kNumViews, kNumSamples}, equations, priors};
+  std::vector<LensPrior> lens_priors;
+  for (std::size_t i = 0; with_lenses && i < kNumCameras; ++i) {
+    lens_priors.push_back({Vector8(random), Vector8(random)});
+  }
+  std::vector<std::size_t> camera_of_view;
+  for (std::size_t i = 0; i < kNumViews; ++i) {
+    camera_of_view.push_back(i % kNumCameras);
+  }
+  return {
+      {owners, camera_of_view, kNumSamples}, equations, priors, lens_priors};
 }
 
-// Of all unknowns at once, motions first.
+// Of all unknowns at once: motions, lenses, offsets.
 Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
   const auto num_equations =
       static_cast<Eigen::Index>(problem.equations.size());
+  const auto num_cameras =
+      static_cast<Eigen::Index>(problem.lens_priors.size());
   const auto num_motions = static_cast<Eigen::Index>(6 * kNumViews);
+  const Eigen::Index num_poses = num_motions + 8 * num_cameras;
   const auto num_unknowns =
-      num_motions + static_cast<Eigen::Index>(3 * kNumSamples);
+      num_poses + static_cast<Eigen::Index>(3 * kNumSamples);
   Eigen::MatrixXd jacobian =
-      Eigen::MatrixXd::Zero(num_equations + num_motions, num_unknowns);
+      Eigen::MatrixXd::Zero(num_equations + num_poses, num_unknowns);
   Eigen::VectorXd residuals(jacobian.rows());
   for (Eigen::Index e = 0; e < num_equations; ++e) {
     const auto& owner = problem.owners.of_equation[static_cast<std::size_t>(e)];
@@ -59,8 +81,15 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
     residuals(e) = equation.residual;
     jacobian.row(e).segment<6>(static_cast<Eigen::Index>(6 * owner.view_idx)) =
         equation.by_motion;
+    if (num_cameras > 0) {
+      const std::size_t camera_idx =
+          problem.owners.camera_of_view[owner.view_idx];
+      jacobian.row(e).segment<8>(num_motions +
+                                 static_cast<Eigen::Index>(8 * camera_idx)) =
+          equation.by_lens;
+    }
     jacobian.row(e).segment<3>(
-        num_motions + static_cast<Eigen::Index>(3 * owner.sample_idx)) =
+        num_poses + static_cast<Eigen::Index>(3 * owner.sample_idx)) =
         equation.by_offset;
   }
   for (std::size_t i = 0; i < kNumViews; ++i) {
@@ -69,9 +98,16 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
     jacobian.block<6, 6>(num_equations + begin, begin) =
         problem.priors[i].factors.asDiagonal();
   }
+  for (Eigen::Index i = 0; i < num_cameras; ++i) {
+    const LensPrior& prior = problem.lens_priors[static_cast<std::size_t>(i)];
+    const Eigen::Index begin = num_motions + 8 * i;
+    residuals.segment<8>(num_equations + begin) = prior.residuals;
+    jacobian.block<8, 8>(num_equations + begin, begin) =
+        prior.factors.asDiagonal();
+  }
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   for (std::size_t i = 0; i < kNumSamples; ++i) {
-    const auto begin = num_motions + static_cast<Eigen::Index>(3 * i);
+    const auto begin = num_poses + static_cast<Eigen::Index>(3 * i);
     normal(begin + 2, begin + 2) +=
         1e-9 * normal.diagonal().segment<3>(begin).sum();
   }
@@ -81,41 +117,59 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
   return normal.ldlt().solve(-(jacobian.transpose() * residuals));
 }
 
+Steps Solve(const TestProblem& problem, int num_threads) {
+  return SolveSteps(problem.owners,
+                    problem.equations,
+                    problem.priors,
+                    problem.lens_priors,
+                    kDamping,
+                    num_threads);
+}
+
+void ExpectStepsOfAllAtOnce(const TestProblem& problem) {
+  const Steps steps = Solve(problem, 2);
+  Eigen::VectorXd all(SolveAtOnce(problem).size());
+  Eigen::Index at = 0;
+  const auto append = [&](const auto& vectors) {
+    for (const auto& vector : vectors) {
+      all.segment(at, vector.size()) = vector;
+      at += vector.size();
+    }
+  };
+  append(steps.motions);
+  append(steps.lenses);
+  append(steps.offsets);
+  ASSERT_EQ(at, all.size());
+  EXPECT_LT((all - SolveAtOnce(problem)).cwiseAbs().maxCoeff(), 1e-8);
+}
+
 TEST(SolveSteps, AgreesWithTheSolutionOfAllUnknownsAtOnce) {
-  const TestProblem problem = MakeProblem();
-  const Steps steps = SolveSteps(
-      problem.owners, problem.equations, problem.priors, kDamping, 2);
-  const Eigen::VectorXd expected = SolveAtOnce(problem);
-  for (std::size_t i = 0; i < kNumViews; ++i) {
-    const auto begin = static_cast<Eigen::Index>(6 * i);
-    EXPECT_LT((steps.motions[i] - expected.segment<6>(begin)).norm(), 1e-9);
-  }
-  for (std::size_t i = 0; i < kNumSamples; ++i) {
-    const auto begin = static_cast<Eigen::Index>(6 * kNumViews + 3 * i);
-    EXPECT_LT((steps.offsets[i] - expected.segment<3>(begin)).norm(), 1e-9);
-  }
+  ExpectStepsOfAllAtOnce(MakeProblem());
+}
+
+TEST(SolveSteps, AgreesWithItIfLensesChangeToo) {
+  ExpectStepsOfAllAtOnce(MakeProblem(true));
 }
 
 TEST(SolveSteps, LeavesAViewThatSeesNothingWhereItIs) {
   const TestProblem problem = MakeProblem();
-  const Steps steps = SolveSteps(
-      problem.owners, problem.equations, problem.priors, kDamping, 1);
+  const Steps steps = Solve(problem, 1);
   EXPECT_TRUE(steps.motions.back().isZero(0));
   EXPECT_FALSE(steps.motions.front().isZero(1e-3));
 }
 
 TEST(SolveSteps, IsTheSameForAnyNumberOfThreads) {
-  const TestProblem problem = MakeProblem();
-  const Steps one = SolveSteps(
-      problem.owners, problem.equations, problem.priors, kDamping, 1);
-  const Steps three = SolveSteps(
-      problem.owners, problem.equations, problem.priors, kDamping, 3);
+  const TestProblem problem = MakeProblem(true);
+  const Steps one = Solve(problem, 1);
+  const Steps three = Solve(problem, 3);
   EXPECT_EQ(one.motions, three.motions);
+  EXPECT_EQ(one.lenses, three.lenses);
   EXPECT_EQ(one.offsets, three.offsets);
 }
 
 TEST(SolveSteps, HasNoStepsWithoutEquations) {
-  const Steps steps = SolveSteps({{}, 2, 1}, {}, {{}, {}}, kDamping, 1);
+  const Steps steps =
+      SolveSteps({{}, {0, 0}, 1}, {}, {{}, {}}, {}, kDamping, 1);
   ASSERT_EQ(steps.motions.size(), 2U);
   EXPECT_TRUE(steps.motions[1].isZero(0));
   ASSERT_EQ(steps.offsets.size(), 1U);
