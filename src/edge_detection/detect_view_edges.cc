@@ -43,7 +43,7 @@ void ThinOut(const EdgeDetectionOptions& options,
 
 Result<std::int32_t> DropMaskedEdges(const View& view,
                                      const Camera& camera,
-                                     std::vector<Edge2d>* edges) {
+                                     std::vector<LocatedEdge>* edges) {
   if (view.mask_path.empty()) return 0;
   const Result<GrayImage> mask =
       LoadGrayImage(view.mask_path, ImageSize{camera.width, camera.height});
@@ -82,11 +82,14 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   map.noise = EstimateNoise(*image);
   const double min_gradient = GradientThreshold(options, map.noise);
   const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
-  std::vector<Edge2d> edges = LocateEdges(*image, options, min_gradient);
-  const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
+  std::vector<LocatedEdge> located = LocateEdges(*image, options, min_gradient);
+  const Result<std::int32_t> num_masked =
+      DropMaskedEdges(view, camera, &located);
   if (!num_masked.ok()) return num_masked.status();
   const std::int32_t num_unlinked =
-      DropLeastProminent(kCrowd * kThinning * max_edges, &edges);
+      DropLeastProminent(kCrowd * kThinning * max_edges, &located);
+  std::vector<Edge2d> edges = AcrossGradients(located);
+  located = {};
   KeptEdges kept = KeepContours(edges,
                                 LinkNeighbors(edges, options),
                                 options,
