@@ -131,6 +131,8 @@ class EdgeLocator {
         offsets_(static_cast<std::size_t>(gradients_.grid_width())) {}
 
   std::vector<LocatedEdge> Locate() {
+    // Enough for foliage. What is not used stays virtual.
+    edges_.reserve(image_.pixels.size() / 2);
     ComputeRow(0);
     ComputeRow(1);
     for (int j = 1; j + 1 < gradients_.grid_height(); ++j) {

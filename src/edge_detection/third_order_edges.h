@@ -15,7 +15,8 @@ namespace curvix {
 
 // An edge as it is located, before it has an orientation.
 struct LocatedEdge {
-  Eigen::Vector2d position;  // pixels
+  // Pixels. Not aligned, for there may be millions: 24 bytes each.
+  Eigen::Matrix<double, 2, 1, Eigen::DontAlign> position;
   Eigen::Vector2f gradient;  // of the nearest grid point, grey levels per pixel
 
   float strength() const {
