@@ -139,6 +139,7 @@ std::int32_t DropLeastProminent(std::int64_t max_edges,
       falling.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
   std::nth_element(falling.begin(), last, falling.end(), std::greater<>());
   std::vector<LocatedEdge> kept;
+  kept.reserve(static_cast<std::size_t>(max_edges));
   for (std::size_t i = 0; i < edges->size(); ++i) {
     if (prominence[i] >= *last) kept.push_back((*edges)[i]);
   }
