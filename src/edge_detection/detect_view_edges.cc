@@ -34,8 +34,10 @@ void ThinOut(const EdgeDetectionOptions& options,
   const double num_before = static_cast<double>(map->edges.size());
   map->edges = ThinContours(map->edges, map->neighbors, kThinnedSpacingPx);
   map->spacing_px *= num_before / static_cast<double>(map->edges.size());
-  KeptEdges kept = KeepContours(
-      map->edges, LinkNeighbors(map->edges, options), options, 0, max_edges);
+  map->neighbors = LinkNeighbors(map->edges, options);
+  KeptEdges kept =
+      KeepContours(map->edges, map->neighbors, options, 0, max_edges);
+  if (kept.num_over_limit == 0) return;
   map->edges = std::move(kept.edges);
   map->neighbors = LinkNeighbors(map->edges, options);
   map->num_dropped_over_limit += kept.num_over_limit;

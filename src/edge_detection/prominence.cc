@@ -31,8 +31,7 @@ float Strength(const LocatedEdge& edge) { return edge.strength(); }
 
 // Unit, towards the bright side.
 Eigen::Vector2d Normal(const Edge2d& edge) {
-  const double angle = static_cast<double>(edge.angle);
-  return {-std::sin(angle), std::cos(angle)};
+  return {-std::sin(edge.angle), std::cos(edge.angle)};
 }
 Eigen::Vector2d Normal(const LocatedEdge& edge) {
   return edge.gradient.cast<double>() / static_cast<double>(edge.strength());
