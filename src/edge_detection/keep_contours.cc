@@ -128,23 +128,27 @@ void KeepStructure(const std::vector<double>& structure,
   }
 }
 
+// 1 <= n <= the number of values.
+double NthLargest(std::vector<double> values, std::int64_t n) {
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n - 1);
+  std::nth_element(values.begin(), nth, values.end(), std::greater<>());
+  return *nth;
+}
+
 }  // namespace
 
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges) {
   if (static_cast<std::int64_t>(edges->size()) <= max_edges) return 0;
   const std::vector<double> prominence = Prominence(*edges);
-  std::vector<double> falling = prominence;
-  const auto last =
-      falling.begin() + static_cast<std::ptrdiff_t>(max_edges - 1);
-  std::nth_element(falling.begin(), last, falling.end(), std::greater<>());
-  std::vector<LocatedEdge> kept;
-  kept.reserve(static_cast<std::size_t>(max_edges));
+  const double least = NthLargest(prominence, max_edges);
+  std::size_t num_kept = 0;
   for (std::size_t i = 0; i < edges->size(); ++i) {
-    if (prominence[i] >= *last) kept.push_back((*edges)[i]);
+    if (prominence[i] >= least) (*edges)[num_kept++] = (*edges)[i];
   }
-  std::swap(kept, *edges);
-  return static_cast<std::int32_t>(kept.size() - edges->size());
+  const std::size_t num_dropped = edges->size() - num_kept;
+  edges->resize(num_kept);
+  return static_cast<std::int32_t>(num_dropped);
 }
 
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
