@@ -46,17 +46,13 @@ struct PeakPair {
 };
 
 // So many pairs are solved at once, for the sake of vector instructions.
-constexpr std::size_t kLanes = 16;
+constexpr std::size_t kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
 Lanes Gaussian(const Lanes& x) { return (-0.5f * x.square()).exp(); }
 
-// `step`, moved half of the way to where it lies if its peak is `shift` from
-// it.
-float Halfway(float step, float peak, float shift) {
-  const float limited =
-      std::min(std::max(shift, -kMaxShiftBlurs), kMaxShiftBlurs);
-  return (step + peak + limited) / 2;
+Lanes Limited(const Lanes& shift) {
+  return shift.max(-kMaxShiftBlurs).min(kMaxShiftBlurs);
 }
 
 // How far the steps behind the edges' own peaks lie from them, if the gradient
@@ -75,23 +71,19 @@ Lanes ShiftsOfSteps(const std::array<PeakPair, kLanes>& pairs) {
     const Lanes from_other = Gaussian(other_step);
     const Lanes at_other = Gaussian(place - step);
     const Lanes own_of_other = Gaussian(place - other_step);
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const float determinant =
-          own[k] * own_of_other[k] - from_other[k] * at_other[k];
-      // The heights of both steps, times the determinant.
-      const float a =
-          height[k] * own_of_other[k] - other_height[k] * from_other[k];
-      const float b = other_height[k] * own[k] - height[k] * at_other[k];
-      // Where the slopes of both are each other's opposite, there is the peak.
-      const float shift = -other_step[k] * (b * from_other[k]) / (a * own[k]);
-      const float other_shift =
-          (place[k] - step[k]) * (a * at_other[k]) / (b * own_of_other[k]);
-      const bool is_solvable = determinant > kMinDeterminant;
-      const float moved = Halfway(step[k], 0, shift);
-      const float other_moved = Halfway(other_step[k], place[k], other_shift);
-      step[k] = is_solvable ? moved : step[k];
-      other_step[k] = is_solvable ? other_moved : other_step[k];
-    }
+    const Lanes determinant = own * own_of_other - from_other * at_other;
+    // The heights of both steps, times the determinant.
+    const Lanes a = height * own_of_other - other_height * from_other;
+    const Lanes b = other_height * own - height * at_other;
+    // Where the slopes of both are each other's opposite, there is the peak.
+    const Lanes shift = -other_step * (b * from_other) / (a * own);
+    const Lanes other_shift =
+        (place - step) * (a * at_other) / (b * own_of_other);
+    // Halfway there, where the heights could be told.
+    const auto is_solved = (determinant > kMinDeterminant).eval();
+    step = is_solved.select((step + Limited(shift)) / 2, step);
+    other_step = is_solved.select(
+        (other_step + place + Limited(other_shift)) / 2, other_step);
   }
   return step;
 }
