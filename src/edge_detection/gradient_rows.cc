@@ -111,7 +111,7 @@ void GradientRows::FilterColumns(int grid_row, const PixelRun& run) {
     const float left = (*padded)[first];
     const float right = (*padded)[first + n - 1];
     if (begin == 0) std::fill_n(padded->begin(), pad, left);
-    if (end == image_.width) std::fill_n(padded->end() - pad, pad, right);
+    if (end == image_.width) std::fill_n(padded->rbegin(), pad, right);
   }
 }
 

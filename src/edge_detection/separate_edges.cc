@@ -60,9 +60,10 @@ Lanes Limited(const Lanes& shift) {
 Lanes ShiftsOfSteps(const std::array<PeakPair, kLanes>& pairs) {
   Lanes place, height, other_height;
   for (std::size_t k = 0; k < kLanes; ++k) {
-    place[k] = pairs[k].place;
-    height[k] = pairs[k].height;
-    other_height[k] = pairs[k].other_height;
+    const auto lane = static_cast<Eigen::Index>(k);
+    place[lane] = pairs[k].place;
+    height[lane] = pairs[k].height;
+    other_height[lane] = pairs[k].other_height;
   }
   Lanes step = Lanes::Zero(), other_step = place;
   for (int round = 0; round < kNumRounds; ++round) {
@@ -161,9 +162,9 @@ void SeparateEdges(std::vector<Edge2d>* edges) {
     std::copy_n(&pairs[begin], num_pairs, lanes.begin());
     const Lanes shifts = ShiftsOfSteps(lanes);
     for (std::size_t k = 0; k < num_pairs; ++k) {
-      (*edges)[lanes[k].edge_idx].position += blur *
-                                              static_cast<double>(shifts[k]) *
-                                              lanes[k].normal.cast<double>();
+      (*edges)[lanes[k].edge_idx].position +=
+          blur * static_cast<double>(shifts[static_cast<Eigen::Index>(k)]) *
+          lanes[k].normal.cast<double>();
     }
   }
 }
