@@ -41,10 +41,31 @@ class GridIndex {
     const int row_begin = Cell(center.y() - radius_px - origin_.y(), rows_);
     const int row_end = Cell(center.y() + radius_px - origin_.y(), rows_);
     for (int row = row_begin; row <= row_end; ++row) {
-      const std::int32_t* begins = &begins_[Bucket(column_begin, row)];
-      const int num_columns = column_end - column_begin + 1;
-      for (std::int32_t i = begins[0]; i < begins[num_columns]; ++i) {
-        f(edges_[static_cast<std::size_t>(i)]);
+      const IndexedEdge* edge = BucketBegin(Bucket(column_begin, row));
+      const IndexedEdge* end = BucketBegin(Bucket(column_end, row) + 1);
+      for (; edge != end; ++edge) f(*edge);
+    }
+  }
+
+  // Calls f(edge, begin, end) with edges [begin, end), so that of every two
+  // edges at most a cell's size apart along x and along y, one is once `edge`
+  // and the other among its [begin, end). So are some that lie further apart.
+  template <typename F>
+  void VisitPairs(const F& f) const {
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        const int left = column > 0 ? column - 1 : 0;
+        const int right = column + 1 < columns_ ? column + 1 : column;
+        const IndexedEdge* end = BucketBegin(Bucket(right, row) + 1);
+        const IndexedEdge* edge = BucketBegin(Bucket(column, row));
+        const IndexedEdge* last = BucketBegin(Bucket(column, row) + 1);
+        for (; edge != last; ++edge) {
+          f(*edge, edge + 1, end);
+          if (row + 1 == rows_) continue;
+          f(*edge,
+            BucketBegin(Bucket(left, row + 1)),
+            BucketBegin(Bucket(right, row + 1) + 1));
+        }
       }
     }
   }
@@ -61,6 +82,9 @@ class GridIndex {
   std::size_t Bucket(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
+  }
+  const IndexedEdge* BucketBegin(std::size_t bucket) const {
+    return edges_.data() + begins_[bucket];
   }
 
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "base/angles.h"
 #include "base/grid_index.h"
@@ -13,64 +14,101 @@
 namespace curvix {
 namespace {
 
-struct Nearest {
-  std::optional<std::int32_t> edge_idx;
-  double distance;
+// Offers edges to each other as neighbours, pair by pair.
+class Linker {
+ public:
+  Linker(const std::vector<Edge2d>& edges, const EdgeDetectionOptions& options)
+      : edges_(edges),
+        max_distance_(options.max_neighbor_distance_px),
+        min_cosine_(std::cos(DegToRad(options.max_neighbor_angle_deg))),
+        rounded_min_cosine_(static_cast<float>(min_cosine_ - 1e-5)),
+        neighbors_(edges.size()),
+        distances_(edges.size(), {max_distance_, max_distance_}) {}
 
-  void Offer(std::int32_t candidate_idx, double candidate_distance) {
+  std::vector<EdgeNeighbors> Link() {
+    GridIndex(edges_, max_distance_)
+        .VisitPairs(
+            [this](const IndexedEdge& edge,
+                   const IndexedEdge* begin,
+                   const IndexedEdge* end) { ConsiderAll(edge, begin, end); });
+    return std::move(neighbors_);
+  }
+
+ private:
+  struct Distances {
+    double previous;
+    double next;
+  };
+
+  // Considers those of [begin, end) that point the same way, which few do. They
+  // are collected without branches.
+  void ConsiderAll(const IndexedEdge& edge,
+                   const IndexedEdge* begin,
+                   const IndexedEdge* end) {
+    const auto size = static_cast<std::size_t>(end - begin);
+    if (parallel_.size() < size) parallel_.resize(size);
+    const IndexedEdge** parallel = parallel_.data();
+    for (const IndexedEdge* other = begin; other != end; ++other) {
+      *parallel = other;
+      parallel += edge.tangent.dot(other->tangent) >= rounded_min_cosine_;
+    }
+    for (const IndexedEdge** other = parallel_.data(); other != parallel;
+         ++other) {
+      Consider(edge, **other);
+    }
+  }
+
+  void Consider(const IndexedEdge& a, const IndexedEdge& b) {
+    const Eigen::Vector2d tangent_a = a.tangent.cast<double>();
+    const Eigen::Vector2d tangent_b = b.tangent.cast<double>();
+    if (tangent_a.dot(tangent_b) < min_cosine_) return;
+    const Eigen::Vector2d chord = Position(b) - Position(a);
+    const double distance = chord.norm();
+    if (distance == 0 || distance > max_distance_) return;
+    const double min_along = min_cosine_ * distance;
+    const double along_a = chord.dot(tangent_a);
+    const double along_b = chord.dot(tangent_b);
+    if (along_a >= min_along && along_b >= min_along) Join(a, b, distance);
+    if (-along_a >= min_along && -along_b >= min_along) Join(b, a, distance);
+  }
+
+  // Offers `b` as what follows on `a`.
+  void Join(const IndexedEdge& a, const IndexedEdge& b, double distance) {
+    const auto i = static_cast<std::size_t>(a.edge_idx);
+    const auto j = static_cast<std::size_t>(b.edge_idx);
+    Offer(b.edge_idx, distance, neighbors_[i].next, distances_[i].next);
+    Offer(a.edge_idx, distance, neighbors_[j].previous, distances_[j].previous);
+  }
+
+  static void Offer(std::int32_t candidate_idx,
+                    double candidate_distance,
+                    std::optional<std::int32_t>& edge_idx,
+                    double& distance) {
     const bool nearer = candidate_distance < distance;
     const bool tied = candidate_distance == distance;
     if (!nearer && !(tied && (!edge_idx || candidate_idx < *edge_idx))) return;
     edge_idx = candidate_idx;
     distance = candidate_distance;
   }
+
+  const Eigen::Vector2d& Position(const IndexedEdge& edge) const {
+    return edges_[static_cast<std::size_t>(edge.edge_idx)].position;
+  }
+
+  const std::vector<Edge2d>& edges_;
+  double max_distance_;
+  double min_cosine_;
+  float rounded_min_cosine_;  // not above that of floats
+  std::vector<EdgeNeighbors> neighbors_;
+  std::vector<Distances> distances_;  // to the neighbours found so far
+  std::vector<const IndexedEdge*> parallel_;
 };
-
-Eigen::Vector2d Tangent(const Edge2d& edge) {
-  return {std::cos(edge.angle), std::sin(edge.angle)};
-}
-
-EdgeNeighbors NeighborsOf(const std::vector<Edge2d>& edges,
-                          const GridIndex& index,
-                          double max_distance,
-                          double min_cosine,
-                          std::size_t i) {
-  const Eigen::Vector2d tangent = Tangent(edges[i]);
-  Nearest previous{std::nullopt, max_distance};
-  Nearest next{std::nullopt, max_distance};
-  const auto consider = [&](const IndexedEdge& candidate) {
-    const Eigen::Vector2d other_tangent = candidate.tangent.cast<double>();
-    const auto j = static_cast<std::size_t>(candidate.edge_idx);
-    if (j == i || tangent.dot(other_tangent) < min_cosine) return;
-    const Eigen::Vector2d chord = edges[j].position - edges[i].position;
-    const double along = chord.dot(tangent);
-    const double along_other = chord.dot(other_tangent);
-    const double distance = chord.norm();
-    const double min_along = min_cosine * distance;
-    if (along > 0 && along >= min_along && along_other >= min_along) {
-      next.Offer(candidate.edge_idx, distance);
-    }
-    if (along < 0 && -along >= min_along && -along_other >= min_along) {
-      previous.Offer(candidate.edge_idx, distance);
-    }
-  };
-  index.VisitAround(edges[i].position, max_distance, consider);
-  return {previous.edge_idx, next.edge_idx};
-}
 
 }  // namespace
 
 std::vector<EdgeNeighbors> LinkNeighbors(const std::vector<Edge2d>& edges,
                                          const EdgeDetectionOptions& options) {
-  const double max_distance = options.max_neighbor_distance_px;
-  const double min_cosine = std::cos(DegToRad(options.max_neighbor_angle_deg));
-  const GridIndex index(edges, max_distance);
-  std::vector<EdgeNeighbors> neighbors;
-  neighbors.reserve(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    neighbors.push_back(NeighborsOf(edges, index, max_distance, min_cosine, i));
-  }
-  return neighbors;
+  return Linker(edges, options).Link();
 }
 
 }  // namespace curvix

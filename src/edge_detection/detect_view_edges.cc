@@ -34,8 +34,10 @@ void ThinOut(const EdgeDetectionOptions& options,
   const double num_before = static_cast<double>(map->edges.size());
   map->edges = ThinContours(map->edges, map->neighbors, kThinnedSpacingPx);
   map->spacing_px *= num_before / static_cast<double>(map->edges.size());
-  KeptEdges kept = KeepContours(
-      map->edges, LinkNeighbors(map->edges, options), options, 0, max_edges);
+  map->neighbors = LinkNeighbors(map->edges, options);
+  KeptEdges kept =
+      KeepContours(map->edges, map->neighbors, options, 0, max_edges);
+  if (kept.num_over_limit == 0) return;
   map->edges = std::move(kept.edges);
   map->neighbors = LinkNeighbors(map->edges, options);
   map->num_dropped_over_limit += kept.num_over_limit;
@@ -43,12 +45,54 @@ void ThinOut(const EdgeDetectionOptions& options,
 
 Result<std::int32_t> DropMaskedEdges(const View& view,
                                      const Camera& camera,
-                                     std::vector<Edge2d>* edges) {
+                                     std::vector<LocatedEdge>* edges) {
   if (view.mask_path.empty()) return 0;
   const Result<GrayImage> mask =
       LoadGrayImage(view.mask_path, ImageSize{camera.width, camera.height});
   if (!mask.ok()) return mask.status();
   return DropMaskedEdges(*mask, edges);
+}
+
+// The edges of the view's image that the mask leaves, but for the crowd of the
+// least prominent.
+Result<std::vector<Edge2d>> LocateProminentEdges(
+    const GrayImage& image,
+    const View& view,
+    const Camera& camera,
+    const EdgeDetectionOptions& options,
+    double min_gradient,
+    EdgeMap* map) {
+  std::vector<LocatedEdge> edges = LocateEdges(image, options, min_gradient);
+  const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
+  if (!num_masked.ok()) return num_masked.status();
+  map->num_dropped_masked = *num_masked;
+  const std::int64_t max_edges = MaxEdges(options, image.width, image.height);
+  map->num_dropped_over_limit =
+      DropLeastProminent(kCrowd * kThinning * max_edges, &edges);
+  return AcrossGradients(edges);
+}
+
+// Of these the edges of contours worth keeping. What is dropped is counted and
+// its memory freed.
+Status LocateContours(const GrayImage& image,
+                      const View& view,
+                      const Camera& camera,
+                      const EdgeDetectionOptions& options,
+                      EdgeMap* map) {
+  const double min_gradient = GradientThreshold(options, map->noise);
+  const auto edges =
+      LocateProminentEdges(image, view, camera, options, min_gradient, map);
+  if (!edges.ok()) return edges.status();
+  const std::int64_t max_edges = MaxEdges(options, image.width, image.height);
+  KeptEdges kept = KeepContours(*edges,
+                                LinkNeighbors(*edges, options),
+                                options,
+                                min_gradient,
+                                kThinning * max_edges);
+  map->num_dropped_isolated = kept.num_isolated;
+  map->num_dropped_over_limit += kept.num_over_limit;
+  map->edges = std::move(kept.edges);
+  return Status();
 }
 
 }  // namespace
@@ -80,28 +124,17 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   if (!image.ok()) return image.status();
   EdgeMap map;
   map.noise = EstimateNoise(*image);
-  const double min_gradient = GradientThreshold(options, map.noise);
-  const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
-  std::vector<Edge2d> edges = LocateEdges(*image, options, min_gradient);
-  const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
-  if (!num_masked.ok()) return num_masked.status();
-  const std::int32_t num_unlinked =
-      DropLeastProminent(kCrowd * kThinning * max_edges, &edges);
-  KeptEdges kept = KeepContours(edges,
-                                LinkNeighbors(edges, options),
-                                options,
-                                min_gradient,
-                                kThinning * max_edges);
-  map.num_dropped_over_limit = num_unlinked + kept.num_over_limit;
-  map.edges = std::move(kept.edges);
+  if (Status status = LocateContours(*image, view, camera, options, &map);
+      !status.ok()) {
+    return status;
+  }
   OrientEdges(*image, options, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(&map.edges);
+  const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
   if (static_cast<std::int64_t>(map.edges.size()) > max_edges) {
     ThinOut(options, max_edges, &map);
   }
-  map.num_dropped_masked = *num_masked;
-  map.num_dropped_isolated = kept.num_isolated;
   return UndistortEdges(std::move(map), camera);
 }
 

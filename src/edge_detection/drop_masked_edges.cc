@@ -8,8 +8,8 @@
 namespace curvix {
 
 std::int32_t DropMaskedEdges(const GrayImage& mask,
-                             std::vector<Edge2d>* edges) {
-  const auto is_masked = [&mask](const Edge2d& edge) {
+                             std::vector<LocatedEdge>* edges) {
+  const auto is_masked = [&mask](const LocatedEdge& edge) {
     const double x = std::floor(edge.position.x());
     const double y = std::floor(edge.position.y());
     if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) return false;

@@ -46,16 +46,18 @@ double GradientNoiseGain(double sigma_px) {
 }
 
 ImageDerivatives::ImageDerivatives(const GrayImage& image, double sigma_px)
-    : image_(image), radius_(GaussianRadius(sigma_px)) {
+    : image_(image),
+      radius_(GaussianRadius(sigma_px)),
+      near_reach_(2 * PixelFilterRadius(sigma_px)) {
   const int reach = 2 * radius_ + 1;
-  const int near_reach = 2 * PixelFilterRadius(sigma_px);
   for (int half_pixels = -reach - kPadding; half_pixels <= reach + kPadding;
        ++half_pixels) {
     const auto g = GaussianDerivatives(half_pixels / 2.0, sigma_px);
     const Orders orders = Eigen::Array4d(g[0], g[1], g[2], g[3]).cast<float>();
     const int distance = std::abs(half_pixels);
     table_.push_back(distance <= reach ? orders : Orders::Zero());
-    near_table_.push_back(distance <= near_reach ? orders : Orders::Zero());
+    far_table_.push_back(distance > near_reach_ ? table_.back()
+                                                : Orders::Zero());
   }
   const auto size = static_cast<std::size_t>(2 * radius_ + 3);
   x_.resize(size);
@@ -82,42 +84,51 @@ void ImageDerivatives::SetFilter(double position,
       const Orders* points = &table[first];
       return cubic[k] * points[k] + cubic[k + 2] * points[k + 2];
     };
-    weights.pixel = std::clamp(pixel, 0, num_pixels - 1);
-    weights.between = sum(table_, between);
     weights.on_pixel = sum(table_, on_pixel);
-    weights.near_pixel = sum(near_table_, on_pixel);
+    weights.all = weights.on_pixel + sum(table_, between);
+    const int nearest = half_pixels + on_pixel;
+    weights.is_far = std::max(-nearest, nearest + 2) > near_reach_;
+    if (weights.is_far) weights.far = sum(far_table_, on_pixel);
+    weights.pixel = std::clamp(pixel, 0, num_pixels - 1);
     ++pixel;
     half_pixels -= 2;
   }
 }
 
-ImageDerivatives::Sums ImageDerivatives::AlongRow(int row) const {
-  const float* pixels =
-      image_.pixels.data() + static_cast<std::ptrdiff_t>(row) * image_.width;
-  Sums sum{Orders::Zero(), Orders::Zero(), Orders::Zero()};
-  for (const Weights& weights : x_) {
-    const float value = pixels[weights.pixel];
-    sum.between += value * weights.between;
-    sum.on_pixel += value * weights.on_pixel;
-    sum.near_pixel += value * weights.near_pixel;
-  }
-  return sum;
-}
-
 Eigen::Matrix4d ImageDerivatives::At(const Eigen::Vector2d& position) {
   SetFilter(position.x(), image_.width, x_);
   SetFilter(position.y(), image_.height, y_);
+  far_x_.clear();
+  for (const Weights& along : x_) {
+    if (along.is_far) far_x_.push_back(&along);
+  }
   Eigen::Array44f derivatives = Eigen::Array44f::Zero();  // column: order in x
-  for (const Weights& across : y_) {
-    const Sums along = AlongRow(across.pixel);
-    // Grid points that are pixel centres, on a pixel along both axes, have the
-    // shorter filters.
-    const Orders along_any = along.between + along.on_pixel;
+  const auto add = [&](const Orders& across, const Orders& along) {
     for (int order = 0; order < 4; ++order) {
-      derivatives.col(order) += across.between * along_any[order] +
-                                across.on_pixel * along.between[order] +
-                                across.near_pixel * along.near_pixel[order];
+      derivatives.col(order) += across * along[order];
     }
+  };
+  for (const Weights& across : y_) {
+    const float* pixels =
+        image_.pixels.data() +
+        static_cast<std::ptrdiff_t>(across.pixel) * image_.width;
+    Orders all = Orders::Zero(), far = Orders::Zero();
+    for (const Weights& along : x_) all += pixels[along.pixel] * along.all;
+    for (const Weights* along : far_x_)
+      far += pixels[along->pixel] * along->far;
+    add(across.all, all);
+    // Grid points that are pixel centres, on a pixel along both axes, have the
+    // shorter filters: what they have beyond is taken off.
+    if (!across.is_far) {
+      add(across.on_pixel, -far);
+      continue;
+    }
+    Orders on_pixel = Orders::Zero();
+    for (const Weights& along : x_) {
+      on_pixel += pixels[along.pixel] * along.on_pixel;
+    }
+    add(across.on_pixel - across.far, -far);
+    add(across.far, -on_pixel);
   }
   return derivatives.matrix().cast<double>();
 }

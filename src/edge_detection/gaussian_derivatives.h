@@ -48,26 +48,25 @@ class ImageDerivatives {
  private:
   // By order of the derivative, 0 to 3.
   using Orders = Eigen::Array4f;
-  // What comes from grid points between two pixels, on a pixel, and on a pixel
-  // within PixelFilterRadius().
-  struct Sums {
-    Orders between, on_pixel, near_pixel;
-  };
   // The weights of one pixel along one axis.
-  struct Weights : Sums {
-    int pixel = 0;  // or the nearest inside the image
+  struct Weights {
+    Orders all;       // from all grid points, as far as the Gaussian reaches
+    Orders on_pixel;  // of it, from grid points on pixels
+    Orders far;       // of that, from beyond PixelFilterRadius()
+    bool is_far = false;  // whether there is any
+    int pixel = 0;        // or the nearest inside the image
   };
   using Filter = std::vector<Weights>;
   void SetFilter(double position, int num_pixels, Filter& filter) const;
-  // The image's row `row`, weighted.
-  Sums AlongRow(int row) const;
 
   const GrayImage& image_;
   int radius_;
   // Gaussian derivatives at every half pixel from the negative to the positive
   // reach of the four grid points; zero beyond the filters' reach.
-  std::vector<Orders> table_, near_table_;
-  Filter x_, y_;  // of the last call
+  std::vector<Orders> table_, far_table_;
+  int near_reach_;  // half pixels
+  Filter x_, y_;    // of the last call
+  std::vector<const Weights*> far_x_;
 };
 
 }  // namespace curvix

@@ -10,43 +10,27 @@
 #include "edge_detection/gaussian_derivatives.h"
 
 namespace curvix {
-namespace {
-
-// out[i] += weight * (a[i] + sign * b[i]).
-void AddPairs(const float* a,
-              const float* b,
-              float weight,
-              float sign,
-              std::size_t n,
-              float* out) {
-  const float weight_b = weight * sign;
-  for (std::size_t i = 0; i < n; ++i) out[i] += weight * a[i] + weight_b * b[i];
-}
-
-void ReplicateEnds(std::size_t pad, std::vector<float>& padded) {
-  const auto size = static_cast<std::ptrdiff_t>(padded.size());
-  const auto border = static_cast<std::ptrdiff_t>(pad);
-  std::fill_n(padded.begin(), border, padded[pad]);
-  std::fill(padded.begin() + (size - border),
-            padded.end(),
-            padded[padded.size() - pad - 1]);
-}
-
-}  // namespace
 
 GradientRows::GradientRows(const GrayImage& image, double sigma_px)
     : image_(image), radius_(GaussianRadius(sigma_px)) {
   CURVIX_CHECK(image.width > 0 && image.height > 0, "the image is empty");
+  double max_smooth = 0, max_derive = 0;
   for (int phase = 0; phase < 2; ++phase) {
     Taps& taps = taps_[static_cast<std::size_t>(phase)];
+    double smooth = 0, derive = 0;
     for (int k = 0; k <= radius_; ++k) {
       const double distance = k + phase / 2.0;
       const auto g = GaussianDerivatives(-distance, sigma_px);
       const double share = distance == 0 ? 0.5 : 1.0;
       taps.smooth.push_back(static_cast<float>(share * g[0]));
       taps.derive.push_back(static_cast<float>(g[1]));
+      smooth += 2 * share * g[0];
+      derive += g[1];
     }
+    max_smooth = std::max(max_smooth, smooth);
+    max_derive = std::max(max_derive, derive);
   }
+  max_gain_ = std::sqrt(2.0) * max_smooth * max_derive;
   const auto width = static_cast<std::size_t>(image.width);
   const auto pad = static_cast<std::size_t>(radius_ + 1);
   smooth_.resize(width + 2 * pad);
@@ -54,66 +38,107 @@ GradientRows::GradientRows(const GrayImage& image, double sigma_px)
   for (std::vector<float>& phase : phases_) phase.resize(width);
 }
 
-void GradientRows::Compute(int grid_row, GradientRow& row) {
+void GradientRows::Compute(int grid_row,
+                           const PixelRun& run,
+                           GradientRow& row) {
   CURVIX_CHECK(grid_row >= 0 && grid_row < grid_height(), grid_row);
-  const auto n = static_cast<std::size_t>(grid_width());
-  row.x.resize(n);
-  row.y.resize(n);
-  row.magnitude.resize(n);
-  FilterColumns(grid_row);
-  FilterRow(smooth_, &Taps::derive, -1, row.x);
-  FilterRow(derived_, &Taps::smooth, 1, row.y);
-  for (std::size_t i = 0; i < n; ++i) {
-    row.magnitude[i] = std::sqrt(row.x[i] * row.x[i] + row.y[i] * row.y[i]);
+  CURVIX_CHECK(run.begin >= 0 && run.begin < run.end, run.begin);
+  CURVIX_CHECK(run.end <= image_.width, run.end);
+  const std::size_t size = 2 * static_cast<std::size_t>(image_.width);
+  row.x.resize(size);
+  row.y.resize(size);
+  row.magnitude.resize(size);
+  FilterColumns(grid_row, run);
+  FilterRow(smooth_, &Taps::derive, -1, run, row.x);
+  FilterRow(derived_, &Taps::smooth, 1, run, row.y);
+  const float* x = row.x.data();
+  const float* y = row.y.data();
+  float* magnitude = row.magnitude.data();
+  const auto end = 2 * static_cast<std::size_t>(run.end);
+  for (auto i = 2 * static_cast<std::size_t>(run.begin); i < end; ++i) {
+    magnitude[i] = std::sqrt(x[i] * x[i] + y[i] * y[i]);
   }
 }
 
-void GradientRows::FilterColumns(int grid_row) {
+// out[i] = sum over k of weights[k] * (pairs[k].a[i] + sign * pairs[k].b[i]).
+// Block by block, so that sums stay in registers.
+void GradientRows::SumPairs(const std::vector<Pair>& pairs,
+                            const std::vector<float>& weights,
+                            float sign,
+                            std::size_t n,
+                            float* out) {
+  constexpr std::size_t kBlock = 16;
+  const auto sum_block = [&](std::size_t begin, std::size_t size) {
+    float sums[kBlock] = {};
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const float* a = pairs[k].a + begin;
+      const float* b = pairs[k].b + begin;
+      const float weight_a = weights[k];
+      const float weight_b = weight_a * sign;
+      for (std::size_t i = 0; i < size; ++i) {
+        sums[i] += weight_a * a[i] + weight_b * b[i];
+      }
+    }
+    for (std::size_t i = 0; i < size; ++i) out[begin + i] = sums[i];
+  };
+  std::size_t begin = 0;
+  for (; begin + kBlock <= n; begin += kBlock) sum_block(begin, kBlock);
+  sum_block(begin, n - begin);
+}
+
+void GradientRows::FilterColumns(int grid_row, const PixelRun& run) {
   const int phase = grid_row % 2;
   const int y = grid_row / 2;
-  const Taps& taps = taps_[static_cast<std::size_t>(phase)];
-  const auto width = static_cast<std::size_t>(image_.width);
-  const auto pad = static_cast<std::size_t>(radius_ + 1);
+  const int begin = std::max(run.begin - reach_px(), 0);
+  const int end = std::min(run.end + reach_px(), image_.width);
   const auto pixels = [&](int row) {
-    const int inside = std::clamp(row, 0, image_.height - 1);
-    return image_.pixels.data() + static_cast<std::size_t>(inside) * width;
+    const auto inside =
+        static_cast<std::size_t>(std::clamp(row, 0, image_.height - 1));
+    return image_.pixels.data() +
+           inside * static_cast<std::size_t>(image_.width) + begin;
   };
-  std::fill(smooth_.begin(), smooth_.end(), 0.0f);
-  std::fill(derived_.begin(), derived_.end(), 0.0f);
+  pairs_.clear();
   for (int k = 0; k <= radius_; ++k) {
-    const float* below = pixels(y + phase + k);
-    const float* above = pixels(y - k);
-    const auto tap = static_cast<std::size_t>(k);
-    AddPairs(below, above, taps.smooth[tap], 1, width, &smooth_[pad]);
-    AddPairs(below, above, taps.derive[tap], -1, width, &derived_[pad]);
+    pairs_.push_back({pixels(y + phase + k), pixels(y - k)});
   }
-  ReplicateEnds(pad, smooth_);
-  ReplicateEnds(pad, derived_);
+  const Taps& taps = taps_[static_cast<std::size_t>(phase)];
+  const auto pad = static_cast<std::size_t>(reach_px());
+  const std::size_t first = pad + static_cast<std::size_t>(begin);
+  const auto n = static_cast<std::size_t>(end - begin);
+  SumPairs(pairs_, taps.smooth, 1, n, &smooth_[first]);
+  SumPairs(pairs_, taps.derive, -1, n, &derived_[first]);
+  for (std::vector<float>* padded : {&smooth_, &derived_}) {
+    const float left = (*padded)[first];
+    const float right = (*padded)[first + n - 1];
+    if (begin == 0) std::fill_n(padded->begin(), pad, left);
+    if (end == image_.width) std::fill_n(padded->rbegin(), pad, right);
+  }
 }
 
 void GradientRows::FilterRow(const std::vector<float>& padded,
                              const std::vector<float> Taps::*weights,
                              float sign,
+                             const PixelRun& run,
                              std::vector<float>& out) {
-  const auto width = static_cast<std::size_t>(image_.width);
-  const auto pad = static_cast<std::size_t>(radius_ + 1);
+  const auto begin = static_cast<std::size_t>(run.begin);
+  const auto n = static_cast<std::size_t>(run.end - run.begin);
+  const float* centre =
+      padded.data() + static_cast<std::size_t>(reach_px()) + begin;
   for (std::size_t phase = 0; phase < 2; ++phase) {
-    std::vector<float>& sums = phases_[phase];
-    std::fill(sums.begin(), sums.end(), 0.0f);
     const std::vector<float>& taps = taps_[phase].*weights;
+    pairs_.clear();
     for (std::size_t k = 0; k < taps.size(); ++k) {
-      const float* right = padded.data() + pad + phase + k;
-      const float* left = padded.data() + pad - k;
-      AddPairs(right, left, taps[k], sign, width, sums.data());
+      pairs_.push_back({centre + phase + k, centre - k});
     }
+    SumPairs(pairs_, taps, sign, n, phases_[phase].data());
   }
   const float* on_pixels = phases_[0].data();
   const float* between = phases_[1].data();
-  for (std::size_t i = 0; i + 1 < width; ++i) {
-    out[2 * i] = on_pixels[i];
-    out[2 * i + 1] = between[i];
+  float* points = &out[2 * begin];
+  for (std::size_t i = 0; i < n; ++i) {
+    points[2 * i] = on_pixels[i];
+    points[2 * i + 1] = between[i];
   }
-  out[2 * width - 2] = on_pixels[width - 1];
 }
 
 }  // namespace curvix

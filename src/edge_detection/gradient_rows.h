@@ -3,25 +3,28 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "edge_detection/gray_image.h"
+#include "edge_detection/steep_tiles.h"
 
 namespace curvix {
 
 // One row of the half-pixel grid. Grid point (i, j) is the pixel (i / 2, j / 2)
 // counted between pixel centres from (0, 0), that is (i / 2 + 0.5, j / 2 + 0.5)
-// in the library's coordinates. 2 * width - 1 points each.
+// in the library's coordinates. 2 * width points each, of which the last lies
+// beyond the last pixel.
 struct GradientRow {
   std::vector<float> x;  // grey levels per pixel
   std::vector<float> y;
   std::vector<float> magnitude;
 };
 
-// Computes gradients with Gaussian derivative filters, row by row, so that no
-// plane of the fine grid is ever stored. The image continues beyond its border
-// with its border values. Costs about 60 multiply-adds per grid point for
-// sigma = 1.
+// Computes gradients with Gaussian derivative filters, row by row and only
+// where asked, so that no plane of the fine grid is ever stored. The image
+// continues beyond its border with its border values. Costs about 60
+// multiply-adds per grid point for sigma = 1.
 class GradientRows {
  public:
   // `image` must outlive this object; its size is at least 1 x 1; sigma > 0.
@@ -30,8 +33,16 @@ class GradientRows {
   int grid_width() const { return 2 * image_.width - 1; }
   int grid_height() const { return 2 * image_.height - 1; }
 
-  // 0 <= grid_row < grid_height().
-  void Compute(int grid_row, GradientRow& row);
+  // How many pixels away the furthest pixel is that a gradient depends on.
+  int reach_px() const { return radius_ + 1; }
+  // The gradient is at most so many times the span of the grey levels that it
+  // depends on. Per pixel.
+  double max_gain() const { return max_gain_; }
+
+  // Sets the grid points 2 * run.begin to 2 * run.end - 1 of `row` and leaves
+  // the others. 0 <= grid_row < grid_height(); the run is not empty and lies
+  // within the image.
+  void Compute(int grid_row, const PixelRun& run, GradientRow& row);
 
  private:
   // Weights of the samples at distance k + phase / 2 on either side. The centre
@@ -41,18 +52,32 @@ class GradientRows {
     std::vector<float> derive;
   };
 
-  void FilterColumns(int grid_row);
+  // Two rows of samples, as far from the filter's centre on either side.
+  struct Pair {
+    const float* a;
+    const float* b;
+  };
+
+  static void SumPairs(const std::vector<Pair>& pairs,
+                       const std::vector<float>& weights,
+                       float sign,
+                       std::size_t n,
+                       float* out);
+  void FilterColumns(int grid_row, const PixelRun& run);
   void FilterRow(const std::vector<float>& padded,
                  const std::vector<float> Taps::*weights,
                  float sign,
+                 const PixelRun& run,
                  std::vector<float>& out);
 
   const GrayImage& image_;
-  int radius_;                  // taps reach up to radius_ + 1 pixels
+  int radius_;  // taps reach up to radius_ + 1 pixels
+  double max_gain_;
   std::array<Taps, 2> taps_;    // by phase: on a pixel, between two pixels
   std::vector<float> smooth_;   // padded by radius_ + 1 on either side
   std::vector<float> derived_;  // likewise
   std::array<std::vector<float>, 2> phases_;  // of one filtered row
+  std::vector<Pair> pairs_;                   // of one filter
 };
 
 }  // namespace curvix

@@ -98,6 +98,7 @@ double EstimateNoise(const GrayImage& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   std::vector<Sample> samples;
+  samples.reserve((width / kStride + 1) * (height / kStride + 1));
   Columns columns;
   for (std::size_t y = 0; y + kSmooth.size() <= height; y += kStride) {
     Reduce(&image.pixels[y * width], width, columns);

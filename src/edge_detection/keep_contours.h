@@ -8,18 +8,15 @@
 #include <cstdint>
 #include <vector>
 
+#include "edge_detection/third_order_edges.h"
+
 namespace curvix {
 
 // Drops the edges of least Prominence(), all but `max_edges` (>= 1) and what is
 // as prominent as the last of these; keeps the order of the others. Returns how
 // many it dropped.
 std::int32_t DropLeastProminent(std::int64_t max_edges,
-                                std::vector<Edge2d>* edges);
-
-// The contour of each edge: edges joined by mutual links have the same number.
-// Contours are numbered from 0 in the order of their first edges.
-std::vector<std::int32_t> LabelContours(
-    const std::vector<EdgeNeighbors>& neighbors);
+                                std::vector<LocatedEdge>* edges);
 
 // What KeepContours() keeps, in the order in which it came, and how many edges
 // it dropped.

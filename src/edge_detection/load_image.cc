@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -13,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "edge_detection/image_header.h"
@@ -36,9 +36,11 @@ Result<Bytes> ReadFile(const std::filesystem::path& path) {
         StatusCode::kNotFound,
         "Image " + path.string() + " is a folder or a device, not a file.");
   }
-  std::ifstream stream(path, std::ios::binary);
-  Bytes bytes{std::istreambuf_iterator<char>(stream),
-              std::istreambuf_iterator<char>()};
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream.tellg();
+  Bytes bytes(size > 0 ? static_cast<std::size_t>(size) : 0);
+  stream.seekg(0);
+  stream.read(reinterpret_cast<char*>(bytes.data()), size);
   if (!stream) {
     return Status(
         StatusCode::kNotFound,
@@ -52,28 +54,49 @@ Result<Bytes> ReadFile(const std::filesystem::path& path) {
   return bytes;
 }
 
-// Grey of `channels` values in OpenCV's order: grey; B, G, R; B, G, R, alpha.
-template <typename T>
-float Grey(const T* value, int channels) {
+// Grey of the values of a pixel in OpenCV's order: grey; B, G, R; B, G, R,
+// alpha.
+template <int kChannels, typename T>
+float Grey(const T* value) {
   constexpr double kMax = std::numeric_limits<T>::max();
-  if (channels == 1) return static_cast<float>(value[0] * (255 / kMax));
-  const double grey = 0.114 * value[0] + 0.587 * value[1] + 0.299 * value[2];
-  const double alpha = channels == 4 ? value[3] / kMax : 1.0;
-  return static_cast<float>(grey * alpha * (255 / kMax));
+  if constexpr (kChannels == 1) {
+    return static_cast<float>(value[0] * (255 / kMax));
+  } else {
+    const double grey = 0.114 * value[0] + 0.587 * value[1] + 0.299 * value[2];
+    if constexpr (kChannels == 3) {
+      return static_cast<float>(grey * (255 / kMax));
+    } else {
+      return static_cast<float>(grey * (value[3] / kMax) * (255 / kMax));
+    }
+  }
 }
 
-template <typename T>
+template <int kChannels, typename T>
 GrayImage ToGrey(const cv::Mat& image) {
-  GrayImage gray{image.cols, image.rows, {}};
-  gray.pixels.reserve(image.total());
-  const int channels = image.channels();
-  for (int y = 0; y < image.rows; ++y) {
+  GrayImage gray{image.cols, image.rows, std::vector<float>(image.total())};
+  float* pixels = gray.pixels.data();
+  for (int y = 0; y < image.rows; ++y, pixels += image.cols) {
     const T* value = image.ptr<T>(y);
-    for (int x = 0; x < image.cols; ++x, value += channels) {
-      gray.pixels.push_back(Grey(value, channels));
+    for (int x = 0; x < image.cols; ++x) {
+      pixels[x] = Grey<kChannels>(value + kChannels * x);
     }
   }
   return gray;
+}
+
+// nullopt: another number of channels.
+template <typename T>
+std::optional<GrayImage> ToGrey(const cv::Mat& image) {
+  switch (image.channels()) {
+    case 1:
+      return ToGrey<1, T>(image);
+    case 3:
+      return ToGrey<3, T>(image);
+    case 4:
+      return ToGrey<4, T>(image);
+    default:
+      return std::nullopt;
+  }
 }
 
 // Empty if it is no image, or if there is not enough memory for it.
@@ -132,11 +155,10 @@ Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
   if (image.empty() || IsTruncatedJpeg(AsText(*bytes))) return Broken(path);
   const ImageSize size = {image.cols, image.rows};
   if (expected && size != *expected) return WrongSize(path, size, *expected);
-  const int channels = image.channels();
-  if (channels == 1 || channels == 3 || channels == 4) {
-    if (image.depth() == CV_8U) return ToGrey<std::uint8_t>(image);
-    if (image.depth() == CV_16U) return ToGrey<std::uint16_t>(image);
-  }
+  std::optional<GrayImage> gray;
+  if (image.depth() == CV_8U) gray = ToGrey<std::uint8_t>(image);
+  if (image.depth() == CV_16U) gray = ToGrey<std::uint16_t>(image);
+  if (gray) return *std::move(gray);
   return Status(StatusCode::kUnsupported,
                 "Image " + path.string() +
                     " has neither 8 nor 16 bits per channel, or an unusual "

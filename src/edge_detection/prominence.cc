@@ -16,22 +16,39 @@ constexpr int kSquarePx = 9;
 // prominence.
 constexpr double kCrowded = 0.2;
 
+// std::floor is a function call on processors that lack it.
+int Floor(double x) {
+  const int towards_zero = static_cast<int>(x);
+  return towards_zero - (x < towards_zero ? 1 : 0);
+}
+
 cv::Point PixelAt(const Eigen::Vector2d& position) {
-  return {static_cast<int>(std::floor(position.x())),
-          static_cast<int>(std::floor(position.y()))};
+  return {Floor(position.x()), Floor(position.y())};
+}
+
+float Strength(const Edge2d& edge) { return edge.strength; }
+float Strength(const LocatedEdge& edge) { return edge.strength(); }
+
+// Unit, towards the bright side.
+Eigen::Vector2d Normal(const Edge2d& edge) {
+  return {-std::sin(edge.angle), std::cos(edge.angle)};
+}
+Eigen::Vector2d Normal(const LocatedEdge& edge) {
+  return edge.gradient.cast<double>() / static_cast<double>(edge.strength());
 }
 
 // The mean strength in the square about each pixel. Only as much of the image
 // as has edges.
-cv::Mat1f StrengthPerPixel(const std::vector<Edge2d>& edges) {
+template <typename Edge>
+cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges) {
   cv::Point last(0, 0);
-  for (const Edge2d& edge : edges) {
+  for (const Edge& edge : edges) {
     const cv::Point pixel = PixelAt(edge.position);
     last = {std::max(last.x, pixel.x), std::max(last.y, pixel.y)};
   }
   cv::Mat1f strengths(last.y + 1, last.x + 1, 0.0f);
-  for (const Edge2d& edge : edges) {
-    strengths(PixelAt(edge.position)) += edge.strength;
+  for (const Edge& edge : edges) {
+    strengths(PixelAt(edge.position)) += Strength(edge);
   }
   cv::boxFilter(strengths,
                 strengths,
@@ -43,9 +60,8 @@ cv::Mat1f StrengthPerPixel(const std::vector<Edge2d>& edges) {
   return strengths;
 }
 
-}  // namespace
-
-std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
+template <typename Edge>
+std::vector<double> ProminenceOf(const std::vector<Edge>& edges) {
   const cv::Mat1f strengths = StrengthPerPixel(edges);
   const cv::Rect inside({0, 0}, strengths.size());
   const auto strength_at = [&](const Eigen::Vector2d& position) {
@@ -54,17 +70,25 @@ std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
   };
   std::vector<double> prominence;
   prominence.reserve(edges.size());
-  for (const Edge2d& edge : edges) {
-    const double angle = static_cast<double>(edge.angle);
-    const Eigen::Vector2d aside =
-        kDistancePx * Eigen::Vector2d(-std::sin(angle), std::cos(angle));
+  for (const Edge& edge : edges) {
+    const Eigen::Vector2d aside = kDistancePx * Normal(edge);
     const float emptier = std::min(strength_at(edge.position + aside),
                                    strength_at(edge.position - aside));
-    const double strength = static_cast<double>(edge.strength);
+    const double strength = static_cast<double>(Strength(edge));
     prominence.push_back(
         strength / (1 + static_cast<double>(emptier) / (kCrowded * strength)));
   }
   return prominence;
+}
+
+}  // namespace
+
+std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
+  return ProminenceOf(edges);
+}
+
+std::vector<double> Prominence(const std::vector<LocatedEdge>& edges) {
+  return ProminenceOf(edges);
 }
 
 }  // namespace curvix

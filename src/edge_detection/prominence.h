@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "edge_detection/third_order_edges.h"
+
 namespace curvix {
 
 // How much each edge stands out from what surrounds it: its strength, less
@@ -19,5 +21,6 @@ namespace curvix {
 // half of that. What lies outside the image is empty. Positions are those of
 // the image, strengths positive.
 std::vector<double> Prominence(const std::vector<Edge2d>& edges);
+std::vector<double> Prominence(const std::vector<LocatedEdge>& edges);
 
 }  // namespace curvix

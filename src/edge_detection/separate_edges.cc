@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -18,7 +19,8 @@ constexpr double kReachBlurs = 4;
 constexpr double kMinAcrossBlurs = 1;
 constexpr double kMaxAlongPx = 0.75;
 constexpr double kMinCosine = 0.8;
-constexpr double kMaxShiftBlurs = 0.6;  // closer steps are not told apart
+constexpr float kMaxShiftBlurs = 0.6f;  // closer steps are not told apart
+constexpr float kMinDeterminant = 1e-3f;
 constexpr int kNumRounds = 6;
 
 // Of edges with a peak; 0 if there are none.
@@ -33,57 +35,75 @@ double MedianBlur(const std::vector<Edge2d>& edges) {
   return 1 / std::sqrt(Median(std::move(sharpness)));
 }
 
-double Gaussian(double x) { return std::exp(-0.5 * x * x); }
-
-// A peak of the gradient; in units of the blur.
-struct Peak {
-  double place = 0;
-  double height = 0;  // below 0 if it gets darker
+// Two peaks of the gradient: of an edge, at 0, and of the nearest beside it. In
+// units of the blur.
+struct PeakPair {
+  std::size_t edge_idx = 0;
+  Eigen::Vector2f normal;  // of the edge, unit
+  float place = 0;         // of the other, along the normal
+  float height = 1;
+  float other_height = 0;  // below 0 if it gets darker
 };
 
-// How far the step behind `peak` lies from it, if the gradient is the sum of
-// two Gaussians that has these two peaks.
-double ShiftOfStep(const Peak& peak, const Peak& other) {
-  double step = peak.place, other_step = other.place;
-  for (int round = 0; round < kNumRounds; ++round) {
-    const double own = Gaussian(peak.place - step);
-    const double from_other = Gaussian(peak.place - other_step);
-    const double at_other = Gaussian(other.place - step);
-    const double own_of_other = Gaussian(other.place - other_step);
-    const double determinant = own * own_of_other - from_other * at_other;
-    if (!(determinant > 1e-3)) break;
-    const double a =
-        (peak.height * own_of_other - other.height * from_other) / determinant;
-    const double b =
-        (other.height * own - peak.height * at_other) / determinant;
-    // Where the slopes of both are each other's opposite, there is the peak.
-    const double shift =
-        (peak.place - other_step) * (b * from_other) / (a * own);
-    const double other_shift =
-        (other.place - step) * (a * at_other) / (b * own_of_other);
-    const auto halfway = [](double from, double to, double peak_place) {
-      return (from + peak_place +
-              std::clamp(to, -kMaxShiftBlurs, kMaxShiftBlurs)) /
-             2;
-    };
-    step = halfway(step, shift, peak.place);
-    other_step = halfway(other_step, other_shift, other.place);
-  }
-  return step - peak.place;
+// So many pairs are solved at once, for the sake of vector instructions.
+constexpr std::size_t kLanes = 8;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+Lanes Gaussian(const Lanes& x) { return (-0.5f * x.square()).exp(); }
+
+Lanes Limited(const Lanes& shift) {
+  return shift.max(-kMaxShiftBlurs).min(kMaxShiftBlurs);
 }
 
+// How far the steps behind the edges' own peaks lie from them, if the gradient
+// is the sum of two Gaussians that has the two peaks.
+Lanes ShiftsOfSteps(const std::array<PeakPair, kLanes>& pairs) {
+  Lanes place, height, other_height;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const auto lane = static_cast<Eigen::Index>(k);
+    place[lane] = pairs[k].place;
+    height[lane] = pairs[k].height;
+    other_height[lane] = pairs[k].other_height;
+  }
+  Lanes step = Lanes::Zero(), other_step = place;
+  for (int round = 0; round < kNumRounds; ++round) {
+    // How much of each step there is at each peak.
+    const Lanes own = Gaussian(step);
+    const Lanes from_other = Gaussian(other_step);
+    const Lanes at_other = Gaussian(place - step);
+    const Lanes own_of_other = Gaussian(place - other_step);
+    const Lanes determinant = own * own_of_other - from_other * at_other;
+    // The heights of both steps, times the determinant.
+    const Lanes a = height * own_of_other - other_height * from_other;
+    const Lanes b = other_height * own - height * at_other;
+    // Where the slopes of both are each other's opposite, there is the peak.
+    const Lanes shift = -other_step * (b * from_other) / (a * own);
+    const Lanes other_shift =
+        (place - step) * (a * at_other) / (b * own_of_other);
+    // Halfway there, where the heights could be told.
+    const auto is_solved = (determinant > kMinDeterminant).eval();
+    step = is_solved.select((step + Limited(shift)) / 2, step);
+    other_step = is_solved.select(
+        (other_step + place + Limited(other_shift)) / 2, other_step);
+  }
+  return step;
+}
+
+// The edges beside each, as far as the blur mixes them.
 class Neighborhood {
  public:
   Neighborhood(const std::vector<Edge2d>& edges, double blur)
       : edges_(edges), blur_(blur), index_(edges, kReachBlurs * blur) {}
 
-  Eigen::Vector2d Separated(std::size_t i) const {
+  // Appends edge `i` with the nearest parallel edge on either side.
+  void AppendPairs(std::size_t i, std::vector<PeakPair>& pairs) const {
     const Edge2d& edge = edges_[i];
     const auto angle = static_cast<double>(edge.angle);
     const Eigen::Vector2d tangent(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d normal(-tangent.y(), tangent.x());
     const double reach = kReachBlurs * blur_;
-    Peak ahead{reach, 0}, behind{-reach, 0};
+    double ahead = reach, behind = -reach;
+    double height_ahead = 0, height_behind = 0;
     index_.VisitAround(edge.position, reach, [&](const IndexedEdge& other) {
       const auto j = static_cast<std::size_t>(other.edge_idx);
       const Eigen::Vector2d offset = edges_[j].position - edge.position;
@@ -94,17 +114,25 @@ class Neighborhood {
       const double height =
           std::copysign(static_cast<double>(edges_[j].strength), cosine);
       if (std::abs(across) < kMinAcrossBlurs * blur_) return;
-      if (across > 0 && across < ahead.place) ahead = {across, height};
-      if (across < 0 && across > behind.place) behind = {across, height};
+      if (across > 0 && across < ahead) {
+        ahead = across;
+        height_ahead = height;
+      }
+      if (across < 0 && across > behind) {
+        behind = across;
+        height_behind = height;
+      }
     });
-    const auto strength = static_cast<double>(edge.strength);
-    double shift = 0;
-    for (const Peak& other : {ahead, behind}) {
-      if (other.height == 0) continue;
-      shift += blur_ *
-               ShiftOfStep({0, strength}, {other.place / blur_, other.height});
-    }
-    return edge.position + shift * normal;
+    const auto append = [&](double across, double height) {
+      if (height == 0) return;
+      pairs.push_back({i,
+                       normal.cast<float>(),
+                       static_cast<float>(across / blur_),
+                       edge.strength,
+                       static_cast<float>(height)});
+    };
+    append(ahead, height_ahead);
+    append(behind, height_behind);
   }
 
  private:
@@ -113,18 +141,31 @@ class Neighborhood {
   GridIndex index_;
 };
 
+std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges, double blur) {
+  const Neighborhood neighborhood(edges, blur);
+  std::vector<PeakPair> pairs;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    neighborhood.AppendPairs(i, pairs);
+  }
+  return pairs;
+}
+
 }  // namespace
 
 void SeparateEdges(std::vector<Edge2d>* edges) {
   const double blur = MedianBlur(*edges);
   if (!(blur > 0)) return;
-  const Neighborhood neighborhood(*edges, blur);
-  std::vector<Eigen::Vector2d> separated;
-  for (std::size_t i = 0; i < edges->size(); ++i) {
-    separated.push_back(neighborhood.Separated(i));
-  }
-  for (std::size_t i = 0; i < edges->size(); ++i) {
-    (*edges)[i].position = separated[i];
+  const std::vector<PeakPair> pairs = PairPeaks(*edges, blur);
+  for (std::size_t begin = 0; begin < pairs.size(); begin += kLanes) {
+    const std::size_t num_pairs = std::min(kLanes, pairs.size() - begin);
+    std::array<PeakPair, kLanes> lanes;
+    std::copy_n(&pairs[begin], num_pairs, lanes.begin());
+    const Lanes shifts = ShiftsOfSteps(lanes);
+    for (std::size_t k = 0; k < num_pairs; ++k) {
+      (*edges)[lanes[k].edge_idx].position +=
+          blur * static_cast<double>(shifts[static_cast<Eigen::Index>(k)]) *
+          lanes[k].normal.cast<double>();
+    }
   }
 }
 

@@ -2,14 +2,16 @@
 // Paper: Sec. 3, ref. [15]. Sub-pixel edges with third-order orientation.
 #include "edge_detection/third_order_edges.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <limits>
+#include <utility>
 
-#include "base/check.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "edge_detection/gradient_rows.h"
+#include "edge_detection/steep_tiles.h"
 
 namespace curvix {
 namespace {
@@ -17,45 +19,58 @@ namespace {
 // Three consecutive rows of the half-pixel grid.
 using RowWindow = std::array<const GradientRow*, 3>;
 
-// The magnitudes one step along the gradient and one against it, interpolated
-// between the two nearest grid points of the ring around point `i` of the
-// middle row. `step` is how far away they are, in grid steps.
-struct Profile {
-  float ahead;
-  float behind;
-  float step;
-};
+constexpr float kNoPeak = std::numeric_limits<float>::infinity();
 
-Profile ProfileAlongGradient(const RowWindow& rows, std::size_t i) {
-  const float gx = rows[1]->x[i];
-  const float gy = rows[1]->y[i];
-  const bool steep = std::abs(gy) > std::abs(gx);
-  // Main axis a step of +-1, minor axis a step of `slope` >= 0 times +-1.
-  const float slope = steep ? std::abs(gx / gy) : std::abs(gy / gx);
-  const int dx = gx < 0 ? -1 : 1;
-  const int dy = gy < 0 ? -1 : 1;
-  const auto magnitude = [&](int x_step, int y_step) {
-    const std::size_t row = static_cast<std::size_t>(1 + y_step);
-    return rows[row]->magnitude[i + static_cast<std::size_t>(x_step)];
-  };
-  const auto interpolated = [&](int sign) {
-    const float on_axis =
-        steep ? magnitude(0, sign * dy) : magnitude(sign * dx, 0);
-    const float on_diagonal = magnitude(sign * dx, sign * dy);
-    return on_axis + slope * (on_diagonal - on_axis);
-  };
-  return {interpolated(1), interpolated(-1), std::sqrt(1 + slope * slope)};
-}
-
-// Where the magnitude peaks along the gradient, in grid steps from point `i`;
-// nullopt where it does not peak next to this point. Of two equal neighbours
-// the one on the bright side counts.
-std::optional<float> PeakOffset(const RowWindow& rows, std::size_t i) {
-  const float centre = rows[1]->magnitude[i];
-  const Profile profile = ProfileAlongGradient(rows, i);
-  if (centre <= profile.ahead || centre < profile.behind) return std::nullopt;
-  const float curvature = profile.ahead + profile.behind - 2 * centre;
-  return profile.step * (profile.behind - profile.ahead) / (2 * curvature);
+// Sets offsets[i], for points [begin, end) of the middle row, to where the
+// magnitude peaks along the gradient, in grid steps from point i: on a parabola
+// through the magnitude there and where the gradient's line meets the ring of
+// grid points around it, interpolated between the two nearest. kNoPeak where
+// the magnitude does not peak next to this point, or not above `min_gradient`.
+// Of two equal neighbours the one on the bright side counts. All neighbours are
+// read and then chosen from, so that the loop has no branches and is
+// vectorised.
+void FindPeaks(const RowWindow& rows,
+               float min_gradient,
+               std::size_t begin,
+               std::size_t end,
+               float* offsets) {
+  const float* x = rows[1]->x.data();
+  const float* y = rows[1]->y.data();
+  const float* above = rows[0]->magnitude.data();
+  const float* magnitude = rows[1]->magnitude.data();
+  const float* below = rows[2]->magnitude.data();
+  for (std::size_t i = begin; i < end; ++i) {
+    const float gx = x[i], gy = y[i];
+    const bool is_steep = std::abs(gy) > std::abs(gx);
+    const float main = is_steep ? gy : gx;
+    const float minor = is_steep ? gx : gy;
+    // Steps along the minor axis for one along the main axis.
+    const float slope = std::abs(minor / main);
+    // Whether the gradient's line goes from below left to above right.
+    const bool is_rising = (gx < 0) != (gy < 0);
+    const float up_left = above[i - 1], up = above[i], up_right = above[i + 1];
+    const float left = magnitude[i - 1], right = magnitude[i + 1];
+    const float down_left = below[i - 1], down = below[i];
+    const float down_right = below[i + 1];
+    // Before the point: above it or, along a row, on its left.
+    const float axis_before = is_steep ? up : left;
+    const float axis_after = is_steep ? down : right;
+    const float rising_before = is_steep ? up_right : down_left;
+    const float rising_after = is_steep ? down_left : up_right;
+    const float diagonal_before = is_rising ? rising_before : up_left;
+    const float diagonal_after = is_rising ? rising_after : down_right;
+    const float before = axis_before + slope * (diagonal_before - axis_before);
+    const float after = axis_after + slope * (diagonal_after - axis_after);
+    const float ahead = main < 0 ? before : after;
+    const float behind = main < 0 ? after : before;
+    const float centre = magnitude[i];
+    const float step = std::sqrt(1 + slope * slope);
+    const float curvature = ahead + behind - 2 * centre;
+    const float offset = step * (behind - ahead) / (2 * curvature);
+    const bool is_peak =
+        (centre > min_gradient) & (centre > ahead) & (centre >= behind);
+    offsets[i] = is_peak ? offset : kNoPeak;
+  }
 }
 
 // The gradient of F = g^T H g from the derivatives d(order in y, order in x).
@@ -96,53 +111,124 @@ void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   edge.level = static_cast<float>(d(0, 0));
 }
 
-// The edge next to point `i` of the middle row, which is row `grid_row`.
-std::optional<Eigen::Vector2d> EdgePosition(const RowWindow& rows,
-                                            int grid_row,
-                                            std::size_t i) {
-  const std::optional<float> offset = PeakOffset(rows, i);
-  if (!offset) return std::nullopt;
-  const GradientRow& row = *rows[1];
-  const double pixels_per_gradient = *offset / (2.0 * row.magnitude[i]);
-  return Eigen::Vector2d(
-      static_cast<double>(i + 1) / 2 + pixels_per_gradient * row.x[i],
-      (grid_row + 1) / 2.0 + pixels_per_gradient * row.y[i]);
-}
-
 bool IsInside(const GrayImage& image, const Eigen::Vector2d& p, double border) {
   return p.x() >= border && p.y() >= border && p.x() <= image.width - border &&
          p.y() <= image.height - border;
 }
 
-}  // namespace
+// Finds the edges of an image row by row. Three rows of gradients are kept, and
+// they are computed only where the image is steep.
+class EdgeLocator {
+ public:
+  EdgeLocator(const GrayImage& image,
+              const EdgeDetectionOptions& options,
+              double min_gradient)
+      : image_(image),
+        border_px_(options.border_px),
+        min_gradient_(RoundedDown(min_gradient)),
+        gradients_(image, options.sigma_px),
+        tiles_(image, gradients_.reach_px(), MaxFlatSpan(min_gradient)),
+        offsets_(static_cast<std::size_t>(gradients_.grid_width())) {}
 
-std::vector<Edge2d> LocateEdges(const GrayImage& image,
-                                const EdgeDetectionOptions& options,
-                                double min_gradient) {
-  std::vector<Edge2d> edges;
-  if (image.width < 2 || image.height < 2) return edges;
-  GradientRows gradients(image, options.sigma_px);
-  std::array<GradientRow, 3> ring;
-  gradients.Compute(0, ring[0]);
-  gradients.Compute(1, ring[1]);
-  for (int j = 1; j + 1 < gradients.grid_height(); ++j) {
-    const auto slot = [&](int row) -> GradientRow& {
-      return ring[static_cast<std::size_t>(row % 3)];
+  std::vector<LocatedEdge> Locate() {
+    // Enough for foliage. What is not used stays virtual.
+    edges_.reserve(image_.pixels.size() / 2);
+    ComputeRow(0);
+    ComputeRow(1);
+    for (int j = 1; j + 1 < gradients_.grid_height(); ++j) {
+      ComputeRow(j + 1);
+      for (const PixelRun& run : tiles_.Runs(j / 2)) LocateInRun(j, run);
+    }
+    return std::move(edges_);
+  }
+
+ private:
+  // The largest number of type float up to `value`: x > value is the same for
+  // all x of that type.
+  static float RoundedDown(double value) {
+    const auto rounded = static_cast<float>(value);
+    return static_cast<double>(rounded) <= value
+               ? rounded
+               : std::nextafter(rounded, -1.f);
+  }
+
+  // Pixels that span this much have no gradient above `min_gradient`, however
+  // sums are rounded.
+  float MaxFlatSpan(double min_gradient) const {
+    constexpr double kRounding = 1e-3;
+    return static_cast<float>((min_gradient - kRounding) /
+                              gradients_.max_gain());
+  }
+
+  GradientRow& Row(int grid_row) {
+    return ring_[static_cast<std::size_t>(grid_row % 3)];
+  }
+
+  // Where row `grid_row` or one beside it is steep, and a pixel further.
+  void ComputeRow(int grid_row) {
+    const int first = (grid_row - 1) / 2;
+    const int last = std::min((grid_row + 1) / 2, image_.height - 1);
+    const auto compute = [&](const PixelRun& run) {
+      gradients_.Compute(
+          grid_row,
+          {std::max(run.begin - 1, 0), std::min(run.end + 1, image_.width)},
+          Row(grid_row));
     };
-    gradients.Compute(j + 1, slot(j + 1));
-    const RowWindow rows = {&slot(j - 1), &slot(j), &slot(j + 1)};
-    const std::vector<float>& magnitude = slot(j).magnitude;
-    for (std::size_t i = 1; i + 1 < magnitude.size(); ++i) {
-      if (!(magnitude[i] > min_gradient)) continue;
-      const std::optional<Eigen::Vector2d> position = EdgePosition(rows, j, i);
-      if (!position || !IsInside(image, *position, options.border_px)) continue;
-      Edge2d& edge = edges.emplace_back();
-      edge.position = *position;
-      edge.strength = magnitude[i];
-      edge.angle = std::atan2(-slot(j).x[i], slot(j).y[i]);
+    for (const PixelRun& run : tiles_.Runs(first)) compute(run);
+    if (&tiles_.Runs(last) == &tiles_.Runs(first)) return;
+    for (const PixelRun& run : tiles_.Runs(last)) compute(run);
+  }
+
+  void LocateInRun(int grid_row, const PixelRun& run) {
+    const RowWindow rows = {
+        &Row(grid_row - 1), &Row(grid_row), &Row(grid_row + 1)};
+    const std::size_t begin =
+        std::max<std::size_t>(2 * static_cast<std::size_t>(run.begin), 1);
+    const std::size_t end =
+        std::min(2 * static_cast<std::size_t>(run.end), offsets_.size() - 1);
+    FindPeaks(rows, min_gradient_, begin, end, offsets_.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      if (offsets_[i] != kNoPeak) AddEdge(*rows[1], grid_row, i);
     }
   }
-  return edges;
+
+  // The edge next to point `i` of row `grid_row`, which has a peak there.
+  void AddEdge(const GradientRow& row, int grid_row, std::size_t i) {
+    const double pixels_per_gradient = offsets_[i] / (2.0 * row.magnitude[i]);
+    const Eigen::Vector2d position(
+        static_cast<double>(i + 1) / 2 + pixels_per_gradient * row.x[i],
+        (grid_row + 1) / 2.0 + pixels_per_gradient * row.y[i]);
+    if (!IsInside(image_, position, border_px_)) return;
+    edges_.push_back({position, {row.x[i], row.y[i]}});
+  }
+
+  const GrayImage& image_;
+  double border_px_;
+  float min_gradient_;
+  GradientRows gradients_;
+  SteepTiles tiles_;
+  std::array<GradientRow, 3> ring_;  // row j is at j % 3
+  std::vector<float> offsets_;       // of the peaks of one row
+  std::vector<LocatedEdge> edges_;
+};
+
+}  // namespace
+
+std::vector<LocatedEdge> LocateEdges(const GrayImage& image,
+                                     const EdgeDetectionOptions& options,
+                                     double min_gradient) {
+  if (image.width < 2 || image.height < 2) return {};
+  return EdgeLocator(image, options, min_gradient).Locate();
+}
+
+std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges) {
+  std::vector<Edge2d> across(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    across[i].position = edges[i].position;
+    across[i].strength = edges[i].strength();
+    across[i].angle = std::atan2(-edges[i].gradient.x(), edges[i].gradient.y());
+  }
+  return across;
 }
 
 void OrientEdges(const GrayImage& image,

@@ -5,11 +5,24 @@
 #include <curvix/edges.h>
 #include <curvix/options.h>
 
+#include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "edge_detection/gray_image.h"
 
 namespace curvix {
+
+// An edge as it is located, before it has an orientation.
+struct LocatedEdge {
+  // Pixels. Not aligned, for there may be millions: 24 bytes each.
+  Eigen::Matrix<double, 2, 1, Eigen::DontAlign> position;
+  Eigen::Vector2f gradient;  // of the nearest grid point, grey levels per pixel
+
+  float strength() const {
+    return std::sqrt(gradient.x() * gradient.x() + gradient.y() * gradient.y());
+  }
+};
 
 // The places of the edges of `image`, in its own (possibly distorted) pixels,
 // row by row on the half-pixel grid. Steps:
@@ -19,13 +32,16 @@ namespace curvix {
 //  2. Non-maximum suppression along the gradient with a parabola through three
 //     values interpolated between grid neighbours: position. Edges nearer than
 //     options.border_px to the border are dropped.
-// The strength is the gradient's magnitude at the grid point; the rest is up to
-// OrientEdges(). Images below 2 x 2 pixels have no edges.
-std::vector<Edge2d> LocateEdges(const GrayImage& image,
-                                const EdgeDetectionOptions& options,
-                                double min_gradient);
+// Images below 2 x 2 pixels have no edges.
+std::vector<LocatedEdge> LocateEdges(const GrayImage& image,
+                                     const EdgeDetectionOptions& options,
+                                     double min_gradient);
 
-// Gives edges of `image` that LocateEdges() found their orientation: the
+// The same edges with their strengths, and at right angles to their gradients;
+// the rest is up to OrientEdges().
+std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges);
+
+// Gives edges of `image` from AcrossGradients() their orientation: the
 // tangent of the curve F = g^T H g = 0 (g gradient, H Hessian) at their
 // position, from derivatives up to the third order. Strength and sharpness are
 // those at the position, too.

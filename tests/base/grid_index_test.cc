@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "tests/support/random.h"
@@ -127,6 +129,33 @@ TEST(GridIndex, TakesEdgesFarApartWithoutABucketForEveryPlace) {
 
 TEST(GridIndex, RefusesCellsWithoutSize) {
   EXPECT_THROW(GridIndex({}, 0), std::logic_error);
+}
+
+TEST(GridIndex, ShowsEveryTwoNearEdgesToEachOtherOnce) {
+  const std::vector<Edge2d> edges = RandomEdges(500, 3);
+  for (const double cell_size_px : {0.7, 4.0, 50.0, 1000.0}) {
+    std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+    GridIndex(edges, cell_size_px)
+        .VisitPairs([&](const IndexedEdge& edge,
+                        const IndexedEdge* begin,
+                        const IndexedEdge* end) {
+          for (; begin != end; ++begin) {
+            const auto pair = std::minmax(edge.edge_idx, begin->edge_idx);
+            EXPECT_LT(pair.first, pair.second);
+            EXPECT_TRUE(pairs.insert(pair).second) << "met before";
+          }
+        });
+    for (std::int32_t i = 0; i < 500; ++i) {
+      const Eigen::Vector2d& center =
+          edges[static_cast<std::size_t>(i)].position;
+      for (const std::int32_t j : InsideSquare(edges, center, cell_size_px)) {
+        if (i < j) {
+          EXPECT_EQ(pairs.count({i, j}), 1u) << cell_size_px;
+        }
+      }
+    }
+  }
+  GridIndex().VisitPairs([](auto&&...) { FAIL() << "there are no edges"; });
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ TEST(GradientNoiseGain, PredictsTheGradientOfNoise) {
     double sum = 0;
     int count = 0;
     for (int j = 20; j < rows.grid_height() - 20; ++j) {
-      rows.Compute(j, row);
+      rows.Compute(j, {0, image.width}, row);
       for (std::size_t i = 20; i + 20 < row.x.size(); ++i, ++count) {
         sum += row.x[i] * row.x[i];
       }

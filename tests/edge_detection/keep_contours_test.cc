@@ -49,22 +49,21 @@ class KeepContoursTest : public ::testing::Test {
 };
 
 TEST(DropLeastProminent, KeepsTheOrderAndWhatIsAsProminentAsTheLast) {
-  std::vector<Edge2d> edges(6);
-  const std::vector<float> strengths = {3, 1, 4, 2, 3, 5};
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    edges[i].position.x() = 100.0 * static_cast<double>(i);
-    edges[i].strength = strengths[i];
+  std::vector<LocatedEdge> edges;
+  for (const float strength : {3.0f, 1.0f, 4.0f, 2.0f, 3.0f, 5.0f}) {
+    const double x = 100.0 * static_cast<double>(edges.size());
+    edges.push_back({{x, 0}, {0, strength}});
   }
-  std::vector<Edge2d> all = edges;
+  std::vector<LocatedEdge> all = edges;
   EXPECT_EQ(DropLeastProminent(6, &all), 0);
   EXPECT_EQ(all.size(), 6u);
   EXPECT_EQ(DropLeastProminent(3, &edges), 2)
       << "two of the four are equally prominent";
   ASSERT_EQ(edges.size(), 4u);
-  EXPECT_EQ(edges[0].strength, 3);
-  EXPECT_EQ(edges[1].strength, 4);
-  EXPECT_EQ(edges[2].strength, 3);
-  EXPECT_EQ(edges[3].strength, 5);
+  EXPECT_EQ(edges[0].strength(), 3);
+  EXPECT_EQ(edges[1].strength(), 4);
+  EXPECT_EQ(edges[2].strength(), 3);
+  EXPECT_EQ(edges[3].strength(), 5);
 }
 
 std::vector<float> Strengths(const KeptEdges& kept) {
@@ -75,29 +74,6 @@ std::vector<float> Strengths(const KeptEdges& kept) {
     }
   }
   return strengths;
-}
-
-TEST(LabelContours, FollowsMutualLinksOnly) {
-  // 0 <-> 2 <-> 1 from start to end; 3 points at 1, which does not answer;
-  // 4 <-> 5 is closed.
-  std::vector<EdgeNeighbors> neighbors(6);
-  neighbors[0].next = 2;
-  neighbors[2] = {0, 1};
-  neighbors[1].previous = 2;
-  neighbors[3].previous = 1;
-  neighbors[4] = {5, 5};
-  neighbors[5] = {4, 4};
-  EXPECT_EQ(LabelContours(neighbors),
-            (std::vector<std::int32_t>{0, 0, 0, 1, 2, 2}));
-  EXPECT_TRUE(LabelContours({}).empty());
-}
-
-TEST(LabelContours, StartsAnywhereInAContour) {
-  std::vector<EdgeNeighbors> neighbors(3);
-  neighbors[0] = {1, 2};
-  neighbors[1].next = 0;
-  neighbors[2].previous = 0;
-  EXPECT_EQ(LabelContours(neighbors), (std::vector<std::int32_t>{0, 0, 0}));
 }
 
 TEST_F(KeepContoursTest, DropsWhatIsBothShortAndWeak) {

@@ -11,7 +11,8 @@ namespace curvix {
 inline std::vector<Edge2d> OrientedEdges(const GrayImage& image,
                                          const EdgeDetectionOptions& options,
                                          double min_gradient) {
-  std::vector<Edge2d> edges = LocateEdges(image, options, min_gradient);
+  std::vector<Edge2d> edges =
+      AcrossGradients(LocateEdges(image, options, min_gradient));
   OrientEdges(image, options, &edges);
   return edges;
 }

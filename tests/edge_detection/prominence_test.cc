@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -52,11 +53,27 @@ TEST(Prominence, DoesNotDependOnWhichSideIsBright) {
   }
 }
 
+TEST(Prominence, OfLocatedEdgesIsThatOfEdgesAcrossTheirGradients) {
+  std::vector<LocatedEdge> located;
+  for (int i = 0; i < 400; ++i) {
+    const double x = (37 * i) % 101 / 2.0, y = (53 * i) % 89 / 2.0;
+    const auto turn = static_cast<float>(i);
+    located.push_back(
+        {{x, y}, {(5 + turn) * std::cos(turn), (5 + turn) * std::sin(turn)}});
+  }
+  const std::vector<double> expected = Prominence(AcrossGradients(located));
+  const std::vector<double> prominence = Prominence(located);
+  ASSERT_EQ(prominence.size(), located.size());
+  for (std::size_t i = 0; i < located.size(); ++i) {
+    EXPECT_NEAR(prominence[i], expected[i], 1e-5 * expected[i]);
+  }
+}
+
 TEST(Prominence, AcceptsNoEdgesAndTheBorderOfTheImage) {
-  EXPECT_TRUE(Prominence({}).empty());
+  EXPECT_TRUE(Prominence(std::vector<Edge2d>()).empty());
   Edge2d corner;
   corner.strength = 1;
-  EXPECT_EQ(Prominence({corner}), std::vector<double>{1});
+  EXPECT_EQ(Prominence(std::vector<Edge2d>{corner}), std::vector<double>{1});
 }
 
 }  // namespace

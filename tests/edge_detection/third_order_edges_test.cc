@@ -128,6 +128,32 @@ TEST(ThirdOrderEdges, ThresholdsTheGradient) {
   EXPECT_TRUE(Detect(image, 35).empty());
 }
 
+// Where the image is flat, nothing is computed; with 0 nothing is flat.
+TEST(LocateEdges, ThresholdOnlyLeavesOutWeakerEdges) {
+  GrayImage image = RenderDisc(200, {133.2, 128.7}, 44.6);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      image.pixels[static_cast<std::size_t>(200 * y + x)] +=
+          static_cast<float>((x * x + 3 * y) % 7) * static_cast<float>(y) / 30;
+    }
+  }
+  EdgeDetectionOptions options;
+  options.border_px = 0;
+  const std::vector<LocatedEdge> all = LocateEdges(image, options, 0);
+  for (const double min_gradient : {0.3, 1.0, 5.0, 20.0}) {
+    std::vector<LocatedEdge> expected;
+    for (const LocatedEdge& edge : all) {
+      if (edge.strength() > min_gradient) expected.push_back(edge);
+    }
+    const auto edges = LocateEdges(image, options, min_gradient);
+    ASSERT_GT(edges.size(), 100u);
+    ASSERT_EQ(edges.size(), expected.size()) << min_gradient;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      EXPECT_EQ(edges[i].position, expected[i].position);
+    }
+  }
+}
+
 TEST(ThirdOrderEdges, FindsNothingInBlankImages) {
   for (const float grey : {0.0f, 77.3f, 255.0f}) {
     const GrayImage blank{40, 30, std::vector<float>(1200, grey)};
