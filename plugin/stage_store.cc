@@ -135,6 +135,7 @@ std::uint64_t SketchKey(const Scene& scene, const Options& options) {
   for (const char* section : {"Hypotheses", "Consolidation", "Validation"}) {
     key.AddOptions(options, section);
   }
+  key.Add(options.curve_growth.enabled);
   return key.key();
 }
 

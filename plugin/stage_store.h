@@ -26,9 +26,10 @@ std::uint64_t SceneKey(const Scene& scene);
 // Options::edge_detection. Not the poses.
 std::uint64_t EdgesKey(const Scene& scene, const Options& options);
 
-// What its 3D edge sketch depends on: that, and the poses, the points and the
-// options of hypotheses, consolidation and validation. Poses refined with
-// curves depend on the same, of the scene before.
+// What its 3D edge sketch depends on: that, and the poses, the points, the
+// options of hypotheses, consolidation and validation, and whether curves may
+// grow from it. Poses refined with curves depend on the same, of the scene
+// before.
 std::uint64_t SketchKey(const Scene& scene, const Options& options);
 std::uint64_t CurvePosesKey(const Scene& scene,
                             const Options& options,

@@ -2,6 +2,8 @@
 // Paper: none (beyond it).
 #include "growing/claimed_edges.h"
 
+#include <algorithm>
+
 #include "model/along_contour.h"
 
 namespace curvix {
@@ -18,38 +20,33 @@ ClaimedEdges::ClaimedEdges(const std::vector<ViewIndex>& indices)
   }
 }
 
+bool ClaimedEdges::AreFree(const std::vector<EdgeRef>& refs) const {
+  return std::all_of(refs.begin(), refs.end(), [this](const EdgeRef& ref) {
+    return IsFree(ref);
+  });
+}
+
 std::vector<EdgeRef> ClaimedEdges::FreeOf(std::vector<EdgeRef> refs) const {
   std::erase_if(refs, [this](const EdgeRef& ref) { return !IsFree(ref); });
   return refs;
 }
 
 void ClaimedEdges::Claim(const std::vector<EdgeRef>& hits) {
-  for (const EdgeRef& hit : hits) ClaimOne(hit);
-}
-
-void ClaimedEdges::ClaimAround(const std::vector<EdgeRef>& hits) {
   for (const EdgeRef& hit : hits) {
+    ClaimOne(hit);
     ForEachAlongContour(
         indices_[static_cast<std::size_t>(hit.view_idx)].edges->neighbors,
         hit.edge_idx,
         kLinksAlongContour,
-        [&](std::int32_t edge_idx) { ClaimOne({hit.view_idx, edge_idx}); });
+        [&](std::int32_t edge_idx) {
+          ClaimOne({hit.view_idx, edge_idx});
+        });
   }
-}
-
-void ClaimedEdges::GiveBack() {
-  for (const EdgeRef& ref : recent_) {
-    is_claimed_[static_cast<std::size_t>(ref.view_idx)]
-               [static_cast<std::size_t>(ref.edge_idx)] = false;
-  }
-  recent_.clear();
 }
 
 void ClaimedEdges::ClaimOne(const EdgeRef& ref) {
-  if (!IsFree(ref)) return;
   is_claimed_[static_cast<std::size_t>(ref.view_idx)]
              [static_cast<std::size_t>(ref.edge_idx)] = true;
-  recent_.push_back(ref);
 }
 
 }  // namespace curvix

@@ -19,22 +19,17 @@ class ClaimedEdges {
     return !is_claimed_[static_cast<std::size_t>(ref.view_idx)]
                        [static_cast<std::size_t>(ref.edge_idx)];
   }
+  bool AreFree(const std::vector<EdgeRef>& refs) const;
   std::vector<EdgeRef> FreeOf(std::vector<EdgeRef> refs) const;
 
+  // These and two edges to either side of each along its contour.
   void Claim(const std::vector<EdgeRef>& hits);
-  // Two edges to either side of each along its contour.
-  void ClaimAround(const std::vector<EdgeRef>& hits);
-
-  // Gives back what was claimed since the last call of Keep().
-  void GiveBack();
-  void Keep() { recent_.clear(); }
 
  private:
   void ClaimOne(const EdgeRef& ref);
 
   const std::vector<ViewIndex>& indices_;
   std::vector<std::vector<bool>> is_claimed_;
-  std::vector<EdgeRef> recent_;
 };
 
 }  // namespace curvix

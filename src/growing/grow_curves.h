@@ -5,13 +5,10 @@
 
 #include <curvix/curves.h>
 #include <curvix/edges.h>
-#include <curvix/options.h>
 
 #include <vector>
 
-#include "model/posed_view.h"
-#include "validation/evidence.h"
-#include "validation/view_index.h"
+#include "growing/grow_from_seed.h"
 
 namespace curvix {
 
@@ -37,14 +34,9 @@ namespace curvix {
 // a sample is that of a 3D edge with the same support, before hits of too few
 // in a row go.
 //
-// `indices` and `neighbors` by view. The curves are in the order of their
-// seeds' evidence.
-std::vector<Curve> GrowCurves(
-    const std::vector<Edge3d>& seeds,
-    const std::vector<PosedView>& views,
-    const std::vector<ViewIndex>& indices,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    double edge_sigma_px,
-    const CurveGrowthOptions& options);
+// The curves are in the order of their seeds' evidence.
+std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
+                              const GrowthInput& input,
+                              int num_threads);
 
 }  // namespace curvix

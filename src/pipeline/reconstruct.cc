@@ -73,16 +73,17 @@ Reconstruction Connect(const Scene& scene,
                        RunRecorder& run) {
   const int num_threads = options.runtime.num_threads;
   Reconstruction result;
-  if (options.curve_growth.enabled && AreCrowded(edge_maps)) {
+  if (CurvesGrow(edge_maps, options)) {
     run.Begin("grow_curves");
     result.edges = sketch.edges;
-    result.curves.curves =
-        GrowCurves(sketch.edges,
-                   views,
-                   IndexViews(views, edge_maps, num_threads),
-                   NeighborsInDirection(FindOverlaps(views, scene.points)),
-                   sketch.edge_sigma_px,
-                   options.curve_growth);
+    const std::vector<ViewIndex> indices =
+        IndexViews(views, edge_maps, num_threads);
+    const auto neighbors =
+        NeighborsInDirection(FindOverlaps(views, scene.points));
+    result.curves.curves = GrowCurves(
+        sketch.edges,
+        {views, indices, neighbors, sketch.edge_sigma_px, options.curve_growth},
+        num_threads);
     run.End(CountsOf(result.curves));
   } else {
     GroupIntoCurves(views, edge_maps, sketch, options, run, result);

@@ -12,6 +12,7 @@
 #include "hypotheses/select_views.h"
 #include "hypotheses/split_along_contours.h"
 #include "model/along_contour.h"
+#include "pipeline/asking_edges.h"
 #include "pipeline/hypothesise.h"
 #include "pipeline/sketch_internal.h"
 #include "pipeline/view_indices.h"
@@ -227,12 +228,6 @@ class ViewSketcher {
   double sigma_px_;
 };
 
-// Links along a contour from one edge that asks to the next: every other one
-// asks, fewer where curves will grow from what they find.
-int LinksBetweenAsking(const std::vector<EdgeMap>& edge_maps) {
-  return AreCrowded(edge_maps) ? 4 : 2;
-}
-
 // The edge itself and its neighbours along the contour, as far as the next ones
 // that ask: a 3D edge takes one 2D edge per view, although contours are sampled
 // at different steps.
@@ -296,22 +291,9 @@ std::optional<int> NextView(const SketchInput& input,
   return static_cast<int>(*best);
 }
 
-// One in `step` of the edges of a view, those that are not used yet.
-std::vector<std::int32_t> UnusedEdgesOf(int view_idx,
-                                        const EdgeMap& map,
-                                        const UsedEdges& used,
-                                        std::size_t step) {
-  std::vector<std::int32_t> edge_idxs;
-  for (std::size_t i = step / 2; i < map.edges.size(); i += step) {
-    const auto edge_idx = static_cast<std::int32_t>(i);
-    if (!used.Contains({view_idx, edge_idx})) edge_idxs.push_back(edge_idx);
-  }
-  return edge_idxs;
-}
-
 // What the unused edges of view h1 that ask lead to, in their order: some along
-// each contour, then those next to one that led to a 3D edge, unless curves
-// will grow over these.
+// each contour, then, unless images are crowded, those next to one that led to
+// a 3D edge.
 std::vector<H1Result> AskInTurns(const SketchInput& input,
                                  const ViewSketcher& sketcher,
                                  int h1,
@@ -332,10 +314,8 @@ std::vector<H1Result> AskInTurns(const SketchInput& input,
     const auto& result = results[static_cast<std::size_t>(*edge_idx)];
     return result && !result->tracked.empty();
   };
-  TwoTurns turns =
-      SplitAlongContours(UnusedEdgesOf(h1, map, used, input.h1_step),
-                         map.neighbors,
-                         LinksBetweenAsking(input.edge_maps));
+  TwoTurns turns = SplitAlongContours(
+      EdgesToAsk(input, h1, used), map.neighbors, LinksBetweenAsking(input));
   ask(turns.first);
   if (AreCrowded(input.edge_maps)) turns.second.clear();
   std::erase_if(turns.second, [&](std::int32_t edge_idx) {
@@ -352,10 +332,11 @@ std::vector<H1Result> AskInTurns(const SketchInput& input,
 }
 
 void Add(H1Result result,
-         const std::vector<EdgeMap>& edge_maps,
+         const SketchInput& input,
          UsedEdges& used,
          EdgeSketch& sketch) {
-  const int num_links = LinksBetweenAsking(edge_maps) - 1;
+  const std::vector<EdgeMap>& edge_maps = input.edge_maps;
+  const int num_links = LinksBetweenAsking(input) - 1;
   ++sketch.counts.h1_edges;
   sketch.counts.hypotheses += result.hypotheses;
   sketch.counts.unsupported += result.unsupported;
@@ -383,7 +364,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     const H1View view = sketcher.Prepare(*h1);
     sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
     for (H1Result& result : AskInTurns(input, sketcher, *h1, view, used)) {
-      Add(std::move(result), input.edge_maps, used, sketch);
+      Add(std::move(result), input, used, sketch);
     }
   }
   sketch.counts.used_edges = used.total();

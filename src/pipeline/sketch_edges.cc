@@ -32,6 +32,10 @@ std::int64_t UsedEdges::total() const {
   return total;
 }
 
+bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options) {
+  return options.curve_growth.enabled && AreCrowded(edge_maps);
+}
+
 EdgeSketch SketchEdges(const std::vector<PosedView>& views,
                        const std::vector<EdgeMap>& edge_maps,
                        const std::vector<ScenePoint>& points,
@@ -51,6 +55,7 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView:
       input.sigma_px = EstimateEdgeSigma(input, step_done);
+      input.finds_seeds = CurvesGrow(edge_maps, options);
       return SketchByViews(input, step_done);
   }
   return {};

@@ -17,6 +17,10 @@ namespace curvix {
 // Called with (done, total); false stops early.
 using StepDone = std::function<bool(int, int)>;
 
+// Whether curves grow from 3D edges (growing/grow_curves.h), or 3D edges are
+// linked and connected (paper, Secs. 5 and 6).
+bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options);
+
 // Chooses hypothesis views as options.hypotheses.view_selection says, and
 // judges support as options.validation.support_test says.
 EdgeSketch SketchEdges(const std::vector<PosedView>& views,

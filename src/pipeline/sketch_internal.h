@@ -20,6 +20,9 @@ struct SketchInput {
   double sigma_px = 0;
   // One edge in so many of each view asks for hypotheses, with SketchByViews.
   std::size_t h1_step = 1;
+  // Curves will grow from the 3D edges: a few along each contour do, and none
+  // on contours that are too weak for a curve. With SketchByViews.
+  bool finds_seeds = false;
 };
 
 // Paper: pairs of views with most unused edges, wedge support.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <sstream>
 
+#include "pipeline/sketch_edges.h"
 #include "validation/track_support.h"
 
 namespace curvix {
@@ -53,7 +54,7 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
          << " curves passes the filters; lower the --CurveFilter options.";
   } else {
     text << sketch.edges.size() << " 3D edges were found, but no ";
-    if (options.curve_growth.enabled && AreCrowded(edge_maps)) {
+    if (CurvesGrow(edge_maps, options)) {
       text << "curve that grows from them is shown clearly enough; see "
               "edges.ply, or lower --CurveGrowth.min_significance.";
     } else {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 
@@ -38,28 +39,28 @@ struct Station {
   }
 };
 
-// The distance of a sample from one of its 2D edges.
+// The distance of a sample from one of its 2D edges. `station` must outlive it.
 class EdgeCost : public ceres::SizedCostFunction<1, 2> {
  public:
   EdgeCost(const Station& station,
            const PlaneMeasurement& measured,
            double sigma_px)
-      : station_(station), measured_(measured), sigma_px_(sigma_px) {}
+      : station_(&station), measured_(measured), sigma_px_(sigma_px) {}
 
   bool Evaluate(double const* const* offsets,
                 double* residual,
                 double** jacobians) const override {
     const SeenDistance distance =
-        DistanceFrom(measured_, station_.At(offsets[0]));
+        DistanceFrom(measured_, station_->At(offsets[0]));
     residual[0] = distance.px / sigma_px_;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     Eigen::Map<Eigen::Vector2d>{jacobians[0]} =
-        station_.axes.transpose() * distance.gradient / sigma_px_;
+        station_->axes.transpose() * distance.gradient / sigma_px_;
     return true;
   }
 
  private:
-  Station station_;
+  const Station* station_;
   PlaneMeasurement measured_;
   double sigma_px_;
 };
@@ -105,13 +106,25 @@ class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
   std::array<double, 4> factors_ = {};
 };
 
+// A curve has many residuals that are cheap: what Ceres would do about each of
+// them beside its cost counts.
+ceres::Problem::Options WithoutChecksAndOwnership() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
 // Ceres' problem of one curve.
 class CurveFitter {
  public:
   CurveFitter(Curve curve, double pixel)
       : curve_(std::move(curve)),
         pixel_(pixel),
-        offsets_(curve_.samples.size()) {
+        offsets_(curve_.samples.size()),
+        problem_(WithoutChecksAndOwnership()) {
+    stations_.reserve(curve_.samples.size());
     for (const CurveSample& sample : curve_.samples) {
       Station& station = stations_.emplace_back();
       station.start = sample.position;
@@ -129,13 +142,12 @@ class CurveFitter {
         const auto v = static_cast<std::size_t>(ref.view_idx);
         const Edge2d& edge =
             edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        edge_costs_.emplace_back(
+            stations_[k],
+            MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)),
+            sigma_px);
         problem_.AddResidualBlock(
-            new EdgeCost(
-                stations_[k],
-                MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)),
-                sigma_px),
-            new ceres::CauchyLoss(1),
-            offsets_[k].data());
+            &edge_costs_.back(), &edge_loss_, offsets_[k].data());
       }
     }
   }
@@ -150,9 +162,8 @@ class CurveFitter {
         stretch[j] = stations_[(k + j) % size];
         offsets.push_back(offsets_[(k + j) % size].data());
       }
-      problem_.AddResidualBlock(new BendCost(stretch, stiffness_px, pixel_),
-                                new ceres::CauchyLoss(kKinkSigmas),
-                                offsets);
+      bend_costs_.emplace_back(stretch, stiffness_px, pixel_);
+      problem_.AddResidualBlock(&bend_costs_.back(), &bend_loss_, offsets);
     }
   }
 
@@ -191,6 +202,11 @@ class CurveFitter {
   double pixel_;  // world units
   std::vector<Station> stations_;
   std::vector<std::array<double, 2>> offsets_;
+  // At addresses that stay.
+  std::deque<EdgeCost> edge_costs_;
+  std::deque<BendCost> bend_costs_;
+  ceres::CauchyLoss edge_loss_{1};
+  ceres::CauchyLoss bend_loss_{kKinkSigmas};
   ceres::Problem problem_;
 };
 

@@ -67,7 +67,8 @@ class Seen {
   }
 
   std::vector<Curve> Grow(const std::vector<Edge3d>& seeds,
-                          const CurveGrowthOptions& options = {}) const {
+                          const CurveGrowthOptions& options = {},
+                          int num_threads = 1) const {
     std::vector<ViewIndex> indices;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       indices.push_back({&views_[i],
@@ -75,7 +76,8 @@ class Seen {
                          GridIndex(maps_[i].edges, 4),
                          EdgeDensity(maps_[i], 800, 800)});
     }
-    return GrowCurves(seeds, views_, indices, neighbors_, kSigmaPx, options);
+    return GrowCurves(
+        seeds, {views_, indices, neighbors_, kSigmaPx, options}, num_threads);
   }
 
   // The length of a step at the sample, which is a pixel in an image.
@@ -183,6 +185,33 @@ TEST(GrowCurves, ParallelLinesStayTwo) {
     const double height = curve.samples[0].position.z();
     for (const CurveSample& sample : curve.samples) {
       EXPECT_NEAR(sample.position.z(), height, kPixel);
+    }
+  }
+}
+
+// Seeds that get in each other's way, and more than grow side by side.
+TEST(GrowCurves, OneAfterTheOtherWhateverTheNumberOfThreads) {
+  const Seen seen({kLine, kCircle}, 0.1);
+  std::vector<Edge3d> strongest;
+  std::vector<Edge3d> seeds;
+  for (const std::size_t curve_idx : {0, 1}) {
+    for (int i = 0; i < 70; ++i) {
+      seeds.push_back(seen.Seed(curve_idx, 0.1 + 0.01 * i, 100.0 - i));
+    }
+    strongest.push_back(seeds[seeds.size() - 70]);
+  }
+  const std::vector<Curve> expected = seen.Grow(strongest);
+  ASSERT_EQ(expected.size(), 2u);
+  for (const int num_threads : {1, 3}) {
+    const std::vector<Curve> curves = seen.Grow(seeds, {}, num_threads);
+    ASSERT_EQ(curves.size(), expected.size());
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      ASSERT_EQ(curves[i].samples.size(), expected[i].samples.size());
+      for (std::size_t k = 0; k < curves[i].samples.size(); ++k) {
+        EXPECT_EQ(curves[i].samples[k].position,
+                  expected[i].samples[k].position);
+        EXPECT_EQ(curves[i].samples[k].support, expected[i].samples[k].support);
+      }
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -53,6 +54,29 @@ TEST(SketchEdges, FindsOutHowFarEdgesAreOff) {
   EXPECT_EQ(EdgeSigmaOf(0), Options().hypotheses.EdgeSigmaPx());
   EXPECT_NEAR(EdgeSigmaOf(0.2), 0.2, 0.05);
   EXPECT_NEAR(EdgeSigmaOf(0.3), 0.3, 0.06);
+}
+
+// Where curves grow, a few seeds along a contour are enough.
+TEST(SketchEdges, FindsSeedsAllAlongAContour) {
+  const std::vector<PosedView> views = RingOfViews(32);
+  std::vector<EdgeMap> maps =
+      ExactEdgeMaps({CircleCurve({0, 0, 0}, 0.8)}, views, 1);
+  const auto sketch = [&] {
+    return SketchEdges(
+        views, maps, {}, Options(), [](int, int) { return true; });
+  };
+  const EdgeSketch all = sketch();
+  for (EdgeMap& map : maps) map.spacing_px = 1;  // as if crowded
+  const EdgeSketch seeds = sketch();
+  EXPECT_LT(4 * seeds.counts.h1_edges, all.counts.h1_edges);
+  constexpr double kPixel = 1.0 / 125;
+  for (const Edge3d& edge : all.edges) {
+    double nearest = 1e9;
+    for (const Edge3d& seed : seeds.edges) {
+      nearest = std::min(nearest, (seed.position - edge.position).norm());
+    }
+    EXPECT_LT(nearest, 12 * kPixel);
+  }
 }
 
 }  // namespace
