@@ -49,15 +49,12 @@ class Refiner {
  private:
   Result<Bundle> RunCeres(const Bundle& bundle) {
     result_->record.refiner = "ceres";
-    return RefineWithCeres(bundle, false, keep_going_);
+    return RefineWithCeres(bundle, keep_going_);
   }
 
   Result<Bundle> RunColmap(const Bundle& bundle,
                            const std::filesystem::path& program) {
-    const ColmapRun run{program,
-                        false,
-                        settings_.refiner_timeout_s,
-                        log_path_};
+    const ColmapRun run{program, settings_.refiner_timeout_s, log_path_};
     PoseRefinementRecord& record = result_->record;
     record.refiner = "colmap";
     record.colmap_path = program.string();
@@ -161,35 +158,41 @@ std::string PoseRefinementText(const PoseRefinementRecord& record) {
 }
 
 FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
-  return {"Poses",
-          {ChoiceFlag("refiner",
-                      {"colmap", "ceres", "none"},
-                      &settings->refiner,
-                      "who refines the poses with the points of the model: "
-                      "the installed COLMAP's bundle adjuster, our own, or "
-                      "nobody (as with --preset paper); poses that are not "
-                      "better are not used"),
-           PathFlag("colmap_path",
-                    &settings->colmap_path,
-                    "the program colmap, when it is neither in "
-                    "$COLMAP_EXE_PATH nor in $PATH"),
-           RowFlag({.name = "refine_intrinsics",
-                    .field = &settings->refine_intrinsics,
-                    .max = 1,
-                    .help = "1: refine focal lengths and distortion, too"}),
-           RowFlag({.name = "refiner_timeout_s",
-                    .field = &settings->refiner_timeout_s,
-                    .min_is_excluded = true,
-                    .unit = "s",
-                    .help = "COLMAP is ended after so long, and the poses "
-                            "stay as they are"}),
-           RowFlag({.name = "refine_poses_with_curves",
-                    .field = &settings->refine_poses_with_curves,
-                    .max = 1,
-                    .help = "1: refine poses and curves together by the edges "
-                            "in the images, with or without points (0 with "
-                            "--preset paper); poses that are not better are "
-                            "not used"})}};
+  return {
+      "Poses",
+      {ChoiceFlag("refiner",
+                  {"colmap", "ceres", "none"},
+                  &settings->refiner,
+                  "who refines the poses with the points of the model: "
+                  "the installed COLMAP's bundle adjuster, our own, or "
+                  "nobody (as with --preset paper); poses that are not "
+                  "better are not used"),
+       PathFlag("colmap_path",
+                &settings->colmap_path,
+                "the program colmap, when it is neither in "
+                "$COLMAP_EXE_PATH nor in $PATH"),
+       RowFlag(
+           {.name = "refine_intrinsics",
+            .field = &settings->refine_intrinsics,
+            .max = 1,
+            .help =
+                "1: with poses by curves, refine cameras, too, that five views "
+                "or more share: focal lengths, principal points, and "
+                "distortion by as many terms as what is held out "
+                "proves"}),
+       RowFlag({.name = "refiner_timeout_s",
+                .field = &settings->refiner_timeout_s,
+                .min_is_excluded = true,
+                .unit = "s",
+                .help = "COLMAP is ended after so long, and the poses "
+                        "stay as they are"}),
+       RowFlag({.name = "refine_poses_with_curves",
+                .field = &settings->refine_poses_with_curves,
+                .max = 1,
+                .help = "1: refine poses and curves together by the edges "
+                        "in the images, with or without points (0 with "
+                        "--preset paper); poses that are not better are "
+                        "not used"})}};
 }
 
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,

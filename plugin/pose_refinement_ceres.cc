@@ -54,46 +54,19 @@ Rigid3 Moved(const Vector6d& motion, const Rigid3& pose) {
   return Rigid3{Rotation(motion.head<3>()), motion.tail<3>()} * pose;
 }
 
-// The parameters of a camera that may be refined: all but the principal point,
-// which a rotation of the camera imitates.
-std::vector<std::size_t> FreeParams(CameraModel model) {
-  Camera numbered{model, 1, 1, {}};
-  const int num_params = NumParams(model);
-  for (int i = 0; i < num_params; ++i) numbered.params.push_back(i);
-  const auto cx = static_cast<std::size_t>(PinholeCalibration(numbered)(0, 2));
-  std::vector<std::size_t> free;
-  for (std::size_t i = 0; i < numbered.params.size(); ++i) {
-    if (i != cx && i != cx + 1) free.push_back(i);
-  }
-  return free;
-}
-
-// Projected minus observed, in pixels. Parameters: the motion of the pose (6),
-// the point (3), and, if they are refined, the camera's free parameters.
-class ReprojectionCost : public ceres::CostFunction {
+// Projected minus observed, in pixels. Parameters: the motion of the pose (6)
+// and the point (3).
+class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3> {
  public:
   ReprojectionCost(const Camera& camera,
-                   std::vector<std::size_t> free_params,
                    const Rigid3& pose,
                    const Eigen::Vector2d& pixel)
-      : camera_(camera),
-        free_params_(std::move(free_params)),
-        pose_(pose),
-        pixel_(pixel) {
-    set_num_residuals(2);
-    *mutable_parameter_block_sizes() = {6, 3};
-    if (!free_params_.empty()) {
-      mutable_parameter_block_sizes()->push_back(
-          static_cast<int>(free_params_.size()));
-    }
-  }
+      : camera_(camera), pose_(pose), pixel_(pixel) {}
 
-  // False behind the camera and where the camera is not valid or has no pixel.
+  // False behind the camera and where it has no pixel.
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
-    const Camera camera = CameraWith(parameters);
-    if (!free_params_.empty() && !Validate(camera).ok()) return false;
     const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);
     const Eigen::Vector3d before = pose_ * point;
     const Eigen::Map<const Vector6d> motion(parameters[0]);
@@ -101,7 +74,7 @@ class ReprojectionCost : public ceres::CostFunction {
     const Eigen::Vector3d x = turn * before + motion.tail<3>();
     if (!(x.z() > 0)) return false;
     const Eigen::Vector2d uv = x.hnormalized();
-    const Eigen::Vector2d seen = ImageFromIdeal(camera, uv);
+    const Eigen::Vector2d seen = ImageFromIdeal(camera_, uv);
     if (!seen.allFinite()) return false;
     Eigen::Map<Eigen::Vector2d> residual(residuals);
     residual = seen - pixel_;
@@ -109,7 +82,7 @@ class ReprojectionCost : public ceres::CostFunction {
 
     RowMatrix23d by_x;
     by_x << 1, 0, -uv.x(), 0, 1, -uv.y();
-    by_x = ImageFromIdealJacobian(camera, uv) * by_x / x.z();
+    by_x = ImageFromIdealJacobian(camera_, uv) * by_x / x.z();
     if (jacobians[0] != nullptr) {
       Eigen::Map<RowMatrix26d> by_motion(jacobians[0]);
       by_motion.leftCols<3>() = -by_x * turn.toRotationMatrix() *
@@ -121,42 +94,11 @@ class ReprojectionCost : public ceres::CostFunction {
       Eigen::Map<RowMatrix23d> by_point(jacobians[1]);
       by_point = by_x * (turn * pose_.rotation).toRotationMatrix();
     }
-    if (!free_params_.empty() && jacobians[2] != nullptr) {
-      DifferentiateCamera(camera, uv, jacobians[2]);
-    }
     return true;
   }
 
  private:
-  Camera CameraWith(double const* const* parameters) const {
-    Camera camera = camera_;
-    for (std::size_t i = 0; i < free_params_.size(); ++i) {
-      camera.params[free_params_[i]] = parameters[2][i];
-    }
-    return camera;
-  }
-
-  // Central differences: parameters enter almost linearly.
-  void DifferentiateCamera(const Camera& camera,
-                           const Eigen::Vector2d& uv,
-                           double* jacobian) const {
-    const std::size_t n = free_params_.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      const double value = camera.params[free_params_[i]];
-      const double step = 1e-6 * std::max(1.0, std::abs(value));
-      Camera up = camera;
-      Camera down = camera;
-      up.params[free_params_[i]] = value + step;
-      down.params[free_params_[i]] = value - step;
-      const Eigen::Vector2d slope =
-          (ImageFromIdeal(up, uv) - ImageFromIdeal(down, uv)) / (2 * step);
-      jacobian[i] = slope.x();
-      jacobian[n + i] = slope.y();
-    }
-  }
-
   const Camera& camera_;
-  const std::vector<std::size_t> free_params_;
   const Rigid3 pose_;
   const Eigen::Vector2d pixel_;
 };
@@ -220,17 +162,8 @@ class Stopper : public ceres::IterationCallback {
 // The unknowns of a bundle, as Ceres moves them.
 class BundleProblem {
  public:
-  BundleProblem(const Bundle& bundle, bool refine_intrinsics)
-      : bundle_(bundle),
-        motions_(bundle.views.size(), Vector6d::Zero()),
-        free_params_(bundle.cameras.size()),
-        camera_values_(bundle.cameras.size()) {
-    for (std::size_t i = 0; refine_intrinsics && i < free_params_.size(); ++i) {
-      free_params_[i] = FreeParams(bundle.cameras[i].model);
-      for (const std::size_t k : free_params_[i]) {
-        camera_values_[i].push_back(bundle.cameras[i].params[k]);
-      }
-    }
+  explicit BundleProblem(const Bundle& bundle)
+      : bundle_(bundle), motions_(bundle.views.size(), Vector6d::Zero()) {
     for (const BundlePoint& point : bundle.points) {
       positions_.push_back(point.position);
     }
@@ -264,11 +197,6 @@ class BundleProblem {
       Rigid3& pose = result.views[i].cam_from_world;
       pose = Moved(motions_[i], pose);
     }
-    for (std::size_t i = 0; i < result.cameras.size(); ++i) {
-      for (std::size_t k = 0; k < free_params_[i].size(); ++k) {
-        result.cameras[i].params[free_params_[i][k]] = camera_values_[i][k];
-      }
-    }
     for (std::size_t i = 0; i < result.points.size(); ++i) {
       result.points[i].position = positions_[i];
     }
@@ -280,17 +208,12 @@ class BundleProblem {
     for (std::size_t i = 0; i < bundle_.points.size(); ++i) {
       for (const BundleObservation& seen : bundle_.points[i].observations) {
         const BundleView& view = bundle_.views[seen.view_idx];
-        std::vector<double*> blocks = {motions_[seen.view_idx].data(),
-                                       positions_[i].data()};
-        if (!free_params_[view.camera_idx].empty()) {
-          blocks.push_back(camera_values_[view.camera_idx].data());
-        }
-        auto cost =
-            std::make_unique<ReprojectionCost>(bundle_.cameras[view.camera_idx],
-                                               free_params_[view.camera_idx],
-                                               view.cam_from_world,
-                                               seen.pixel);
-        problem_.AddResidualBlock(cost.release(), &loss_, blocks);
+        auto cost = std::make_unique<ReprojectionCost>(
+            bundle_.cameras[view.camera_idx], view.cam_from_world, seen.pixel);
+        problem_.AddResidualBlock(cost.release(),
+                                  &loss_,
+                                  motions_[seen.view_idx].data(),
+                                  positions_[i].data());
       }
     }
   }
@@ -315,8 +238,6 @@ class BundleProblem {
   // None of these may be resized once problem_ points into them.
   std::vector<Vector6d> motions_;
   std::vector<Eigen::Vector3d> positions_;
-  std::vector<std::vector<std::size_t>> free_params_;
-  std::vector<std::vector<double>> camera_values_;
   ceres::CauchyLoss loss_{kLossScalePx};
   ceres::Problem problem_{LossesAreNotOwned()};
 };
@@ -324,9 +245,8 @@ class BundleProblem {
 }  // namespace
 
 Result<Bundle> RefineWithCeres(const Bundle& bundle,
-                               bool refine_intrinsics,
                                const KeepGoing& keep_going) {
-  BundleProblem problem(bundle, refine_intrinsics);
+  BundleProblem problem(bundle);
   const ceres::Solver::Summary summary = problem.Solve(keep_going);
   if (summary.termination_type == ceres::USER_FAILURE) {
     return Status(StatusCode::kCancelled, "interrupted");

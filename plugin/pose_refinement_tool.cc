@@ -170,20 +170,18 @@ Status CheckEnd(const ChildEnd& end, double timeout_s) {
 }
 
 std::vector<std::string> BundleAdjusterArguments(const fs::path& input,
-                                                 const fs::path& output,
-                                                 bool refine_intrinsics) {
-  const std::string value = refine_intrinsics ? "1" : "0";
+                                                 const fs::path& output) {
   return {"bundle_adjuster",
           "--input_path",
           input.string(),
           "--output_path",
           output.string(),
           "--BundleAdjustment.refine_focal_length",
-          value,
+          "0",
           "--BundleAdjustment.refine_principal_point",
           "0",
           "--BundleAdjustment.refine_extra_params",
-          value};
+          "0"};
 }
 
 }  // namespace
@@ -249,13 +247,13 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   Status written = WriteColmapModel(
       ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
   if (!written.ok()) return written;
-  const Result<ChildEnd> end = RunChildProcess(
-      {run.program,
-       BundleAdjusterArguments(input, output, run.refine_intrinsics),
-       scratch.path(),
-       run.log_path,
-       run.timeout_s,
-       keep_going});
+  const Result<ChildEnd> end =
+      RunChildProcess({run.program,
+                       BundleAdjusterArguments(input, output),
+                       scratch.path(),
+                       run.log_path,
+                       run.timeout_s,
+                       keep_going});
   if (!end.ok()) return end.status();
   Status ended = CheckEnd(*end, run.timeout_s);
   if (!ended.ok()) return ended;

@@ -16,13 +16,12 @@ namespace curvix {
 // Asked many times a second; false: stop.
 using KeepGoing = std::function<bool()>;
 
-// Adjusts poses and points of `bundle`, and if asked focal lengths and
-// distortion, but not principal points. Cauchy's loss of scale 1 px; a weak
-// prior holds the poses where they were, so that nothing drifts that the points
-// do not determine. One thread: the same result on every run. kCancelled when
-// keep_going says so; kExternalTool if Ceres finds no usable solution.
+// Adjusts poses and points of `bundle`; cameras stay. Cauchy's loss of scale 1
+// px; a weak prior holds the poses where they were, so that nothing drifts that
+// the points do not determine. One thread: the same result on every run.
+// kCancelled when keep_going says so; kExternalTool if Ceres finds no usable
+// solution.
 Result<Bundle> RefineWithCeres(const Bundle& bundle,
-                               bool refine_intrinsics,
                                const KeepGoing& keep_going);
 
 // The user's COLMAP: `given` if not empty, else $COLMAP_EXE_PATH/colmap, else
@@ -31,7 +30,6 @@ Result<std::filesystem::path> FindColmap(const std::filesystem::path& given);
 
 struct ColmapRun {
   std::filesystem::path program;
-  bool refine_intrinsics = false;
   double timeout_s = 0;
   std::filesystem::path log_path;  // takes what COLMAP says
 };

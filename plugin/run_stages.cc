@@ -56,8 +56,8 @@ Result<CurvePoseRefinement> RunStages::RefinePosesWithCurves(
         curvix::RefinePosesWithCurves(scene,
                                       edge_maps,
                                       options,
-                                      record_.settings.poses.refine_intrinsics,
-                                      progress_.Callback());
+                                      progress_.Callback(),
+                                      record_.settings.poses.refine_intrinsics);
     if (!refined.ok()) return refined.status();
     poses = std::move(refined).value();
     Save(key, *poses);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Better poses from the edges themselves: without sparse points, without
-// texture.
+// Better poses and cameras from the edges themselves: with sparse points or
+// without, and without texture.
 #pragma once
 
 #include <curvix/edges.h>
@@ -53,16 +53,26 @@ struct CurvePoses {
   std::size_t max_shift_view_idx = 0;
 };
 
-// Adjusts poses and samples of curves together, so that the samples project
-// onto the edges of the views, and finds the edges anew as the poses get
-// better. Poses may be off by several pixels. Cameras stay as they are. The
-// world keeps its place and scale but for what the mean of all poses tells: a
-// prior as wide as poses turn out to be off holds each where it was.
-// One fifth of space is held out to judge by. A view in which the samples held
-// out do not come nearer to their edges keeps its pose; so do all if the mean
-// distance falls by less than 15 %. Poses are taken as they are, without much
-// ado, if the median distance is below 0.06 px and no view's picture fits
-// clearly better shifted. The same result for any number of threads.
+// Adjusts poses, cameras, samples of curves and the scene's points together, so
+// that the samples project onto the edges of the views and the points onto
+// their pixels, and finds the edges anew as the poses get better. Points take
+// part if a hundred have pixels. Poses may be off by several pixels. The world
+// keeps the unit that samples and points have, and stays where the poses of the
+// scene show it.
+// Cameras change if `refine_intrinsics`, and only those that five views or more
+// share: the first eight parameters of their model, or of a model with more
+// terms (SIMPLE_RADIAL, RADIAL, OPENCV).
+// What is held out to judge by: a fifth of space, and of the points every fifth
+// and those that no view needs. Gains of its parts count as significant if
+// chance, with losses as likely as gains, would give as much once in a thousand
+// times. Cameras change if poses that are adjusted to what is held out fit it
+// significantly better with than without. All is accepted if what is held out,
+// fitted to the old poses and to the new, fits significantly better, and
+// neither samples nor points tell the contrary. A view that fits worse keeps
+// its pose if no camera has changed. Finally poses are adjusted to all there
+// is. Poses are taken as they are, without much ado, if the median distance is
+// below 0.06 px and no view's picture fits clearly better shifted. The same
+// result for any number of threads.
 // kInvalidArgument as ReconstructCurves. `progress` is called as stage
 // "refine_poses_with_curves"; kCancelled when it returns false.
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,

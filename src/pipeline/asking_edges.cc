@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/median.h"
-#include "edge_detection/keep_contours.h"
+#include "edge_detection/contours.h"
 
 namespace curvix {
 namespace {
@@ -23,16 +23,18 @@ double MedianStrength(const EdgeMap& map) {
 
 std::vector<bool> AreOnStrongContours(const EdgeMap& map,
                                       int min_contour_edges) {
-  const std::vector<std::int32_t> labels = LabelContours(map.neighbors);
-  std::vector<double> sums(labels.size(), 0);  // there are no more contours
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    sums[static_cast<std::size_t>(labels[i])] +=
-        static_cast<double>(map.edges[i].strength);
-  }
+  const Contours contours(map.neighbors);
   const double least = min_contour_edges * MedianStrength(map);
-  std::vector<bool> are_strong(labels.size());
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    are_strong[i] = sums[static_cast<std::size_t>(labels[i])] >= least;
+  std::vector<bool> are_strong(map.edges.size());
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    double sum = 0;
+    for (const std::int32_t edge_idx : contours[i]) {
+      sum += static_cast<double>(
+          map.edges[static_cast<std::size_t>(edge_idx)].strength);
+    }
+    for (const std::int32_t edge_idx : contours[i]) {
+      are_strong[static_cast<std::size_t>(edge_idx)] = sum >= least;
+    }
   }
   return are_strong;
 }

@@ -65,6 +65,7 @@ std::vector<std::string> FuzzSeeds() {
   seeds.push_back("2" + *ReadFile(path));
   CurvePoses poses;
   poses.cam_from_world.resize(2);
+  poses.cameras = {{CameraModel::kRadial, 64, 48, {50, 32, 24, -0.1, 0.1}}};
   poses.reason = "they are";
   Require(WriteCurvePoses(path, kKey, poses).ok(), "written");
   seeds.push_back("3" + *ReadFile(path));

@@ -116,6 +116,13 @@ CurvePoses SomePoses() {
   poses.num_check_observations = 3;
   poses.before = {0.4, 0.3};
   poses.after = {0.2, 0.1};
+  poses.cameras = {
+      {CameraModel::kRadial, 64, 48, {50, 32, 24, -0.1, 1.0 / 3}}};
+  poses.num_points = 5;
+  poses.num_check_points = 6;
+  poses.points_before = {0.8, 0.7};
+  poses.points_after = {0.75, 0.65};
+  poses.significance = 4.5;
   poses.num_views_moved = 4;
   poses.median_shift_px = 0.5;
   poses.max_shift_px = 0.6;
@@ -146,6 +153,12 @@ TEST_F(StageIo, GivesPosesBackBitByBit) {
   EXPECT_EQ(read->after.median_px, 0.1);
   EXPECT_EQ(read->median_shift_px, 0.5);
   EXPECT_EQ(read->max_shift_px, 0.6);
+  EXPECT_EQ(read->cameras, poses.cameras);
+  EXPECT_EQ(read->num_points, 5u);
+  EXPECT_EQ(read->num_check_points, 6u);
+  EXPECT_EQ(read->points_before.mean_px, 0.8);
+  EXPECT_EQ(read->points_after.median_px, 0.65);
+  EXPECT_EQ(read->significance, 4.5);
 
   CurvePoses broken = poses;
   broken.max_shift_view_idx = 3;

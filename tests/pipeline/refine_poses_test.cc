@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/median.h"
+#include "edge_detection/undistort_edges.h"
 #include "plugin/similarity.h"
 #include "tests/laws/compare_runs.h"
 #include "tests/support/random.h"
@@ -192,13 +194,57 @@ TEST(RefinePosesWithCurves, TheOrderOfTheViewsMakesNoDifference) {
       0.001);
 }
 
+// The photographs of Wires(), taken to be those of another lens.
+struct WrongLens {
+  Scene scene = Wires().scene;
+  std::vector<EdgeMap> edge_maps = Wires().edge_maps;
+
+  WrongLens() {
+    const Camera truth = scene.cameras[0];
+    const std::vector<double>& p = truth.params;
+    const Camera wrong{CameraModel::kSimpleRadial,
+                       truth.width,
+                       truth.height,
+                       {p[0], p[p.size() - 2], p[p.size() - 1], 0.03}};
+    scene.cameras.assign(scene.cameras.size(), wrong);
+    for (EdgeMap& map : edge_maps) map = *CarryEdges(map, truth, wrong);
+  }
+};
+
+TEST(RefinePosesWithCurves, MendsALensThatIsOff) {
+  const WrongLens wrong;
+  const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
+  ASSERT_TRUE(refined.accepted) << refined.reason;
+  EXPECT_LT(std::abs(refined.cameras[0].params[3]), 0.006);
+  EXPECT_LE(MedianShift(refined.cam_from_world), 0.15);
+}
+
+TEST(RefinePosesWithCurves, LeavesTheLensIfItMay) {
+  const WrongLens wrong;
+  const auto refined =
+      RefinePosesWithCurves(wrong.scene, wrong.edge_maps, Options(), {}, false);
+  ASSERT_TRUE(refined.ok()) << refined.status().message();
+  EXPECT_EQ(refined->cameras, wrong.scene.cameras);
+}
+
+TEST(RefinePosesWithCurves, LeavesLensesAloneThatFewViewsShare) {
+  WrongLens wrong;
+  const Camera camera = wrong.scene.cameras[0];
+  wrong.scene.cameras.assign(wrong.scene.views.size(), camera);
+  for (std::size_t i = 0; i < wrong.scene.views.size(); ++i) {
+    wrong.scene.views[i].camera_idx = static_cast<int>(i);
+  }
+  const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
+  EXPECT_EQ(refined.cameras, wrong.scene.cameras);
+}
+
 TEST(RefinePosesWithCurves, KeepsThePosesWithoutEdges) {
   const Scene disturbed = Disturbed(Wires().scene, 1);
   const auto refined = RefinePosesWithCurves(
       disturbed, std::vector<EdgeMap>(disturbed.views.size()), Options());
   ASSERT_TRUE(refined.ok()) << refined.status().message();
   EXPECT_FALSE(refined->accepted);
-  EXPECT_EQ(refined->reason, "too few places on curves are left to judge by");
+  EXPECT_EQ(refined->reason, "too little is left to judge by");
   EXPECT_EQ(refined->cam_from_world[3].translation,
             disturbed.views[3].cam_from_world.translation);
 }

@@ -33,10 +33,9 @@ PoseRefinement Refine(const ColmapModel& model,
   return result.ok() ? *std::move(result) : PoseRefinement();
 }
 
-PoseRefinementSettings Ceres(bool refine_intrinsics = false) {
+PoseRefinementSettings Ceres() {
   PoseRefinementSettings settings;
   settings.refiner = "ceres";
-  settings.refine_intrinsics = refine_intrinsics;
   return settings;
 }
 
@@ -133,34 +132,12 @@ TEST(RefineWithCeres, BearsOutliers) {
   EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 0.1);
 }
 
-TEST(RefineWithCeres, RefinesSharedIntrinsicsIfAsked) {
-  PosedPointsOptions options;
-  options.camera = {
-      CameraModel::kRadial, 640, 480, {500, 320, 240, -0.1, 0.02}};
-  const ColmapModel truth = PosedPoints(options);
-  ColmapModel model = truth;
-  model.cameras[0].camera.params = {510, 320, 240, 0, 0};
-  const PoseRefinement kept = Refine(model, Ceres());
-  if (kept.model) {
-    EXPECT_EQ(kept.model->cameras[0].camera.params,
-              model.cameras[0].camera.params);
-  }
-  const PoseRefinement result = Refine(model, Ceres(true));
-  ASSERT_TRUE(result.model) << result.record.reason;
-  const std::vector<double>& params = result.model->cameras[0].camera.params;
-  EXPECT_NEAR(params[0], 500, 3);
-  EXPECT_EQ(params[1], 320);
-  EXPECT_EQ(params[2], 240);
-  EXPECT_NEAR(params[3], -0.1, 0.02);
-}
-
 TEST(RefineWithCeres, LeavesPosesAloneWithoutPoints) {
   Bundle bundle;
   bundle.cameras = {{CameraModel::kPinhole, 640, 480, {500, 510, 320, 240}}};
   bundle.views.resize(2);
   bundle.views[1].cam_from_world.translation = {1, 2, 3};
-  const Result<Bundle> refined =
-      RefineWithCeres(bundle, false, [] { return true; });
+  const Result<Bundle> refined = RefineWithCeres(bundle, [] { return true; });
   ASSERT_TRUE(refined.ok()) << refined.status().message();
   EXPECT_EQ(refined->views[1].cam_from_world.translation,
             bundle.views[1].cam_from_world.translation);
