@@ -67,8 +67,9 @@ struct CurvePoses {
 // chance, with losses as likely as gains, would give as much once in a thousand
 // times. Cameras change if poses that are adjusted to what is held out fit it
 // significantly better with than without. All is accepted if what is held out,
-// fitted to the old poses and to the new, fits significantly better, and
-// neither samples nor points tell the contrary. A view that fits worse keeps
+// fitted to the old poses and to the new, fits significantly better, or no
+// worse if cameras have changed, and neither samples nor points tell the
+// contrary. A view that fits worse keeps
 // its pose if no camera has changed. Finally poses are adjusted to all there
 // is. Poses are taken as they are, without much ado, if the median distance is
 // below 0.06 px and no view's picture fits clearly better shifted. The same

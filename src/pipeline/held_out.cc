@@ -159,8 +159,11 @@ SignificanceOfGain Together(const GainsByCell& places,
 }
 
 bool IsBetter(const SignificanceOfGain& gain) {
-  return gain.all >= kSignificant &&
-         std::min(gain.places, gain.points) >= -kContrary;
+  return gain.all >= kSignificant && IsNoWorse(gain);
+}
+
+bool IsNoWorse(const SignificanceOfGain& gain) {
+  return gain.all >= 0 && std::min(gain.places, gain.points) >= -kContrary;
 }
 
 std::vector<bool> WorseViews(const std::vector<ErrorPair>& pairs,

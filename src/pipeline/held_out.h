@@ -83,6 +83,9 @@ inline constexpr double kSignificant = 3.717;
 // contrary.
 bool IsBetter(const SignificanceOfGain& gain);
 
+// Whether neither places nor points tell that the gain is a loss.
+bool IsNoWorse(const SignificanceOfGain& gain);
+
 // Views in which the places come away from their edges, and hardly by chance.
 std::vector<bool> WorseViews(const std::vector<ErrorPair>& pairs,
                              std::size_t num_views);

@@ -198,11 +198,16 @@ AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                      [this] { return step_done_(0, 0); });
 }
 
+// Points hold poses better than a narrow prior, which would keep the drift of
+// all.
+double PoseSearch::PriorFor(const PoseEvidence& evidence) const {
+  if (!free_lenses_.empty()) return kPriorOfFreeLensesPx;
+  return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
+}
+
 void PoseSearch::Adjust(PoseEvidence* evidence) {
   const AdjustedPoses adjusted =
-      Solve(*evidence,
-            free_lenses_.empty() ? prior_px_ : kPriorOfFreeLensesPx,
-            free_lenses_);
+      Solve(*evidence, PriorFor(*evidence), free_lenses_);
   edges_.Move(adjusted.moved);
   for (std::size_t i = 0; i < evidence->points.size(); ++i) {
     evidence->points[i].position = adjusted.points[i];
@@ -215,19 +220,19 @@ void PoseSearch::Adjust(PoseEvidence* evidence) {
   prior_px_ = std::max(kMinPriorPx, MedianShift(*evidence));
 }
 
+void PoseSearch::Fit(PoseEvidence* evidence) const {
+  ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
+    CurvePlace& place = evidence->places[i];
+    place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
+  });
+  ParallelFor(evidence->points.size(), num_threads_, [&](std::size_t i) {
+    evidence->points[i].position = Fitted(evidence->points[i]);
+  });
+}
+
 std::vector<double> PoseSearch::LossesOf(const PoseEvidence& evidence) {
   PoseEvidence fitted = evidence;
-  const std::vector<double> gates(scene_.views.size(),
-                                  kGateSigmas * kFirstSigmaPx);
-  ParallelFor(fitted.places.size(), num_threads_, [&](std::size_t i) {
-    CurvePlace& place = fitted.places[i];
-    place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
-    place.support =
-        edges_.FindEdges(place.rim, edges_.ViewsToAsk(place), gates);
-  });
-  ParallelFor(fitted.points.size(), num_threads_, [&](std::size_t i) {
-    fitted.points[i].position = Fitted(fitted.points[i]);
-  });
+  Fit(&fitted);
   return Solve(fitted, kFirstPriorPx, {}).costs;
 }
 

@@ -52,6 +52,9 @@ class PoseSearch {
   // Finds the edges of the places anew; drops places with few.
   void FindEdges(std::vector<CurvePlace>* places) const;
 
+  // Fits places and points to poses and cameras as they are.
+  void Fit(PoseEvidence* evidence) const;
+
   // The loss of each place, then of each point, once poses are adjusted to
   // `evidence` alone and cameras stay. Nothing moves.
   std::vector<double> LossesOf(const PoseEvidence& evidence);
@@ -73,6 +76,7 @@ class PoseSearch {
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;
   void UpdateSigmas(const std::vector<CurvePlace>& places);
+  double PriorFor(const PoseEvidence& evidence) const;
   AdjustedPoses Solve(const PoseEvidence& evidence,
                       double prior_px,
                       const std::vector<bool>& free_lenses);

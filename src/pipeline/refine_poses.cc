@@ -111,11 +111,10 @@ class Refiner {
     return !errors.empty() && Median(std::move(errors)) < kGoodEnoughPx;
   }
 
-  // Poses and lenses from points alone; then places by these.
+  // Poses from points alone; then places by these.
   void AdjustToPoints() {
     evidence_.places.clear();
     search_.Adjust(&evidence_);
-    TryLenses();
     SketchAgain();
   }
 
@@ -154,7 +153,11 @@ class Refiner {
     };
     const Lenses without{
         search_.edges().moved(), evidence_, search_.free_lenses()};
-    std::vector<double> best_losses = search_.LossesOf(held_out_);
+    // The same edges for all, as losses of more edges are more.
+    PoseEvidence held_out = held_out_;
+    search_.Fit(&held_out);
+    search_.FindEdges(&held_out.places);
+    std::vector<double> best_losses = search_.LossesOf(held_out);
     Lenses best = without;
     std::vector<Camera> cameras = without.moved.cameras;
     while (!search_.is_stopped()) {
@@ -162,8 +165,8 @@ class Refiner {
       search_.Move({without.moved.new_cam_from_cam, cameras});
       search_.FreeLenses(shared_lenses_);
       search_.Adjust(&evidence_);
-      std::vector<double> losses = search_.LossesOf(held_out_);
-      if (IsProven(best_losses, losses)) {
+      std::vector<double> losses = search_.LossesOf(held_out);
+      if (IsProven(held_out, best_losses, losses)) {
         best_losses = std::move(losses);
         best = {search_.edges().moved(), evidence_, shared_lenses_};
       }
@@ -178,12 +181,13 @@ class Refiner {
   }
 
   // Whether the losses of what is held out fall, and not by chance.
-  bool IsProven(const std::vector<double>& before,
+  bool IsProven(const PoseEvidence& held_out,
+                const std::vector<double>& before,
                 const std::vector<double>& after) const {
-    const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out_);
+    const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out);
     GainsByCell places(cells_), points(cells_);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      GainsByCell& gains = i < held_out_.places.size() ? places : points;
+      GainsByCell& gains = i < held_out.places.size() ? places : points;
       gains.Add(positions[i], before[i] - after[i]);
     }
     return IsBetter(Together(places, points));
@@ -232,7 +236,9 @@ class Refiner {
     result->points_after = Summarize(Concatenate(after.points));
   }
 
-  static void Decide(const SignificanceOfGain& gain, CurvePoses* result) {
+  // Cameras that are proven better are enough: the poses of the scene were made
+  // for the old ones.
+  void Decide(const SignificanceOfGain& gain, CurvePoses* result) const {
     char text[256];
     std::snprintf(text,
                   sizeof(text),
@@ -242,7 +248,8 @@ class Refiner {
                   gain.places,
                   gain.points);
     result->significance = gain.all;
-    result->accepted = IsBetter(gain);
+    const bool has_new_cameras = !search_.free_lenses().empty();
+    result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
     result->reason = text;
     if (!result->accepted) result->reason = "may be chance: " + result->reason;
     if (result->num_check_samples + result->num_check_points < kMinHeldOut) {

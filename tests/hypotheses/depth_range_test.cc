@@ -18,7 +18,7 @@ std::vector<PosedView> TwoViews() {
 }
 
 ScenePoint PointAt(double depth, std::vector<int> view_idxs) {
-  return {{0.1, 0.2, depth}, std::move(view_idxs)};
+  return {{0.1, 0.2, depth}, std::move(view_idxs), {}};
 }
 
 // Inverse depths 0.2 to 0.4, seen by both views, and wrong ones on either side.

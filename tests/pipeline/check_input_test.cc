@@ -86,7 +86,7 @@ TEST_F(CheckInput, NeedsPointsOfViewsThatAreThere) {
   for (const int view_idx : {-1, 4}) {
     ExpectSceneRefused(
         [&](Scene& s) {
-          s.points.push_back({{0, 0, 0}, {0, view_idx}});
+          s.points.push_back({{0, 0, 0}, {0, view_idx}, {}});
         },
         "sparse point");
   }
