@@ -92,7 +92,7 @@ TEST_F(CheckInput, NeedsPointsOfViewsThatAreThere) {
   }
   ExpectSceneRefused(
       [](Scene& s) {
-        s.points.push_back({{0, kNan, 0}, {0}});
+        s.points.push_back({{0, kNan, 0}, {0}, {}});
       },
       "sparse point");
 }

@@ -71,12 +71,8 @@ PosedView Moved(PosedView view, const Rigid3& motion) {
 
 TEST(AdjustPoses, LeavesExactPosesAndPlacesAlone) {
   const std::vector<PosedView> views = RingOfViews(8);
-  const std::vector<double> sigmas(views.size(), 0.2);
   const std::vector<PoseSample> samples = ExactSamples(views);
-  const AdjustedPoses adjusted = AdjustPoses({views, sigmas, samples, 1},
-                                             std::vector<Rigid3>(views.size()),
-                                             1,
-                                             KeepGoing);
+  const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 1);
   for (std::size_t i = 0; i < views.size(); ++i) {
     EXPECT_LT(adjusted.moved.new_cam_from_cam[i].translation.norm(), 1e-6);
   }
