@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kMaxErrorPx = 1;  // of places
 constexpr double kMaxPointErrorPx = 2;
+constexpr double kMinLossScalePx = 0.3;
 // Standard deviations: what would be wrong once in some twenty times.
 constexpr double kContrary = 2;
 
@@ -58,19 +59,20 @@ std::vector<double> ErrorsOfPoint(const PointSample& point,
   return errors;
 }
 
-// Errors over three times the smaller of their medians, at most 1: what fits
-// nowhere tells nothing.
+// Errors over three times the smaller of their medians, or over 0.3 px, at most
+// 1: what fits nowhere tells nothing, nor does what fits perfectly.
 class Loss {
  public:
   Loss(std::vector<double> before, std::vector<double> after)
-      : scale_(3 * std::min(MedianOr(1, std::move(before)),
-                            MedianOr(1, std::move(after)))) {}
-  double operator()(double error) const {
-    return scale_ > 0 ? std::min(1.0, error / scale_) : 0;
+      : scale_px_(std::max(kMinLossScalePx,
+                           3 * std::min(MedianOr(1, std::move(before)),
+                                        MedianOr(1, std::move(after))))) {}
+  double operator()(double error_px) const {
+    return std::min(1.0, error_px / scale_px_);
   }
 
  private:
-  double scale_;
+  double scale_px_;
 };
 
 }  // namespace

@@ -217,7 +217,7 @@ void PoseSearch::Adjust(PoseEvidence* evidence) {
     place.rim = adjusted.rims[i];
     place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
   });
-  prior_px_ = std::max(kMinPriorPx, MedianShift(*evidence));
+  prior_px_ = std::clamp(MedianShift(*evidence), kMinPriorPx, kFirstPriorPx);
 }
 
 void PoseSearch::Fit(PoseEvidence* evidence) const {

@@ -205,9 +205,14 @@ struct WrongLens {
     const Camera wrong{CameraModel::kSimpleRadial,
                        truth.width,
                        truth.height,
-                       {p[0], p[p.size() - 2], p[p.size() - 1], 0.03}};
-    scene.cameras.assign(scene.cameras.size(), wrong);
-    for (EdgeMap& map : edge_maps) map = *CarryEdges(map, truth, wrong);
+                       {p[0], p[p.size() - 2], p[p.size() - 1], 0.15}};
+    for (std::size_t i = 0; i < scene.views.size(); ++i) {
+      int& camera_idx = scene.views[i].camera_idx;
+      EXPECT_EQ(scene.cameras[static_cast<std::size_t>(camera_idx)], truth);
+      camera_idx = 0;
+      edge_maps[i] = *CarryEdges(edge_maps[i], truth, wrong);
+    }
+    scene.cameras = {wrong};
   }
 };
 
@@ -215,7 +220,7 @@ TEST(RefinePosesWithCurves, MendsALensThatIsOff) {
   const WrongLens wrong;
   const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
   ASSERT_TRUE(refined.accepted) << refined.reason;
-  EXPECT_LT(std::abs(refined.cameras[0].params[3]), 0.006);
+  EXPECT_LT(std::abs(refined.cameras[0].params[3]), 0.04);
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.15);
 }
 

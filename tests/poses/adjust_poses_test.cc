@@ -213,7 +213,7 @@ TEST(AdjustPoses, FindsTheLensFromPoints) {
   const std::vector<double> sigmas(made.scene.views.size(), 0.2);
   MovedCameras moved{std::vector<Rigid3>(made.scene.views.size()),
                      made.scene.cameras};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 10; ++i) {
     const AdjustedPoses adjusted =
         AdjustPoses({made.scene, {}, made.points, sigmas, 0.2, 50, {true}},
                     moved,
