@@ -44,7 +44,7 @@ struct CurvePoses {
   // How far the gain of what is held out stands out of chance; see
   // RefinePosesWithCurves.
   double significance = 0;
-  std::size_t num_views_moved = 0;  // views that the new poses serve better
+  std::size_t num_views_moved = 0;  // views with another pose or camera
   // How far the samples that a view sees, at their places before, shift in its
   // image: the median over these samples; of all views the median and the
   // largest.

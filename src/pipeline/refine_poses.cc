@@ -277,6 +277,21 @@ class Refiner {
     PutPoses(evidence_, result);
   }
 
+  std::size_t NumViewsMoved() const {
+    const MovedCameras& moved = search_.edges().moved();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      const Rigid3& motion = moved.new_cam_from_cam[i];
+      const auto k = static_cast<std::size_t>(scene_.views[i].camera_idx);
+      const bool stays =
+          motion.translation.isZero(0) &&
+          motion.rotation.coeffs() == Rigid3().rotation.coeffs() &&
+          moved.cameras[k] == scene_.cameras[k];
+      if (!stays) ++count;
+    }
+    return count;
+  }
+
   void PutPoses(const PoseEvidence& evidence, CurvePoses* result) const {
     std::vector<double> shifts;
     for (const std::optional<double>& shift : search_.Shifts(evidence)) {
@@ -286,8 +301,7 @@ class Refiner {
     result->max_shift_px = *largest;
     result->max_shift_view_idx =
         static_cast<std::size_t>(largest - shifts.begin());
-    result->num_views_moved = static_cast<std::size_t>(std::count_if(
-        shifts.begin(), shifts.end(), [](double shift) { return shift > 0; }));
+    result->num_views_moved = NumViewsMoved();
     result->median_shift_px = MedianOr(0, std::move(shifts));
     result->cameras =
         result->accepted ? search_.edges().moved().cameras : scene_.cameras;
