@@ -139,9 +139,9 @@ class Refiner {
     return cameras;
   }
 
-  // Refines shared cameras, by their own terms and by more, and keeps what what
-  // is held out proves: that poses adjusted to it fit better with these
-  // cameras than without. Whether there is such.
+  // Refines shared cameras, first by their own terms, then by more. Poses are
+  // adjusted to what is held out with either cameras; the new ones are kept if
+  // that fits better. Whether cameras have changed.
   bool TryLenses() {
     if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
       return false;

@@ -224,7 +224,7 @@ TEST(RefinePosesWithCurves, MendsALensThatIsOff) {
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.15);
 }
 
-TEST(RefinePosesWithCurves, LeavesTheLensIfItMay) {
+TEST(RefinePosesWithCurves, LeavesTheLensIfAsked) {
   const WrongLens wrong;
   const auto refined =
       RefinePosesWithCurves(wrong.scene, wrong.edge_maps, Options(), {}, false);
