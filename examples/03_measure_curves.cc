@@ -47,8 +47,7 @@ int main(int argc, char** argv) {
     std::cerr << "Usage: 03_measure_curves <curves.txt, .ply or .obj>\n";
     return 2;
   }
-  // The geometry alone: the scene would tell which of its views see a sample.
-  const auto set = curvix::ReadCurves(argv[1], curvix::Scene());
+  const auto set = curvix::ReadCurves(argv[1]);
   if (!set.ok()) {
     std::cerr << set.status().message() << '\n';
     return 1;

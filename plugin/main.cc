@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <glog/logging.h>
-
 #include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
 
-#include "plugin/commands.h"
-#include "plugin/progress.h"
+#include "plugin/commands/commands.h"
+#include "plugin/run/progress.h"
 
 int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);

@@ -2,31 +2,29 @@
 // Curves and edges to and from files; docs/output_format.md describes each.
 #pragma once
 
-#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
-
 #include <filesystem>
 #include <vector>
 
 namespace curvix {
 
 // Writes `curves` in the format that the extension names: .ply (line set),
-// .pcd (point cloud with curve ids), .obj (lines), .txt (readable, with the
-// supporting image ids, which is what `scene` is for: it must hold every view
-// that a sample names), .vtp (VTK polylines) or .glb (glTF lines). The file
-// appears whole or not at all.
+// .pcd (point cloud with curve ids), .obj (lines), .txt (readable), .vtp (VTK
+// polylines) or .glb (glTF lines). The file appears whole or not at all.
+// `scene` must hold every view that a sample names, for .txt to list the ids of
+// the images that support it; it lists none for an empty scene.
 // kInvalidArgument for another extension or a path that cannot be written,
 // kUnsupported for more curves than the format can hold, and curves.status().
 Status WriteCurves(const std::filesystem::path& path,
                    const CurveSource& curves,
-                   const Scene& scene);
+                   const Scene& scene = {});
 inline Status WriteCurves(const std::filesystem::path& path,
                           const CurveSet& curves,
-                          const Scene& scene) {
+                          const Scene& scene = {}) {
   return WriteCurves(path, CurvesInMemory(curves), scene);
 }
 
@@ -38,7 +36,7 @@ inline Status WriteCurves(const std::filesystem::path& path,
 // kNotFound, kDataLoss (broken or truncated; no memory is taken on the word of
 // a count), kUnsupported (no lines in it) or kInvalidArgument (extension).
 Result<CurveSet> ReadCurves(const std::filesystem::path& path,
-                            const Scene& scene);
+                            const Scene& scene = {});
 
 // Writes oriented 3D edges as points: .ply with tangents and support counts.
 // Errors as WriteCurves.

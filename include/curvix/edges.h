@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Oriented edges, in images and in space.
+// Oriented edges, in images and in space: the 3D edge sketch is what the
+// paper's Secs. 3 and 4 give to Secs. 5 and 6.
 #pragma once
 
 #include <Eigen/Core>
@@ -85,6 +86,25 @@ struct Edge3d {
   double sigma = 0;     // standard deviation across the tangent, world units;
                         // 0: not estimated
   double evidence = 0;  // how strongly the views support it; larger is stronger
+};
+
+// What became of the H1 edges and their hypotheses.
+struct SketchCounts {
+  std::int64_t view_pairs = 0;
+  std::int64_t h1_edges = 0;     // asked for hypotheses
+  std::int64_t hypotheses = 0;   // after consolidation (Sec. 4)
+  std::int64_t unsupported = 0;  // hypotheses that other views did not confirm
+  std::int64_t rivals = 0;       // confirmed, but another explains their edges
+  // 2D edges that show a 3D edge or are next to one.
+  std::int64_t used_edges = 0;
+};
+
+struct EdgeSketch {
+  std::vector<Edge3d> edges;
+  SketchCounts counts;
+  // Standard deviation of the distance of a 2D edge from its 3D edge, as
+  // estimated from the scene. Pixels, > 0.
+  double edge_sigma_px = 0.15;
 };
 
 }  // namespace curvix

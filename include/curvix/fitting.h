@@ -3,11 +3,9 @@
 // shared points.
 #pragma once
 
-#include <curvix/curve_source.h>
 #include <curvix/curves.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
-
 #include <Eigen/Core>
 #include <cstddef>
 #include <string_view>

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <curvix/curves.h>
-#include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
-
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -56,7 +54,7 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
 // in the ideal pinhole of the view's camera. Needs at least three views.
 Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
-                                         const Options& options,
+                                         const Options& options = {},
                                          const Progress& progress = {});
 
 // The two parts of that, for a run in pieces: Secs. 3 and 4, and the rest. The
@@ -78,7 +76,7 @@ std::vector<std::pair<std::string, std::int64_t>> CountsOf(
 // Detection and all that follows. Same input, options and build give the same
 // result for any number of threads.
 Result<Reconstruction> ReconstructCurves(const Scene& scene,
-                                         const Options& options,
+                                         const Options& options = {},
                                          const Progress& progress = {});
 
 }  // namespace curvix

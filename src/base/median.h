@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,7 +12,7 @@
 
 namespace curvix {
 
-// The value in the middle; of an even number, the larger of both. `values` must
+// The value in the middle; of an even number, the larger. `values` must
 // not be empty or hold NaN.
 inline double Median(std::vector<double> values) {
   CURVIX_CHECK(!values.empty(), "no value is in the middle of none");
@@ -23,6 +24,17 @@ inline double Median(std::vector<double> values) {
 
 inline double MedianOr(double fallback, std::vector<double> values) {
   return values.empty() ? fallback : Median(std::move(values));
+}
+
+// The mean of the two middle values of an even number; NaN of none. `values`
+// must not hold NaN.
+inline double MedianOrNan(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle =
+      values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
 }  // namespace curvix

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). The rows; option_text.cc reads and prints them.
-#include <curvix/option_table.h>
+#include "base/option_table.h"
 
 #include <limits>
 #include <utility>

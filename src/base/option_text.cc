@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Values of the option table as text and back.
-#include <curvix/option_table.h>
-
 #include <array>
 #include <charconv>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <string_view>
 
 #include "base/check.h"
+#include "base/option_table.h"
 
 namespace curvix {
 namespace {

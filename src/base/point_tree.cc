@@ -3,59 +3,106 @@
 #include "base/point_tree.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <nanoflann.hpp>
 #include <utility>
 
+#include "base/check.h"
+
 namespace curvix {
+namespace {
+
+// How nanoflann sees the points.
+struct PointAccess {
+  std::vector<Eigen::Vector3d> points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return points[index][static_cast<Eigen::Index>(axis)];
+  }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+// Collects points of at most a squared distance; nanoflann's own collectors of
+// this kind changed their types between the versions that are in use.
+class Collector {
+ public:
+  using DistanceType = double;
+  using IndexType = std::size_t;
+
+  explicit Collector(double max_squared) : max_squared_(max_squared) {}
+
+  std::size_t size() const { return indices_.size(); }
+  bool empty() const { return indices_.empty(); }
+  bool full() const { return true; }
+  bool addPoint(double squared, std::size_t index) {
+    if (squared <= max_squared_) indices_.push_back(index);
+    return true;
+  }
+  // Nodes at exactly this distance are not searched, hence the next number.
+  double worstDist() const { return std::nextafter(max_squared_, HUGE_VAL); }
+  void sort() { std::sort(indices_.begin(), indices_.end()); }
+
+  std::vector<std::size_t> Take() {
+    sort();
+    return std::move(indices_);
+  }
+
+ private:
+  double max_squared_;
+  std::vector<std::size_t> indices_;
+};
+
+}  // namespace
+
+class PointTree::Index {
+ public:
+  explicit Index(std::vector<Eigen::Vector3d> points)
+      : access_{std::move(points)}, tree_(3, access_) {
+    tree_.buildIndex();
+  }
+
+  bool empty() const { return access_.points.empty(); }
+
+  template <typename Results>
+  void Search(const Eigen::Vector3d& query, Results& results) const {
+    tree_.findNeighbors(results, query.data(), {});
+  }
+
+ private:
+  using Distance =
+      nanoflann::L2_Simple_Adaptor<double, PointAccess, double, std::size_t>;
+  using Tree = nanoflann::
+      KDTreeSingleIndexAdaptor<Distance, PointAccess, 3, std::size_t>;
+
+  PointAccess access_;
+  Tree tree_;
+};
 
 PointTree::PointTree(std::vector<Eigen::Vector3d> points)
-    : points_(std::move(points)),
-      order_(points_.size()),
-      axes_(points_.size(), 0) {
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  Build({0, order_.size()});
-}
+    : index_(std::make_unique<const Index>(std::move(points))) {}
 
-void PointTree::Build(Range range) {
-  if (range.begin >= range.end) return;
-  Eigen::Vector3d low = points_[order_[range.begin]];
-  Eigen::Vector3d high = low;
-  for (std::size_t k = range.begin; k < range.end; ++k) {
-    low = low.cwiseMin(points_[order_[k]]);
-    high = high.cwiseMax(points_[order_[k]]);
-  }
-  Eigen::Index axis = 0;
-  (high - low).maxCoeff(&axis);
-  const std::size_t middle = range.begin + (range.end - range.begin) / 2;
-  const auto at = [&](std::size_t k) {
-    return order_.begin() + static_cast<std::ptrdiff_t>(k);
-  };
-  std::nth_element(
-      at(range.begin), at(middle), at(range.end), [&](auto a, auto b) {
-        return std::pair(points_[a][axis], a) < std::pair(points_[b][axis], b);
-      });
-  axes_[middle] = static_cast<std::uint8_t>(axis);
-  Build({range.begin, middle});
-  Build({middle + 1, range.end});
+PointTree::~PointTree() = default;
+
+PointTree::Neighbor PointTree::Nearest(const Eigen::Vector3d& query) const {
+  CURVIX_CHECK(!index_->empty(), "no point is the nearest of none");
+  Neighbor nearest;
+  double squared = 0;
+  nanoflann::KNNResultSet<double, std::size_t> results(1);
+  results.init(&nearest.index, &squared);
+  index_->Search(query, results);
+  nearest.distance = std::sqrt(squared);
+  return nearest;
 }
 
 std::vector<std::size_t> PointTree::Within(const Eigen::Vector3d& center,
                                            double radius) const {
-  std::vector<std::size_t> found;
-  std::vector<Range> pending = {{0, order_.size()}};
-  while (!pending.empty()) {
-    const Range range = pending.back();
-    pending.pop_back();
-    if (range.begin >= range.end) continue;
-    const std::size_t middle = range.begin + (range.end - range.begin) / 2;
-    const Eigen::Vector3d& point = points_[order_[middle]];
-    if ((point - center).norm() <= radius) found.push_back(order_[middle]);
-    const double beyond = center[axes_[middle]] - point[axes_[middle]];
-    if (beyond <= radius) pending.push_back({range.begin, middle});
-    if (beyond >= -radius) pending.push_back({middle + 1, range.end});
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+  Collector results(radius * radius);
+  index_->Search(center, results);
+  return results.Take();
 }
 
 }  // namespace curvix

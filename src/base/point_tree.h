@@ -4,33 +4,33 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace curvix {
 
-// A balanced k-d tree without nodes: the median of every range of `order_`, in
-// the axis in which the range is longest, splits it. Suits points of any
-// density, also many in one place.
+// A k-d tree over finite points. Queries may run on several threads.
 class PointTree {
  public:
-  // Points must be finite.
+  struct Neighbor {
+    std::size_t index = 0;
+    double distance = 0;  // in the unit of the points
+  };
+
   explicit PointTree(std::vector<Eigen::Vector3d> points);
+  ~PointTree();
+
+  // The nearest point; any one of them if several are equally near. There must
+  // be a point.
+  Neighbor Nearest(const Eigen::Vector3d& query) const;
 
   // The points at most `radius` from `center`, in ascending order of index.
   std::vector<std::size_t> Within(const Eigen::Vector3d& center,
                                   double radius) const;
 
  private:
-  struct Range {
-    std::size_t begin = 0;
-    std::size_t end = 0;
-  };
-  void Build(Range range);
-
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<std::size_t> order_;
-  std::vector<std::uint8_t> axes_;  // of the range whose median is here
+  class Index;
+  std::unique_ptr<const Index> index_;
 };
 
 }  // namespace curvix

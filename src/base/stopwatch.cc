@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include <curvix/stopwatch.h>
+#include "base/stopwatch.h"
 
 #include <sys/resource.h>
-
 #include <utility>
 
 namespace curvix {

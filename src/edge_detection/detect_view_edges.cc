@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "edge_detection/curvelets.h"
-#include "edge_detection/drop_masked_edges.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "edge_detection/image_noise.h"
 #include "edge_detection/keep_contours.h"

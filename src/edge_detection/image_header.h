@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What image files say about themselves.
+// Paper: none (engineering). What image files say about themselves, without
+// decoding them.
 #pragma once
 
-#include <curvix/image_size.h>
-
+#include <curvix/status.h>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
 namespace curvix {
+
+struct ImageSize {
+  int width = 0;   // pixels
+  int height = 0;  // pixels
+
+  friend bool operator==(const ImageSize& a, const ImageSize& b) {
+    return a.width == b.width && a.height == b.height;
+  }
+};
+
+// The size of the image as stored (an EXIF rotation is ignored, as COLMAP
+// does): from the header of PNG, JPEG and TIFF files, by decoding others.
+// kNotFound: no such file. kDataLoss: not an image.
+Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
 // The size that a PNG, JPEG or TIFF file announces, each side at most a million
 // pixels. nullopt: another format, or no sound header.

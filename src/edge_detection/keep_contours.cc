@@ -12,8 +12,8 @@
 
 #include "base/angles.h"
 #include "base/check.h"
-#include "edge_detection/contours.h"
 #include "edge_detection/prominence.h"
+#include "model/contours.h"
 
 namespace curvix {
 namespace {

@@ -2,13 +2,12 @@
 // Paper: none (engineering). Image files to grey levels.
 #pragma once
 
-#include <curvix/image_size.h>
 #include <curvix/status.h>
-
 #include <filesystem>
 #include <optional>
 
 #include "edge_detection/gray_image.h"
+#include "edge_detection/image_header.h"
 
 namespace curvix {
 

@@ -2,8 +2,8 @@
 // Paper: none (engineering). Edges from the image to its ideal pinhole.
 #include "edge_detection/undistort_edges.h"
 
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -47,8 +47,7 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   ideal.num_dropped_masked = distorted.num_dropped_masked;
   NewIndices new_idx(distorted.edges.size());
   for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
-    const auto edge =
-        EdgeInIdealImage(ToImageEdge(distorted.edges[i]), camera);
+    const auto edge = EdgeInIdealImage(ToImageEdge(distorted.edges[i]), camera);
     if (!edge) continue;
     new_idx[i] = static_cast<std::int32_t>(ideal.edges.size());
     ideal.edges.push_back(Moved(distorted.edges[i], *edge));
@@ -74,6 +73,20 @@ std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
     edge = Moved(edge, *moved);
   }
   return carried;
+}
+
+std::int32_t DropMaskedEdges(const GrayImage& mask,
+                             std::vector<LocatedEdge>* edges) {
+  const auto is_masked = [&mask](const LocatedEdge& edge) {
+    const double x = std::floor(edge.position.x());
+    const double y = std::floor(edge.position.y());
+    if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) return false;
+    return mask.at(static_cast<int>(x), static_cast<int>(y)) == 0;
+  };
+  const auto begin = std::remove_if(edges->begin(), edges->end(), is_masked);
+  const auto num_masked = static_cast<std::int32_t>(edges->end() - begin);
+  edges->erase(begin, edges->end());
+  return num_masked;
 }
 
 }  // namespace curvix

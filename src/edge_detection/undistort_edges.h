@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Edges from the image to its ideal pinhole.
+// Paper: none (engineering). Edges from the image to its ideal pinhole, and
+// without those on masks.
 #pragma once
 
 #include <curvix/edges.h>
 #include <curvix/scene.h>
-
+#include <cstdint>
 #include <optional>
+#include <vector>
+
+#include "edge_detection/gray_image.h"
+#include "edge_detection/third_order_edges.h"
 
 namespace curvix {
 
@@ -22,5 +27,11 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera);
 std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
                                   const Camera& from,
                                   const Camera& to);
+
+// Masks are COLMAP's: black is what does not count. Drops the edges on black pixels of `mask` and keeps the order of the others;
+// edges outside it stay. Returns how many it dropped. An outline of the mask
+// itself makes no edges, since images are not changed.
+std::int32_t DropMaskedEdges(const GrayImage& mask,
+                             std::vector<LocatedEdge>* edges);
 
 }  // namespace curvix

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). Curves against photographs, by their image files.
-#include <curvix/holdout.h>
-#include <curvix/project_curve.h>
-
+#include <curvix/curves.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +10,7 @@
 
 #include "base/parallel.h"
 #include "edge_detection/load_image.h"
+#include "evaluation/holdout.h"
 #include "evaluation/image_contours.h"
 #include "evaluation/photograph_agreement.h"
 #include "geometry/pixel_size.h"

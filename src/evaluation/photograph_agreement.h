@@ -3,9 +3,9 @@
 #pragma once
 
 #include <curvix/edges.h>
-#include <curvix/holdout.h>
-
 #include <vector>
+
+#include "evaluation/holdout.h"
 
 namespace curvix {
 

@@ -1,17 +1,198 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which primitives a curve is made of.
+// Paper: none (engineering). Curves of several lines and arcs.
 #include "fitting/choose_primitives.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
-#include "fitting/chain_primitives.h"
 #include "fitting/fit_conic.h"
 
 namespace curvix {
+namespace {
+
+constexpr std::size_t kMaxPlaces = 80;
+constexpr std::size_t kSamplesPerPlace = 5;
+constexpr std::size_t kMaxSearched = 400;  // samples that the search looks at
+constexpr std::size_t kMinSamples = 10;
+// A link that costs as much as so many more arcs is not made longer.
+constexpr std::size_t kHopelessArcs = 3;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Link {
+  Shape shape;
+  double cost = kInfinity;  // of residuals
+  std::size_t num_parameters = 0;
+
+  double Total(double parameter_cost) const {
+    return cost + parameter_cost * static_cast<double>(num_parameters);
+  }
+};
+
+// The better of a line and an arc. The search is content with rough arcs.
+Link FitLink(const FitSamples& samples, double parameter_cost, bool is_rough) {
+  Link best;
+  if (const auto line = FitLine(samples)) {
+    best = {*line, CostOf(*line, samples), kLineParameters};
+    if (Explains(*line, samples)) return best;
+  }
+  const auto arc = is_rough ? RoughCircle(samples) : FitCircle(samples);
+  if (!arc || GoesRound(*arc, samples)) return best;
+  const Conic directed = Directed(*arc, samples);
+  Link link = {directed, CostOf(directed, samples), kArcParameters};
+  if (link.Total(parameter_cost) < best.Total(parameter_cost)) best = link;
+  return best;
+}
+
+// Samples first to last of an unrolled curve.
+FitSamples Part(const FitSamples& curve, std::size_t first, std::size_t last) {
+  const auto begin = curve.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(last - first + 1)};
+}
+
+// Places for joints, first and last sample included.
+std::vector<std::size_t> Places(std::size_t num_samples) {
+  const std::size_t n = std::min(kMaxPlaces, num_samples / kSamplesPerPlace);
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k <= n; ++k) {
+    places.push_back(k * (num_samples - 1) / std::max<std::size_t>(n, 1));
+  }
+  return places;
+}
+
+// Every so many samples, so that at most kMaxSearched remain.
+FitSamples Thinned(const FitSamples& curve, std::size_t stride) {
+  FitSamples thin;
+  for (std::size_t i = 0; i < curve.size(); i += stride) {
+    thin.push_back(curve[i]);
+  }
+  return thin;
+}
+
+// The joints, both ends included, with the least cost over all subsets of the
+// places: dynamic programming.
+std::vector<std::size_t> SearchJoints(const FitSamples& curve,
+                                      double parameter_cost) {
+  const std::size_t stride = curve.size() / kMaxSearched + 1;
+  const FitSamples thin = Thinned(curve, stride);
+  const double scale = static_cast<double>(stride);
+  const std::vector<std::size_t> places = Places(thin.size());
+  const std::size_t min_samples = (kMinSamples + stride - 1) / stride;
+  const double hopeless =
+      parameter_cost * static_cast<double>(kHopelessArcs * kArcParameters);
+  std::vector<double> least(places.size(), kInfinity);
+  std::vector<std::size_t> from(places.size(), 0);
+  least[0] = 0;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    if (!(least[i] < kInfinity)) continue;
+    for (std::size_t j = i + 1; j < places.size(); ++j) {
+      if (places[j] - places[i] + 1 < min_samples) continue;
+      const Link link = FitLink(
+          Part(thin, places[i], places[j]), parameter_cost / scale, true);
+      const double cost = least[i] + scale * link.Total(parameter_cost / scale);
+      if (cost < least[j]) {
+        least[j] = cost;
+        from[j] = i;
+      }
+      if (scale * link.cost > hopeless) break;
+    }
+  }
+  std::vector<std::size_t> joints = {curve.size() - 1};
+  for (std::size_t j = from.back(); j > 0; j = from[j]) {
+    joints.push_back(places[j] * stride);
+  }
+  joints.push_back(0);
+  std::reverse(joints.begin(), joints.end());
+  return joints;
+}
+
+// Moves inner joint k by `step`, to the side where its two links fit better, if
+// they do.
+void MoveJoint(const FitSamples& curve,
+               double parameter_cost,
+               std::size_t step,
+               std::size_t k,
+               std::vector<std::size_t>& joints) {
+  const std::size_t before = joints[k - 1];
+  const std::size_t here = joints[k];
+  const std::size_t after = joints[k + 1];
+  const auto cost = [&](std::size_t joint) {
+    return FitLink(Part(curve, before, joint), parameter_cost, true)
+               .Total(parameter_cost) +
+           FitLink(Part(curve, joint, after), parameter_cost, true)
+               .Total(parameter_cost);
+  };
+  double least = cost(here);
+  for (const std::size_t there : {here - std::min(step, here), here + step}) {
+    const bool has_room =
+        there >= before + kMinSamples - 1 && there + kMinSamples - 1 <= after;
+    const double moved = has_room ? cost(there) : kInfinity;
+    if (moved < least) {
+      least = moved;
+      joints[k] = there;
+    }
+  }
+}
+
+// Moves each inner joint by ever smaller steps to where its two links fit best.
+void MoveJoints(const FitSamples& curve,
+                double parameter_cost,
+                std::vector<std::size_t>& joints) {
+  for (std::size_t step = curve.size() / kMaxPlaces + kSamplesPerPlace;
+       step > 0;
+       step /= 2) {
+    for (std::size_t k = 1; k + 1 < joints.size(); ++k) {
+      MoveJoint(curve, parameter_cost, step, k, joints);
+    }
+  }
+}
+
+FitSamples Unrolled(const FitSamples& curve, std::size_t first) {
+  FitSamples samples;
+  for (std::size_t k = 0; k <= curve.size(); ++k) {
+    samples.push_back(curve[(first + k) % curve.size()]);
+  }
+  return samples;
+}
+
+}  // namespace
+
+Chain ChainPrimitives(const FitSamples& curve,
+                      bool closed,
+                      double parameter_cost) {
+  FitSamples samples = closed ? Unrolled(curve, 0) : curve;
+  std::vector<std::size_t> joints = SearchJoints(samples, parameter_cost);
+  std::size_t first = 0;
+  if (closed && joints.size() > 2) {
+    // The seam was in any place; the first joint is a better one.
+    MoveJoints(samples, parameter_cost, joints);
+    first = joints[1];
+    samples = Unrolled(curve, first);
+    joints = SearchJoints(samples, parameter_cost);
+  }
+  Chain chain;
+  if (closed && joints.size() == 2) {
+    chain.residual_cost = kInfinity;
+    return chain;
+  }
+  MoveJoints(samples, parameter_cost, joints);
+  for (std::size_t k = 1; k < joints.size(); ++k) {
+    const Link link =
+        FitLink(Part(samples, joints[k - 1], joints[k]), parameter_cost, false);
+    chain.primitives.push_back({link.shape,
+                                (first + joints[k - 1]) % curve.size(),
+                                joints[k] - joints[k - 1] + 1,
+                                false});
+    chain.residual_cost += link.cost;
+    chain.num_parameters += link.num_parameters;
+    if (k > 1 || closed) chain.num_parameters -= kNodeParameters;
+  }
+  return chain;
+}
+
 namespace {
 
 constexpr std::size_t kMinSplinePoints = 4;

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "fitting/conic.h"
+#include "fitting/fit_conic.h"
 #include "fitting/fit_line.h"
 #include "fitting/fit_samples.h"
 #include "fitting/spline.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <span>
 
-#include "geometry/axes_across.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>

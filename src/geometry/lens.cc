@@ -2,8 +2,7 @@
 // Paper: none (beyond it).
 #include "geometry/lens.h"
 
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstddef>

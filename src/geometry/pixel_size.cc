@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "base/check.h"
+#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -79,6 +81,29 @@ double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views) {
     if (unit > 0) length_px += (b.position - a.position).norm() / unit;
   }
   return length_px;
+}
+
+bool IsShort(const Curve& curve,
+             const std::vector<PosedView>& views,
+             double min_length_px) {
+  return curve.samples.size() < 2 ||
+         LengthInPixels(curve, views) < min_length_px;
+}
+
+bool LeadsSomewhere(const Curve& curve) {
+  return curve.start_junction >= 0 && curve.end_junction >= 0 &&
+         curve.start_junction != curve.end_junction;
+}
+
+std::vector<Curve> DropLooseShortCurves(std::vector<Curve> curves,
+                                        const std::vector<PosedView>& views,
+                                        double min_length_px) {
+  CurveSet set{std::move(curves), {}};
+  IndexJunctions(set);
+  std::erase_if(set.curves, [&](const Curve& curve) {
+    return !LeadsSomewhere(curve) && IsShort(curve, views, min_length_px);
+  });
+  return std::move(set.curves);
 }
 
 }  // namespace curvix

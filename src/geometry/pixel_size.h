@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The local unit of length of Sec. 6.
+// Paper: none (engineering). The local unit of length of Sec. 6, and curves that
+// are short in it.
 #pragma once
 
 #include <curvix/curves.h>
 #include <curvix/edges.h>
-
 #include <vector>
 
 #include "geometry/edge_geometry.h"
@@ -38,5 +38,19 @@ std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
 // The length of a curve in pixels: every segment in pixels of the view that
 // sees it largest, whatever the angle at which it sees it.
 double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views);
+
+// Whether it has fewer than two samples or is shorter than `min_length_px`.
+bool IsShort(const Curve& curve,
+             const std::vector<PosedView>& views,
+             double min_length_px);
+
+// Whether it leads from one junction to another; they are indexed.
+bool LeadsSomewhere(const Curve& curve);
+
+// Without the short curves, unless they lead from one junction, that is a place
+// of ends equal to the last bit, to another.
+std::vector<Curve> DropLooseShortCurves(std::vector<Curve> curves,
+                                        const std::vector<PosedView>& views,
+                                        double min_length_px);
 
 }  // namespace curvix

@@ -2,8 +2,7 @@
 // Paper: none (engineering).
 #include "geometry/posed_views.h"
 
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 

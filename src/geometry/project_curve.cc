@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Curves in the images of views.
-#include <curvix/camera_model.h>
-#include <curvix/project_curve.h>
-
+#include <curvix/curves.h>
+#include <curvix/scene.h>
 #include <Eigen/Geometry>
-
 #include <cstddef>
 #include <utility>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "geometry/axes_across.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {

@@ -1,16 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 6. Curves strung together, and cut.
+// Paper: Sec. 6. Ends that are tied to each other, and curves strung together,
+// cut, and joined in junctions.
 #pragma once
 
 #include <curvix/curves.h>
-
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
-#include "model/end_chains.h"
-
 namespace curvix {
+
+// End 2 i is the front of item i (where its direction points), 2 i + 1 its
+// back.
+using EndIdx = std::size_t;
+
+inline EndIdx OtherEnd(EndIdx end) { return end ^ 1; }
+inline std::size_t ItemOf(EndIdx end) { return end / 2; }
+inline bool IsFront(EndIdx end) { return end % 2 == 0; }
+
+// The end that each end is tied to, if any; mutual. The two ends of one item
+// may be tied to each other.
+using EndTies = std::vector<std::optional<EndIdx>>;
+
+struct ChainItem {
+  std::size_t item = 0;
+  bool flipped = false;  // runs from front to back
+};
+
+// Items from back to front. If `closed`, the last is tied to the first.
+struct EndChain {
+  bool closed = false;
+  std::vector<ChainItem> items;
+};
+
+// All items in chains, single ones included. Each chain is found from its
+// smallest item, forwards and then backwards (Sec. 6); that item is not flipped
+// and comes first in a closed chain. The chains are in the order of their
+// smallest items. Needs ties.size() even and mutual ties.
+std::vector<EndChain> FollowEnds(const EndTies& ties);
+
+// A pair of ends that could be tied, and how badly they fit.
+struct EndPair {
+  double cost = 0;
+  EndIdx a = 0;
+  EndIdx b = 0;
+};
+
+// Ties pairs in the order of their cost, then of their smaller and larger end,
+// while both ends are free.
+EndTies TieCheapestFirst(std::vector<EndPair> pairs, std::size_t num_items);
 
 // `curve` run through from its end; tangents turn with it.
 Curve Reversed(Curve curve);
@@ -19,7 +59,7 @@ Curve Reversed(Curve curve);
 using FillGap = std::function<std::vector<CurveSample>(const CurveSample& from,
                                                        const CurveSample& to)>;
 
-// One curve per chain of ties between ends (end_chains.h; items are `curves`),
+// One curve per chain of ties between ends (items are `curves`),
 // in the order of FollowEnds. `fill` (may be empty) is asked for the samples of
 // each gap, that of a closed chain included.
 std::vector<Curve> StringTogether(std::vector<Curve> curves,
@@ -34,5 +74,10 @@ std::vector<Curve> CutAfter(const Curve& curve,
 // As CutAfter, but the next piece begins with the same sample, too.
 std::vector<Curve> CutAt(const Curve& curve,
                          const std::vector<std::size_t>& samples);
+
+// Makes junctions of the places, equal to the last bit, in which two or more
+// ends of open curves lie: sets curves.junctions, in the order of their first
+// ends, and the curves' indices into it. The two ends of one curve may be one.
+void IndexJunctions(CurveSet& curves);
 
 }  // namespace curvix

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 
-#include "parts/runs.h"
+#include "parts/regions.h"
 
 namespace curvix {
 
@@ -26,6 +28,16 @@ std::vector<Curve> CutCurves(const std::vector<Curve>& curves,
     }
   }
   return pieces;
+}
+
+TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps) {
+  TracedCurve traced{std::move(curve), {}};
+  ForEachSupport(traced.curve, [&](EdgeRef& ref) {
+    const EdgeMap& map = edge_maps[static_cast<std::size_t>(ref.view_idx)];
+    traced.edges.push_back(map.edges[static_cast<std::size_t>(ref.edge_idx)]);
+    ref.edge_idx = static_cast<std::int32_t>(traced.edges.size() - 1);
+  });
+  return traced;
 }
 
 }  // namespace curvix

@@ -9,13 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "geometry/loose_curves.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
-#include "model/curve_junctions.h"
+#include "parts/cut_curves.h"
 #include "parts/regions.h"
-#include "parts/runs.h"
-#include "parts/trace_curve.h"
 
 namespace curvix {
 namespace {

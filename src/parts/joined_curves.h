@@ -2,22 +2,20 @@
 // Paper: none (beyond it). Curves across the borders of parts.
 #pragma once
 
-#include <curvix/curve_source.h>
+#include <curvix/curves.h>
 #include <curvix/options.h>
-#include <curvix/parts.h>
-
 #include <cstddef>
 #include <vector>
 
-#include "model/end_chains.h"
+#include "model/curve_chains.h"
 #include "model/posed_view.h"
-#include "parts/border_samples.h"
-#include "parts/tie_stretches.h"
+#include "parts/scene_parts.h"
+#include "parts/tie_curves.h"
 
 namespace curvix {
 
 // The curves of JoinParts() in parts.h, for posed views. In memory are what
-// several parts may have drawn (border_samples.h) while it is made, then a
+// several parts may have drawn (tie_curves.h) while it is made, then a
 // table of stretches, and one curve while it is shown.
 //
 // Tied stretches (tie_stretches.h) are one curve. Where the next stretch would

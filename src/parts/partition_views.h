@@ -2,11 +2,11 @@
 // Paper: none (beyond it). Divides views by the places that they see.
 #pragma once
 
-#include <curvix/parts.h>
-
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
+
+#include "parts/scene_parts.h"
 
 namespace curvix {
 

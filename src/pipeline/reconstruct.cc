@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: Secs. 3 to 6 on one page.
-#include <curvix/option_table.h>
 #include <curvix/reconstruct.h>
-
 #include <string>
 #include <utility>
 
-#include "alignment/align_edges.h"
-#include "connectivity/group_edges.h"
+#include "base/option_table.h"
+#include "curve_drawing/group_edges.h"
+#include "curve_drawing/grow_curves.h"
+#include "curve_drawing/link_edges.h"
+#include "curve_refinement/filter_curves.h"
+#include "curve_refinement/refine_curves.h"
 #include "edge_detection/detect_view_edges.h"
+#include "edge_sketch/view_indices.h"
+#include "edge_sketch/view_overlap.h"
 #include "geometry/posed_views.h"
-#include "growing/grow_curves.h"
-#include "hypotheses/view_overlap.h"
-#include "model/curve_junctions.h"
-#include "neighborhood/link_edges.h"
-#include "pipeline/check_input.h"
+#include "model/check_input.h"
+#include "model/curve_chains.h"
+#include "paper/align_edges.h"
 #include "pipeline/run_recorder.h"
 #include "pipeline/sketch_edges.h"
-#include "pipeline/view_indices.h"
 #include "pipeline/why_empty.h"
-#include "refinement/filter_curves.h"
-#include "refinement/refine_curves.h"
 
 namespace curvix {
 namespace {

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <curvix/reconstruct.h>
-#include <curvix/stopwatch.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -12,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/sketch_edges.h"
+#include "base/stopwatch.h"
+#include "edge_sketch/sketch_input.h"
 
 namespace curvix {
 

@@ -2,23 +2,18 @@
 // Paper: Secs. 3 and 4. The 3D edge sketch: hypothesise, consolidate, validate.
 #pragma once
 
-#include <curvix/edge_sketch.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
-
-#include <functional>
 #include <vector>
 
+#include "edge_sketch/sketch_input.h"
 #include "model/posed_view.h"
 
 namespace curvix {
 
-// Called with (done, total); false stops early.
-using StepDone = std::function<bool(int, int)>;
-
-// Whether curves grow from 3D edges (growing/grow_curves.h), or 3D edges are
-// linked and connected (paper, Secs. 5 and 6).
+// Whether curves grow from 3D edges (curve_drawing/grow_curves.h), or 3D edges
+// are linked and connected (paper, Secs. 5 and 6).
 bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options);
 
 // Chooses hypothesis views as options.hypotheses.view_selection says, and

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <sstream>
 
+#include "edge_sketch/track_support.h"
 #include "pipeline/sketch_edges.h"
-#include "validation/track_support.h"
 
 namespace curvix {
 

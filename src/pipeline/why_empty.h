@@ -4,7 +4,6 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
-
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -2,9 +2,7 @@
 // Paper: none (beyond it).
 #include "poses/adjust_poses.h"
 
-#include <curvix/camera_model.h>
-#include <curvix/parallel.h>
-
+#include <curvix/scene.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -13,7 +11,8 @@
 #include <utility>
 
 #include "base/median.h"
-#include "geometry/axes_across.h"
+#include "base/parallel.h"
+#include "geometry/directions.h"
 #include "geometry/lens.h"
 #include "poses/pose_observations.h"
 #include "poses/solve_steps.h"

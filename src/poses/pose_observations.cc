@@ -2,13 +2,12 @@
 // Paper: none (beyond it).
 #include "poses/pose_observations.h"
 
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <utility>
 
-#include "geometry/axes_across.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {

@@ -2,8 +2,6 @@
 // Paper: none (beyond it).
 #include "poses/solve_steps.h"
 
-#include <curvix/parallel.h>
-
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/parallel.h"
 
 namespace curvix {
 namespace {

@@ -2,16 +2,15 @@
 // Paper: none (engineering).
 #include "synthetic/camera_rig.h"
 
-#include "base/angles.h"
-#include "base/check.h"
-#include "synthetic/counter_random.h"
-
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "base/angles.h"
+#include "base/check.h"
+#include "synthetic/counter_random.h"
 
 namespace curvix {
 namespace {

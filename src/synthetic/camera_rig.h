@@ -3,11 +3,11 @@
 #pragma once
 
 #include <curvix/scene.h>
-#include <curvix/synthetic.h>
-
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
+
+#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 

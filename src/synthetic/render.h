@@ -2,13 +2,12 @@
 // Paper: none (engineering). Pictures of a solid, with exact pixel areas.
 #pragma once
 
-#include "synthetic/solid.h"
-#include "synthetic/surface_texture.h"
-
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <Eigen/Core>
 #include <vector>
+
+#include "synthetic/solid.h"
+#include "synthetic/surface_texture.h"
 
 namespace curvix {
 

@@ -2,11 +2,12 @@
 // Paper: none (engineering). Solids made of boxes, frustums and spheres.
 #pragma once
 
-#include "synthetic/primitive.h"
-
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
+
+#include "synthetic/primitive.h"
+#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 
@@ -60,5 +61,12 @@ class Solid {
   double radius_ = 0;
   double detail_ = 0;
 };
+
+// `solid` centred on the origin, z up, longest side `scale` world units; a
+// facade has that height, and the length that `num_views` photographs need.
+//
+// For CreaseCurves to know every edge, round faces meet planar ones only, and
+// planes meet frustums at right angles to the axis.
+Solid MakeSolid(SyntheticSolid solid, double scale, int num_views = 3);
 
 }  // namespace curvix

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "base/parallel.h"
-#include "synthetic/camera_rig.h"
-#include "synthetic/counter_random.h"
-#include "synthetic/render.h"
-#include "synthetic/solid_library.h"
-#include "synthetic/street.h"
-#include "synthetic/synthetic_truth.h"
-
-#include <curvix/synthetic.h>
+#include "synthetic/synthetic_scene.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string>
+
+#include "base/parallel.h"
+#include "synthetic/camera_rig.h"
+#include "synthetic/counter_random.h"
+#include "synthetic/render.h"
+#include "synthetic/solid.h"
+#include "synthetic/street.h"
+#include "synthetic/synthetic_truth.h"
 
 namespace curvix {
 namespace {

@@ -2,13 +2,12 @@
 // Paper: none (engineering). Samples of the exact edges, and who sees them.
 #pragma once
 
+#include <vector>
+
 #include "synthetic/crease_curves.h"
 #include "synthetic/render.h"
 #include "synthetic/solid.h"
-
-#include <curvix/synthetic.h>
-
-#include <vector>
+#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <curvix/option_table.h>
-
 #include <cmath>
 #include <limits>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "base/option_table.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 

@@ -3,7 +3,6 @@
 // thread. A stage is timed only once its result is known to be right.
 #include <benchmark/benchmark.h>
 #include <curvix/curvix.h>
-
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -12,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "connectivity/group_edges.h"
+#include "curve_drawing/group_edges.h"
+#include "curve_drawing/link_edges.h"
+#include "curve_refinement/refine_curves.h"
 #include "geometry/posed_views.h"
-#include "neighborhood/link_edges.h"
-#include "plugin/synthesize.h"
-#include "refinement/refine_curves.h"
-#include "tests/plugin/temporary_folder.h"
+#include "plugin/commands/synthesize.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edge_detection/undistort_edges.h"
 
-#include <curvix/camera_model.h>
+#include <curvix/scene.h>
 #include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>

@@ -3,13 +3,12 @@
 // tests/evaluation/run_scale.py --slurm.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <filesystem>
 #include <string>
 
-#include "plugin/synthesize.h"
+#include "plugin/commands/synthesize.h"
 #include "tests/end_to_end/run_program.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

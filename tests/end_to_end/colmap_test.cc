@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The installed COLMAP makes a model of synthetic photographs; the program
 // refines its disturbed poses. Skipped where COLMAP is not installed.
-#include <sys/wait.h>
-
 #include <curvix/curve_io.h>
-#include <curvix/synthetic.h>
-
+#include <sys/wait.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,14 +15,15 @@
 #include <string>
 #include <vector>
 
+#include "base/median.h"
+#include "geometry/similarity.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/child_process.h"
-#include "plugin/median.h"
-#include "plugin/similarity.h"
-#include "plugin/synthesize.h"
+#include "plugin/commands/synthesize.h"
+#include "plugin/poses/child_process.h"
+#include "synthetic/synthetic_scene.h"
 #include "tests/plugin/posed_points.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

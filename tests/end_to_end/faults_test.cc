@@ -8,14 +8,13 @@
 #include <signal.h>
 #include <spawn.h>
 #include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <random>
 #include <thread>
 
 #include "gmock/gmock.h"
-#include "plugin/folder_lock.h"
+#include "plugin/run/staged_output.h"
 #include "tests/end_to_end/run_program.h"
 #include "tests/end_to_end/small_workspace.h"
 #include "tests/plugin/posed_points.h"

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "colmap/colmap_model.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/colmap_model.h"
-#include "plugin/synthesize.h"
+#include "plugin/commands/synthesize.h"
 #include "tests/end_to_end/run_program.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

@@ -4,7 +4,6 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -14,12 +13,12 @@
 #include <thread>
 #include <vector>
 
+#include "colmap/colmap_model_format.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/colmap_model_format.h"
-#include "plugin/synthesize.h"
+#include "plugin/commands/synthesize.h"
 #include "tests/end_to_end/run_program.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -316,6 +315,7 @@ TEST(ProgramAlone, HelpAndVersionSucceed) {
                             "help",
                             "help --markdown",
                             "--help",
+                            "--help_all",
                             "-h",
                             "reconstruct -h",
                             "synthesize --help",

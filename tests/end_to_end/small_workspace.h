@@ -3,13 +3,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
-
 #include <filesystem>
 #include <string>
 
-#include "plugin/colmap_model_format.h"
-#include "plugin/synthesize.h"
-#include "tests/plugin/temporary_folder.h"
+#include "colmap/colmap_model_format.h"
+#include "plugin/commands/synthesize.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 

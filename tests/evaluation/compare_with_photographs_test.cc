@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <curvix/holdout.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/plugin/temporary_folder.h"
+#include "evaluation/holdout.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

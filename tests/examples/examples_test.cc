@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The examples, as a person runs them.
 #include <curvix/curve_io.h>
-
 #include <filesystem>
 #include <regex>
 #include <string>
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/synthesize.h"
+#include "plugin/commands/synthesize.h"
 #include "tests/end_to_end/run_program.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

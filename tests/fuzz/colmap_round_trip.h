@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "plugin/colmap_model_format.h"
+#include "colmap/colmap_model_format.h"
+#include "tests/colmap/random_model.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/plugin/random_model.h"
 
 namespace curvix {
 

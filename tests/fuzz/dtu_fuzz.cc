@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DTU's calibration, pos_001.txt: a projection matrix as text.
-#include "plugin/import_dtu.h"
+
+#include "plugin/imports/import_dtu.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/plugin/import_fixtures.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The true curves that `evaluate` compares with.
-#include "plugin/ground_truth.h"
 
+#include "evaluation/ground_truth.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace curvix {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Middlebury's *_par.txt.
-#include "plugin/import_middlebury.h"
+
+#include "plugin/imports/import_middlebury.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/two_photographs.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // NumPy's .npy.
-#include "plugin/npy.h"
+
+#include "plugin/imports/npy.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/plugin/import_fixtures.h"
 

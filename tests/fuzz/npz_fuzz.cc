@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // NumPy's .npz.
-#include <curvix/file_io.h>
 
-#include "plugin/npy.h"
+#include "base/file_io.h"
+#include "plugin/imports/npy.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/plugin/import_fixtures.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Line sets of any program as .obj.
-#include "output/obj_lines.h"
+
+#include "io/obj_lines.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/output/test_curves.h"
+#include "tests/io/test_curves.h"
 
 namespace curvix {
 

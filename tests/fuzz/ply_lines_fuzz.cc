@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Line sets of any program as .ply.
-#include "output/ply_lines.h"
+
+#include "io/ply_lines.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/output/test_curves.h"
+#include "tests/io/test_curves.h"
 
 namespace curvix {
 

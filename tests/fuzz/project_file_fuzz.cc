@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The project file with the options of a run.
-#include "plugin/command_line.h"
+
+#include "plugin/commands/command_line.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 

@@ -2,14 +2,13 @@
 // The results of stages that later runs go on from: the first character
 // chooses the kind. Their checksum is put right, so that what lies behind it is
 // reached.
-#include <curvix/file_io.h>
-#include <curvix/stage_io.h>
-
 #include <cstring>
 
-#include "pipeline/check_input.h"
+#include "base/file_io.h"
+#include "io/stage_io.h"
+#include "model/check_input.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

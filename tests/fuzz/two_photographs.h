@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "plugin/import_scene.h"
+#include "plugin/imports/import_scene.h"
 #include "tests/plugin/import_fixtures.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The curves.txt that the program writes.
-#include "output/txt_curves.h"
+
+#include "io/txt_curves.h"
 #include "tests/fuzz/fuzz_target.h"
-#include "tests/output/test_curves.h"
+#include "tests/io/test_curves.h"
 
 namespace curvix {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/lens.h"
 
-#include <curvix/camera_model.h>
+#include <curvix/scene.h>
 #include <gtest/gtest.h>
 
 namespace curvix {

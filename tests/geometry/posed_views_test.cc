@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/posed_views.h"
 
-#include <curvix/camera_model.h>
+#include <curvix/scene.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"

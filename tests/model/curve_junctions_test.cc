@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/curve_junctions.h"
+#include "model/curve_chains.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #include "pipeline/sketch_edges.h"
 
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>

@@ -2,9 +2,7 @@
 // Cameras and renderers turn light into brightness by a curve, which moves the
 // edges in all images; not the curves.
 #include <curvix/reconstruct.h>
-#include <curvix/synthetic.h>
 #include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
@@ -15,7 +13,8 @@
 #include <vector>
 
 #include "base/median.h"
-#include "tests/plugin/temporary_folder.h"
+#include "synthetic/synthetic_scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

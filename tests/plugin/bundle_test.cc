@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/bundle.h"
+#include "plugin/poses/bundle.h"
 
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
 #include "gtest/gtest.h"
-#include "plugin/median.h"
 #include "tests/plugin/posed_points.h"
 
 namespace curvix {

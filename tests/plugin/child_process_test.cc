@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/child_process.h"
+#include "plugin/poses/child_process.h"
 
 #include <signal.h>
-
 #include <chrono>
 #include <fstream>
 #include <iterator>
@@ -10,7 +9,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/command_line.h"
+#include "plugin/commands/command_line.h"
 
 #include <sstream>
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/help_text.h"
-#include "tests/plugin/temporary_folder.h"
+#include "plugin/commands/help_text.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 // A program with every kind of flag.
 class CommandLine : public testing::Test {
@@ -169,10 +170,24 @@ TEST_F(CommandLine, HelpNeedsNothingElse) {
     ASSERT_TRUE(request.ok());
     EXPECT_EQ(*request, Request::kHelp);
   }
+  const auto request = Parse({"--help_all", "--num_threads", "nonsense"});
+  ASSERT_TRUE(request.ok());
+  EXPECT_EQ(*request, Request::kHelpAll);
 }
 
-TEST_F(CommandLine, HelpMentionsEveryOptionWithDefaultAndRange) {
-  const std::string help = HelpText("program [options]", "Does it.", sections_);
+TEST_F(CommandLine, ShortHelpLeavesAdvancedOptionsOut) {
+  const std::string help =
+      HelpText("program [options]", "Does it.", sections_, false);
+  EXPECT_THAT(help, HasSubstr("--num_threads arg"));
+  EXPECT_THAT(help, HasSubstr("--CurveFilter.max_sigma_px arg"));
+  EXPECT_THAT(help, Not(HasSubstr("--Consolidation.")));
+  EXPECT_THAT(help, Not(HasSubstr("\nConsolidation\n")));
+  EXPECT_THAT(help, HasSubstr("'--help_all' lists "));
+}
+
+TEST_F(CommandLine, FullHelpMentionsEveryOptionWithDefaultAndRange) {
+  const std::string help =
+      HelpText("program [options]", "Does it.", sections_, true);
   for (const FlagSection& section : sections_) {
     EXPECT_THAT(help, HasSubstr("\n" + section.title + "\n"));
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/curve_poses.h"
 
+#include "plugin/poses/curve_poses.h"
+#include "geometry/similarity.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/similarity.h"
 #include "tests/plugin/posed_points.h"
 #include "tests/support/wire_scene.h"
 

@@ -3,9 +3,7 @@
 #pragma once
 
 #include <curvix/scene.h>
-#include <curvix/text_fields.h>
 #include <zip.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
@@ -14,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "src/output/bytes.h"
+#include "base/bytes.h"
+#include "base/text_fields.h"
 
 namespace curvix {
 

@@ -2,13 +2,12 @@
 // Broken and hostile data sets: one sentence each, and nothing imported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <limits>
 
 #include "import_fixtures.h"
-#include "plugin/import_dtu.h"
-#include "plugin/import_middlebury.h"
-#include "plugin/import_nerf.h"
+#include "plugin/imports/import_dtu.h"
+#include "plugin/imports/import_middlebury.h"
+#include "plugin/imports/import_nerf.h"
 #include "temporary_folder.h"
 
 namespace curvix {

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Real data sets, imported, against COLMAP models of the same photographs:
 // triangulated points must project to where they were seen.
-#include <curvix/camera_model.h>
+#include <curvix/scene.h>
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <map>
 
-#include "plugin/import_colmap.h"
-#include "plugin/import_dtu.h"
-#include "plugin/import_middlebury.h"
-#include "plugin/import_nerf.h"
+#include "plugin/imports/import_colmap.h"
+#include "plugin/imports/import_dtu.h"
+#include "plugin/imports/import_middlebury.h"
+#include "plugin/imports/import_nerf.h"
 #include "tests/support/data_folder.h"
 
 namespace curvix {

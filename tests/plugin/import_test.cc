@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Known cameras, written in each format, come back as they were.
-#include <curvix/file_io.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/file_io.h"
 #include "import_fixtures.h"
-#include "plugin/import_colmap.h"
-#include "plugin/import_dtu.h"
-#include "plugin/import_middlebury.h"
-#include "plugin/import_nerf.h"
+#include "plugin/imports/import_colmap.h"
+#include "plugin/imports/import_dtu.h"
+#include "plugin/imports/import_middlebury.h"
+#include "plugin/imports/import_nerf.h"
 #include "temporary_folder.h"
 
 namespace curvix {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/new_workspace.h"
+#include "plugin/imports/new_workspace.h"
 
-#include <curvix/file_io.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/file_io.h"
 #include "import_fixtures.h"
 #include "temporary_folder.h"
 

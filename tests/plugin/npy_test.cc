@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/npy.h"
+#include "plugin/imports/npy.h"
 
-#include <curvix/file_io.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <bit>
 #include <limits>
 
+#include "base/file_io.h"
 #include "import_fixtures.h"
 #include "temporary_folder.h"
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/pictures.h"
+#include "plugin/export/pictures.h"
 
-#include <curvix/curve_style.h>
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
-#include "tests/plugin/temporary_folder.h"
+#include "io/curve_style.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

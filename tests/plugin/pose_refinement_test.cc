@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/pose_refinement.h"
+#include "plugin/poses/pose_refinement.h"
 
-#include <curvix/camera_model.h>
-
+#include <curvix/scene.h>
 #include <cmath>
 #include <filesystem>
 
+#include "geometry/similarity.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/pose_refiners.h"
-#include "plugin/similarity.h"
+#include "plugin/poses/pose_refiners.h"
 #include "tests/plugin/posed_points.h"
-#include "tests/plugin/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

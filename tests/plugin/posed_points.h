@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "plugin/bundle.h"
-#include "plugin/colmap_model.h"
-#include "plugin/median.h"
+#include "base/median.h"
+#include "colmap/colmap_model.h"
+#include "plugin/poses/bundle.h"
 
 namespace curvix {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/projection_matrix.h"
+#include "plugin/imports/projection_matrix.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <limits>
 
 #include "import_fixtures.h"

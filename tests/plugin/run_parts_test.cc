@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/run_parts.h"
+#include "plugin/run/run_parts.h"
 
 #include <curvix/curve_io.h>
-#include <curvix/file_io.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "plugin/evaluate.h"
-#include "plugin/part_files.h"
-#include "plugin/run_workspace.h"
-#include "plugin/synthesize.h"
+#include "base/file_io.h"
+#include "evaluation/evaluate.h"
+#include "plugin/commands/synthesize.h"
+#include "plugin/run/part_files.h"
+#include "plugin/run/run_workspace.h"
 #include "temporary_folder.h"
 
 namespace curvix {

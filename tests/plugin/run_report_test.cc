@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/run_report.h"
-
-#include <curvix/option_table.h>
+#include "plugin/run/run_report.h"
 
 #include <nlohmann/json.hpp>
 
+#include "base/option_table.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/command_line.h"
-#include "tests/plugin/temporary_folder.h"
+#include "plugin/commands/command_line.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/synthesize.h"
-
-#include <curvix/file_io.h>
+#include "plugin/commands/synthesize.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <filesystem>
 
-#include "plugin/colmap_model.h"
-#include "plugin/ground_truth.h"
+#include "base/file_io.h"
+#include "colmap/colmap_model.h"
+#include "evaluation/ground_truth.h"
 #include "temporary_folder.h"
 
 namespace curvix {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/text.h"
+#include "plugin/run/text.h"
 
 #include <sstream>
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poses/adjust_poses.h"
 
+#include <curvix/scene.h>
 #include <gtest/gtest.h>
-
-#include <curvix/camera_model.h>
-
 #include <cmath>
 
 #include "tests/support/random.h"

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "gtest/gtest.h"
-#include "plugin/help_text.h"
+#include "plugin/commands/help_text.h"
 
 namespace curvix {
 namespace {

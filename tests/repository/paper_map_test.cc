@@ -102,11 +102,11 @@ TEST(PaperMap, KnowsEveryHeaderOfTheMethod) {
 }
 
 TEST(PaperMap, FindsNamesInText) {
-  const std::set<std::string> expected = {"src/alignment/forces.h",
-                                          "src/alignment/forces.cc",
+  const std::set<std::string> expected = {"src/paper/align_edges.h",
+                                          "src/paper/align_edges.cc",
                                           "tests/base/parallel_test.cc",
                                           "curvix/options.h"};
-  EXPECT_EQ(NamedFiles("| `src/alignment/forces.{h,cc}` | [t](tests/base/"
+  EXPECT_EQ(NamedFiles("| `src/paper/align_edges.{h,cc}` | [t](tests/base/"
                        "parallel_test.cc), and/or <curvix/options.h>."),
             expected);
 }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -D BUILD_DIR=... -D WORK_DIR=... -P public_api_test.cmake
-# Installs BUILD_DIR below WORK_DIR, builds public_api against it, runs both.
+# Installs BUILD_DIR below WORK_DIR, builds an example against it, runs both.
 # FLAGS go to the compiler.
 function(run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status)
@@ -19,5 +19,7 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/public_api -B ${project}
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/moved -D CMAKE_CXX_COMPILER=${COMPILER}
     -D CMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${project})
-run(${project}/public_api)
-run(${WORK_DIR}/moved/bin/colmap_curvix version)
+run(${WORK_DIR}/moved/bin/colmap_curvix synthesize --solid block
+    --num_views 12 --width 160 --height 160
+    --workspace_path ${WORK_DIR}/workspace)
+run(${project}/public_api ${WORK_DIR}/workspace ${WORK_DIR}/curves.ply)

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/crease_curves.h"
-
-#include "base/angles.h"
-#include "synthetic/solid_library.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "base/angles.h"
+#include "synthetic/crease_curves.h"
+#include "synthetic/solid.h"
 
 namespace curvix {
 namespace {

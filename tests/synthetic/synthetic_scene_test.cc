@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <curvix/camera_model.h>
-#include <curvix/synthetic.h>
-
+#include <curvix/scene.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
+#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 namespace {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// COLMAP's reconstructions as scenes.
+#pragma once
+
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <filesystem>
+
+namespace curvix {
+
+// Reads the sparse model of a COLMAP workspace and finds its images:
+//   <workspace>/images/             images, or `image_path` if it is given
+//   <workspace>/sparse/<k>, sparse  the model, .bin or .txt, of COLMAP 3.6 to
+//                                   4.x; of several the one with most images
+//   <workspace>/dense/<k>/          undistorted images and their model
+// The workspace may also be the folder of the model itself. The scene has the
+// views whose images are there, sorted by name; images are not opened.
+// kNotFound: no folder, no model or no images. kDataLoss: a broken model.
+// kUnsupported: its camera model. kInvalidArgument: fewer than three views.
+Result<Scene> ReadColmapScene(const std::filesystem::path& workspace_path,
+                              const std::filesystem::path& image_path = {});
+
+}  // namespace curvix

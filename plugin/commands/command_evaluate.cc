@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+#include <iostream>
+#include <utility>
+
+#include "evaluation/evaluate.h"
+#include "plugin/commands/command_parts.h"
+#include "plugin/commands/evaluate_holdout.h"
+
+namespace curvix {
+namespace {
+
+struct EvaluateSettings {
+  std::filesystem::path curves_path;
+  std::filesystem::path truth_path;
+  bool json = false;
+  EvaluationOptions options;
+
+  int holdout_every = 0;  // 0: compare with known curves
+  RunSettings run;
+
+  EvaluationFormat format() const {
+    return json ? EvaluationFormat::kJson : EvaluationFormat::kTable;
+  }
+};
+
+FlagSection TruthSection(EvaluateSettings* settings) {
+  EvaluationOptions& options = settings->options;
+  return {
+      "Against known curves",
+      {PathFlag("curves_path",
+                &settings->curves_path,
+                "curves.ply, curves.obj or curves.txt"),
+       PathFlag("truth_path",
+                &settings->truth_path,
+                "the exact curves: gt.txt of synthesize, say"),
+       Switch(
+           "json", &settings->json, "print one JSON object instead of a table"),
+       RowFlag({.name = "unit_mm",
+                .field = &options.unit_mm,
+                .min_is_excluded = true,
+                .unit = "mm",
+                .help = "length of a world unit; thresholds are 5, 10 and "
+                        "20 mm"}),
+       RowFlag({.name = "step",
+                .field = &options.step,
+                .min_is_excluded = true,
+                .unit = "world units",
+                .help = "distance of the samples compared"}),
+       RowFlag({.name = "min_num_views",
+                .field = &options.min_num_views,
+                .help = "true samples count as visible if so many views "
+                        "show an edge there"})}};
+}
+
+std::vector<FlagSection> Sections(EvaluateSettings* settings) {
+  std::vector<FlagSection> sections = {
+      TruthSection(settings),
+      {"Against photographs held out, with a workspace",
+       {RowFlag({.name = "holdout_every",
+                 .field = &settings->holdout_every,
+                 .help = "reconstruct the workspace without one of N views "
+                         "and look there for its curves, or for those of "
+                         "--curves_path; 2 or more"})}}};
+  for (FlagSection& section : ReconstructSections(&settings->run)) {
+    for (Flag& flag : section.flags) flag.is_required = false;
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+Status EvaluateWorkspace(const EvaluateSettings& settings) {
+  Status valid = Validate(settings.run.options);
+  if (!valid.ok()) return valid;
+  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  return RunHoldout(settings.run,
+                    settings.curves_path,
+                    settings.holdout_every,
+                    settings.format(),
+                    progress,
+                    std::cout);
+}
+
+}  // namespace
+
+ExitCode RunEvaluate(const Arguments& arguments) {
+  EvaluateSettings settings;
+  const std::optional<ExitCode> code =
+      ParseCommand("evaluate", arguments, Sections(&settings));
+  if (code) return *code;
+  const bool has_truth =
+      !settings.curves_path.empty() && !settings.truth_path.empty();
+  const bool has_workspace =
+      !settings.run.workspace_path.empty() && settings.holdout_every > 0;
+  if (has_truth == has_workspace) {
+    return Fail({StatusCode::kInvalidArgument,
+                 "give either --curves_path and --truth_path, or "
+                 "--workspace_path and --holdout_every"},
+                kExitCommandLine);
+  }
+  const Status status = has_workspace ? EvaluateWorkspace(settings)
+                                      : RunEvaluate(settings.curves_path,
+                                                    settings.truth_path,
+                                                    settings.options,
+                                                    settings.format(),
+                                                    std::cout);
+  return status.ok() ? kExitSuccess : Fail(status, ExitCodeOf(status));
+}
+
+}  // namespace curvix

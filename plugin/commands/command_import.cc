@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <string>
+
+#include "plugin/commands/command_parts.h"
+#include "plugin/imports/import_colmap.h"
+#include "plugin/imports/import_dtu.h"
+#include "plugin/imports/import_middlebury.h"
+#include "plugin/imports/import_nerf.h"
+#include "plugin/imports/new_workspace.h"
+
+namespace curvix {
+namespace {
+
+struct Format {
+  const char* name;
+  Result<ImportedScene> (*import)(const ImportOptions& options);
+};
+constexpr std::array kFormats = {Format{"middlebury", ImportMiddlebury},
+                                 Format{"dtu", ImportDtu},
+                                 Format{"nerf", ImportNerf},
+                                 Format{"colmap_images", ImportColmapImages}};
+
+// In the order of CopyPolicy.
+const std::vector<std::string>& CopyPolicies() {
+  static const std::vector<std::string> names = {
+      "copy", "soft-link", "hard-link"};
+  return names;
+}
+
+struct Settings {
+  std::filesystem::path workspace_path;
+  std::string format;
+  std::string copy_policy = "copy";
+  std::string first_pixel = "auto";
+  std::filesystem::path image_filter;
+  ImportOptions options;
+};
+
+FlagSection DataSetFlags(Settings* settings) {
+  std::vector<std::string> formats;
+  for (const Format& format : kFormats) formats.emplace_back(format.name);
+  return {"Data set",
+          {Required(ChoiceFlag("format",
+                               formats,
+                               &settings->format,
+                               "what --input_path is; docs/import.md explains "
+                               "each")),
+           Required(PathFlag("input_path",
+                             &settings->options.input_path,
+                             "the cameras, a file or its folder: *_par.txt, "
+                             "cameras*.npz or pos_*.txt, transforms.json, a "
+                             "COLMAP model")),
+           PathFlag("image_path",
+                    &settings->options.image_path,
+                    "the folder of the photographs; looked for around the "
+                    "cameras if not given"),
+           ChoiceFlag("first_pixel",
+                      {"auto", "0", "0.5", "1"},
+                      &settings->first_pixel,
+                      "the coordinate of the centre of the first pixel in the "
+                      "data set; auto: the convention of the format"),
+           PathFlag("image_filter",
+                    &settings->image_filter,
+                    "dtu: only photographs whose names hold this text"),
+           Switch("normalize",
+                  &settings->options.normalize,
+                  "dtu: the unit sphere of scale_mat instead of "
+                  "millimetres")}};
+}
+
+FlagSection WorkspaceFlags(Settings* settings) {
+  return {"Workspace",
+          {Required(PathFlag("workspace_path",
+                             &settings->workspace_path,
+                             "folder to write: images/ and sparse/0/; nothing "
+                             "is overwritten")),
+           ChoiceFlag("copy_policy",
+                      CopyPolicies(),
+                      &settings->copy_policy,
+                      "how photographs get there; those that are in images/ "
+                      "already stay")}};
+}
+
+Result<ImportedScene> Import(const Settings& settings) {
+  ImportOptions options = settings.options;
+  options.image_filter = settings.image_filter.string();
+  if (settings.first_pixel != "auto") {
+    options.first_pixel = std::stod(settings.first_pixel);
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(options.input_path, error)) {
+    return Status(StatusCode::kNotFound,
+                  "--input_path " + options.input_path.string() +
+                      " does not exist; name the cameras of the data set");
+  }
+  for (const Format& format : kFormats) {
+    if (settings.format == format.name) return format.import(options);
+  }
+  return Status(StatusCode::kInternal, "no format " + settings.format);
+}
+
+CopyPolicy PolicyOf(const std::string& name) {
+  const auto& names = CopyPolicies();
+  return static_cast<CopyPolicy>(std::find(names.begin(), names.end(), name) -
+                                 names.begin());
+}
+
+// "1 camera", "2 cameras".
+std::string Counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+ExitCode RunImport(const Arguments& arguments) {
+  Settings settings;
+  const std::optional<ExitCode> code =
+      ParseCommand("import",
+                   arguments,
+                   {DataSetFlags(&settings), WorkspaceFlags(&settings)});
+  if (code) return *code;
+  Status status = CheckWorkspaceUnused(settings.workspace_path);
+  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  const Result<ImportedScene> scene = Import(settings);
+  if (!scene.ok()) return Fail(scene.status(), ExitCodeOf(scene.status()));
+  status = WriteNewWorkspace(scene->model,
+                             scene->image_files,
+                             PolicyOf(settings.copy_policy),
+                             settings.workspace_path);
+  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  for (const std::string& note : scene->notes) std::cerr << note << std::endl;
+  const std::string path = settings.workspace_path.string();
+  const bool has_links =
+      PolicyOf(settings.copy_policy) == CopyPolicy::kSoftLink;
+  std::cout << "Wrote " << Counted(scene->model.images.size(), "photograph")
+            << ", " << Counted(scene->model.cameras.size(), "camera") << " and "
+            << Counted(scene->model.points.size(), "point") << " to " << path
+            << "\nTry: colmap_curvix --workspace_path " << path
+            << (has_links ? " --image_path " + path + "/images" : "")
+            << std::endl;
+  return kExitSuccess;
+}
+
+}  // namespace curvix

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the words of the program share, and the words themselves.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin/commands/command_line.h"
+#include "plugin/commands/commands.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+using Arguments = std::vector<std::string>;
+
+// A word; `summary` is one line without a full stop.
+struct Command {
+  const char* name;
+  const char* summary;
+  ExitCode (*run)(const Arguments& arguments);
+};
+
+ExitCode RunReconstruct(const Arguments& arguments);
+ExitCode RunPartitionCommand(const Arguments& arguments);
+ExitCode RunMergeCommand(const Arguments& arguments);
+ExitCode RunSynthesize(const Arguments& arguments);
+ExitCode RunImport(const Arguments& arguments);
+ExitCode RunEvaluate(const Arguments& arguments);
+
+// Where things are.
+FlagSection PathsSection(RunSettings* settings);
+
+// What `reconstruct` can be told; the preset comes before what it changes.
+std::vector<FlagSection> ReconstructSections(RunSettings* settings);
+
+// nullptr: there is no such word.
+const Command* FindCommand(const std::string& name);
+
+// Prints "ERROR: <message>." to stderr and returns `code`.
+ExitCode Fail(const Status& status, ExitCode code);
+
+// Parses the flags of a word, in at least one section, to which those are added
+// that every word has (project file, logging), and applies the latter. An exit
+// code if that is all there is to do: help was asked for, or a flag is wrong.
+std::optional<ExitCode> ParseCommand(const std::string& name,
+                                     const Arguments& arguments,
+                                     std::vector<FlagSection> sections);
+
+}  // namespace curvix

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+#include <functional>
+#include <iostream>
+#include <utility>
+
+#include "plugin/commands/command_parts.h"
+#include "plugin/run/progress.h"
+#include "plugin/run/run_parts.h"
+#include "plugin/run/run_workspace.h"
+
+namespace curvix {
+namespace {
+
+// Replaces the options, threads apart: comes before the flags of the table.
+Flag PresetFlag(RunSettings* settings) {
+  Flag flag = ChoiceFlag("preset",
+                         {"default", "paper"},
+                         &settings->preset,
+                         "values that the options below start from: the best "
+                         "known, or the method of the paper throughout");
+  flag.set = [settings, choose = flag.set](const std::string& text) {
+    Status status = choose(text);
+    if (!status.ok()) return status;
+    const RuntimeOptions runtime = settings->options.runtime;
+    settings->options = text == "paper" ? PaperOptions() : Options();
+    settings->poses.refiner = text == "paper" ? "none" : "colmap";
+    settings->poses.refine_poses_with_curves = text != "paper";
+    settings->options.runtime = runtime;
+    return status;
+  };
+  return flag;
+}
+
+constexpr int kNoPart = -1;
+
+using Job = std::function<Result<RunRecord>(ProgressPrinter& progress)>;
+
+Result<RunRecord> RunWithProgress(const Job& job) {
+  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  return job(progress);
+}
+
+ExitCode RunAndSummarize(const RunSettings& settings, const Job& job) {
+  const Status valid = Validate(settings.options);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
+  const Result<RunRecord> record = RunWithProgress(job);
+  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
+  const bool is_empty = record->result.num_curves == 0;
+  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
+  return is_empty ? kExitNoCurves : kExitSuccess;
+}
+
+// A part without curves is as good as any.
+ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
+  const Status valid = Validate(settings.options);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
+  const auto record = RunWithProgress([&](ProgressPrinter& progress) {
+    return RunPart(settings, part_idx, progress);
+  });
+  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
+  std::cout << "\npart " << part_idx << ": " << record->result.num_curves
+            << " curves, in " << record->result.output_path.string() << "\n";
+  return kExitSuccess;
+}
+
+}  // namespace
+
+FlagSection PathsSection(RunSettings* settings) {
+  return {"Paths",
+          {Required(PathFlag("workspace_path",
+                             &settings->workspace_path,
+                             "folder with sparse/ and images/, or dense/")),
+           PathFlag("input_path",
+                    &settings->input_path,
+                    "folder of the model, when it is not sparse/0, sparse or "
+                    "dense/0/sparse"),
+           PathFlag("image_path",
+                    &settings->image_path,
+                    "folder of the images, when it is not images/ beside the "
+                    "model"),
+           PathFlag("output_path",
+                    &settings->output_path,
+                    "folder of the results, when it is not to be curvix/0 "
+                    "beside sparse/0"),
+           PathFlag("mask_path",
+                    &settings->mask_path,
+                    "folder of masks as COLMAP's, <image name>.png: edges on "
+                    "black do not count")}};
+}
+
+std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
+  std::vector<FlagSection> sections = {PathsSection(settings),
+                                       {"Method", {PresetFlag(settings)}},
+                                       PoseRefinementFlags(&settings->poses),
+                                       OutputFlags(&settings->output)};
+  sections.front().flags.push_back(
+      Switch("clean",
+             &settings->clean,
+             "remove stages/ from the folder of the results: start from the "
+             "beginning and keep nothing to go on from"));
+  for (FlagSection& section : OptionSections(settings->options)) {
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+ExitCode RunReconstruct(const Arguments& arguments) {
+  int part_idx = kNoPart;
+  RunSettings settings;
+  std::vector<FlagSection> sections = ReconstructSections(&settings);
+  sections.front().flags.push_back(Advanced(
+      RowFlag({.name = "part",
+               .field = &part_idx,
+               .min = kNoPart,
+               .max = 1000000,
+               .help = "reconstruct this part of a scene that 'partition' has "
+                       "divided, with the poses as they are; -1: no parts"})));
+  const std::optional<ExitCode> code =
+      ParseCommand("reconstruct", arguments, std::move(sections));
+  if (code) return *code;
+  if (part_idx != kNoPart) {
+    return ReconstructPart(settings, part_idx);
+  }
+  return RunAndSummarize(settings, [&](ProgressPrinter& progress) {
+    return RunWorkspace(settings, progress);
+  });
+}
+
+ExitCode RunMergeCommand(const Arguments& arguments) {
+  RunSettings settings;
+  const std::optional<ExitCode> code =
+      ParseCommand("merge", arguments, ReconstructSections(&settings));
+  if (code) return *code;
+  return RunAndSummarize(settings, [&](ProgressPrinter& progress) {
+    return RunMerge(settings, progress);
+  });
+}
+
+}  // namespace curvix

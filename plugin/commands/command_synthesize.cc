@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <curvix/scene.h>
+#include <iostream>
+#include <string>
+
+#include "plugin/commands/command_parts.h"
+#include "plugin/commands/synthesize.h"
+
+namespace curvix {
+namespace {
+
+struct Settings {
+  std::filesystem::path workspace_path;
+  std::string solid = "part";
+  std::string camera_model = "PINHOLE";
+  int seed = 1;
+  SyntheticOptions options;
+};
+
+// In the order of SyntheticSolid.
+const std::vector<std::string>& Solids() {
+  static const std::vector<std::string> names = {
+      "block", "cylinder", "cone", "sphere", "part", "facade"};
+  return names;
+}
+
+std::vector<std::string> CameraModels() {
+  std::vector<std::string> names;
+  for (int id = 0; const auto model = ModelFromId(id); ++id) {
+    names.emplace_back(ModelName(*model));
+  }
+  return names;
+}
+
+FlagSection ImageFlags(Settings* settings) {
+  SyntheticOptions& o = settings->options;
+  return {"Images",
+          {RowFlag({.name = "num_views",
+                    .field = &o.num_views,
+                    .min = 3,
+                    .max = 10000,
+                    .help = "photographs: all around, or along a facade"}),
+           RowFlag({.name = "width",
+                    .field = &o.width,
+                    .min = 16,
+                    .max = 10000,
+                    .unit = "px",
+                    .help = "width of a photograph"}),
+           RowFlag({.name = "height",
+                    .field = &o.height,
+                    .min = 16,
+                    .max = 10000,
+                    .unit = "px",
+                    .help = "height of a photograph"}),
+           RowFlag({.name = "noise",
+                    .field = &o.noise,
+                    .max = 255,
+                    .unit = "grey levels",
+                    .help = "standard deviation of the image noise"}),
+           RowFlag({.name = "texture",
+                    .field = &o.texture,
+                    .max = 255,
+                    .unit = "grey levels",
+                    .help = "contrast of the texture on the surfaces"})}};
+}
+
+FlagSection CameraFlags(Settings* settings) {
+  SyntheticOptions& o = settings->options;
+  return {"Cameras",
+          {ChoiceFlag("camera_model",
+                      CameraModels(),
+                      &settings->camera_model,
+                      "COLMAP's name of the camera model"),
+           RowFlag({.name = "distortion",
+                    .field = &o.distortion,
+                    .min = -1,
+                    .max = 1,
+                    .help = "first radial coefficient, where the model has "
+                            "one"}),
+           RowFlag({.name = "pose_error_px",
+                    .field = &o.pose_error_px,
+                    .max = 100,
+                    .unit = "px",
+                    .help = "disturbs the poses that are written"}),
+           RowFlag({.name = "points_per_view",
+                    .field = &o.points_per_view,
+                    .max = 10000,
+                    .help = "sparse points that each photograph finds"})}};
+}
+
+std::vector<FlagSection> Sections(Settings* settings) {
+  SyntheticOptions& o = settings->options;
+  return {{"Scene",
+           {Required(PathFlag("workspace_path",
+                              &settings->workspace_path,
+                              "folder to write: images/, sparse/0/, gt.txt")),
+            ChoiceFlag("solid", Solids(), &settings->solid, "what is shown"),
+            RowFlag({.name = "scale",
+                     .field = &o.scale,
+                     .min_is_excluded = true,
+                     .unit = "world units",
+                     .help = "longest side of the solid, height of a facade"}),
+            RowFlag({.name = "seed",
+                     .field = &settings->seed,
+                     .help = "of the noise, the texture and the pose errors"}),
+            RowFlag({.name = "num_threads",
+                     .field = &o.num_threads,
+                     .min = -1,
+                     .max = 4096,
+                     .help = "threads; -1 or 0 means one per core"})}},
+          ImageFlags(settings),
+          CameraFlags(settings)};
+}
+
+}  // namespace
+
+ExitCode RunSynthesize(const Arguments& arguments) {
+  Settings settings;
+  const std::optional<ExitCode> code =
+      ParseCommand("synthesize", arguments, Sections(&settings));
+  if (code) return *code;
+  for (std::size_t i = 0; i < Solids().size(); ++i) {
+    if (Solids()[i] == settings.solid) {
+      settings.options.solid = static_cast<SyntheticSolid>(i);
+    }
+  }
+  settings.options.camera_model = *ModelFromName(settings.camera_model);
+  settings.options.seed = static_cast<std::uint64_t>(settings.seed);
+  const Status status = Synthesize(settings.options, settings.workspace_path);
+  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  const std::string path = settings.workspace_path.string();
+  std::cout << "Wrote " << settings.options.num_views
+            << " photographs and their poses to " << path
+            << "\nTry: colmap_curvix --workspace_path " << path << std::endl;
+  return kExitSuccess;
+}
+
+}  // namespace curvix

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/commands/commands.h"
+
+#include <array>
+#include <iostream>
+
+#include "plugin/commands/command_parts.h"
+#include "plugin/commands/help_text.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+namespace {
+
+ExitCode Help(const Arguments& arguments);
+ExitCode Version(const Arguments& arguments);
+
+// In the order of the overview.
+constexpr std::array kCommands = {
+    Command{"reconstruct",
+            "Photographs and poses in, curves out: the whole job",
+            RunReconstruct},
+    Command{"partition",
+            "Divide a large scene into parts for reconstruct --part",
+            RunPartitionCommand},
+    Command{"merge",
+            "Put the reconstructed parts of a scene together",
+            RunMergeCommand},
+    Command{"synthesize",
+            "Write a small workspace with known curves, to try things",
+            RunSynthesize},
+    Command{"import",
+            "Make a workspace of Middlebury, DTU, NeRF or COLMAP data",
+            RunImport},
+    Command{"evaluate",
+            "Compare curves with known ones, or with photographs held out",
+            RunEvaluate},
+    Command{"help", "This overview; 'help <command>' explains one", Help},
+    Command{"version", "The version of the program", Version},
+};
+
+constexpr char kExamples[] =
+    "Examples\n"
+    "  colmap_curvix --workspace_path proj\n"
+    "      reads proj/sparse/0 and proj/images, writes proj/curvix/0\n"
+    "  colmap_curvix --workspace_path proj --preset paper\n"
+    "      the method and the values of the paper throughout\n"
+    "  colmap_curvix --workspace_path proj --Validation.max_angle_deg 10\n"
+    "      one option of one stage\n"
+    "  colmap_curvix --project_path proj/curvix/0/project.ini\n"
+    "      repeats an earlier run\n";
+
+ExitCode Help(const Arguments& arguments) {
+  if (!arguments.empty() && FindCommand(arguments.front()) != nullptr) {
+    return RunProgram({arguments.front(), "--help"});
+  }
+  bool markdown = false;
+  const std::optional<ExitCode> code = ParseCommand(
+      "help",
+      arguments,
+      {{"Output",
+        {Switch("markdown",
+                &markdown,
+                "print docs/options.md, every option in a table")}}});
+  if (code) return *code;
+  if (markdown) {
+    std::cout << OptionsMarkdown();
+    return kExitSuccess;
+  }
+  Version({});
+  std::cout << "\nUsage: colmap_curvix --workspace_path proj [options]\n"
+               "       colmap_curvix <command> [options]\n\nCommands\n";
+  for (const Command& command : kCommands) {
+    std::string name = command.name;
+    name.resize(13, ' ');
+    std::cout << "  " << name << command.summary << "\n";
+  }
+  std::cout << "\n"
+            << kExamples
+            << "\n'colmap_curvix --help' lists the options that matter most, "
+               "'--help_all' all of them.\n";
+  return kExitSuccess;
+}
+
+ExitCode Version(const Arguments&) {
+  std::cout << "colmap_curvix " << ProgramVersion()
+            << " -- 3D curves from COLMAP reconstructions\n";
+  return kExitSuccess;
+}
+
+ExitCode UnknownCommand(const std::string& name) {
+  std::string message = "There is no command '" + name + "'";
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.push_back(command.name);
+  const std::string nearest = NearestName(name, names);
+  if (!nearest.empty()) {
+    message += "; did you mean '" + nearest + "'?";
+  } else if (std::filesystem::exists(name)) {
+    message += "; did you mean '--workspace_path " + name + "'?";
+  } else {
+    message += "; 'colmap_curvix help' lists all";
+  }
+  return Fail({StatusCode::kInvalidArgument, message}, kExitCommandLine);
+}
+
+}  // namespace
+
+const Command* FindCommand(const std::string& name) {
+  for (const Command& command : kCommands) {
+    if (name == command.name) return &command;
+  }
+  return nullptr;
+}
+
+ExitCode ExitCodeOf(const Status& status) {
+  switch (status.code()) {
+    case StatusCode::kOk:
+      return kExitSuccess;
+    case StatusCode::kInvalidArgument:
+    case StatusCode::kNotFound:
+    case StatusCode::kDataLoss:
+    case StatusCode::kUnsupported:
+      return kExitInput;
+    case StatusCode::kExternalTool:
+      return kExitTool;
+    case StatusCode::kCancelled:
+      return kExitInterrupted;
+    case StatusCode::kInternal:
+      return kExitInternal;
+  }
+  return kExitInternal;
+}
+
+ExitCode RunProgram(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) return Help({});
+  const std::string& first = arguments.front();
+  if (first == "--version") return Version({});
+  if (first.starts_with("-")) return RunReconstruct(arguments);
+  const Command* const command = FindCommand(first);
+  if (command == nullptr) return UnknownCommand(first);
+  return command->run({arguments.begin() + 1, arguments.end()});
+}
+
+}  // namespace curvix

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). An evaluation as a table and as JSON.
+#include <curvix/curve_io.h>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+
+#include "evaluation/evaluate.h"
+
+namespace curvix {
+namespace {
+
+std::string Fixed(double value) {
+  std::array<char, 64> text;
+  const int size = std::snprintf(text.data(), text.size(), "%9.3f", value);
+  return std::string(text.data(), static_cast<std::size_t>(size));
+}
+
+std::string Fixed(const std::optional<double>& value) {
+  return value ? Fixed(*value) : "        -";
+}
+
+void PrintRow(const char* name,
+              const std::optional<double>& value,
+              const char* unit,
+              std::ostream& out) {
+  std::string padded(name);
+  padded.resize(24, ' ');
+  out << padded << Fixed(value) << ' ' << unit << '\n';
+}
+
+void PrintAgreement(const Evaluation& e, std::ostream& out) {
+  out << "within                       5 mm    10 mm    20 mm\n";
+  const auto row = [&](std::string name, double Agreement::*member) {
+    name.resize(24, ' ');
+    out << name;
+    for (const Agreement& a : e.agreement) out << Fixed(a.*member);
+    out << " %\n";
+  };
+  row("precision", &Agreement::precision);
+  row("recall", &Agreement::recall);
+  row("F-score", &Agreement::f_score);
+  row("IoU", &Agreement::iou);
+  out << "recall of visible       " << Fixed(e.visible_recall_5)
+      << Fixed(e.visible_recall_10) << Fixed(std::nullopt) << " %\n";
+  out << "F-score of visible      " << Fixed(e.visible_f_score_5)
+      << Fixed(std::nullopt) << Fixed(std::nullopt) << " %\n";
+}
+
+void PrintTable(const Evaluation& e, std::ostream& out) {
+  PrintAgreement(e, out);
+  PrintRow("accuracy", e.accuracy_mm, "mm", out);
+  PrintRow("completeness", e.completeness_mm, "mm", out);
+  PrintRow("completeness of visible", e.visible_completeness_mm, "mm", out);
+  PrintRow("tangent error, median", e.tangent_deg, "deg", out);
+  PrintRow("duplication", e.duplication, "(1 is best)", out);
+  PrintRow("curves found whole", e.whole, "%", out);
+  PrintRow("purity of curves", e.pure, "%", out);
+  out << "curves                  " << e.num_curves << " found, "
+      << (e.num_true_curves ? std::to_string(*e.num_true_curves) : "-")
+      << " true\n"
+      << "samples compared        " << e.num_predicted << " found, "
+      << e.num_true << " true\n";
+}
+
+nlohmann::ordered_json ToJson(const std::optional<double>& value) {
+  if (!value) return nullptr;
+  return *value;
+}
+
+void PrintJson(const Evaluation& e, std::ostream& out) {
+  nlohmann::ordered_json json;
+  json["predicted"] = e.num_predicted;
+  json["gt"] = e.num_true;
+  json["acc"] = ToJson(e.accuracy_mm);
+  json["comp"] = ToJson(e.completeness_mm);
+  for (const Agreement& a : e.agreement) {
+    const std::string mm = std::to_string(std::lround(a.threshold_mm));
+    json["P" + mm] = a.precision;
+    json["R" + mm] = a.recall;
+    json["F" + mm] = a.f_score;
+    json["IoU" + mm] = a.iou;
+  }
+  json["compv"] = ToJson(e.visible_completeness_mm);
+  json["Rv5"] = ToJson(e.visible_recall_5);
+  json["Rv10"] = ToJson(e.visible_recall_10);
+  json["Fv5"] = ToJson(e.visible_f_score_5);
+  json["tangent"] = ToJson(e.tangent_deg);
+  json["dup"] = ToJson(e.duplication);
+  json["whole"] = ToJson(e.whole);
+  json["pure"] = ToJson(e.pure);
+  json["curves"] = e.num_curves;
+  json["gt_curves"] = nullptr;
+  if (e.num_true_curves) json["gt_curves"] = *e.num_true_curves;
+  out << json.dump() << '\n';
+}
+
+}  // namespace
+
+void PrintEvaluation(const Evaluation& evaluation,
+                     EvaluationFormat format,
+                     std::ostream& out) {
+  if (format == EvaluationFormat::kJson) return PrintJson(evaluation, out);
+  PrintTable(evaluation, out);
+}
+
+Status RunEvaluate(const std::filesystem::path& curves_path,
+                   const std::filesystem::path& truth_path,
+                   const EvaluationOptions& options,
+                   EvaluationFormat format,
+                   std::ostream& out) {
+  const Result<CurveSet> curves = ReadCurves(curves_path, {});
+  if (!curves.ok()) return curves.status();
+  const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
+  if (!truth.ok()) return truth.status();
+  const Result<Evaluation> evaluation =
+      EvaluateCurves(*curves, *truth, options);
+  if (!evaluation.ok()) return evaluation.status();
+  PrintEvaluation(*evaluation, format, out);
+  return {};
+}
+
+}  // namespace curvix

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/export/curves_json.h"
+
+#include <curvix/scene.h>
+#include <Eigen/Geometry>
+#include <boost/algorithm/string/replace.hpp>
+#include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace curvix {
+namespace {
+
+constexpr int kPixelDecimals = 3;
+
+Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json NodeIdxJson(int node_idx) {
+  return node_idx < 0 ? Json() : Json(node_idx);
+}
+
+Json FitJson(const CurveFit& fit) {
+  Json json = {{"kind", KindName(fit)},
+               {"closed", fit.closed},
+               {"first_sample", fit.first_sample},
+               {"num_samples", fit.num_samples},
+               {"start", VectorJson(fit.start)},
+               {"end", VectorJson(fit.end)},
+               {"start_node", NodeIdxJson(fit.start_node)},
+               {"end_node", NodeIdxJson(fit.end_node)},
+               {"length", Length(fit)}};
+  if (fit.kind == FitKind::kArc) {
+    json["radius"] = fit.major.norm();
+    json["radius_sigma"] = fit.radius_sigma;
+  }
+  if (fit.kind == FitKind::kArc || fit.kind == FitKind::kEllipse) {
+    json["center"] = VectorJson(fit.center);
+    json["major"] = VectorJson(fit.major);
+    json["minor"] = VectorJson(fit.minor);
+    json["start_angle"] = fit.start_angle;
+    json["end_angle"] = fit.end_angle;
+  }
+  if (fit.kind == FitKind::kSpline) {
+    json["degree"] = 3;
+    json["control_points"] = Json::array();
+    for (const Eigen::Vector3d& point : fit.control_points) {
+      json["control_points"].push_back(VectorJson(point));
+    }
+    json["knots"] = fit.knots;
+  }
+  json["rms_residual"] = fit.rms_residual;
+  json["max_residual"] = fit.max_residual;
+  json["inlier_share"] = fit.inlier_share;
+  json["sigma"] = fit.sigma;
+  return json;
+}
+
+Json SupportJson(const CurveRecord& record, const CurveSample& sample) {
+  Json support = Json::array();
+  for (const EdgeRef& ref : sample.support) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    const auto edge = FindSupportingEdge(record, sample, ref);
+    const auto rounded = [&](double value) {
+      return edge ? Json(Rounded(value, kPixelDecimals)) : Json();
+    };
+    const SupportingEdge shown = edge.value_or(SupportingEdge());
+    support.push_back({record.scene.views[view_idx].image_id,
+                       rounded(shown.pixel.x()),
+                       rounded(shown.pixel.y()),
+                       rounded(shown.residual_px)});
+  }
+  return support;
+}
+
+Json SampleJson(const CurveRecord& record, const CurveSample& sample) {
+  return {{"position", VectorJson(sample.position)},
+          {"tangent", VectorJson(sample.tangent)},
+          {"sigma", sample.sigma},
+          {"covariance", Triangle(sample.covariance)},
+          {"support", SupportJson(record, sample)}};
+}
+
+Json CurveJson(const CurveRecord& record, std::size_t id, const Curve& curve) {
+  Json json = {{"id", id},
+               {"closed", curve.closed},
+               {"length", Length(curve)},
+               {"fits", Json::array()},
+               {"samples", Json::array()}};
+  for (const CurveFit& fit : record.fitted.curves[id].fits) {
+    json["fits"].push_back(FitJson(fit));
+  }
+  for (const CurveSample& sample : curve.samples) {
+    json["samples"].push_back(SampleJson(record, sample));
+  }
+  return json;
+}
+
+Json ImageJson(const View& view, const Camera& camera) {
+  return {{"image_id", view.image_id},
+          {"name", view.name},
+          {"width", camera.width},
+          {"height", camera.height}};
+}
+
+Json NodeJson(const CurveNode& node) {
+  Json json = {{"position", VectorJson(node.position)},
+               {"ends", Json::array()}};
+  for (const CurveNode::End& end : node.ends) {
+    json["ends"].push_back({{"curve", end.curve_idx},
+                            {"fit", end.fit_idx},
+                            {"at", end.at_end ? "end" : "start"}});
+  }
+  return json;
+}
+
+void PutLines(const std::vector<Json>& items, const ByteSink& sink) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    sink((i > 0 ? ",\n" : "\n") + JsonText(items[i]));
+  }
+}
+
+}  // namespace
+
+std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
+                                                 const CurveSample& sample,
+                                                 const EdgeRef& ref) {
+  const View& view = record.scene.views[static_cast<std::size_t>(ref.view_idx)];
+  const Camera& camera =
+      record.scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  const Edge2d edge = record.curves.EdgeOf(ref);
+  const Eigen::Matrix3d calibration = PinholeCalibration(camera);
+  const Eigen::Vector3d ray =
+      calibration.inverse() * edge.position.homogeneous();
+  const Eigen::Vector3d in_camera = view.cam_from_world * sample.position;
+  if (!(in_camera.z() > 0)) return std::nullopt;
+  const Eigen::Vector2d seen = (calibration * in_camera).hnormalized();
+  const Eigen::Vector2d normal(-std::sin(edge.angle), std::cos(edge.angle));
+  return SupportingEdge{ImageFromIdeal(camera, ray.hnormalized()),
+                        normal.dot(seen - edge.position)};
+}
+
+double Rounded(double value, int num_decimals) {
+  const double scale = std::pow(10.0, num_decimals);
+  const double scaled = std::round(value * scale);
+  return scaled == 0 ? 0.0 : scaled / scale;
+}
+
+std::string JsonText(const Json& json) {
+  // Not UTF-8: replaced. "<" would end a script; ASCII only for the rest.
+  const std::string text =
+      json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  return boost::algorithm::replace_all_copy(text, "<", "\\u003c");
+}
+
+void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
+  std::vector<Json> images;
+  for (const View& view : record.scene.views) {
+    images.push_back(ImageJson(
+        view, record.scene.cameras[static_cast<std::size_t>(view.camera_idx)]));
+  }
+  std::vector<Json> nodes;
+  for (const CurveNode& node : record.fitted.nodes) {
+    nodes.push_back(NodeJson(node));
+  }
+  sink("{\"format\":\"curvix curves\",\"version\":1,\"images\":[");
+  PutLines(images, sink);
+  sink("],\"nodes\":[");
+  PutLines(nodes, sink);
+  sink("],\"curves\":[");
+  record.curves.ForEach([&](std::size_t id, const Curve& curve) {
+    sink((id > 0 ? ",\n" : "\n") + JsonText(CurveJson(record, id, curve)));
+  });
+  sink("]}\n");
+}
+
+}  // namespace curvix

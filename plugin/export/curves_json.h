@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// curves.json: everything that is known about the curves.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/fitting.h>
+#include <curvix/scene.h>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "base/file_io.h"
+
+namespace curvix {
+
+// What a run knows about its curves. All of it outlives the bundle.
+struct CurveRecord {
+  const Scene& scene;
+  const CurveSource& curves;   // whose 2D edges are known
+  const FittedCurves& fitted;  // of `curves`
+};
+
+// An edge of a view that supports a sample.
+struct SupportingEdge {
+  Eigen::Vector2d pixel;   // in the image, distortion included
+  double residual_px = 0;  // signed distance of the projected sample from the
+                           // edge's line, in the ideal pinhole image; positive
+                           // on the bright side
+};
+
+// `ref` supports a sample of the curve that is being shown. nullopt if the view
+// has no pixel for it.
+std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
+                                                 const CurveSample& sample,
+                                                 const EdgeRef& ref);
+
+// The text of curves.json, as docs/curves.schema.json and
+// docs/output_format.md describe it: one line per curve.
+void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink);
+
+// Keys in the order in which they were set.
+using Json = nlohmann::ordered_json;
+
+// `json` on one line, safe within an HTML <script> element too. Numbers that
+// are not finite are null.
+std::string JsonText(const Json& json);
+
+// `value`, finite, with so many digits behind the point at most.
+double Rounded(double value, int num_decimals);
+
+}  // namespace curvix

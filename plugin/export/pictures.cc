@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/export/pictures.h"
+
+#include <curvix/curves.h>
+#include <curvix/scene.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "base/parallel.h"
+#include "io/curve_style.h"
+
+namespace curvix {
+namespace {
+
+struct Place {
+  Eigen::Vector3d center;
+  Eigen::Vector3d direction;
+};
+
+std::vector<Place> PlacesOf(const Scene& scene) {
+  std::vector<Place> places;
+  double largest = 0;
+  for (const View& view : scene.views) {
+    const Rigid3 world_from_cam = view.cam_from_world.Inverse();
+    places.push_back({world_from_cam.translation,
+                      world_from_cam.rotation * Eigen::Vector3d::UnitZ()});
+    largest = std::max(largest,
+                       (places.back().center - places.front().center).norm());
+  }
+  for (Place& place : places) place.center /= largest > 0 ? largest : 1;
+  return places;
+}
+
+}  // namespace
+
+std::vector<int> SpreadViews(const Scene& scene, int count) {
+  const std::vector<Place> places = PlacesOf(scene);
+  std::vector<double> farness(places.size(),
+                              std::numeric_limits<double>::infinity());
+  std::vector<int> chosen;
+  while (static_cast<int>(chosen.size()) < count &&
+         chosen.size() < places.size()) {
+    const auto farthest = std::max_element(farness.begin(), farness.end());
+    const auto idx = static_cast<std::size_t>(farthest - farness.begin());
+    chosen.push_back(static_cast<int>(idx));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double distance =
+          (places[i].center - places[idx].center).norm() +
+          (places[i].direction - places[idx].direction).norm();
+      farness[i] = std::min(farness[i], distance);
+    }
+    farness[idx] = -1;
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+namespace {
+
+Result<cv::Mat> ReadPhoto(const View& view, int flags) {
+  cv::Mat photo;
+  try {
+    photo = cv::imread(view.image_path.string(),
+                       flags | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& error) {
+    return Status(StatusCode::kDataLoss,
+                  view.image_path.string() + ": " + error.what());
+  }
+  if (photo.empty()) {
+    return Status(StatusCode::kNotFound,
+                  "Cannot read the image " + view.image_path.string() +
+                      "; check that it is there and whole.");
+  }
+  return photo;
+}
+
+// OpenCV reads JPEG at a fraction of its size in a fraction of the time.
+int ReadFlags(double reduction) {
+  if (reduction >= 8) return cv::IMREAD_REDUCED_COLOR_8;
+  if (reduction >= 4) return cv::IMREAD_REDUCED_COLOR_4;
+  if (reduction >= 2) return cv::IMREAD_REDUCED_COLOR_2;
+  return cv::IMREAD_COLOR;
+}
+
+// Where each pixel of the small pinhole image is in an image of `size`.
+cv::Mat2f PinholeMap(const Camera& camera, cv::Size small, cv::Size size) {
+  const Eigen::Matrix3d inverse = PinholeCalibration(camera).inverse();
+  const double to_full = static_cast<double>(camera.width) / small.width;
+  const double to_read = static_cast<double>(size.width) / camera.width;
+  cv::Mat2f map(small);
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      const Eigen::Vector3d pixel(to_full * (x + 0.5), to_full * (y + 0.5), 1);
+      const Eigen::Vector2d seen =
+          to_read * ImageFromIdeal(camera, (inverse * pixel).hnormalized());
+      // OpenCV's first pixel is at 0.
+      map(y, x) = seen.allFinite()
+                      ? cv::Vec2f(static_cast<float>(seen.x() - 0.5),
+                                  static_cast<float>(seen.y() - 0.5))
+                      : cv::Vec2f(-1e4F, -1e4F);
+    }
+  }
+  return map;
+}
+
+Result<std::string> Encode(const char* extension,
+                           const cv::Mat& image,
+                           const std::vector<int>& parameters) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(extension, image, bytes, parameters)) {
+    return Status(StatusCode::kInternal,
+                  std::string("OpenCV cannot write ") + extension);
+  }
+  return std::string(bytes.begin(), bytes.end());
+}
+
+Result<std::string> SmallPinholeJpeg(const View& view,
+                                     const Camera& camera,
+                                     int max_size_px) {
+  constexpr int kQuality = 80;
+  const double reduction = std::max(
+      1.0,
+      static_cast<double>(std::max(camera.width, camera.height)) / max_size_px);
+  Result<cv::Mat> photo = ReadPhoto(view, ReadFlags(reduction));
+  if (!photo.ok()) return photo.status();
+  const auto shrunk = [&](int full) {
+    return std::max(1, static_cast<int>(std::lround(full / reduction)));
+  };
+  const cv::Size small(shrunk(camera.width), shrunk(camera.height));
+  cv::Mat image;
+  if (IsPinhole(camera)) {
+    cv::resize(*photo, image, small, 0, 0, cv::INTER_AREA);
+  } else {
+    // Twice the size at first, so that sampling leaves no pixel out.
+    if (photo->cols > 2 * small.width) {
+      cv::resize(*photo,
+                 *photo,
+                 {2 * small.width, 2 * small.height},
+                 0,
+                 0,
+                 cv::INTER_AREA);
+    }
+    cv::remap(*photo,
+              image,
+              PinholeMap(camera, small, photo->size()),
+              cv::noArray(),
+              cv::INTER_LINEAR);
+  }
+  return Encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+}
+
+cv::Scalar Color(std::size_t curve_id) {
+  const auto [red, green, blue] = CurveColor(curve_id);
+  return {static_cast<double>(blue),
+          static_cast<double>(green),
+          static_cast<double>(red)};
+}
+
+void DrawLines(const std::vector<std::vector<Eigen::Vector2d>>& lines,
+               const cv::Scalar& color,
+               int width,
+               cv::Mat* image) {
+  constexpr int kSubpixelBits = 4;
+  const auto in_subpixels = [](double pixel) {
+    return static_cast<int>(std::lround((pixel - 0.5) * (1 << kSubpixelBits)));
+  };
+  for (const std::vector<Eigen::Vector2d>& line : lines) {
+    std::vector<cv::Point> points;
+    for (const Eigen::Vector2d& p : line) {
+      points.emplace_back(in_subpixels(p.x()), in_subpixels(p.y()));
+    }
+    cv::polylines(
+        *image, points, false, color, width, cv::LINE_AA, kSubpixelBits);
+  }
+}
+
+bool IsShownIn(int view_idx, const CurveSample& sample) {
+  return std::any_of(
+      sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {
+        return ref.view_idx == view_idx;
+      });
+}
+
+// The stretches of `curve` of which the view shows every third sample or more.
+std::vector<Curve> StretchesShownIn(int view_idx, const Curve& curve) {
+  constexpr std::size_t kMaxGap = 3;
+  std::vector<Curve> stretches;
+  std::size_t last_shown = 0;
+  const std::size_t size = curve.samples.size();
+  for (std::size_t i = 0; i < size + (curve.closed ? 1 : 0); ++i) {
+    if (!IsShownIn(view_idx, curve.samples[i % size])) continue;
+    const bool goes_on = !stretches.empty() && i - last_shown <= kMaxGap;
+    if (!goes_on) stretches.emplace_back();
+    for (std::size_t k = goes_on ? last_shown + 1 : i; k <= i; ++k) {
+      stretches.back().samples.push_back(curve.samples[k % size]);
+    }
+    last_shown = i;
+  }
+  return stretches;
+}
+
+}  // namespace
+
+std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
+                                           const std::vector<int>& view_idxs,
+                                           int max_size_px,
+                                           int num_threads) {
+  std::vector<std::string> jpegs(view_idxs.size());
+  ParallelFor(jpegs.size(), num_threads, [&](std::size_t i) {
+    const View& view = scene.views[static_cast<std::size_t>(view_idxs[i])];
+    Result<std::string> jpeg = SmallPinholeJpeg(
+        view,
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+        max_size_px);
+    if (jpeg.ok()) jpegs[i] = *std::move(jpeg);
+  });
+  return jpegs;
+}
+
+Result<std::string> OverlayPng(const CurveSource& curves,
+                               const Scene& scene,
+                               int view_idx) {
+  constexpr double kPhotoShare = 0.55;  // the rest is white
+  constexpr double kPaleShare = 0.4;    // of a colour, the rest is white
+  const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+  const Camera& camera =
+      scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  Result<cv::Mat> photo = ReadPhoto(view, cv::IMREAD_COLOR);
+  if (!photo.ok()) return photo.status();
+  photo->convertTo(*photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));
+  const int width = std::max(2, std::max(camera.width, camera.height) / 500);
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    const cv::Scalar pale =
+        kPaleShare * Color(id) + cv::Scalar::all(255 * (1 - kPaleShare));
+    DrawLines(ProjectCurve(curve, view, camera), pale, width / 2, &*photo);
+  });
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    for (const Curve& shown : StretchesShownIn(view_idx, curve)) {
+      DrawLines(ProjectCurve(shown, view, camera), Color(id), width, &*photo);
+    }
+  });
+  return Encode(".png", *photo, {});
+}
+
+}  // namespace curvix

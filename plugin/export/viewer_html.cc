@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/export/viewer_html.h"
+
+#include <curvix/scene.h>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "base/median.h"
+#include "plugin/export/pictures.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kNumPhotos = 16;
+constexpr int kPhotoSize = 640;  // pixels
+constexpr int kDigits = 6;       // of coordinates, with respect to the scene
+
+std::string Base64(std::string_view bytes) {
+  constexpr char kLetters[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const char c = i + k < bytes.size() ? bytes[i + k] : '\0';
+      word = word << 8 | static_cast<unsigned char>(c);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool is_padding = i + k > bytes.size();
+      text += is_padding ? '=' : kLetters[word >> (18 - 6 * k) & 63];
+    }
+  }
+  return text;
+}
+
+// Without its photograph where `jpeg` is empty.
+Json ImageJson(const View& view,
+               const Camera& camera,
+               const std::string& jpeg) {
+  const Eigen::Matrix3d k = PinholeCalibration(camera);
+  const Eigen::Matrix3d r =
+      view.cam_from_world.rotation.toRotationMatrix().transpose();  // by rows
+  const Eigen::Vector3d& t = view.cam_from_world.translation;
+  Json json = {{"name", view.name},
+               {"w", camera.width},
+               {"h", camera.height},
+               {"K", {k(0, 0), k(1, 1), k(0, 2), k(1, 2)}},
+               {"R", std::vector<double>(r.data(), r.data() + r.size())},
+               {"t", {t.x(), t.y(), t.z()}}};
+  if (!jpeg.empty()) json["photo"] = "data:image/jpeg;base64," + Base64(jpeg);
+  return json;
+}
+
+// Views by the number of samples that they support, most first.
+std::vector<std::pair<int, int>> SupportingViews(const Curve& curve) {
+  std::map<int, int> counts;
+  for (const CurveSample& sample : curve.samples) {
+    for (const EdgeRef& ref : sample.support) ++counts[ref.view_idx];
+  }
+  std::vector<std::pair<int, int>> views(counts.begin(), counts.end());
+  std::stable_sort(
+      views.begin(), views.end(), [](const auto& a, const auto& b) {
+        return a.second > b.second;
+      });
+  return views;
+}
+
+double MedianSigma(const Curve& curve) {
+  std::vector<double> sigmas;
+  for (const CurveSample& sample : curve.samples) {
+    sigmas.push_back(sample.sigma);
+  }
+  return MedianOrNan(std::move(sigmas));
+}
+
+std::string_view KindOf(const FittedCurve& fitted) {
+  return fitted.fits.size() > 1 ? "chain" : KindName(fitted.fits.front());
+}
+
+Json FitsJson(const FittedCurve& fitted) {
+  Json fits = Json::array();
+  for (const CurveFit& fit : fitted.fits) {
+    Json json = {{"k", KindName(fit)}, {"l", Length(fit)}};
+    if (fit.kind == FitKind::kArc) json["r"] = fit.major.norm();
+    json["e"] = fit.rms_residual;
+    fits.push_back(std::move(json));
+  }
+  return fits;
+}
+
+Json CurveJson(const Curve& curve,
+               const FittedCurve& fitted,
+               int num_decimals) {
+  std::vector<double> coordinates;
+  std::vector<std::size_t> support;
+  for (const CurveSample& sample : curve.samples) {
+    support.push_back(sample.support.size());
+    for (const double x : sample.position) {
+      coordinates.push_back(Rounded(x, num_decimals));
+    }
+  }
+  return {{"c", curve.closed},
+          {"p", coordinates},
+          {"s", support},
+          {"g", MedianSigma(curve)},
+          {"l", Length(curve)},
+          {"k", KindOf(fitted)},
+          {"f", FitsJson(fitted)},
+          {"v", SupportingViews(curve)}};
+}
+
+// So many that the size of the curves has kDigits.
+int NumDecimals(const CurveSource& curves) {
+  Eigen::AlignedBox3d box;
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    for (const CurveSample& sample : curve.samples) box.extend(sample.position);
+  });
+  const double size = box.isEmpty() ? 1 : box.diagonal().norm();
+  if (!(size > 0)) return kDigits;
+  return std::clamp(
+      kDigits - static_cast<int>(std::floor(std::log10(size))), 0, 15);
+}
+
+}  // namespace
+
+void EncodeViewerHtml(const CurveRecord& record,
+                      int num_threads,
+                      const ByteSink& sink) {
+  const std::string_view page = ViewerTemplate();
+  constexpr std::string_view kMark = "@CURVIX_DATA@";
+  const std::size_t mark = page.find(kMark);
+  sink(page.substr(0, mark));
+  const Scene& scene = record.scene;
+  const std::vector<int> shown = SpreadViews(scene, kNumPhotos);
+  std::vector<std::string> photos =
+      SmallPinholeJpegs(scene, shown, kPhotoSize, num_threads);
+  std::vector<std::string> jpegs(scene.views.size());
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    jpegs[static_cast<std::size_t>(shown[k])] = std::move(photos[k]);
+  }
+  sink("{\"images\":[");
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    const View& view = scene.views[i];
+    if (i > 0) sink(",\n");
+    sink(JsonText(
+        ImageJson(view,
+                  scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+                  jpegs[i])));
+  }
+  Json nodes = Json::array();
+  for (const CurveNode& node : record.fitted.nodes) {
+    nodes.push_back({node.position.x(), node.position.y(), node.position.z()});
+  }
+  sink("],\"nodes\":" + JsonText(nodes) + ",\"curves\":[");
+  const int num_decimals = NumDecimals(record.curves);
+  record.curves.ForEach([&](std::size_t i, const Curve& curve) {
+    if (i > 0) sink(",\n");
+    sink(JsonText(CurveJson(curve, record.fitted.curves[i], num_decimals)));
+  });
+  sink("]}");
+  sink(page.substr(mark + kMark.size()));
+}
+
+}  // namespace curvix

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/export/write_results.h"
+
+#include <curvix/curve_io.h>
+#include <algorithm>
+#include <cstddef>
+
+#include "base/file_io.h"
+#include "colmap/colmap_model.h"
+#include "plugin/export/curves_as_points.h"
+#include "plugin/export/pictures.h"
+#include "plugin/export/viewer_html.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Camera& CameraOf(const Scene& scene, const View& view) {
+  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+}
+
+Status WriteSvg(const CurveRecord& record,
+                const std::string& image,
+                const fs::path& path) {
+  const std::vector<View>& views = record.scene.views;
+  const auto view =
+      std::find_if(views.begin(), views.end(), [&](const View& candidate) {
+        return image.empty() || candidate.name == image;
+      });
+  if (view == views.end()) {
+    return {StatusCode::kInvalidArgument,
+            "svg_image is " + image + ", which is no image of the model"};
+  }
+  return WriteProjection(
+      path, record.curves, *view, CameraOf(record.scene, *view));
+}
+
+// A file of what `encode` gives, if all curves can be read.
+template <typename Encode>
+Status WriteText(const CurveRecord& record,
+                 const fs::path& path,
+                 const Encode& encode) {
+  FileWriter file(path);
+  encode(file.Sink());
+  const Status read = record.curves.status();
+  return read.ok() ? file.Finish() : read;
+}
+
+Status WriteModel(const CurveRecord& record, const fs::path& path) {
+  const ColmapModel model = CurvesAsPoints(record);
+  Status read = record.curves.status();
+  if (!read.ok()) return read;
+  return WriteColmapModel(model, path, ColmapFormat::kBinary);
+}
+
+Status WriteFormat(const CurveRecord& record,
+                   const OutputSettings& settings,
+                   int num_threads,
+                   const std::string& format,
+                   const fs::path& path) {
+  if (format == "json") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeCurvesJson(record, sink);
+    });
+  }
+  if (format == "html") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeViewerHtml(record, num_threads, sink);
+    });
+  }
+  if (format == "dxf") return WriteDrawing(path, record.fitted);
+  if (format == "svg") return WriteSvg(record, settings.svg_image, path);
+  if (format == "colmap") return WriteModel(record, path);
+  return WriteCurves(path, record.curves, record.scene);
+}
+
+Status WriteOverlays(const CurveRecord& record,
+                     int count,
+                     const fs::path& folder) {
+  for (const int idx : SpreadViews(record.scene, count)) {
+    const View& view = record.scene.views[static_cast<std::size_t>(idx)];
+    const Result<std::string> png =
+        OverlayPng(record.curves, record.scene, idx);
+    if (!record.curves.status().ok()) return record.curves.status();
+    if (!png.ok()) return png.status();
+    fs::path path = folder / view.name;
+    path += ".png";
+    fs::create_directories(path.parent_path());
+    Status status = WriteFileAtomically(path, *png);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+Flag FormatsFlag(std::vector<std::string>* formats) {
+  Flag flag;
+  flag.name = "output_formats";
+  flag.help = "files to write, with commas between";
+  for (const std::string& format : *formats) {
+    flag.default_value += (flag.default_value.empty() ? "" : ",") + format;
+  }
+  for (const OutputFormat& format : OutputFormats()) {
+    flag.range += (flag.range.empty() ? "" : ", ") + std::string(format.name);
+  }
+  flag.set = [formats](const std::string& text) -> Status {
+    Result<std::vector<std::string>> parsed = ParseOutputFormats(text);
+    if (!parsed.ok()) return parsed.status();
+    *formats = *std::move(parsed);
+    return {};
+  };
+  return flag;
+}
+
+Flag TextFlag(std::string name, std::string* value, std::string help) {
+  Flag flag;
+  flag.name = std::move(name);
+  flag.help = std::move(help);
+  flag.default_value = *value;
+  flag.set = [value](const std::string& text) -> Status {
+    *value = text;
+    return {};
+  };
+  return flag;
+}
+
+}  // namespace
+
+const std::vector<OutputFormat>& OutputFormats() {
+  static const std::vector<OutputFormat> formats = {
+      {"ply", "curves.ply", "lines: MeshLab, Blender, Open3D; points: COLMAP"},
+      {"obj", "curves.obj", "lines: CloudCompare, MeshLab, Blender"},
+      {"pcd", "curves.pcd", "points with tangents: PCL"},
+      {"txt", "curves.txt", "text, like COLMAP's points3D.txt"},
+      {"json", "curves.json", "all there is: fits, junctions, 2D support"},
+      {"dxf", "curves.dxf", "lines, arcs, circles, ellipses, splines: CAD"},
+      {"vtp", "curves.vtp", "lines with data: ParaView, VTK"},
+      {"glb", "curves.glb", "coloured lines: glTF viewers"},
+      {"svg", "curves.svg", "the curves as one view sees them: browsers"},
+      {"colmap", "curves_model/", "samples as points with tracks: COLMAP"},
+      {"html", "viewer.html", "the curves in a browser"}};
+  return formats;
+}
+
+Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
+  std::vector<std::string> known;
+  std::string choices;
+  for (const OutputFormat& format : OutputFormats()) {
+    known.emplace_back(format.name);
+    choices += (choices.empty() ? "" : ", ") + known.back();
+  }
+  std::vector<std::string> formats;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, end - begin);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      return Status(StatusCode::kInvalidArgument,
+                    "output_formats has \"" + name +
+                        "\"; it takes, with commas between: " + choices);
+    }
+    formats.push_back(name);
+    begin = end + 1;
+  }
+  return formats;
+}
+
+FlagSection OutputFlags(OutputSettings* settings) {
+  return {"Output",
+          {FormatsFlag(&settings->formats),
+           Advanced(TextFlag("svg_image",
+                             &settings->svg_image,
+                             "name of the image that curves.svg shows; the "
+                             "first one")),
+           RowFlag({.name = "write_overlays",
+                    .field = &settings->num_overlays,
+                    .max = 10000,
+                    .help = "draw the curves over so many well-spread "
+                            "photographs, into overlays/"})}};
+}
+
+Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
+                                              const OutputSettings& settings,
+                                              int num_threads,
+                                              const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const OutputFormat& format : OutputFormats()) {
+    if (std::find(settings.formats.begin(),
+                  settings.formats.end(),
+                  format.name) == settings.formats.end()) {
+      continue;
+    }
+    Status status = WriteFormat(
+        record, settings, num_threads, format.name, folder / format.file);
+    if (!status.ok()) return status;
+    files.emplace_back(format.file);
+  }
+  if (settings.num_overlays > 0) {
+    Status status =
+        WriteOverlays(record, settings.num_overlays, folder / "overlays");
+    if (!status.ok()) return status;
+    files.emplace_back("overlays/");
+  }
+  return files;
+}
+
+}  // namespace curvix

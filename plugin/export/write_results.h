@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of a run that hold its curves.
+#pragma once
+
+#include <curvix/status.h>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plugin/commands/command_line.h"
+#include "plugin/export/curves_json.h"
+
+namespace curvix {
+
+struct OutputSettings {
+  std::vector<std::string> formats = {
+      "ply", "obj", "pcd", "txt", "json", "html"};
+  std::string svg_image;  // the view of curves.svg; "": the first one
+  int num_overlays = 0;   // photographs with curves drawn over them
+};
+
+// A kind of file, and what it is for.
+struct OutputFormat {
+  const char* name;  // in --output_formats
+  const char* file;  // in the output folder; ends in "/" for a folder
+  const char* opened_by;
+};
+
+// All that there are, in the order in which they are written.
+const std::vector<OutputFormat>& OutputFormats();
+
+// "ply,dxf" to its parts. kInvalidArgument, with what there is, for another
+// name or none.
+Result<std::vector<std::string>> ParseOutputFormats(const std::string& text);
+
+// The flags that change `settings`, which must outlive them.
+FlagSection OutputFlags(OutputSettings* settings);
+
+// Writes the files that `settings` ask for into `folder`, each whole or not at
+// all, and returns their names. Overlays go to overlays/<image name>.png.
+// kInvalidArgument: svg_image is not the name of a view, or a file cannot be
+// written; kNotFound: a photograph for an overlay cannot be read.
+Result<std::vector<std::string>> WriteResults(
+    const CurveRecord& record,
+    const OutputSettings& settings,
+    int num_threads,
+    const std::filesystem::path& folder);
+
+}  // namespace curvix

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/import_colmap.h"
+
+#include <map>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+Status CheckSize(const fs::path& file, const Camera& camera) {
+  const Result<ImageSize> size = ReadImageSize(file);
+  if (!size.ok()) return size.status();
+  if (*size == ImageSize{camera.width, camera.height}) return {};
+  return {StatusCode::kDataLoss,
+          file.string() + " has " + SizeText(size->width, size->height) +
+              " pixels and its camera " +
+              SizeText(camera.width, camera.height) +
+              "; name the folder of the images that the model was made of with "
+              "--image_path."};
+}
+
+}  // namespace
+
+Result<ImportedScene> ImportColmapImages(const ImportOptions& options) {
+  if (options.image_path.empty()) {
+    return Status(StatusCode::kInvalidArgument,
+                  "The option '--image_path' is required with --format "
+                  "colmap_images.");
+  }
+  const auto folder = FindImageFolder(options.image_path, {}, "");
+  if (!folder.ok()) return folder.status();
+  Result<ColmapModel> model = ReadColmapModel(options.input_path);
+  if (!model.ok()) return model.status();
+  std::map<std::uint32_t, Camera> cameras;
+  for (const ColmapCamera& item : model->cameras) {
+    cameras[item.camera_id] = item.camera;
+  }
+  std::vector<std::string> names;
+  for (const ColmapImage& image : model->images) {
+    Status status = CheckImageName(image.name, options.input_path);
+    if (!status.ok()) return status;
+    names.push_back(image.name);
+  }
+  if (names.empty()) return SceneOfViews({}, options.input_path);
+  Status status = CheckImagesExist(names, *folder);
+  if (!status.ok()) return status;
+  ImportedScene scene;
+  for (const ColmapImage& image : model->images) {
+    const fs::path file = *folder / image.name;
+    Status right = CheckSize(file, cameras.at(image.camera_id));
+    if (!right.ok()) return right;
+    scene.image_files.push_back(file);
+  }
+  scene.model = std::move(model).value();
+  return scene;
+}
+
+}  // namespace curvix

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/import_dtu.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "base/file_io.h"
+#include "base/text_fields.h"
+#include "plugin/imports/npy.h"
+#include "plugin/imports/projection_matrix.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A projection matrix and the photograph that it belongs to.
+struct DtuView {
+  std::string source;  // "world_mat_3", "pos_004.txt"
+  Matrix34d projection;
+  std::string image;
+};
+
+using Projections = std::map<int, Matrix34d>;  // by the number in the name
+
+Status Broken(const std::string& what) {
+  return {StatusCode::kDataLoss, what + "; download it again."};
+}
+
+// The number in `name` between `prefix` and `suffix`; nullopt: another name.
+std::optional<int> NumberIn(std::string_view name,
+                            std::string_view prefix,
+                            std::string_view suffix) {
+  if (!name.starts_with(prefix) || !name.ends_with(suffix)) return std::nullopt;
+  if (name.size() < prefix.size() + suffix.size()) return std::nullopt;
+  name.remove_prefix(prefix.size());
+  name.remove_suffix(suffix.size());
+  if (name.find_first_not_of("0123456789") != name.npos) return std::nullopt;
+  return ParseNumber<int>(name);
+}
+
+// The first run of digits: 7 in "rect_007_3_r5000.png".
+std::optional<int> FirstNumber(std::string_view name) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t begin = name.find_first_of(kDigits);
+  if (begin == name.npos) return std::nullopt;
+  name.remove_prefix(begin);
+  return ParseNumber<int>(name.substr(0, name.find_first_not_of(kDigits)));
+}
+
+Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
+  const Result<std::map<std::string, NpyArray>> arrays =
+      ReadNpz(file, [&](const std::string& name) {
+        return NumberIn(name, "world_mat_", "") ||
+               (normalize && NumberIn(name, "scale_mat_", ""));
+      });
+  if (!arrays.ok()) return arrays.status();
+  const auto matrix = [&](const std::string& name) -> Result<Eigen::MatrixXd> {
+    const std::string label = name + " of " + file.string();
+    const auto array = arrays->find(name);
+    if (array == arrays->end()) return Broken("There is no " + label);
+    return MatrixFromNpy(array->second, 4, 4, label);
+  };
+  Projections projections;
+  for (const auto& [name, array] : *arrays) {
+    const std::optional<int> number = NumberIn(name, "world_mat_", "");
+    if (!number) continue;
+    Result<Eigen::MatrixXd> world = matrix(name);
+    if (!world.ok()) return world.status();
+    if (normalize) {
+      const auto scale = matrix("scale_mat_" + std::to_string(*number));
+      if (!scale.ok()) return scale.status();
+      *world = *world * *scale;
+    }
+    projections[*number] = world->topRows<3>();
+  }
+  if (projections.empty()) return Broken(file.string() + " has no world_mat_0");
+  return projections;
+}
+
+Result<Matrix34d> ReadPos(const fs::path& file) {
+  const Result<std::string> text = ReadFile(file);
+  if (!text.ok()) return text.status();
+  std::string_view rest = *text;
+  Matrix34d projection;
+  for (int i = 0; i < 12; ++i) {
+    const auto value = ParseNumber<double>(TakeWord(rest));
+    if (!value) return Broken(file.string() + " does not hold 3 x 4 numbers");
+    projection(i / 4, i % 4) = *value;
+  }
+  if (TakeWord(rest).empty()) return projection;
+  return Broken(file.string() + " holds more than 3 x 4 numbers");
+}
+
+Result<Projections> ReadPosFolder(const fs::path& folder) {
+  Projections projections;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const auto number =
+        NumberIn(entry->path().filename().string(), "pos_", ".txt");
+    if (!number) continue;
+    const Result<Matrix34d> projection = ReadPos(entry->path());
+    if (!projection.ok()) return projection.status();
+    projections[*number] = *projection;
+  }
+  return projections;
+}
+
+// The photographs by the first number in their names.
+Result<std::map<int, std::string>> NumberedImages(
+    const std::vector<std::string>& names, const fs::path& folder) {
+  std::map<int, std::string> numbered;
+  for (const std::string& name : names) {
+    const std::optional<int> number = FirstNumber(name);
+    if (!number) continue;
+    const auto [other, is_new] = numbered.emplace(*number, name);
+    if (!is_new) {
+      return Status(StatusCode::kInvalidArgument,
+                    folder.string() + " holds several photographs number " +
+                        std::to_string(*number) + " (" + other->second + ", " +
+                        name +
+                        "); choose with --image_filter, say "
+                        "--image_filter max.");
+    }
+  }
+  return numbered;
+}
+
+std::vector<DtuView> PairInOrder(const Projections& projections,
+                                 const std::vector<std::string>& names) {
+  std::vector<DtuView> views;
+  for (const auto& [number, projection] : projections) {
+    views.push_back({"world_mat_" + std::to_string(number),
+                     projection,
+                     names[views.size()]});
+  }
+  return views;
+}
+
+// Pairs by number; a note names how many of either have no partner.
+Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
+                                          const std::vector<std::string>& names,
+                                          const fs::path& folder,
+                                          std::vector<std::string>* notes) {
+  const auto numbered = NumberedImages(names, folder);
+  if (!numbered.ok()) return numbered.status();
+  std::vector<DtuView> views;
+  for (const auto& [number, projection] : projections) {
+    const auto image = numbered->find(number);
+    if (image == numbered->end()) continue;
+    views.push_back(
+        {"camera " + std::to_string(number), projection, image->second});
+  }
+  const std::string counts = std::to_string(names.size()) + " photographs in " +
+                             folder.string() + " and " +
+                             std::to_string(projections.size()) + " cameras";
+  if (views.empty()) {
+    return Status(StatusCode::kNotFound,
+                  "There are " + counts +
+                      ", but no number of a camera is in the name of a "
+                      "photograph; name their folder with --image_path.");
+  }
+  if (views.size() < std::max(names.size(), projections.size())) {
+    notes->push_back("There are " + counts + "; " +
+                     std::to_string(views.size()) +
+                     " have the same number and are taken.");
+  }
+  return views;
+}
+
+// The mean calibration, if all are the same to within 0.02 px.
+std::optional<Eigen::Matrix3d> SharedCalibration(
+    const std::vector<CalibratedPose>& poses) {
+  constexpr double kSamePx = 0.02;
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (const CalibratedPose& pose : poses) mean += pose.calibration;
+  mean /= static_cast<double>(poses.size());
+  const bool same = std::all_of(poses.begin(), poses.end(), [&](const auto& p) {
+    return ((p.calibration - mean).array().abs() < kSamePx).all();
+  });
+  return same ? std::optional(mean) : std::nullopt;
+}
+
+Result<std::vector<CalibratedPose>> Decompose(
+    const std::vector<DtuView>& views) {
+  std::vector<CalibratedPose> poses;
+  for (const DtuView& view : views) {
+    const auto pose = DecomposeProjection(view.projection);
+    if (!pose) return Broken(view.source + " is no projection matrix");
+    poses.push_back(*pose);
+  }
+  const std::optional<Eigen::Matrix3d> shared = SharedCalibration(poses);
+  for (std::size_t i = 0; shared && i < poses.size(); ++i) {
+    poses[i] = {*shared, PoseOfProjection(views[i].projection, *shared)};
+  }
+  return poses;
+}
+
+Result<std::vector<ImportedView>> ViewsOf(const std::vector<DtuView>& views,
+                                          const fs::path& folder,
+                                          double first_pixel) {
+  const Result<std::vector<CalibratedPose>> poses = Decompose(views);
+  if (!poses.ok()) return poses.status();
+  std::vector<ImportedView> imported;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::string& name = views[i].image;
+    const CalibratedPose& pose = (*poses)[i];
+    const Result<ImageSize> size = ReadImageSize(folder / name);
+    if (!size.ok()) return size.status();
+    const Result<Camera> camera = CameraFromCalibration(
+        pose.calibration, size->width, size->height, first_pixel);
+    if (!camera.ok()) {
+      return Status(camera.status().code(),
+                    views[i].source + ": " + camera.status().message());
+    }
+    imported.push_back({name, folder / name, *camera, pose.cam_from_world});
+  }
+  return imported;
+}
+
+// The folder of the photographs: the first that holds any.
+Result<fs::path> FindFolder(const ImportOptions& options,
+                            const fs::path& base) {
+  for (const fs::path& place : {base / "image", base / "images"}) {
+    if (!options.image_path.empty()) break;
+    if (!ImageNames(place, options.image_filter).empty()) return place;
+  }
+  return FindImageFolder(options.image_path, {base}, "");
+}
+
+}  // namespace
+
+Result<ImportedScene> ImportDtu(const ImportOptions& options) {
+  fs::path source = options.input_path;
+  Projections projections;
+  if (fs::is_directory(source)) {
+    Result<Projections> positions = ReadPosFolder(source);
+    if (!positions.ok()) return positions.status();
+    projections = std::move(positions).value();
+  }
+  const bool is_npz = projections.empty();
+  if (is_npz) {
+    const Result<fs::path> file = fs::is_directory(source)
+                                      ? OnlyFile(source, "cameras", ".npz")
+                                      : Result<fs::path>(source);
+    if (!file.ok()) return file.status();
+    Result<Projections> read = ReadNpzProjections(*file, options.normalize);
+    if (!read.ok()) return read.status();
+    projections = std::move(read).value();
+    source = *file;
+  }
+  const fs::path base = is_npz ? source.parent_path() : source;
+  const Result<fs::path> folder = FindFolder(options, base);
+  if (!folder.ok()) return folder.status();
+  const auto names = ImageNames(*folder, options.image_filter);
+  std::vector<std::string> notes;
+  Result<std::vector<DtuView>> pairs =
+      is_npz && names.size() == projections.size()
+          ? PairInOrder(projections, names)
+          : PairByNumber(projections, names, *folder, &notes);
+  if (!pairs.ok()) return pairs.status();
+  const auto views = ViewsOf(*pairs, *folder, options.first_pixel.value_or(0));
+  if (!views.ok()) return views.status();
+  Result<ImportedScene> scene = SceneOfViews(*views, source);
+  if (scene.ok()) scene->notes = std::move(notes);
+  return scene;
+}
+
+}  // namespace curvix

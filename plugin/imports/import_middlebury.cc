@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/import_middlebury.h"
+
+#include <array>
+#include <string_view>
+
+#include "base/file_io.h"
+#include "base/text_fields.h"
+#include "plugin/imports/projection_matrix.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ParLine {
+  std::string name;
+  Eigen::Matrix3d calibration;
+  Rigid3 cam_from_world;
+};
+
+Status Broken(const fs::path& file, int line, const std::string& why) {
+  return {StatusCode::kDataLoss,
+          file.string() + ", line " + std::to_string(line) + " " + why +
+              "; download it again."};
+}
+
+// `line` counts from 1.
+Result<ParLine> ParseParLine(std::string_view text,
+                             const fs::path& file,
+                             int line) {
+  using Matrix3dRowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  ParLine result;
+  result.name = TakeWord(text);
+  std::array<double, 21> numbers;
+  for (double& number : numbers) {
+    const auto value = ParseNumber<double>(TakeWord(text));
+    if (!value) return Broken(file, line, "does not hold 21 numbers");
+    number = *value;
+  }
+  if (!TakeWord(text).empty()) {
+    return Broken(file, line, "holds more than 21 numbers");
+  }
+  result.calibration = Eigen::Map<const Matrix3dRowMajor>(numbers.data());
+  const auto rotation =
+      RotationFromMatrix(Eigen::Map<const Matrix3dRowMajor>(&numbers[9]));
+  if (!rotation) return Broken(file, line, "holds no rotation matrix");
+  result.cam_from_world = {*rotation,
+                           Eigen::Map<const Eigen::Vector3d>(&numbers[18])};
+  return result;
+}
+
+// The lines after the first, which counts them.
+Result<std::vector<ParLine>> ParsePar(std::string_view text,
+                                      const fs::path& file) {
+  std::string_view first = TakeLine(text);
+  const auto count = ParseNumber<int>(TakeWord(first));
+  if (!count || *count < 1) {
+    return Broken(file, 1, "is not the number of images");
+  }
+  std::vector<ParLine> lines;
+  for (int number = 2; !text.empty(); ++number) {
+    const std::string_view line = TakeLine(text);
+    std::string_view rest = line;
+    if (TakeWord(rest).empty()) continue;
+    Result<ParLine> parsed = ParseParLine(line, file, number);
+    if (!parsed.ok()) return parsed.status();
+    lines.push_back(std::move(parsed).value());
+  }
+  if (lines.size() != static_cast<std::size_t>(*count)) {
+    return Broken(file,
+                  1,
+                  "announces " + std::to_string(*count) +
+                      " images, and there are " + std::to_string(lines.size()));
+  }
+  return lines;
+}
+
+Result<std::vector<ImportedView>> ViewsOf(const std::vector<ParLine>& lines,
+                                          const fs::path& folder,
+                                          double first_pixel) {
+  std::vector<ImportedView> views;
+  for (const ParLine& line : lines) {
+    ImportedView view{line.name, folder / line.name, {}, line.cam_from_world};
+    const Result<ImageSize> size = ReadImageSize(view.file);
+    if (!size.ok()) return size.status();
+    const Result<Camera> camera = CameraFromCalibration(
+        line.calibration, size->width, size->height, first_pixel);
+    if (!camera.ok()) {
+      return Status(camera.status().code(),
+                    line.name + ": " + camera.status().message());
+    }
+    view.camera = *camera;
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
+}  // namespace
+
+Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
+  fs::path file = options.input_path;
+  if (fs::is_directory(file)) {
+    const Result<fs::path> found = OnlyFile(file, "", "_par.txt");
+    if (!found.ok()) return found.status();
+    file = *found;
+  }
+  const Result<std::string> text = ReadFile(file);
+  if (!text.ok()) return text.status();
+  const Result<std::vector<ParLine>> lines = ParsePar(*text, file);
+  if (!lines.ok()) return lines.status();
+  std::vector<std::string> names;
+  for (const ParLine& line : *lines) {
+    Status status = CheckImageName(line.name, file);
+    if (!status.ok()) return status;
+    names.push_back(line.name);
+  }
+  const fs::path base = file.parent_path();
+  const Result<fs::path> folder = FindImageFolder(
+      options.image_path, {base, base / "images"}, names.front());
+  if (!folder.ok()) return folder.status();
+  Status status = CheckImagesExist(names, *folder);
+  if (!status.ok()) return status;
+  const Result<std::vector<ImportedView>> views =
+      ViewsOf(*lines, *folder, options.first_pixel.value_or(0));
+  if (!views.ok()) return views.status();
+  return SceneOfViews(*views, file);
+}
+
+}  // namespace curvix

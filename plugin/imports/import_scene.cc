@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/import_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <system_error>
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+bool IsSame(const Camera& a, const Camera& b) {
+  return a.model == b.model && a.width == b.width && a.height == b.height &&
+         a.params == b.params;
+}
+
+// The id of `camera` in the model, to which it is added if it is new.
+std::uint32_t CameraId(const Camera& camera, ColmapModel* model) {
+  // Backwards: a camera is mostly that of the view before.
+  const auto same = std::find_if(
+      model->cameras.rbegin(), model->cameras.rend(), [&](const auto& item) {
+        return IsSame(item.camera, camera);
+      });
+  if (same != model->cameras.rend()) return same->camera_id;
+  const auto id = static_cast<std::uint32_t>(model->cameras.size() + 1);
+  model->cameras.push_back({id, camera});
+  return id;
+}
+
+// The names of the files in `folder`, sorted.
+std::vector<std::string> FileNames(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!IsFile(entry->path())) continue;
+    names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool IsImageName(const std::string& name) {
+  constexpr std::array<std::string_view, 9> kExtensions = {".png",
+                                                           ".jpg",
+                                                           ".jpeg",
+                                                           ".tif",
+                                                           ".tiff",
+                                                           ".bmp",
+                                                           ".ppm",
+                                                           ".pgm",
+                                                           ".webp"};
+  std::string extension = fs::path(name).extension().string();
+  for (char& c : extension) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) !=
+         kExtensions.end();
+}
+
+}  // namespace
+
+Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
+                                   const fs::path& source) {
+  if (views.empty()) {
+    return Status(StatusCode::kDataLoss,
+                  source.string() +
+                      " describes no images; name the file that "
+                      "holds the cameras with --input_path.");
+  }
+  ImportedScene scene;
+  for (const ImportedView& view : views) {
+    if (Status status = CheckImageName(view.name, source); !status.ok()) {
+      return status;
+    }
+    ColmapImage image;
+    image.image_id = static_cast<std::uint32_t>(scene.image_files.size() + 1);
+    image.cam_from_world = view.cam_from_world;
+    image.camera_id = CameraId(view.camera, &scene.model);
+    image.name = view.name;
+    scene.model.images.push_back(std::move(image));
+    scene.image_files.push_back(view.file);
+  }
+  const Status status = ValidateColmapModel(scene.model);
+  if (!status.ok()) {
+    return Status(status.code(), source.string() + ": " + status.message());
+  }
+  return scene;
+}
+
+Status CheckImageName(const std::string& name, const fs::path& source) {
+  const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
+    return std::iscntrl(static_cast<unsigned char>(c)) != 0;
+  });
+  if (!has_control && !LeavesImageFolder(name)) return {};
+  return {StatusCode::kDataLoss,
+          source.string() + " names an image \"" +
+              (has_control ? "with control characters" : name) +
+              "\", but names must be relative to the image folder and stay in "
+              "it; correct the name."};
+}
+
+Status CheckImagesExist(const std::vector<std::string>& names,
+                        const fs::path& folder) {
+  std::vector<std::string> missing;
+  for (const std::string& name : names) {
+    if (!IsFile(folder / name)) missing.push_back(name);
+  }
+  if (missing.empty()) return {};
+  return {
+      StatusCode::kNotFound,
+      std::to_string(missing.size()) + " of " + std::to_string(names.size()) +
+          " images are not in " + folder.string() + " (" + FirstNames(missing) +
+          "); name their folder with --image_path, or remove their cameras."};
+}
+
+Result<fs::path> FindImageFolder(const fs::path& image_path,
+                                 const std::vector<fs::path>& places,
+                                 const std::string& name) {
+  std::error_code error;
+  if (!image_path.empty()) {
+    if (fs::is_directory(image_path, error)) return image_path;
+    return Status(StatusCode::kNotFound,
+                  "--image_path " + image_path.string() +
+                      " is not a folder; name the folder of the images.");
+  }
+  for (const fs::path& place : places) {
+    if (IsFile(place / name)) return place;
+  }
+  return places.front();
+}
+
+std::vector<std::string> ImageNames(const fs::path& folder,
+                                    const std::string& filter) {
+  std::vector<std::string> names = FileNames(folder);
+  std::erase_if(names, [&](const std::string& name) {
+    return !IsImageName(name) || name.find(filter) == std::string::npos;
+  });
+  return names;
+}
+
+std::string FirstNames(const std::vector<std::string>& names) {
+  constexpr std::size_t kMany = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) {
+    text += (i > 0 ? ", " : "") + names[i];
+  }
+  return names.size() > kMany ? text + ", ..." : text;
+}
+
+Result<fs::path> OnlyFile(const fs::path& folder,
+                          const std::string& prefix,
+                          const std::string& suffix) {
+  std::vector<std::string> names = FileNames(folder);
+  std::erase_if(names, [&](const std::string& name) {
+    return !name.starts_with(prefix) || !name.ends_with(suffix);
+  });
+  if (names.size() == 1) return folder / names.front();
+  const std::string pattern = prefix + "*" + suffix;
+  return Status(StatusCode::kNotFound,
+                names.empty()
+                    ? folder.string() + " holds no " + pattern +
+                          "; name the file of the cameras with --input_path."
+                    : folder.string() + " holds several files " + pattern +
+                          " (" + FirstNames(names) +
+                          "); name one of them with --input_path.");
+}
+
+}  // namespace curvix

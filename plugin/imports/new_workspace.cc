@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/new_workspace.h"
+
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include "plugin/run/staged_output.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+Status CheckUnused(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return {};
+  if (fs::is_directory(path, error) && fs::is_empty(path, error)) return {};
+  return {StatusCode::kInvalidArgument,
+          path.string() +
+              " is there already and would be overwritten; name another "
+              "--workspace_path or remove it first."};
+}
+
+Status CannotWrite(const fs::path& path, const std::error_code& error) {
+  return {StatusCode::kInvalidArgument,
+          "cannot write " + path.string() + " (" + error.message() + ")."};
+}
+
+bool AreInPlace(const ColmapModel& model,
+                const std::vector<fs::path>& files,
+                const fs::path& folder) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::error_code error;
+    if (!fs::equivalent(files[i], folder / model.images[i].name, error)) {
+      return false;
+    }
+  }
+  return !files.empty();
+}
+
+Status PlaceImage(const fs::path& from, const fs::path& to, CopyPolicy policy) {
+  std::error_code error;
+  fs::create_directories(to.parent_path(), error);
+  if (error) return CannotWrite(to, error);
+  const fs::path original = fs::canonical(from, error);
+  if (error) return CannotWrite(to, error);
+  switch (policy) {
+    case CopyPolicy::kCopy:
+      fs::copy_file(original, to, error);
+      break;
+    case CopyPolicy::kSoftLink:
+      fs::create_symlink(original, to, error);
+      break;
+    case CopyPolicy::kHardLink:
+      fs::create_hard_link(original, to, error);
+      break;
+  }
+  return error ? CannotWrite(to, error) : Status();
+}
+
+// Moves the folders `names`, all or none. Empty folders in their places go.
+Status MoveFolders(const std::vector<std::string>& names,
+                   const fs::path& from,
+                   const fs::path& to) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::error_code error;
+    fs::rename(from / names[i], to / names[i], error);
+    if (!error) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code ignored;
+      fs::rename(to / names[j], from / names[j], ignored);
+    }
+    return CannotWrite(to / names[i], error);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status CheckWorkspaceUnused(const fs::path& workspace) {
+  return CheckUnused(workspace / "sparse");
+}
+
+Status WriteNewWorkspace(const ColmapModel& model,
+                         const std::vector<fs::path>& image_files,
+                         CopyPolicy policy,
+                         const fs::path& workspace) {
+  if (image_files.size() != model.images.size()) {
+    throw std::logic_error("WriteNewWorkspace without one file per image");
+  }
+  Status status = CheckWorkspaceUnused(workspace);
+  if (!status.ok()) return status;
+  const bool in_place = AreInPlace(model, image_files, workspace / "images");
+  if (!in_place) status = CheckUnused(workspace / "images");
+  if (!status.ok()) return status;
+  Result<StagedOutput> staged = StagedOutput::Create(workspace);
+  if (!staged.ok()) {
+    return {staged.status().code(),
+            "cannot write to " + workspace.string() +
+                "; choose another folder with --workspace_path."};
+  }
+  const fs::path folder = staged->folder();
+  for (std::size_t i = 0; !in_place && i < image_files.size(); ++i) {
+    const fs::path to = folder / "images" / model.images[i].name;
+    status = PlaceImage(image_files[i], to, policy);
+    if (!status.ok()) return status;
+  }
+  status =
+      WriteColmapModel(model, folder / "sparse" / "0", ColmapFormat::kBinary);
+  if (!status.ok()) return status;
+  const std::vector<std::string> names =
+      in_place ? std::vector<std::string>{"sparse"}
+               : std::vector<std::string>{"images", "sparse"};
+  return MoveFolders(names, folder, workspace);
+}
+
+}  // namespace curvix

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/npy.h"
+
+#include <zip.h>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/bytes.h"
+#include "base/text_fields.h"
+
+namespace curvix {
+namespace {
+
+Status Broken(const std::string& name, const std::string& why) {
+  return {StatusCode::kDataLoss,
+          name + " " + why + "; save it again with numpy.save or numpy.savez."};
+}
+
+// What the header says, a Python dictionary:
+// {'descr': '<f8', 'fortran_order': False, 'shape': (4, 4), }
+struct Header {
+  std::string descr;
+  bool fortran_order = false;
+  std::vector<std::size_t> shape;
+};
+
+// The text behind 'key': in a Python dictionary; empty if there is none.
+std::string_view Behind(std::string_view header, const std::string& key) {
+  const std::size_t at = header.find("'" + key + "'");
+  if (at == header.npos) return {};
+  header.remove_prefix(at + key.size() + 2);
+  const std::size_t begin = header.find_first_not_of(" :");
+  return begin == header.npos ? std::string_view() : header.substr(begin);
+}
+
+// "(4, 4)", "(3,)", "()", and "(4L, 4L)" of Python 2.
+std::optional<std::vector<std::size_t>> ParseShape(std::string_view text) {
+  constexpr std::size_t kMaxDimensions = 32;  // as in NumPy
+  const std::size_t end = text.find(')');
+  if (!text.starts_with('(') || end == text.npos) return std::nullopt;
+  text = text.substr(1, end - 1);
+  std::vector<std::size_t> shape;
+  while (text.find_first_not_of(' ') != text.npos) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    std::string_view item = text.substr(0, comma);
+    std::string_view word = TakeWord(item);
+    if (word.ends_with('L')) word.remove_suffix(1);
+    const auto length = ParseNumber<std::size_t>(word);
+    if (!length || shape.size() == kMaxDimensions) return std::nullopt;
+    shape.push_back(*length);
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return shape;
+}
+
+std::optional<Header> ParseHeader(std::string_view text) {
+  Header header;
+  const std::string_view descr = Behind(text, "descr");
+  if (descr.empty()) return std::nullopt;
+  // A list ("[('x', '<f8')]") describes records; kept, to be refused by type.
+  const std::size_t quote = descr.find('\'', 1);
+  header.descr = std::string(descr.starts_with('\'') && quote != descr.npos
+                                 ? descr.substr(1, quote - 1)
+                                 : "of records");
+  const std::string_view order = Behind(text, "fortran_order");
+  header.fortran_order = order.starts_with("True");
+  if (!header.fortran_order && !order.starts_with("False")) return std::nullopt;
+  std::optional<std::vector<std::size_t>> shape =
+      ParseShape(Behind(text, "shape"));
+  if (!shape) return std::nullopt;
+  header.shape = std::move(*shape);
+  return header;
+}
+
+// Takes the header off `bytes`; nullopt if they do not begin with one.
+std::optional<Header> TakeHeader(std::string_view& bytes) {
+  constexpr std::string_view kMagic = "\x93NUMPY";
+  if (!bytes.starts_with(kMagic) || bytes.size() < 12) return std::nullopt;
+  const char version = bytes[6];
+  if (version < 1 || version > 3) return std::nullopt;
+  const std::size_t begin = version == 1 ? 10 : 12;
+  const std::size_t size =
+      version == 1
+          ? LoadBytes<std::uint16_t>(bytes.data() + 8, std::endian::little)
+          : LoadBytes<std::uint32_t>(bytes.data() + 8, std::endian::little);
+  if (size > bytes.size() - begin) return std::nullopt;
+  const std::string_view text = bytes.substr(begin, size);
+  bytes.remove_prefix(begin + size);
+  return ParseHeader(text);
+}
+
+// The number of values, if it is at most `limit`.
+std::optional<std::size_t> CountOf(const std::vector<std::size_t>& shape,
+                                   std::size_t limit) {
+  std::size_t count = 1;
+  for (const std::size_t length : shape) {
+    if (length != 0 && count > limit / length) return std::nullopt;
+    count *= length;
+  }
+  return count <= limit ? std::optional(count) : std::nullopt;
+}
+
+// The place in C order of the value that is `index`-th in Fortran order.
+std::size_t IndexInCOrder(std::size_t index,
+                          const std::vector<std::size_t>& shape) {
+  std::size_t place = 0;
+  std::size_t stride = 1;
+  for (const std::size_t length : shape) stride *= length;
+  for (const std::size_t length : shape) {
+    stride /= length;
+    place += index % length * stride;
+    index /= length;
+  }
+  return place;
+}
+
+template <typename T>
+std::vector<double> Values(std::string_view bytes,
+                           const Header& header,
+                           std::size_t count) {
+  const std::endian order =
+      header.descr[0] == '>' ? std::endian::big : std::endian::little;
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = LoadBytes<T>(bytes.data() + i * sizeof(T), order);
+    values[header.fortran_order ? IndexInCOrder(i, header.shape) : i] = value;
+  }
+  return values;
+}
+
+}  // namespace
+
+Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
+  std::optional<Header> header = TakeHeader(bytes);
+  if (!header) return Broken(name, "does not begin like a NumPy array");
+  const std::string& type = header->descr;
+  const bool is_double = type == "<f8" || type == ">f8";
+  if (!is_double && type != "<f4" && type != ">f4") {
+    return Status(StatusCode::kUnsupported,
+                  name + " holds values of the type " + type +
+                      " and must hold float32 or float64; convert it with "
+                      "numpy's astype.");
+  }
+  const std::size_t size = is_double ? sizeof(double) : sizeof(float);
+  const std::optional<std::size_t> count =
+      CountOf(header->shape, bytes.size() / size);
+  if (!count || *count * size != bytes.size()) {
+    return Broken(name,
+                  "is cut short or damaged: its shape does not fit the " +
+                      std::to_string(bytes.size()) + " bytes of its values");
+  }
+  NpyArray array;
+  array.values = is_double ? Values<double>(bytes, *header, *count)
+                           : Values<float>(bytes, *header, *count);
+  array.shape = std::move(header->shape);
+  return array;
+}
+
+Result<Eigen::MatrixXd> MatrixFromNpy(const NpyArray& array,
+                                      int rows,
+                                      int cols,
+                                      const std::string& name) {
+  const std::vector<std::size_t> shape = {static_cast<std::size_t>(rows),
+                                          static_cast<std::size_t>(cols)};
+  if (array.shape != shape) {
+    return Broken(name,
+                  "is not a " + std::to_string(rows) + " x " +
+                      std::to_string(cols) + " matrix");
+  }
+  using RowMajor =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::MatrixXd matrix =
+      Eigen::Map<const RowMajor>(array.values.data(), rows, cols);
+  if (!matrix.allFinite()) return Broken(name, "holds NaN or infinity");
+  return matrix;
+}
+
+namespace {
+
+constexpr zip_uint64_t kMaxBytes = 1 << 20;  // a camera matrix takes 256
+
+struct Closer {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+using Archive = std::unique_ptr<zip_t, Closer>;
+using ArchiveFile = std::unique_ptr<zip_file_t, Closer>;
+
+Status BrokenArchive(const std::string& name, const std::string& why) {
+  return {StatusCode::kDataLoss,
+          name + " " + why +
+              "; copy or download it again, it must be a .npz file."};
+}
+
+Result<Archive> OpenArchive(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return Status(StatusCode::kNotFound,
+                  path.string() + " is not a file; name a .npz file.");
+  }
+  int code = 0;
+  Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
+  if (archive != nullptr) return archive;
+  zip_error_t error;
+  zip_error_init_with_code(&error, code);
+  const std::string reason = zip_error_strerror(&error);
+  zip_error_fini(&error);
+  return BrokenArchive(path.string(), "cannot be opened (" + reason + ")");
+}
+
+// The unpacked bytes of an entry; nullopt if it is damaged. Reading on to the
+// end is what makes libzip compare the checksum.
+std::optional<std::string> ReadEntry(zip_t* archive, const zip_stat_t& stat) {
+  const ArchiveFile file(zip_fopen_index(archive, stat.index, 0));
+  if (file == nullptr) return std::nullopt;
+  std::string bytes(static_cast<std::size_t>(stat.size) + 1, '\0');
+  std::size_t size = 0;
+  while (size < bytes.size()) {
+    const zip_int64_t n =
+        zip_fread(file.get(), bytes.data() + size, bytes.size() - size);
+    if (n < 0) return std::nullopt;
+    if (n == 0) break;
+    size += static_cast<std::size_t>(n);
+  }
+  if (size != stat.size) return std::nullopt;
+  bytes.resize(size);
+  return bytes;
+}
+
+Result<NpyArray> ReadArray(zip_t* archive,
+                           const zip_stat_t& stat,
+                           const std::string& name) {
+  if ((stat.valid & ZIP_STAT_SIZE) == 0 || stat.size > kMaxBytes) {
+    return BrokenArchive(name,
+                         "is larger than a megabyte, too large for a camera");
+  }
+  const std::optional<std::string> bytes = ReadEntry(archive, stat);
+  if (!bytes) return BrokenArchive(name, "is damaged");
+  return ParseNpy(*bytes, name);
+}
+
+}  // namespace
+
+Result<std::map<std::string, NpyArray>> ReadNpz(
+    const std::filesystem::path& path,
+    const std::function<bool(const std::string& name)>& wanted) {
+  Result<Archive> archive = OpenArchive(path);
+  if (!archive.ok()) return archive.status();
+  std::map<std::string, NpyArray> arrays;
+  const zip_int64_t count = zip_get_num_entries(archive->get(), 0);
+  for (zip_int64_t i = 0; i < count; ++i) {
+    zip_stat_t stat;
+    zip_stat_init(&stat);
+    const auto index = static_cast<zip_uint64_t>(i);
+    if (zip_stat_index(archive->get(), index, 0, &stat) != 0 ||
+        (stat.valid & ZIP_STAT_NAME) == 0) {
+      return BrokenArchive(path.string(), "is damaged");
+    }
+    std::string name = stat.name;
+    if (!name.ends_with(".npy")) continue;
+    name.resize(name.size() - 4);
+    if (!wanted(name)) continue;
+    Result<NpyArray> array =
+        ReadArray(archive->get(), stat, name + " of " + path.string());
+    if (!array.ok()) return array.status();
+    arrays[name] = std::move(array).value();
+  }
+  return arrays;
+}
+
+}  // namespace curvix

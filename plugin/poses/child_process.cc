@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/poses/child_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+#include <thread>
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kPollInterval = std::chrono::milliseconds(20);
+constexpr mode_t kLogMode = 0644;
+
+// What posix_spawn is told; cleans up after itself.
+class SpawnSetup {
+ public:
+  explicit SpawnSetup(const ChildProcess& child) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawnattr_init(&attributes_);
+    const std::string log = child.log_path.string();
+    const std::string folder = child.folder.string();
+    Check(posix_spawn_file_actions_addopen(
+        &actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0));
+    Check(posix_spawn_file_actions_addopen(&actions_,
+                                           STDOUT_FILENO,
+                                           log.c_str(),
+                                           O_WRONLY | O_CREAT | O_TRUNC,
+                                           kLogMode));
+    Check(posix_spawn_file_actions_adddup2(
+        &actions_, STDOUT_FILENO, STDERR_FILENO));
+    Check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) {
+      sigaddset(&defaults, signal);
+    }
+    Check(posix_spawnattr_setsigdefault(&attributes_, &defaults));
+    Check(posix_spawnattr_setpgroup(&attributes_, 0));
+    Check(posix_spawnattr_setflags(
+        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF));
+  }
+  ~SpawnSetup() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnSetup(const SpawnSetup&) = delete;
+  SpawnSetup& operator=(const SpawnSetup&) = delete;
+
+  // 0, or the error of the first step that failed.
+  int error() const { return error_; }
+
+  int Spawn(const ChildProcess& child, pid_t* pid) const {
+    std::vector<std::string> words = {child.program.string()};
+    words.insert(words.end(), child.arguments.begin(), child.arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    return posix_spawn(
+        pid, argv[0], &actions_, &attributes_, argv.data(), environ);
+  }
+
+ private:
+  void Check(int error) {
+    if (error_ == 0) error_ = error;
+  }
+
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+  int error_ = 0;
+};
+
+bool HasExited(pid_t pid) {
+  siginfo_t info = {};
+  const int options = WEXITED | WNOHANG | WNOWAIT;
+  const int failed = waitid(P_PID, static_cast<id_t>(pid), &info, options);
+  return failed == 0 ? info.si_pid == pid : errno != EINTR;
+}
+
+// Waits for the child's own end, which is kExited, or says why not to.
+ChildEnd::Kind Wait(pid_t pid, const ChildProcess& child) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  while (!HasExited(pid)) {
+    const std::chrono::duration<double> elapsed = Clock::now() - start;
+    if (elapsed.count() > child.timeout_s) return ChildEnd::Kind::kTimedOut;
+    if (!child.keep_going()) return ChildEnd::Kind::kStopped;
+    std::this_thread::sleep_for(kPollInterval);
+  }
+  return ChildEnd::Kind::kExited;
+}
+
+}  // namespace
+
+Result<ChildEnd> RunChildProcess(const ChildProcess& child) {
+  const SpawnSetup setup(child);
+  pid_t pid = 0;
+  int error = setup.error();
+  if (error == 0) error = setup.Spawn(child, &pid);
+  if (error != 0) {
+    return Status(StatusCode::kExternalTool,
+                  "cannot start " + child.program.string() + " (" +
+                      std::generic_category().message(error) + ")");
+  }
+  ChildEnd end{Wait(pid, child), 0};
+  // Before the child is reaped: until then its number is that of no other
+  // group.
+  kill(-pid, SIGKILL);
+  int status = 0;
+  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (end.kind != ChildEnd::Kind::kExited) return end;
+  if (WIFSIGNALED(status)) {
+    return ChildEnd{ChildEnd::Kind::kKilled, WTERMSIG(status)};
+  }
+  return ChildEnd{ChildEnd::Kind::kExited, WEXITSTATUS(status)};
+}
+
+bool IsProgram(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+}
+
+fs::path FindInPath(const std::string& name) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    fs::path program = fs::absolute(fs::path(folder) / name);
+    if (IsProgram(program)) return program;
+  }
+  return {};
+}
+
+}  // namespace curvix

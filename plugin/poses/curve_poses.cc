@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/poses/curve_poses.h"
+
+#include <curvix/scene.h>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "base/median.h"
+#include "plugin/poses/bundle.h"
+#include "plugin/run/text.h"
+
+namespace curvix {
+namespace {
+
+// `model` with the poses of the views of `scene` and its cameras, and points
+// that fit them.
+ColmapModel WithPoses(ColmapModel model,
+                      const Scene& scene,
+                      const CurvePoses& refined) {
+  std::map<std::uint32_t, Rigid3> poses;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    poses[scene.views[i].image_id] = refined.cam_from_world[i];
+  }
+  // A scene has all cameras of its model, in order.
+  for (std::size_t i = 0; i < model.cameras.size(); ++i) {
+    model.cameras[i].camera = refined.cameras[i];
+  }
+  for (ColmapImage& image : model.images) {
+    const auto found = poses.find(image.image_id);
+    if (found != poses.end()) image.cam_from_world = found->second;
+  }
+  Bundle bundle = BundleFromModel(model);
+  FitPoints(&bundle);
+  return ModelWithBundle(std::move(model), bundle);
+}
+
+// Of pixels between two lenses, once both look the same way at the middle of
+// the image: the median over the image.
+double ShiftOfImage(const Camera& from, const Camera& to) {
+  constexpr int kSteps = 10;
+  const Eigen::Vector2d size(from.width, from.height);
+  const auto shift_at = [&](const Eigen::Vector2d& pixel) {
+    const auto ideal = IdealFromImage(from, pixel);
+    return ideal ? Eigen::Vector2d(ImageFromIdeal(to, *ideal) - pixel)
+                 : Eigen::Vector2d(0, 0);
+  };
+  const Eigen::Vector2d middle = shift_at(size / 2);
+  std::vector<double> shifts;
+  for (int y = 0; y <= kSteps; ++y) {
+    for (int x = 0; x <= kSteps; ++x) {
+      const Eigen::Vector2d pixel =
+          Eigen::Array2d(x, y) / kSteps * size.array();
+      shifts.push_back((shift_at(pixel) - middle).norm());
+    }
+  }
+  return MedianOrNan(std::move(shifts));
+}
+
+std::string Errors(double before_px, double after_px) {
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.3f to %.3f px", before_px, after_px);
+  return text;
+}
+
+std::string CamerasText(const std::vector<CameraChange>& cameras) {
+  if (cameras.empty()) return "";
+  std::string text = ", " +
+                     GroupDigits(static_cast<std::int64_t>(cameras.size())) +
+                     (cameras.size() == 1 ? " camera" : " cameras");
+  char shift[64];
+  std::snprintf(shift,
+                sizeof(shift),
+                " (%s, %.2f px)",
+                std::string(ModelName(cameras.front().to.model)).c_str(),
+                cameras.front().median_shift_px);
+  return text + shift;
+}
+
+}  // namespace
+
+std::string CurvePosesText(const CurvePoseRecord& record) {
+  const CurvePoses& poses = record.poses;
+  if (poses.num_views_moved == 0) {
+    return poses.num_check_observations == 0 ? "kept" : "kept, " + poses.reason;
+  }
+  char shifts[64];
+  std::snprintf(
+      shifts, sizeof(shifts), ", shifts up to %.2f px", poses.max_shift_px);
+  return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
+         " views, " + Errors(poses.before.mean_px, poses.after.mean_px) +
+         CamerasText(record.cameras) + shifts +
+         (poses.accepted ? "" : ", refused");
+}
+
+CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
+                                        const Scene& scene,
+                                        CurvePoses refined) {
+  CurvePoseRefinement result;
+  result.record.poses = std::move(refined);
+  CurvePoses& poses = result.record.poses;
+  result.record.largest_shift_image =
+      scene.views[poses.max_shift_view_idx].name;
+  if (!poses.accepted) return result;
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (poses.cameras[i] == scene.cameras[i]) continue;
+    result.record.cameras.push_back(
+        {model.cameras[i].camera_id,
+         scene.cameras[i],
+         poses.cameras[i],
+         ShiftOfImage(scene.cameras[i], poses.cameras[i])});
+  }
+  result.model = WithPoses(model, scene, poses);
+  return result;
+}
+
+}  // namespace curvix

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/poses/pose_judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "base/median.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct CheckErrors {
+  ErrorSummary summary;
+  double mean_square = 0;
+  std::size_t count = 0;
+};
+
+CheckErrors MeasureErrors(const Bundle& poses,
+                          const std::vector<BundlePoint>& check_points) {
+  std::vector<double> errors;
+  for (BundlePoint point : check_points) {
+    point.position = FitPoint(poses, point);
+    for (const double error : ReprojectionErrors(poses, point)) {
+      errors.push_back(std::min(error, kMaxErrorPx));
+    }
+  }
+  CheckErrors result;
+  result.count = errors.size();
+  for (const double error : errors) {
+    result.summary.mean_px += error / static_cast<double>(errors.size());
+    result.mean_square += error * error / static_cast<double>(errors.size());
+  }
+  result.summary.median_px = MedianOrNan(std::move(errors));
+  return result;
+}
+
+// The median shift of each view. A change of its camera does not count: points
+// that are all nearer or further away may make up for that.
+std::vector<double> Shifts(const Bundle& before, const Bundle& after) {
+  std::vector<std::vector<double>> shifts(before.views.size());
+  for (const BundlePoint& point : before.points) {
+    for (const BundleObservation& seen : point.observations) {
+      const BundleView& old_view = before.views[seen.view_idx];
+      const BundleView& new_view = after.views[seen.view_idx];
+      const auto from = Project(before.cameras[old_view.camera_idx],
+                                old_view.cam_from_world,
+                                point.position);
+      const auto to = Project(before.cameras[new_view.camera_idx],
+                              new_view.cam_from_world,
+                              point.position);
+      shifts[seen.view_idx].push_back(from && to ? (*to - *from).norm()
+                                                 : kInfinity);
+    }
+  }
+  std::vector<double> medians;
+  for (std::vector<double>& values : shifts) {
+    medians.push_back(values.empty() ? 0 : MedianOrNan(std::move(values)));
+  }
+  return medians;
+}
+
+double MedianDistance(const Bundle& bundle) {
+  std::vector<double> distances;
+  for (const BundlePoint& point : bundle.points) {
+    for (const BundleObservation& seen : point.observations) {
+      const Rigid3& pose = bundle.views[seen.view_idx].cam_from_world;
+      distances.push_back((pose * point.position).norm());
+    }
+  }
+  return MedianOrNan(std::move(distances));
+}
+
+void MeasureMoves(const Bundle& before,
+                  const Bundle& after,
+                  PoseJudgement* judgement) {
+  const double distance = MedianDistance(before);
+  for (std::size_t i = 0; i < before.views.size(); ++i) {
+    const Rigid3& from = before.views[i].cam_from_world;
+    const Rigid3& to = after.views[i].cam_from_world;
+    const double move =
+        (to.Inverse().translation - from.Inverse().translation).norm();
+    const double turn = from.rotation.angularDistance(to.rotation);
+    judgement->max_move = std::max(judgement->max_move, move / distance);
+    judgement->max_turn_deg =
+        std::max(judgement->max_turn_deg, turn * 180 / std::numbers::pi);
+  }
+  const std::vector<double> shifts = Shifts(before, after);
+  const auto largest = std::max_element(shifts.begin(), shifts.end());
+  judgement->max_shift_px = *largest;
+  judgement->max_shift_image_idx =
+      before.views[static_cast<std::size_t>(largest - shifts.begin())]
+          .image_idx;
+  judgement->median_shift_px = MedianOrNan(shifts);
+}
+
+std::string Number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+// Why the poses are refused; empty if they are not. NaN is refused.
+std::string Objection(const PoseJudgement& j) {
+  if (j.num_check_points < kMinCheckPoints) {
+    return "too few points are left to judge by";
+  }
+  const std::string fall =
+      "the mean error of points that were held out went from " +
+      Number("%.3f", j.before.mean_px) + " to " +
+      Number("%.3f px", j.after.mean_px);
+  if (!(j.after.mean_px < j.before.mean_px * (1 - kMinGain)) ||
+      !(j.after.median_px < j.before.median_px)) {
+    return "there is nothing to gain: " + fall;
+  }
+  if (!(j.max_move <= kMaxMove)) {
+    return "a camera moved by " + Number("%.1f %%", 100 * j.max_move) +
+           " of its distance to the points, more than poses are off by";
+  }
+  if (!(j.max_shift_px <= kMaxShiftPx)) {
+    return "a view shifted by " + Number("%.1f px", j.max_shift_px) +
+           ", more than poses are off by";
+  }
+  if (!(j.median_shift_px <= kMaxShiftPerExplained * j.explained_px)) {
+    return "the views shifted by " + Number("%.2f px", j.median_shift_px) +
+           ", which the points hardly tell: " + fall;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<BundlePoint> TakeCheckPoints(Bundle* bundle) {
+  std::vector<BundlePoint> kept;
+  std::vector<BundlePoint> taken;
+  for (std::size_t i = 0; i < bundle->points.size(); ++i) {
+    const bool take = i % kPointsPerCheckPoint == kPointsPerCheckPoint / 2;
+    (take ? taken : kept).push_back(std::move(bundle->points[i]));
+  }
+  bundle->points = std::move(kept);
+  return taken;
+}
+
+PoseJudgement JudgePoses(const Bundle& before,
+                         const Bundle& after,
+                         const std::vector<BundlePoint>& check_points) {
+  PoseJudgement judgement;
+  judgement.num_check_points = check_points.size();
+  const CheckErrors old_errors = MeasureErrors(before, check_points);
+  const CheckErrors new_errors = MeasureErrors(after, check_points);
+  judgement.num_check_observations = old_errors.count;
+  judgement.before = old_errors.summary;
+  judgement.after = new_errors.summary;
+  judgement.explained_px =
+      std::sqrt(std::max(0.0, old_errors.mean_square - new_errors.mean_square));
+  MeasureMoves(before, after, &judgement);
+  judgement.reason = Objection(judgement);
+  judgement.accepted = judgement.reason.empty();
+  if (judgement.accepted) {
+    judgement.reason = "the errors fall on points that were held out, too";
+  }
+  return judgement;
+}
+
+}  // namespace curvix

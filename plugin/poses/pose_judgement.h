@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+// Whether refined poses are to be trusted. Bundle adjustment always makes the
+// errors smaller that it looks at, on badly spread points by bending the whole
+// scene. So points are held out to judge by, and moves must be earned.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "plugin/poses/bundle.h"
+
+namespace curvix {
+
+// Refused: fewer points held out than this.
+inline constexpr std::size_t kMinCheckPoints = 8;
+// One point in so many is held out: the poses lose a twentieth of their
+// precision by it.
+inline constexpr std::size_t kPointsPerCheckPoint = 10;
+// Errors count at most this much in means.
+inline constexpr double kMaxErrorPx = 10;
+// Refused: the mean error falls by a smaller share than this.
+inline constexpr double kMinGain = 0.01;
+// Refused: what a view sees shifts, or its camera moves, by more.
+inline constexpr double kMaxShiftPx = 20;
+inline constexpr double kMaxMove = 0.05;  // of the median distance to points
+// Refused: the typical view shifts by more than so many times the error that
+// the move explains. Wrong poses explain about as much error as they shift the
+// picture; a larger shift is one that the points hardly feel.
+inline constexpr double kMaxShiftPerExplained = 3;
+
+struct ErrorSummary {
+  double median_px = 0;
+  double mean_px = 0;  // of errors cut at kMaxErrorPx
+};
+
+struct PoseJudgement {
+  bool accepted = false;
+  std::string reason;  // why, or why not: part of a sentence, no full stop
+  std::size_t num_check_points = 0;
+  std::size_t num_check_observations = 0;
+  ErrorSummary before;  // of the observations held out
+  ErrorSummary after;
+  // Root of the fall of the mean square error.
+  double explained_px = 0;
+  // How far a view's points, at their places before, shift in its image when
+  // its pose changes: the median over the view's points; of all views
+  // the median and the largest, and the image_idx of that view.
+  double median_shift_px = 0;
+  double max_shift_px = 0;
+  std::size_t max_shift_image_idx = 0;
+  double max_turn_deg = 0;
+  double max_move = 0;  // of a centre; share of the median distance from
+                        // cameras to the points that they see
+};
+
+// The points of `bundle` that are held out: every kPointsPerCheckPoint-th.
+// They are removed from it.
+std::vector<BundlePoint> TakeCheckPoints(Bundle* bundle);
+
+// Compares `after`, aligned to `before`, with it. Both have the same views. The
+// errors are those of `check_points`, each fitted anew under either poses, so
+// that neither side has seen them.
+PoseJudgement JudgePoses(const Bundle& before,
+                         const Bundle& after,
+                         const std::vector<BundlePoint>& check_points);
+
+}  // namespace curvix

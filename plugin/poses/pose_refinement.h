@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+// Better poses from the sparse points of the model, or the poses as they were:
+// whatever a bundle adjuster does, the world keeps its place and its unit, and
+// poses that are not better are not used.
+//
+// Two bundle adjusters solve the same problem: COLMAP's, as installed on the
+// user's machine, and our own with Ceres.
+#pragma once
+
+#include <curvix/reconstruct.h>
+#include <curvix/status.h>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "colmap/colmap_model.h"
+#include "plugin/commands/command_line.h"
+#include "plugin/poses/pose_judgement.h"
+
+namespace curvix {
+
+struct PoseRefinementSettings {
+  std::string refiner = "colmap";        // or "ceres" or "none"
+  std::filesystem::path colmap_path;     // the program; empty: found
+  bool refine_intrinsics = true;         // with curves, if it proves better
+  double refiner_timeout_s = 1800;       // COLMAP is ended after this
+  bool refine_poses_with_curves = true;  // afterwards; see curve_poses.h
+};
+
+// Fewer points seen by two views are not enough to refine poses with.
+inline constexpr std::size_t kMinPointsToRefine = 100;
+
+// What was done, for report.json.
+struct PoseRefinementRecord {
+  std::string refiner = "none";  // the one that ran: "colmap", "ceres", "none"
+  std::string colmap_path;       // of the program, if it ran
+  std::string colmap_version;    // "3.8"; "unknown"
+  std::size_t num_views = 0;     // that took part
+  std::size_t num_points = 0;    // that took part, those held out included
+  double scale_removed = 1;      // by which the world had grown
+  std::optional<PoseJudgement> judgement;  // if poses came out
+  std::string largest_shift_image;         // name, if poses came out
+  bool accepted = false;
+  std::string reason;  // why, or why not
+};
+
+struct PoseRefinement {
+  // Set if the poses were accepted: the input with new poses, points and their
+  // errors, and cameras if asked for; everything else as it was.
+  std::optional<ColmapModel> model;
+  PoseRefinementRecord record;
+  std::vector<std::string> notes;  // sentences worth telling the user
+};
+
+// "COLMAP 3.8, 24 views, 1.08 to 0.42 px, shifts up to 2.3 px": what was done,
+// in a few words. The errors are mean ones, of the points that were held out.
+std::string PoseRefinementText(const PoseRefinementRecord& record);
+
+// The command line's options that set `settings`, which must outlive them.
+FlagSection PoseRefinementFlags(PoseRefinementSettings* settings);
+
+// Refines the poses of `model`. A bundle adjuster that is missing or that fails
+// in any way, and a model without points, are told in `notes` and leave the
+// poses as they were; without COLMAP, our own takes over. COLMAP's output goes
+// to `log_path`. `progress` is called as stage "refine_poses". kCancelled when
+// it returns false.
+Result<PoseRefinement> RefinePoses(const ColmapModel& model,
+                                   const PoseRefinementSettings& settings,
+                                   const std::filesystem::path& log_path,
+                                   const Progress& progress);
+
+}  // namespace curvix

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include <stdlib.h>
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <system_error>
+
+#include "base/median.h"
+#include "colmap/colmap_model.h"
+#include "plugin/poses/child_process.h"
+#include "plugin/poses/pose_refiners.h"
+#include "plugin/run/text.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// `colmap help` only prints.
+constexpr double kVersionTimeoutS = 20;
+
+constexpr char kHowToInstall[] =
+    "install it ('apt install colmap' on Debian and Ubuntu, else "
+    "https://colmap.github.io), or name it with --colmap_path";
+
+// A folder of one's own for temporary files, which goes with its object.
+class ScratchFolder {
+ public:
+  static Result<fs::path> Make() {
+    std::error_code error;
+    const fs::path parent = fs::temp_directory_path(error);
+    std::string name = (parent / "colmap_curvix-XXXXXX").string();
+    if (!error && mkdtemp(name.data()) != nullptr) return fs::path(name);
+    return Status(StatusCode::kInvalidArgument,
+                  "cannot make a temporary folder in " + parent.string() +
+                      "; let TMPDIR name one with room, or use "
+                      "--refiner ceres");
+  }
+  explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+Status ToolFailure(const std::string& sentence) {
+  return {StatusCode::kExternalTool, sentence};
+}
+
+// COLMAP squares the errors: observations that are this many times the median
+// off would pull at the poses.
+constexpr double kOutlier = 5;
+
+// `bundle` with its points fitted to the poses, without outliers. Points may
+// be left with any number of observations.
+Bundle WithoutOutliers(Bundle bundle) {
+  FitPoints(&bundle);
+  std::vector<double> errors;
+  for (const BundlePoint& point : bundle.points) {
+    for (const double e : ReprojectionErrors(bundle, point)) {
+      errors.push_back(e);
+    }
+  }
+  const double limit = kOutlier * MedianOrNan(errors);
+  auto error = errors.cbegin();
+  for (BundlePoint& point : bundle.points) {
+    std::erase_if(point.observations,
+                  [&](const auto&) { return !(*error++ <= limit); });
+  }
+  return bundle;
+}
+
+// What is written for COLMAP: ids are indices + 1, and only what takes part,
+// whatever else the model of the user holds.
+ColmapModel ModelForColmap(const Bundle& bundle) {
+  ColmapModel model;
+  for (const Camera& camera : bundle.cameras) {
+    const auto id = static_cast<std::uint32_t>(model.cameras.size() + 1);
+    model.cameras.push_back({id, camera});
+  }
+  for (const BundleView& view : bundle.views) {
+    const auto id = static_cast<std::uint32_t>(model.images.size() + 1);
+    ColmapImage image;
+    image.image_id = id;
+    image.cam_from_world = view.cam_from_world;
+    image.camera_id = static_cast<std::uint32_t>(view.camera_idx + 1);
+    image.name = std::to_string(id);
+    model.images.push_back(std::move(image));
+  }
+  for (std::size_t i = 0; i < bundle.points.size(); ++i) {
+    const BundlePoint& source = bundle.points[i];
+    if (source.observations.size() < 2) continue;
+    ColmapPoint3D point;
+    point.point3D_id = i + 1;
+    point.position = source.position;
+    for (const BundleObservation& seen : source.observations) {
+      ColmapImage& image = model.images[seen.view_idx];
+      point.track.push_back(
+          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
+      image.points2D.push_back(
+          {seen.pixel.x(), seen.pixel.y(), point.point3D_id});
+    }
+    model.points.push_back(std::move(point));
+  }
+  return model;
+}
+
+// `bundle` with what COLMAP made of it; points that it dropped stay.
+Result<Bundle> BundleFromColmap(Bundle bundle, const fs::path& folder) {
+  const Result<ColmapModel> model = ReadColmapModel(folder);
+  if (!model.ok()) {
+    return ToolFailure("it wrote no model that can be read: " +
+                       model.status().message());
+  }
+  bool same = model->images.size() == bundle.views.size() &&
+              model->cameras.size() == bundle.cameras.size();
+  for (std::size_t i = 0; same && i < bundle.views.size(); ++i) {
+    const ColmapImage& image = model->images[i];
+    same = image.image_id == i + 1 && image.name == std::to_string(i + 1) &&
+           image.camera_id == bundle.views[i].camera_idx + 1;
+    bundle.views[i].cam_from_world = image.cam_from_world;
+  }
+  for (std::size_t i = 0; same && i < bundle.cameras.size(); ++i) {
+    const ColmapCamera& item = model->cameras[i];
+    same = item.camera_id == i + 1 &&
+           item.camera.model == bundle.cameras[i].model &&
+           item.camera.width == bundle.cameras[i].width &&
+           item.camera.height == bundle.cameras[i].height;
+    bundle.cameras[i].params = item.camera.params;
+  }
+  if (!same) {
+    return ToolFailure("its model has other images or cameras than it got");
+  }
+  for (const ColmapPoint3D& point : model->points) {
+    if (point.point3D_id == 0 || point.point3D_id > bundle.points.size()) {
+      continue;
+    }
+    bundle.points[point.point3D_id - 1].position = point.position;
+  }
+  return bundle;
+}
+
+Status Cancelled() { return {StatusCode::kCancelled, "interrupted"}; }
+
+// Fails unless COLMAP came to its own end, successfully.
+Status CheckEnd(const ChildEnd& end, double timeout_s) {
+  switch (end.kind) {
+    case ChildEnd::Kind::kStopped:
+      return Cancelled();
+    case ChildEnd::Kind::kTimedOut:
+      return ToolFailure("it was not done after " + DurationText(timeout_s) +
+                         " (--refiner_timeout_s)");
+    case ChildEnd::Kind::kKilled:
+      return ToolFailure("it was ended by signal " + std::to_string(end.code));
+    case ChildEnd::Kind::kExited:
+      break;
+  }
+  if (end.code == 0) return {};
+  return ToolFailure("it ended with exit code " + std::to_string(end.code));
+}
+
+std::vector<std::string> BundleAdjusterArguments(const fs::path& input,
+                                                 const fs::path& output) {
+  return {"bundle_adjuster",
+          "--input_path",
+          input.string(),
+          "--output_path",
+          output.string(),
+          "--BundleAdjustment.refine_focal_length",
+          "0",
+          "--BundleAdjustment.refine_principal_point",
+          "0",
+          "--BundleAdjustment.refine_extra_params",
+          "0"};
+}
+
+}  // namespace
+
+Result<fs::path> FindColmap(const fs::path& given) {
+  if (!given.empty()) {
+    if (IsProgram(given)) return fs::absolute(given);
+    return Status(StatusCode::kNotFound,
+                  "--colmap_path " + given.string() + " is not a program; " +
+                      kHowToInstall);
+  }
+  if (const char* const folder = std::getenv("COLMAP_EXE_PATH")) {
+    fs::path program = fs::absolute(fs::path(folder) / "colmap");
+    if (IsProgram(program)) return program;
+  }
+  fs::path program = FindInPath("colmap");
+  if (!program.empty()) return program;
+  return Status(StatusCode::kNotFound,
+                std::string("COLMAP is not installed; ") + kHowToInstall);
+}
+
+Result<std::string> ColmapVersion(const ColmapRun& run,
+                                  const KeepGoing& keep_going) {
+  const Result<fs::path> made = ScratchFolder::Make();
+  if (!made.ok()) return made.status();
+  const ScratchFolder scratch(*made);
+  const fs::path text_path = scratch.path() / "help.txt";
+  const double timeout_s = std::min(run.timeout_s, kVersionTimeoutS);
+  const Result<ChildEnd> end = RunChildProcess({run.program,
+                                                {"help"},
+                                                scratch.path(),
+                                                text_path,
+                                                timeout_s,
+                                                keep_going});
+  if (!end.ok()) return end.status();
+  if (end->kind == ChildEnd::Kind::kStopped) return Cancelled();
+  if (end->kind == ChildEnd::Kind::kTimedOut) {
+    return ToolFailure("'colmap help' was not done after " +
+                       DurationText(timeout_s));
+  }
+  std::ifstream text(text_path);
+  static const std::regex kBanner(R"(^COLMAP (\d+\.\d+[^ ]{0,20}))");
+  constexpr int kMaxBannerLine = 50;
+  std::string line;
+  for (int i = 0; i < kMaxBannerLine && std::getline(text, line); ++i) {
+    std::smatch match;
+    line.resize(std::min<std::size_t>(line.size(), 200));
+    if (std::regex_search(line, match, kBanner)) return match[1].str();
+  }
+  return std::string("unknown");
+}
+
+Result<Bundle> RefineWithColmap(const Bundle& bundle,
+                                const ColmapRun& run,
+                                const KeepGoing& keep_going) {
+  const Result<fs::path> made = ScratchFolder::Make();
+  if (!made.ok()) return made.status();
+  const ScratchFolder scratch(*made);
+  const fs::path input = scratch.path() / "input";
+  const fs::path output = scratch.path() / "output";
+  std::error_code error;
+  fs::create_directory(output, error);
+  Status written = WriteColmapModel(
+      ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
+  if (!written.ok()) return written;
+  const Result<ChildEnd> end =
+      RunChildProcess({run.program,
+                       BundleAdjusterArguments(input, output),
+                       scratch.path(),
+                       run.log_path,
+                       run.timeout_s,
+                       keep_going});
+  if (!end.ok()) return end.status();
+  Status ended = CheckEnd(*end, run.timeout_s);
+  if (!ended.ok()) return ended;
+  return BundleFromColmap(bundle, output);
+}
+
+}  // namespace curvix

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+// The bundle adjusters behind RefinePoses. They may move and scale the world.
+#pragma once
+
+#include <curvix/status.h>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "plugin/poses/bundle.h"
+
+namespace curvix {
+
+// Asked many times a second; false: stop.
+using KeepGoing = std::function<bool()>;
+
+// Adjusts poses and points of `bundle`; cameras stay. Cauchy's loss of scale 1
+// px; a weak prior holds the poses where they were, so that nothing drifts that
+// the points do not determine. One thread: the same result on every run.
+// kCancelled when keep_going says so; kExternalTool if Ceres finds no usable
+// solution.
+Result<Bundle> RefineWithCeres(const Bundle& bundle,
+                               const KeepGoing& keep_going);
+
+// The user's COLMAP: `given` if not empty, else $COLMAP_EXE_PATH/colmap, else
+// colmap in $PATH. kNotFound: a sentence that says what to install.
+Result<std::filesystem::path> FindColmap(const std::filesystem::path& given);
+
+struct ColmapRun {
+  std::filesystem::path program;
+  double timeout_s = 0;
+  std::filesystem::path log_path;  // takes what COLMAP says
+};
+
+// "3.8", read from the first lines of `colmap help`; "unknown" if they are not
+// COLMAP's. kCancelled; kExternalTool if there is no answer in time.
+Result<std::string> ColmapVersion(const ColmapRun& run,
+                                  const KeepGoing& keep_going);
+
+// The same as RefineWithCeres by `colmap bundle_adjuster`, without a robust
+// loss or a prior: it has neither. Options are only those that COLMAP 3.6 to
+// 4.x know. kExternalTool, with a sentence that says what went wrong: it could
+// not be started, failed, took too long, or wrote no model with the same
+// images and cameras. kCancelled; kInvalidArgument: no room for temporary
+// files.
+Result<Bundle> RefineWithColmap(const Bundle& bundle,
+                                const ColmapRun& run,
+                                const KeepGoing& keep_going);
+
+}  // namespace curvix

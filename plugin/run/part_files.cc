@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/part_files.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "base/file_io.h"
+#include "base/option_table.h"
+#include "io/stage_io.h"
+#include "plugin/run/progress.h"
+#include "plugin/run/stage_store.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPlanName = "plan.json";
+
+std::size_t Idx(int idx) { return static_cast<std::size_t>(idx); }
+
+// "cut 3" or "part 0", for a child of a cut.
+std::string NodeName(int node) {
+  return node >= 0 ? "cut " + std::to_string(node)
+                   : "part " + std::to_string(-1 - node);
+}
+
+// nullopt: no such name.
+std::optional<int> NodeOf(const std::string& name) {
+  for (const bool is_cut : {true, false}) {
+    const std::string kind = is_cut ? "cut " : "part ";
+    const std::string digits =
+        name.rfind(kind, 0) == 0 ? name.substr(kind.size()) : "";
+    if (digits.empty() || digits.size() > 8 ||
+        digits.find_first_not_of("0123456789") != std::string::npos) {
+      continue;
+    }
+    const int idx = std::stoi(digits);
+    return is_cut ? idx : -1 - idx;
+  }
+  return std::nullopt;
+}
+
+Json CutJson(const SceneCut& cut) {
+  return {{"normal", {cut.normal.x(), cut.normal.y(), cut.normal.z()}},
+          {"offset", cut.offset},
+          {"below", NodeName(cut.below)},
+          {"above", NodeName(cut.above)}};
+}
+
+double Megapixels(const Camera& camera) {
+  return 1e-6 * camera.width * camera.height;
+}
+
+Json PartJson(int part_idx, const ScenePart& part, const Scene& scene) {
+  double sum = 0;
+  double largest = 0;
+  std::vector<std::string> names;
+  for (const int idx : part.view_idxs) {
+    const View& view = scene.views[Idx(idx)];
+    const double megapixels = Megapixels(scene.cameras[Idx(view.camera_idx)]);
+    sum += megapixels;
+    largest = std::max(largest, megapixels);
+    names.push_back(view.name);
+  }
+  return {{"part", part_idx},
+          {"num_views", part.view_idxs.size()},
+          {"num_own_views", part.own_view_idxs.size()},
+          {"megapixels", sum},
+          {"largest_megapixels", largest},
+          {"own_view_idxs", part.own_view_idxs},
+          {"view_idxs", part.view_idxs},
+          {"views", names}};
+}
+
+// Throws nlohmann's exceptions, and std::out_of_range.
+ScenePartition PartitionOf(const Json& json) {
+  ScenePartition partition;
+  partition.overlap = json.at("overlap").get<double>();
+  for (const Json& item : json.at("cuts")) {
+    SceneCut cut;
+    for (int axis = 0; axis < 3; ++axis) {
+      cut.normal[axis] = item.at("normal").at(Idx(axis)).get<double>();
+    }
+    cut.offset = item.at("offset").get<double>();
+    cut.below = NodeOf(item.at("below").get<std::string>()).value();
+    cut.above = NodeOf(item.at("above").get<std::string>()).value();
+    partition.cuts.push_back(cut);
+  }
+  for (const Json& item : json.at("parts")) {
+    partition.parts.push_back(
+        {item.at("view_idxs").get<std::vector<int>>(),
+         item.at("own_view_idxs").get<std::vector<int>>()});
+  }
+  return partition;
+}
+
+bool IsAscending(const std::vector<int>& idxs, int num_views) {
+  return !idxs.empty() && idxs.front() >= 0 && idxs.back() < num_views &&
+         std::adjacent_find(idxs.begin(), idxs.end(), [](int a, int b) {
+           return a >= b;
+         }) == idxs.end();
+}
+
+// Whether every cut and part is reached once from the first cut, and views
+// exist.
+bool IsSound(const ScenePartition& partition, int num_views) {
+  const auto num_cuts = static_cast<int>(partition.cuts.size());
+  const auto num_parts = static_cast<int>(partition.parts.size());
+  std::multiset<int> nodes = {num_cuts > 0 ? 0 : -1};
+  for (int i = 0; i < num_cuts; ++i) {
+    const SceneCut& cut = partition.cuts[Idx(i)];
+    // Children come after their cut, so there is no circle.
+    if ((cut.below >= 0 && cut.below <= i) ||
+        (cut.above >= 0 && cut.above <= i)) {
+      return false;
+    }
+    nodes.insert({cut.below, cut.above});
+  }
+  std::multiset<int> expected;
+  for (int i = -num_parts; i < num_cuts; ++i) expected.insert(i);
+  return nodes == expected && partition.overlap >= 0 &&
+         std::all_of(partition.parts.begin(),
+                     partition.parts.end(),
+                     [num_views](const ScenePart& part) {
+                       return IsAscending(part.view_idxs, num_views) &&
+                              IsAscending(part.own_view_idxs, num_views);
+                     });
+}
+
+// The images of `views` with the points that they see, or without any.
+ColmapModel ModelOfViews(const ColmapModel& model,
+                         const Scene& scene,
+                         const std::vector<int>& view_idxs,
+                         bool with_points) {
+  ColmapModel part;
+  part.cameras = model.cameras;
+  std::vector<std::uint32_t> image_ids;
+  for (const int idx : view_idxs) {
+    image_ids.push_back(scene.views[Idx(idx)].image_id);
+  }
+  std::sort(image_ids.begin(), image_ids.end());
+  const auto is_in_part = [&](std::uint32_t id) {
+    return std::binary_search(image_ids.begin(), image_ids.end(), id);
+  };
+  std::vector<std::uint64_t> point_ids;
+  for (const ColmapImage& image : model.images) {
+    if (!is_in_part(image.image_id)) continue;
+    part.images.push_back(image);
+    if (!with_points) part.images.back().points2D.clear();
+    for (const ColmapPoint2D& point : part.images.back().points2D) {
+      if (point.point3D_id != kNoPoint3D) point_ids.push_back(point.point3D_id);
+    }
+  }
+  std::sort(point_ids.begin(), point_ids.end());
+  point_ids.erase(std::unique(point_ids.begin(), point_ids.end()),
+                  point_ids.end());
+  auto point = model.points.begin();
+  for (const std::uint64_t id : point_ids) {
+    point = std::lower_bound(point,
+                             model.points.end(),
+                             id,
+                             [](const ColmapPoint3D& p, std::uint64_t sought) {
+                               return p.point3D_id < sought;
+                             });
+    if (point == model.points.end()) break;
+    if (point->point3D_id != id) continue;
+    part.points.push_back(*point);
+    std::erase_if(part.points.back().track,
+                  [&](const ColmapTrackElement& element) {
+                    return !is_in_part(element.image_id);
+                  });
+  }
+  return part;
+}
+
+Status Interrupted() {
+  return {StatusCode::kCancelled, "interrupted; nothing was written"};
+}
+
+Result<PartFile> OpenPart(const PartPlan& plan,
+                          std::size_t part_idx,
+                          const Options& options,
+                          const fs::path& folder) {
+  const int idx = static_cast<int>(part_idx);
+  return PartFile::Open(ResultPath(folder, idx), PartKey(plan, idx, options));
+}
+
+// Names the parts that are not done.
+Status PartsNotDone(const PartPlan& plan,
+                    const Options& options,
+                    const fs::path& folder) {
+  std::string names;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    if (OpenPart(plan, i, options, folder).ok()) continue;
+    names += (names.empty() ? "" : ", ") + std::to_string(i);
+  }
+  return {StatusCode::kNotFound,
+          "these parts are not there, or of other options: " + names +
+              "; run 'colmap_curvix reconstruct' with --part and the options "
+              "of this command for each of them"};
+}
+
+}  // namespace
+
+std::string PlanJson(const ScenePartition& partition, const Scene& scene) {
+  Json json;
+  json["num_views"] = scene.views.size();
+  json["num_parts"] = partition.parts.size();
+  json["scene_hash"] = SceneKey(scene);
+  json["overlap"] = partition.overlap;
+  json["cuts"] = Json::array();
+  for (const SceneCut& cut : partition.cuts) {
+    json["cuts"].push_back(CutJson(cut));
+  }
+  json["parts"] = Json::array();
+  for (std::size_t i = 0; i < partition.parts.size(); ++i) {
+    json["parts"].push_back(
+        PartJson(static_cast<int>(i), partition.parts[i], scene));
+  }
+  // COLMAP's names may hold any bytes; JSON holds UTF-8 only.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Status WritePlan(const ScenePartition& partition,
+                 const Scene& scene,
+                 const ColmapModel& model,
+                 const fs::path& folder) {
+  std::vector<int> all(scene.views.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  Status status = WriteColmapModel(ModelOfViews(model, scene, all, false),
+                                   folder / "scene",
+                                   ColmapFormat::kBinary);
+  for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
+    status = WriteColmapModel(
+        ModelOfViews(model, scene, partition.parts[i].view_idxs, true),
+        PartFolder(folder, static_cast<int>(i)) / "sparse",
+        ColmapFormat::kBinary);
+  }
+  if (!status.ok()) return status;
+  return WriteFileAtomically(folder / kPlanName, PlanJson(partition, scene));
+}
+
+Result<PartPlan> ReadPlan(const fs::path& folder) {
+  Result<std::string> text = ReadFile(folder / kPlanName);
+  if (!text.ok()) {
+    return Status(StatusCode::kNotFound,
+                  "there is no plan " + (folder / kPlanName).string() +
+                      "; run 'colmap_curvix partition' first");
+  }
+  PartPlan plan;
+  bool is_sound = false;
+  try {
+    const Json json = Json::parse(*text);
+    plan.partition = PartitionOf(json);
+    const int num_views = json.at("num_views").get<int>();
+    plan.num_views = Idx(num_views);
+    is_sound = IsSound(plan.partition, num_views);
+  } catch (const std::exception&) {
+    is_sound = false;
+  }
+  if (!is_sound) {
+    return Status(StatusCode::kDataLoss,
+                  (folder / kPlanName).string() +
+                      " is broken; run 'colmap_curvix partition' again");
+  }
+  plan.text = *std::move(text);
+  return plan;
+}
+
+std::uint64_t PartKey(const PartPlan& plan,
+                      int part_idx,
+                      const Options& options) {
+  std::string text = plan.text + std::to_string(part_idx);
+  Options copy = options;
+  for (const OptionRow& row : OptionTable(copy)) {
+    const bool is_of_a_stage = row.name.find('.') != std::string::npos &&
+                               row.name.rfind("CurveFitting.", 0) != 0;
+    if (is_of_a_stage) text += "\n" + row.name + "=" + ValueText(row);
+  }
+  return HashBytes(text);
+}
+
+fs::path PartFolder(const fs::path& folder, int part_idx) {
+  return folder / std::to_string(part_idx);
+}
+
+fs::path ResultPath(const fs::path& folder, int part_idx) {
+  return PartFolder(folder, part_idx) / "part.bin";
+}
+
+fs::path EdgesPath(const fs::path& folder, int part_idx) {
+  return PartFolder(folder, part_idx) / "edges.ply";
+}
+
+Result<PartFiles> PartFiles::Open(const PartPlan& plan,
+                                  const Options& options,
+                                  const fs::path& folder) {
+  PartFiles parts;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    Result<PartFile> file = OpenPart(plan, i, options, folder);
+    if (file.status().code() == StatusCode::kNotFound) {
+      return PartsNotDone(plan, options, folder);
+    }
+    if (!file.ok()) return file.status();
+    if (IsInterrupted()) return Interrupted();
+    file->Close();
+    parts.files_.push_back(std::move(file).value());
+  }
+  return parts;
+}
+
+std::int64_t PartFiles::num_edges_2d() const {
+  std::int64_t sum = 0;
+  for (const PartFile& file : files_) sum += file.num_own_edges_2d();
+  return sum;
+}
+
+std::int64_t PartFiles::num_edges_3d() const {
+  std::int64_t sum = 0;
+  for (const PartFile& file : files_) sum += file.num_core_edges_3d();
+  return sum;
+}
+
+std::size_t PartFiles::NumCurves(int part_idx) const {
+  return files_[Idx(part_idx)].num_curves();
+}
+
+Result<TracedCurve> PartFiles::Read(int part_idx, std::size_t curve_idx) {
+  if (IsInterrupted()) return Interrupted();
+  if (Idx(part_idx) != open_) files_[open_].Close();
+  open_ = Idx(part_idx);
+  return files_[open_].Read(curve_idx);
+}
+
+}  // namespace curvix

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene in parts, on disk: parts/ among the results.
+//
+//   plan.json         the partition, for people too
+//   scene/*.bin       the model of the scene without its points
+//   <k>/sparse/*.bin  the model of part k: its views, and the points they see
+//   <k>/part.bin      what part k gave (io/stage_io.h)
+//   <k>/edges.ply     the 3D edges in its core
+//   <k>/report.json   what it cost
+//   <k>/stages/       what it goes on from if it is run again
+#pragma once
+
+#include <curvix/options.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "colmap/colmap_model.h"
+#include "io/stage_io.h"
+#include "parts/scene_parts.h"
+
+namespace curvix {
+
+// Writes all of the above that is known before any part is reconstructed.
+// `scene` is that of `model`, with the views whose images are there.
+Status WritePlan(const ScenePartition& partition,
+                 const Scene& scene,
+                 const ColmapModel& model,
+                 const std::filesystem::path& folder);
+
+// The text of plan.json.
+std::string PlanJson(const ScenePartition& partition, const Scene& scene);
+
+struct PartPlan {
+  std::string text;  // of plan.json
+  ScenePartition partition;
+  std::size_t num_views = 0;  // of the scene
+};
+
+// kNotFound without plan.json; kDataLoss if it is broken.
+Result<PartPlan> ReadPlan(const std::filesystem::path& folder);
+
+// What a part's result depends on besides the images: the plan and all options
+// of its stages.
+std::uint64_t PartKey(const PartPlan& plan,
+                      int part_idx,
+                      const Options& options);
+
+std::filesystem::path PartFolder(const std::filesystem::path& folder,
+                                 int part_idx);
+// part.bin and edges.ply.
+std::filesystem::path ResultPath(const std::filesystem::path& folder,
+                                 int part_idx);
+std::filesystem::path EdgesPath(const std::filesystem::path& folder,
+                                int part_idx);
+
+// The results of all parts, of which one file is open at a time.
+class PartFiles : public PartResults {
+ public:
+  // Reads all files once, to check them. kNotFound names all parts that are not
+  // there, or not under their keys.
+  static Result<PartFiles> Open(const PartPlan& plan,
+                                const Options& options,
+                                const std::filesystem::path& folder);
+
+  // Of all parts: edges detected, and 3D edges.
+  std::int64_t num_edges_2d() const;
+  std::int64_t num_edges_3d() const;
+
+  std::size_t NumCurves(int part_idx) const override;
+  // kCancelled, too, once the user wants to stop.
+  Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) override;
+
+  PartFiles(PartFiles&&) = default;
+
+ private:
+  PartFiles() = default;
+
+  std::vector<PartFile> files_;
+  std::size_t open_ = 0;  // the one that may be open
+};
+
+}  // namespace curvix

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The first step of every run: what there is to reconstruct.
+#pragma once
+
+#include <curvix/status.h>
+
+#include "colmap/workspace.h"
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+// FindWorkspace for the paths of `settings`. kInvalidArgument, too, if the
+// results would lie among the inputs.
+Result<Workspace> FindInput(const RunSettings& settings);
+
+// Reads the model of `workspace`; puts into `record` which folders and what
+// they hold.
+Result<WorkspaceScene> ReadInput(const Workspace& workspace,
+                                 ProgressPrinter& progress,
+                                 RunRecord& record);
+
+}  // namespace curvix

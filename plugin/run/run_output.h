@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The last step of every run: what was found, in files.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "base/stopwatch.h"
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+// What a run has found.
+struct Findings {
+  const CurveSource& curves;
+  std::int64_t num_edges_3d = 0;
+  std::function<Status(const std::filesystem::path&)> write_edges;  // those
+  std::string why_empty;  // "" when there are curves
+};
+
+// Fits the curves, and writes the files that record.settings asks for into
+// `folder`: those of the curves, if there are any, and edges.ply, if there are
+// 3D edges. Puts into `record` what was found and which files tell of
+// it; the folder and the number of 2D edges are there already.
+Status WriteFindings(const Scene& scene,
+                     const Findings& findings,
+                     const std::filesystem::path& folder,
+                     RunRecord& record);
+
+// Writes report.json of a run that began with `since_start`.
+Status WriteReport(const Stopwatch& since_start,
+                   const std::filesystem::path& folder,
+                   ProgressPrinter& progress,
+                   RunRecord& record);
+
+}  // namespace curvix

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/run_parts.h"
+
+#include <curvix/curve_io.h>
+#include <curvix/reconstruct.h>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/stopwatch.h"
+#include "io/stage_io.h"
+#include "plugin/run/part_files.h"
+#include "plugin/run/run_input.h"
+#include "plugin/run/run_output.h"
+#include "plugin/run/run_stages.h"
+#include "plugin/run/staged_output.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPartsName = "parts";
+
+Status Cancelled() {
+  return {StatusCode::kCancelled, "interrupted; nothing was written"};
+}
+
+// "f" with exceptions of the file system as statuses.
+template <typename F>
+auto Guarded(const F& f) -> decltype(f()) {
+  try {
+    return f();
+  } catch (const fs::filesystem_error& error) {
+    return Status(StatusCode::kNotFound, error.what());
+  }
+}
+
+RunRecord RecordOf(const RunSettings& settings) {
+  RunRecord record;
+  record.settings = settings;
+  record.settings.poses.refiner = "none";
+  record.settings.poses.refine_poses_with_curves = false;
+  return record;
+}
+
+Result<ScenePartition> Partition(const RunSettings& settings,
+                                 int max_views_per_part,
+                                 ProgressPrinter& progress) {
+  const Result<Workspace> workspace = FindInput(settings);
+  if (!workspace.ok()) return workspace.status();
+  RunRecord record = RecordOf(settings);
+  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
+  if (!input.ok()) return input.status();
+  progress.Update("partition_scene", 0, 0);
+  Result<ScenePartition> partition =
+      PartitionScene(input->scene, max_views_per_part);
+  if (!partition.ok()) return partition;
+  progress.Finish(std::to_string(partition->parts.size()) + " parts");
+
+  const Result<PartPlan> present =
+      ReadPlan(workspace->output_path / kPartsName);
+  if (present.ok() && present->text == PlanJson(*partition, input->scene)) {
+    progress.Note("The plan is there already, and stays");
+    return partition;
+  }
+  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  if (!output.ok()) return output.status();
+  Status status = WritePlan(
+      *partition, input->scene, input->model, output->folder() / kPartsName);
+  if (status.ok() && IsInterrupted()) status = Cancelled();
+  if (status.ok()) status = output->Publish();
+  if (!status.ok()) return status;
+  return partition;
+}
+
+Result<RunRecord> ReconstructPart(const RunSettings& settings,
+                                  int part_idx,
+                                  ProgressPrinter& progress) {
+  const Stopwatch since_start;
+  Result<Workspace> workspace = FindInput(settings);
+  if (!workspace.ok()) return workspace.status();
+  const fs::path parts = workspace->output_path / kPartsName;
+  const Result<PartPlan> plan = ReadPlan(parts);
+  if (!plan.ok()) return plan.status();
+  const std::size_t num_parts = plan->partition.parts.size();
+  if (part_idx < 0 || static_cast<std::size_t>(part_idx) >= num_parts) {
+    return Status(StatusCode::kNotFound,
+                  "there is no part " + std::to_string(part_idx) +
+                      "; the plan has the parts 0 to " +
+                      std::to_string(num_parts - 1));
+  }
+  const fs::path folder = PartFolder(parts, part_idx);
+  workspace->model_path = folder / "sparse";
+  workspace->output_path = folder;
+  RunRecord record = RecordOf(settings);
+  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
+  if (!input.ok()) return input.status();
+  if (!input->missing_images.empty()) {
+    return Status(StatusCode::kNotFound,
+                  "image " + input->missing_images.front() + " of part " +
+                      std::to_string(part_idx) + " is gone; bring it back or " +
+                      "run 'colmap_curvix partition' again");
+  }
+  RunStages stages(folder / "stages", progress, record);
+  const Result<std::vector<EdgeMap>> edge_maps = stages.Detect(input->scene);
+  if (!edge_maps.ok()) return edge_maps.status();
+  Result<Reconstruction> reconstruction =
+      stages.Reconstruct(input->scene, *edge_maps);
+  if (!reconstruction.ok()) return stages.KeptStages(reconstruction.status());
+
+  PartResult part =
+      TakePart(plan->partition, part_idx, reconstruction->curves, *edge_maps);
+  const std::vector<Edge3d> edges =
+      EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
+  if (IsInterrupted()) return Cancelled();
+  part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
+  for (const TracedCurve& traced : part.curves) {
+    Count(traced.curve, record.result);
+  }
+  record.result.num_edges_3d = part.num_core_edges_3d;
+  Status status = WriteEdges(EdgesPath(parts, part_idx), edges);
+  if (status.ok()) {
+    status = WritePartResult(ResultPath(parts, part_idx),
+                             PartKey(*plan, part_idx, settings.options),
+                             part);
+  }
+  if (status.ok()) status = WriteReport(since_start, folder, progress, record);
+  if (!status.ok()) return status;
+  return record;
+}
+
+// The files of the 3D edges of all parts.
+std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    paths.push_back(EdgesPath(folder, static_cast<int>(i)));
+  }
+  return paths;
+}
+
+Result<RunRecord> Merge(const RunSettings& settings,
+                        ProgressPrinter& progress) {
+  const Stopwatch since_start;
+  Result<Workspace> workspace = FindInput(settings);
+  if (!workspace.ok()) return workspace.status();
+  const fs::path model_path = workspace->model_path;
+  const fs::path folder = workspace->output_path / kPartsName;
+  const Result<PartPlan> plan = ReadPlan(folder);
+  if (!plan.ok()) return plan.status();
+  workspace->model_path = folder / "scene";
+  RunRecord record = RecordOf(settings);
+  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
+  if (!input.ok()) return input.status();
+  record.settings.input_path = fs::absolute(model_path);
+  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  if (!output.ok()) return output.status();
+
+  const Stopwatch since_join;
+  progress.Update("join_parts", 0, 0);
+  Result<PartFiles> parts = PartFiles::Open(*plan, settings.options, folder);
+  if (!parts.ok()) return parts.status();
+  const auto curves =
+      JoinParts(plan->partition, *parts, input->scene, settings.options);
+  if (!curves.ok()) return curves.status();
+  record.stages.push_back(since_join.Read("join_parts"));
+  record.stages.back().counts = {
+      {"parts", static_cast<std::int64_t>(plan->partition.parts.size())},
+      {"curves", static_cast<std::int64_t>((*curves)->size())}};
+  record.result.num_edges_2d = parts->num_edges_2d();
+  Status status = WriteFindings(
+      input->scene,
+      {**curves,
+       parts->num_edges_3d(),
+       [&](const fs::path& path) {
+         return ConcatenateEdges(path, EdgesPaths(*plan, folder));
+       },
+       (*curves)->size() > 0 ? ""
+                             : "no part has any; report.json in the folders "
+                               "of the parts says more"},
+      output->folder(),
+      record);
+  if (status.ok()) {
+    status = WriteReport(since_start, output->folder(), progress, record);
+  }
+  if (status.ok() && IsInterrupted()) status = Cancelled();
+  if (status.ok()) status = output->Publish({"sparse", "bundle_adjuster.log"});
+  if (!status.ok()) return status;
+  return record;
+}
+
+}  // namespace
+
+Result<ScenePartition> RunPartition(const RunSettings& settings,
+                                    int max_views_per_part,
+                                    ProgressPrinter& progress) {
+  return Guarded(
+      [&] { return Partition(settings, max_views_per_part, progress); });
+}
+
+Result<RunRecord> RunPart(const RunSettings& settings,
+                          int part_idx,
+                          ProgressPrinter& progress) {
+  return Guarded([&] { return ReconstructPart(settings, part_idx, progress); });
+}
+
+Result<RunRecord> RunMerge(const RunSettings& settings,
+                           ProgressPrinter& progress) {
+  return Guarded([&] { return Merge(settings, progress); });
+}
+
+}  // namespace curvix

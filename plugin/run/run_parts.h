@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene in parts: planned, reconstructed part by part, and merged. Each step
+// may run on another machine that sees the same files; each may run again, and
+// gives the same bytes.
+#pragma once
+
+#include <curvix/status.h>
+
+#include "parts/scene_parts.h"
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+// Divides the scene of a workspace as PartitionScene() does, and writes parts/
+// (part_files.h) into the folder of its results. If the same plan is there
+// already, it stays, and so do the results of its parts; another one goes with
+// all of them. Errors as RunWorkspace and PartitionScene.
+Result<ScenePartition> RunPartition(const RunSettings& settings,
+                                    int max_views_per_part,
+                                    ProgressPrinter& progress);
+
+// Reconstructs one part, from its own model and images alone, with the poses
+// that they have, and writes its part.bin and report.json.
+// Errors as RunWorkspace; kNotFound, too, without plan or part.
+Result<RunRecord> RunPart(const RunSettings& settings,
+                          int part_idx,
+                          ProgressPrinter& progress);
+
+// Merges the parts, and writes the files that RunWorkspace would write.
+// Errors as RunWorkspace; kNotFound, too, with the parts that are still to be
+// reconstructed, or again because plan or options are others.
+Result<RunRecord> RunMerge(const RunSettings& settings,
+                           ProgressPrinter& progress);
+
+}  // namespace curvix

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/run_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/option_table.h"
+#include "plugin/run/text.h"
+
+namespace curvix {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A row's value with its own type.
+struct ToJson {
+  const OptionRow& row;
+
+  Json operator()(const bool* field) const { return *field; }
+  Json operator()(const int* field) const { return *field; }
+  Json operator()(const double* field) const { return *field; }
+  template <typename Enum>
+  Json operator()(const Enum*) const {
+    return ValueText(row);
+  }
+};
+
+// {"EdgeDetection": {"sigma_px": 1.0, ...}, ...}, without the runtime options.
+Json OptionsJson(Options options) {
+  Json json = Json::object();
+  for (const OptionRow& row : OptionTable(options)) {
+    const std::size_t dot = row.name.find('.');
+    if (dot == std::string::npos) continue;
+    json[row.name.substr(0, dot)][row.name.substr(dot + 1)] =
+        std::visit(ToJson{row}, row.field);
+  }
+  return json;
+}
+
+// COLMAP's names may hold any bytes; JSON holds UTF-8 only.
+std::string Printable(const std::string& text) {
+  const std::string json =
+      Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json::parse(json).get<std::string>();
+}
+
+Json InputJson(const InputSummary& input) {
+  Json json;
+  json["model_path"] = Printable(input.model_path.string());
+  json["image_path"] = Printable(input.image_path.string());
+  if (!input.mask_path.empty()) {
+    json["mask_path"] = Printable(input.mask_path.string());
+  }
+  json["camera_models"] = input.camera_models;
+  json["num_views"] = input.num_views;
+  json["num_points"] = input.num_points;
+  json["missing_images"] = Json::array();
+  for (const std::string& name : input.missing_images) {
+    json["missing_images"].push_back(Printable(name));
+  }
+  return json;
+}
+
+Json ErrorsJson(const ErrorSummary& errors) {
+  return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
+}
+
+Json JudgementJson(const PoseJudgement& judgement) {
+  Json json;
+  json["num_held_out_points"] = judgement.num_check_points;
+  json["num_held_out_observations"] = judgement.num_check_observations;
+  json["error_before"] = ErrorsJson(judgement.before);
+  json["error_after"] = ErrorsJson(judgement.after);
+  json["error_explained_px"] = judgement.explained_px;
+  json["median_shift_px"] = judgement.median_shift_px;
+  json["max_shift_px"] = judgement.max_shift_px;
+  json["max_turn_deg"] = judgement.max_turn_deg;
+  json["max_move"] = judgement.max_move;
+  return json;
+}
+
+Json PosesJson(const PoseRefinementRecord& poses) {
+  Json json;
+  json["refiner"] = poses.refiner;
+  json["accepted"] = poses.accepted;
+  json["reason"] = Printable(poses.reason);
+  json["num_views"] = poses.num_views;
+  json["num_points"] = poses.num_points;
+  if (poses.refiner == "colmap") {
+    json["colmap_path"] = Printable(poses.colmap_path);
+    json["colmap_version"] = Printable(poses.colmap_version);
+  }
+  if (!poses.judgement) return json;
+  json["scale_removed"] = poses.scale_removed;
+  json.update(JudgementJson(*poses.judgement));
+  json["max_shift_image"] = Printable(poses.largest_shift_image);
+  return json;
+}
+
+Json ErrorsJson(const ErrorsOfViews& errors) {
+  return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
+}
+
+Json CameraJson(const Camera& camera) {
+  return {{"model", std::string(ModelName(camera.model))},
+          {"params", camera.params}};
+}
+
+Json CurvePosesJson(const CurvePoseRecord& record) {
+  const CurvePoses& poses = record.poses;
+  Json json;
+  json["accepted"] = poses.accepted;
+  json["reason"] = Printable(poses.reason);
+  json["num_places"] = poses.num_samples;
+  json["num_held_out_places"] = poses.num_check_samples;
+  json["num_held_out_observations"] = poses.num_check_observations;
+  json["num_views_moved"] = poses.num_views_moved;
+  json["error_before"] = ErrorsJson(poses.before);
+  json["error_after"] = ErrorsJson(poses.after);
+  json["median_shift_px"] = poses.median_shift_px;
+  json["max_shift_px"] = poses.max_shift_px;
+  json["max_shift_image"] = Printable(record.largest_shift_image);
+  json["significance"] = poses.significance;
+  if (poses.num_points > 0) {
+    json["num_points"] = poses.num_points;
+    json["num_held_out_points"] = poses.num_check_points;
+    json["point_error_before"] = ErrorsJson(poses.points_before);
+    json["point_error_after"] = ErrorsJson(poses.points_after);
+  }
+  json["refined_cameras"] = Json::array();
+  for (const CameraChange& change : record.cameras) {
+    json["refined_cameras"].push_back(
+        {{"camera_id", change.camera_id},
+         {"from", CameraJson(change.from)},
+         {"to", CameraJson(change.to)},
+         {"median_shift_px", change.median_shift_px}});
+  }
+  return json;
+}
+
+Json CountsJson(const std::vector<StageReport>& stages) {
+  Json json = Json::array();
+  for (const StageReport& stage : stages) {
+    Json counts = Json::object();
+    for (const auto& [name, count] : stage.counts) counts[name] = count;
+    json.push_back({{"name", stage.name}, {"counts", counts}});
+  }
+  return json;
+}
+
+double Milli(double value) { return std::round(value * 1000) / 1000; }
+
+Json ResultJson(const ResultSummary& result) {
+  Json json;
+  json["num_curves"] = result.num_curves;
+  json["num_closed_curves"] = result.num_closed;
+  json["num_samples"] = result.num_samples;
+  json["total_length"] = result.total_length;
+  json["num_edges_3d"] = result.num_edges_3d;
+  json["num_edges_2d"] = result.num_edges_2d;
+  json["edge_sigma_px"] = Milli(result.edge_sigma_px);
+  json["files"] = result.files;
+  json["why_empty"] = result.why_empty;
+  return json;
+}
+
+Json CostJson(const StageReport& stage) {
+  return {{"name", stage.name},
+          {"wall_seconds", Milli(stage.wall_seconds)},
+          {"cpu_seconds", Milli(stage.cpu_seconds)},
+          {"peak_memory_mb", Milli(stage.peak_memory_mb)}};
+}
+
+Json RunJson(const RunRecord& record) {
+  Json json = CostJson(record.total);
+  json.erase("name");
+  json["num_threads"] = record.settings.options.runtime.num_threads;
+  json["resumed_stages"] = record.resumed_stages;
+  json["stages"] = Json::array();
+  for (const StageReport& stage : record.stages) {
+    json["stages"].push_back(CostJson(stage));
+  }
+  return json;
+}
+
+std::string FewDigits(double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.4g", value);
+  return text.data();
+}
+
+std::string Plural(std::int64_t count, const std::string& noun) {
+  return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+// "  detect_edges  24 views, 81 234 edges"
+std::string StageLine(const StageReport& stage) {
+  constexpr std::size_t kCountsColumn = 18;
+  std::string counts;
+  for (const auto& [name, count] : stage.counts) {
+    counts += counts.empty() ? "" : ", ";
+    std::string item = GroupDigits(count) + " " + name;
+    std::replace(item.begin(), item.end(), ' ', kNoBreak);
+    counts += item;
+  }
+  std::string line = WrapText(counts, kCountsColumn);
+  if (stage.name.size() + 3 > kCountsColumn) {
+    return "  " + stage.name + "\n" + line;
+  }
+  return line.replace(2, stage.name.size(), stage.name);
+}
+
+const char* OpenedBy(const std::string& file) {
+  for (const OutputFormat& format : OutputFormats()) {
+    if (file == format.file) return format.opened_by;
+  }
+  if (file == "overlays/") return "photographs with the curves drawn over them";
+  if (file == "edges.ply") return "3D edges before grouping, as points";
+  if (file == "sparse/") return "model with the refined poses: COLMAP";
+  if (file == "bundle_adjuster.log") return "what COLMAP said";
+  if (file == "report.json") return "counts, seconds and memory by stage";
+  if (file == "project.ini") return "the options: --project_path repeats them";
+  return "";
+}
+
+std::string FilesText(const ResultSummary& result) {
+  std::string text = "Written to " + result.output_path.string() + "\n";
+  for (const std::string& file : result.files) {
+    std::string line = "  " + file;
+    line.resize(std::max<std::size_t>(line.size() + 2, 16), ' ');
+    text += line + OpenedBy(file) + "\n";
+  }
+  return text;
+}
+
+std::string EmptyText(const RunRecord& record) {
+  std::string text = WrapText("No curves: " + record.result.why_empty, 0) +
+                     "\nWhat each stage counted\n";
+  for (const StageReport& stage : record.stages) {
+    if (!stage.counts.empty()) text += StageLine(stage);
+  }
+  return text + "\n" + FilesText(record.result);
+}
+
+}  // namespace
+
+std::string_view ProgramVersion() { return CURVIX_VERSION; }
+
+void Count(const Curve& curve, ResultSummary& result) {
+  ++result.num_curves;
+  if (curve.closed) ++result.num_closed;
+  result.num_samples += static_cast<std::int64_t>(curve.samples.size());
+  result.total_length += Length(curve);
+}
+
+ResultSummary SummarizeCurves(const CurveSet& curves) {
+  ResultSummary result;
+  for (const Curve& curve : curves.curves) Count(curve, result);
+  return result;
+}
+
+std::string ReportJson(const RunRecord& record) {
+  Json json;
+  json["program"] = {{"name", "colmap_curvix"},
+                     {"version", std::string(ProgramVersion())}};
+  json["preset"] = record.settings.preset;
+  json["options"] = OptionsJson(record.settings.options);
+  json["input"] = InputJson(record.input);
+  json["pose_refinement"] = PosesJson(record.poses);
+  if (record.curve_poses) {
+    json["pose_refinement_with_curves"] = CurvePosesJson(*record.curve_poses);
+  }
+  json["stages"] = CountsJson(record.stages);
+  json["result"] = ResultJson(record.result);
+  json["run"] = RunJson(record);
+  return json.dump(2) + "\n";
+}
+
+std::string ProjectFile(const RunSettings& settings) {
+  std::string text = "# colmap_curvix " + std::string(ProgramVersion()) + "\n";
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) text += std::string(name) + "=" + value + "\n";
+  };
+  add("workspace_path", settings.workspace_path.string());
+  add("input_path", settings.input_path.string());
+  add("image_path", settings.image_path.string());
+  add("output_path", settings.output_path.string());
+  add("mask_path", settings.mask_path.string());
+  add("preset", settings.preset);
+  OutputSettings output = settings.output;
+  for (const Flag& flag : OutputFlags(&output).flags) {
+    add(flag.name.c_str(), flag.default_value);
+  }
+  PoseRefinementSettings poses = settings.poses;
+  for (const Flag& flag : PoseRefinementFlags(&poses).flags) {
+    add(flag.name.c_str(), flag.default_value);
+  }
+  Options options = settings.options;
+  add("num_threads", std::to_string(options.runtime.num_threads));
+  std::string section;
+  for (const OptionRow& row : OptionTable(options)) {
+    const std::size_t dot = row.name.find('.');
+    if (dot == std::string::npos) continue;
+    if (row.name.substr(0, dot) != section) {
+      section = row.name.substr(0, dot);
+      text += "[" + section + "]\n";
+    }
+    add(row.name.c_str() + dot + 1, ValueText(row));
+  }
+  return text;
+}
+
+std::string SummaryText(const RunRecord& record) {
+  const ResultSummary& result = record.result;
+  if (result.num_curves == 0) return EmptyText(record);
+  std::string text = Plural(result.num_curves, "curve");
+  if (result.num_closed > 0) {
+    text += " (" + GroupDigits(result.num_closed) + " closed)";
+  }
+  text += ", total length " + FewDigits(result.total_length) +
+          " in the units of the model\n";
+  text += "  from " + Plural(record.input.num_views, "view") + ", " +
+          Plural(result.num_edges_2d, "edge") + " and " +
+          Plural(result.num_edges_3d, "3D edge") + " in " +
+          DurationText(record.total.wall_seconds) + " (CPU " +
+          DurationText(record.total.cpu_seconds) + ", " +
+          GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
+  if (result.edge_sigma_px > 0) {
+    text += "  edges lie " + FewDigits(Milli(result.edge_sigma_px)) +
+            " px beside where the curves are (standard deviation)\n";
+  }
+  text += "\n";
+  return text + FilesText(result);
+}
+
+}  // namespace curvix

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/run_stages.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "plugin/run/text.h"
+
+namespace curvix {
+
+StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
+  std::int64_t num_edges = 0, num_masked = 0;
+  std::int64_t num_isolated = 0, num_over_limit = 0;
+  for (const EdgeMap& map : edge_maps) {
+    num_edges += static_cast<std::int64_t>(map.edges.size());
+    num_masked += map.num_dropped_masked;
+    num_isolated += map.num_dropped_isolated;
+    num_over_limit += map.num_dropped_over_limit;
+  }
+  StageCounts counts = {{"edges", num_edges}};
+  if (num_masked > 0) counts.emplace_back("left out by masks", num_masked);
+  if (num_isolated > 0) {
+    counts.emplace_back("left out as noise", num_isolated);
+  }
+  if (num_over_limit > 0) {
+    counts.emplace_back(
+        "weak, short or crowded ones left out "
+        "(EdgeDetection.max_edges_per_megapixel)",
+        num_over_limit);
+  }
+  return counts;
+}
+
+std::string CountsText(const StageCounts& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
+  }
+  return text;
+}
+
+StageCounts CountFits(const FittedCurves& fitted) {
+  std::int64_t lines = 0, arcs = 0, ellipses = 0, splines = 0;
+  for (const FittedCurve& curve : fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      lines += fit.kind == FitKind::kLine;
+      arcs += fit.kind == FitKind::kArc;
+      ellipses += fit.kind == FitKind::kEllipse;
+      splines += fit.kind == FitKind::kSpline;
+    }
+  }
+  return {{"lines", lines},
+          {"arcs", arcs},
+          {"ellipses", ellipses},
+          {"splines", splines},
+          {"nodes", static_cast<std::int64_t>(fitted.nodes.size())}};
+}
+
+RunStages::RunStages(std::filesystem::path folder,
+                     ProgressPrinter& progress,
+                     RunRecord& record)
+    : store_(std::move(folder)), progress_(progress), record_(record) {
+  if (record.settings.clean) store_.Clean();
+}
+
+Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {
+  const Stopwatch stopwatch;
+  progress_.Update("detect_edges", 0, 0);
+  const std::uint64_t key = EdgesKey(scene, record_.settings.options);
+  Result<std::vector<EdgeMap>> edge_maps = Status();
+  if (auto saved = store_.LoadEdges(key)) edge_maps = *std::move(saved);
+  const bool is_resumed = edge_maps.ok();
+  if (!is_resumed) {
+    edge_maps =
+        DetectEdges(scene, record_.settings.options, progress_.Callback());
+    if (!edge_maps.ok()) return edge_maps.status();
+    Save(key, *edge_maps);
+  }
+  StageCounts counts = CountEdges(*edge_maps);
+  record_.result.num_edges_2d = counts.front().second;
+  counts.insert(counts.begin(), {"views", record_.input.num_views});
+  std::string text = CountsText(counts);
+  FinishStage(stopwatch.Read("detect_edges"),
+              std::move(counts),
+              std::move(text),
+              is_resumed);
+  return edge_maps;
+}
+
+Result<CurvePoseRefinement> RunStages::RefinePosesWithCurves(
+    const ColmapModel& model,
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps) {
+  const Stopwatch stopwatch;
+  progress_.Update("refine_poses_with_curves", 0, 0);
+  const Options& options = record_.settings.options;
+  const std::uint64_t key =
+      CurvePosesKey(scene, options, record_.settings.poses.refine_intrinsics);
+  std::optional<CurvePoses> poses = store_.LoadCurvePoses(key);
+  const bool is_resumed = poses.has_value();
+  if (!is_resumed) {
+    Result<CurvePoses> refined =
+        curvix::RefinePosesWithCurves(scene,
+                                      edge_maps,
+                                      options,
+                                      progress_.Callback(),
+                                      record_.settings.poses.refine_intrinsics);
+    if (!refined.ok()) return refined.status();
+    poses = std::move(refined).value();
+    Save(key, *poses);
+  }
+  CurvePoseRefinement result =
+      ModelWithCurvePoses(model, scene, *std::move(poses));
+  record_.curve_poses = result.record;
+  FinishStage(stopwatch.Read("refine_poses_with_curves"),
+              {},
+              CurvePosesText(result.record),
+              is_resumed);
+  return result;
+}
+
+Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
+                                     const std::vector<EdgeMap>& edge_maps) {
+  const Stopwatch stopwatch;
+  progress_.Update("sketch_edges", 0, 0);
+  const std::uint64_t key = SketchKey(scene, record_.settings.options);
+  Result<EdgeSketch> sketch = Status();
+  if (auto saved = store_.LoadSketch(key)) sketch = *std::move(saved);
+  const bool is_resumed = sketch.ok();
+  if (!is_resumed) {
+    sketch = SketchEdges(
+        scene, edge_maps, record_.settings.options, progress_.Callback());
+    if (!sketch.ok()) return sketch;
+    Save(key, *sketch);
+  }
+  record_.result.edge_sigma_px = sketch->edge_sigma_px;
+  FinishStage(
+      stopwatch.Read("sketch_edges"), CountsOf(*sketch), "", is_resumed);
+  return sketch;
+}
+
+void RunStages::FinishStage(StageReport report,
+                            StageCounts counts,
+                            std::string text,
+                            bool is_resumed) {
+  if (is_resumed) record_.resumed_stages.push_back(report.name);
+  if (is_resumed) {
+    text += std::string(text.empty() ? "" : ", ") + "as an earlier run left it";
+  }
+  progress_.Finish(text);
+  record_.stages.push_back(std::move(report));
+  record_.stages.back().counts = std::move(counts);
+}
+
+template <typename T>
+void RunStages::Save(std::uint64_t key, const T& result) {
+  if (record_.settings.clean) return;
+  const std::string problem = store_.Save(key, result);
+  if (!problem.empty()) {
+    progress_.Note("A later run will not be able to go on from here: " +
+                   problem);
+  }
+}
+
+Status RunStages::KeptStages(Status status) const {
+  if (status.code() != StatusCode::kCancelled || !store_.has_saved()) {
+    return status;
+  }
+  return {status.code(),
+          "interrupted; no results were written, but finished stages are kept: "
+          "the same command goes on from there"};
+}
+
+Result<Reconstruction> RunStages::Reconstruct(
+    const Scene& scene, const std::vector<EdgeMap>& edge_maps) {
+  const Result<EdgeSketch> sketch = Sketch(scene, edge_maps);
+  if (!sketch.ok()) return sketch.status();
+  Result<Reconstruction> reconstruction =
+      CurvesFromSketch(scene,
+                       edge_maps,
+                       *sketch,
+                       record_.settings.options,
+                       progress_.Callback());
+  if (!reconstruction.ok()) return reconstruction.status();
+  progress_.Finish();
+  for (const StageReport& stage : reconstruction->report.stages) {
+    record_.stages.push_back(stage);
+  }
+  return reconstruction;
+}
+
+}  // namespace curvix

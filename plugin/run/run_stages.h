@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages of a reconstruction, kept for a later run to go on from, and what
+// they count.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/fitting.h>
+#include <curvix/reconstruct.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "colmap/colmap_model.h"
+#include "plugin/poses/curve_poses.h"
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+#include "plugin/run/stage_store.h"
+
+namespace curvix {
+
+using StageCounts = decltype(StageReport::counts);
+
+// How many edges there are in all views; those left out, if any are.
+StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps);
+
+// How many primitives of each kind there are.
+StageCounts CountFits(const FittedCurves& fitted);
+
+// "8 views, 123 edges"
+std::string CountsText(const StageCounts& counts);
+
+// Runs stages with the options of `record`, and tells it and `progress` what
+// they did. Both outlive it.
+class RunStages {
+ public:
+  // `folder`: where results of stages are kept, unless the run is to be clean.
+  RunStages(std::filesystem::path folder,
+            ProgressPrinter& progress,
+            RunRecord& record);
+
+  Result<std::vector<EdgeMap>> Detect(const Scene& scene);
+  // For `model`, whose views with images `scene` has.
+  Result<CurvePoseRefinement> RefinePosesWithCurves(
+      const ColmapModel& model,
+      const Scene& scene,
+      const std::vector<EdgeMap>& edge_maps);
+  Result<Reconstruction> Reconstruct(const Scene& scene,
+                                     const std::vector<EdgeMap>& edge_maps);
+
+  // What to say when the run is interrupted now: `status`, and what is kept.
+  Status KeptStages(Status status) const;
+
+ private:
+  Result<EdgeSketch> Sketch(const Scene& scene,
+                            const std::vector<EdgeMap>& edge_maps);
+  void FinishStage(StageReport report,
+                   StageCounts counts,
+                   std::string text,
+                   bool is_resumed);
+  template <typename T>
+  void Save(std::uint64_t key, const T& result);
+
+  StageStore store_;
+  ProgressPrinter& progress_;
+  RunRecord& record_;
+};
+
+}  // namespace curvix

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole job: a COLMAP workspace in, files with curves out.
+#pragma once
+
+#include <curvix/status.h>
+
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+// Reads the workspace, refines the poses, reconstructs, and writes curves.ply,
+// curves.pcd, curves.obj, curves.txt, edges.ply, report.json and project.ini
+// into the output folder; if the poses were refined, also the model with the
+// new ones, in sparse/; if COLMAP did that, its words, in bundle_adjuster.log.
+// All of them appear at the end, over those of an earlier run, or none does.
+// The inputs are read only.
+//
+// Without any curve this succeeds too, with num_curves = 0 and why_empty, and
+// writes report.json, what belongs to the poses, and edges.ply if there are 3D
+// edges; curves of an earlier run stay.
+//
+// kInvalidArgument and kNotFound: the workspace, or an output folder that
+// cannot be used; kDataLoss and kUnsupported: broken or foreign files;
+// kCancelled: interrupted.
+Result<RunRecord> RunWorkspace(const RunSettings& settings,
+                               ProgressPrinter& progress);
+
+}  // namespace curvix

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/stage_store.h"
+
+#include <curvix/reconstruct.h>
+#include <dlfcn.h>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+#include "base/option_table.h"
+#include "io/stage_io.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEdgesName = "edges.bin";
+constexpr const char* kSketchName = "sketch.bin";
+constexpr const char* kCurvePosesName = "curve_poses.bin";
+
+// Hashes one thing after the other; texts with their end.
+class KeyMaker {
+ public:
+  void Add(std::string_view text) {
+    hash_ = HashBytes(text, hash_);
+    hash_ = HashBytes(std::string_view("\0", 1), hash_);
+  }
+  void Add(const std::string& text) { Add(std::string_view(text)); }
+  // Bit by bit.
+  template <typename T>
+  void Add(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    hash_ = HashBytes({reinterpret_cast<const char*>(&value), sizeof(value)},
+                      hash_);
+  }
+  // A file by its path, size and time of last change.
+  void AddFile(const fs::path& path) {
+    std::error_code error;
+    Add(path.string());
+    if (path.empty()) return;
+    Add(static_cast<std::uint64_t>(fs::file_size(path, error)));
+    Add(static_cast<std::int64_t>(
+        fs::last_write_time(path, error).time_since_epoch().count()));
+  }
+  // The options whose section has this name.
+  void AddOptions(const Options& options, const std::string& section) {
+    Options copy = options;
+    for (const OptionRow& row : OptionTable(copy)) {
+      if (row.name.rfind(section + ".", 0) != 0) continue;
+      Add(row.name);
+      Add(ValueText(row));
+    }
+  }
+  std::uint64_t key() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = HashBytes("");
+};
+
+// Another build of the program or its library may give another result.
+void AddProgram(KeyMaker& key) {
+  key.Add(ProgramVersion());
+  std::error_code error;
+  key.AddFile(fs::read_symlink("/proc/self/exe", error));
+  Dl_info library;
+  if (dladdr(reinterpret_cast<const void*>(&HashBytes), &library) == 0) return;
+  // The program itself, by whatever name it was called, if that holds it all.
+  const fs::path path = fs::canonical(library.dli_fname, error);
+  if (!error) key.AddFile(path);
+}
+
+void AddPose(const Rigid3& pose, KeyMaker& key) {
+  for (int i = 0; i < 4; ++i) key.Add(pose.rotation.coeffs()[i]);
+  for (int i = 0; i < 3; ++i) key.Add(pose.translation[i]);
+}
+
+void AddCameras(const Scene& scene, KeyMaker& key) {
+  for (const Camera& camera : scene.cameras) {
+    key.Add(static_cast<int>(camera.model));
+    key.Add(camera.width);
+    key.Add(camera.height);
+    for (const double param : camera.params) key.Add(param);
+  }
+}
+
+// Poses and points.
+void AddGeometry(const Scene& scene, KeyMaker& key) {
+  for (const View& view : scene.views) AddPose(view.cam_from_world, key);
+  for (const ScenePoint& point : scene.points) {
+    for (int i = 0; i < 3; ++i) key.Add(point.position[i]);
+    for (const int view_idx : point.view_idxs) key.Add(view_idx);
+  }
+}
+
+template <typename T>
+std::optional<T> ValueOf(Result<T> result) {
+  if (!result.ok()) return std::nullopt;
+  return std::move(result).value();
+}
+
+}  // namespace
+
+std::uint64_t SceneKey(const Scene& scene) {
+  KeyMaker key;
+  AddCameras(scene, key);
+  for (const View& view : scene.views) {
+    key.Add(view.name);
+    key.Add(view.camera_idx);
+  }
+  AddGeometry(scene, key);
+  return key.key();
+}
+
+std::uint64_t EdgesKey(const Scene& scene, const Options& options) {
+  KeyMaker key;
+  AddProgram(key);
+  AddCameras(scene, key);
+  for (const View& view : scene.views) {
+    key.Add(view.camera_idx);
+    key.AddFile(fs::absolute(view.image_path));
+    key.AddFile(view.mask_path);
+  }
+  key.AddOptions(options, "EdgeDetection");
+  return key.key();
+}
+
+std::uint64_t SketchKey(const Scene& scene, const Options& options) {
+  KeyMaker key;
+  key.Add(EdgesKey(scene, options));
+  AddGeometry(scene, key);
+  for (const char* section : {"Hypotheses", "Consolidation", "Validation"}) {
+    key.AddOptions(options, section);
+  }
+  key.Add(options.curve_growth.enabled);
+  return key.key();
+}
+
+std::uint64_t CurvePosesKey(const Scene& scene,
+                            const Options& options,
+                            bool refine_intrinsics) {
+  KeyMaker key;
+  key.Add(SketchKey(scene, options));
+  key.Add(static_cast<int>(refine_intrinsics));
+  for (const ScenePoint& point : scene.points) {
+    for (const Eigen::Vector2d& pixel : point.pixels) {
+      key.Add(pixel.x());
+      key.Add(pixel.y());
+    }
+  }
+  return key.key();
+}
+
+std::optional<std::vector<EdgeMap>> StageStore::LoadEdges(
+    std::uint64_t key) const {
+  return ValueOf(ReadEdgeMaps(folder_ / kEdgesName, key));
+}
+
+std::optional<EdgeSketch> StageStore::LoadSketch(std::uint64_t key) const {
+  return ValueOf(ReadEdgeSketch(folder_ / kSketchName, key));
+}
+
+std::optional<CurvePoses> StageStore::LoadCurvePoses(std::uint64_t key) const {
+  return ValueOf(ReadCurvePoses(folder_ / kCurvePosesName, key));
+}
+
+bool StageStore::IsLink() const {
+  std::error_code error;
+  return fs::is_symlink(folder_, error);
+}
+
+std::string StageStore::MakeFolder() const {
+  if (IsLink()) return folder_.string() + " is a link";
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  return error ? "cannot make " + folder_.string() : "";
+}
+
+template <typename T>
+std::string StageStore::SaveBy(Status write(const fs::path&,
+                                            std::uint64_t,
+                                            const T&),
+                               const char* name,
+                               std::uint64_t key,
+                               const T& result) {
+  if (std::string why = MakeFolder(); !why.empty()) return why;
+  const Status status = write(folder_ / name, key, result);
+  has_saved_ = has_saved_ || status.ok();
+  return status.message();
+}
+
+std::string StageStore::Save(std::uint64_t key,
+                             const std::vector<EdgeMap>& edge_maps) {
+  return SaveBy(WriteEdgeMaps, kEdgesName, key, edge_maps);
+}
+
+std::string StageStore::Save(std::uint64_t key, const EdgeSketch& sketch) {
+  return SaveBy(WriteEdgeSketch, kSketchName, key, sketch);
+}
+
+std::string StageStore::Save(std::uint64_t key, const CurvePoses& poses) {
+  return SaveBy(WriteCurvePoses, kCurvePosesName, key, poses);
+}
+
+void StageStore::Clean() {
+  if (IsLink()) return;
+  std::error_code ignored;
+  for (const char* name : {kEdgesName, kSketchName, kCurvePosesName}) {
+    fs::remove(folder_ / name, ignored);
+  }
+  fs::remove(folder_, ignored);
+}
+
+}  // namespace curvix

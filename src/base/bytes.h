@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Numbers to and from bytes, whatever the byte order
+// of the machine.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace curvix {
+
+// Appends the bytes of `value`, least significant first.
+template <typename T>
+void AppendLittleEndian(T value, std::string& out) {
+  std::array<char, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) {
+    std::reverse(bytes.begin(), bytes.end());
+  }
+  out.append(bytes.data(), bytes.size());
+}
+
+// The value in the first sizeof(T) bytes, which must be there.
+template <typename T>
+T LoadBytes(const char* bytes, std::endian order) {
+  std::array<char, sizeof(T)> copy;
+  std::memcpy(copy.data(), bytes, sizeof(T));
+  if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+  T value;
+  std::memcpy(&value, copy.data(), sizeof(T));
+  return value;
+}
+
+// Numbers to bytes, as they lie in memory.
+class ByteWriter {
+ public:
+  template <typename T>
+  void Put(T value) {
+    static_assert(std::is_arithmetic_v<T>);
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    bytes_.append(bytes, sizeof(T));
+  }
+  void PutCount(std::size_t count) { Put(static_cast<std::uint64_t>(count)); }
+  void Reserve(std::size_t num_bytes) { bytes_.reserve(num_bytes); }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+// And back. Once something was asked for that is not there, ok() is false and
+// all that comes is zero.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  template <typename T>
+  T Take() {
+    static_assert(std::is_arithmetic_v<T>);
+    T value{};
+    if (!ok_ || bytes_.size() < sizeof(T)) {
+      ok_ = false;
+      return value;
+    }
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_.remove_prefix(sizeof(T));
+    return value;
+  }
+  // A count of things of at least `min_bytes` each, all of which may be there.
+  std::size_t TakeCount(std::size_t min_bytes) {
+    const auto count = Take<std::uint64_t>();
+    if (count > bytes_.size() / min_bytes) ok_ = false;
+    return ok_ ? static_cast<std::size_t>(count) : 0;
+  }
+  bool ok() const { return ok_; }
+  bool AtEnd() const { return ok_ && bytes_.empty(); }
+  std::string_view rest() const { return bytes_; }
+
+ private:
+  std::string_view bytes_;
+  bool ok_ = true;
+};
+
+}  // namespace curvix

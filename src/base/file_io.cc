@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Whole files.
+#include "base/file_io.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The system's reason for the last failure, e.g. " (No space left on device)".
+std::string Reason(int error) {
+  if (error == 0) return "";
+  return " (" + std::generic_category().message(error) + ")";
+}
+
+Status CannotWrite(const fs::path& path, int error) {
+  return {StatusCode::kInvalidArgument,
+          "Cannot write to " + path.string() + Reason(error) +
+              "; check the free space of the disk and its quota."};
+}
+
+}  // namespace
+
+FileWriter::FileWriter(fs::path path)
+    : path_(std::move(path)), temporary_(path_) {
+  temporary_ += ".tmp";
+  std::error_code error;
+  fs::remove(temporary_, error);  // of a program that was killed
+  errno = 0;
+  // "x": fails if anything is there, so that no link is followed.
+  file_.reset(std::fopen(temporary_.c_str(), "wbx"));
+  if (file_ == nullptr) {
+    status_ = {StatusCode::kInvalidArgument,
+               "Cannot create " + temporary_.string() + Reason(errno) +
+                   "; check that the folder exists and may be written."};
+  }
+}
+
+FileWriter::~FileWriter() {
+  if (file_ == nullptr) return;
+  file_.reset();
+  std::error_code error;
+  fs::remove(temporary_, error);
+}
+
+void FileWriter::Append(std::string_view bytes) {
+  if (!status_.ok()) return;
+  errno = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+    status_ = CannotWrite(temporary_, errno);
+  }
+}
+
+Status FileWriter::Finish() {
+  if (file_ == nullptr) return status_;
+  errno = 0;
+  // Closing fails when the last bytes do not fit.
+  if (std::fclose(file_.release()) != 0 && status_.ok()) {
+    status_ = CannotWrite(temporary_, errno);
+  }
+  std::error_code error;
+  if (status_.ok()) {
+    fs::rename(temporary_, path_, error);
+    if (!error) return {};
+    status_ = {StatusCode::kInvalidArgument,
+               "Cannot rename " + temporary_.string() + " to " +
+                   path_.string() + " (" + error.message() +
+                   "); check that the target is not a folder and may be " +
+                   "replaced."};
+  }
+  fs::remove(temporary_, error);
+  return status_;
+}
+
+Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
+  FileWriter file(path);
+  file.Append(bytes);
+  return file.Finish();
+}
+
+Result<std::string> ReadFile(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    return Status(StatusCode::kNotFound,
+                  "There is no file " + path.string() + "; check the path.");
+  }
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    return Status(StatusCode::kNotFound,
+                  "Cannot open " + path.string() + Reason(errno) +
+                      "; check that it may be read.");
+  }
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) {
+    return Status(StatusCode::kDataLoss,
+                  "Cannot read " + path.string() + " to its end" +
+                      Reason(errno) + "; check the disk.");
+  }
+  return bytes;
+}
+
+}  // namespace curvix

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Whole files, written so that a reader never meets half of one.
+#pragma once
+
+#include <curvix/status.h>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace curvix {
+
+// Takes the bytes of a file, piece by piece.
+using ByteSink = std::function<void(std::string_view bytes)>;
+
+// Writes to `path` with ".tmp" appended, in the same folder, and in the end
+// renames that to `path`, so that `path` holds either its old content or all of
+// the new one, also when the disk is full or the program is killed. A failure
+// removes the temporary file and leaves `path` as it was; so does to go without
+// Finish(). The folder must exist.
+class FileWriter {
+ public:
+  explicit FileWriter(std::filesystem::path path);
+  FileWriter(const FileWriter&) = delete;
+  FileWriter& operator=(const FileWriter&) = delete;
+  ~FileWriter();
+
+  // Finish() tells if it failed.
+  void Append(std::string_view bytes);
+  ByteSink Sink() {
+    return [this](std::string_view bytes) { Append(bytes); };
+  }
+
+  // Once, at last. kInvalidArgument, with the system's reason, if the file
+  // cannot be written.
+  Status Finish();
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  std::unique_ptr<std::FILE, Closer> file_;  // nullptr: not to be written to
+  Status status_;
+};
+
+// A file of these bytes, by FileWriter.
+Status WriteFileAtomically(const std::filesystem::path& path,
+                           std::string_view bytes);
+
+// All bytes of `path`. kNotFound if it is not a file that can be opened,
+// kDataLoss if it cannot be read to its end.
+Result<std::string> ReadFile(const std::filesystem::path& path);
+
+}  // namespace curvix

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). One row per option: the command line, --help, validation, docs/options.md and
+// report.json all come from this table.
+#pragma once
+
+#include <curvix/options.h>
+#include <curvix/status.h>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace curvix {
+
+struct OptionRow {
+  std::string name;  // "Validation.min_num_support_views": the flag without --
+  std::variant<bool*, int*, double*, ViewSelection*, SupportTest*> field;
+  double min = 0;  // smallest value allowed
+  double max =
+      std::numeric_limits<double>::infinity();  // largest value allowed
+  bool min_is_excluded = false;                 // "> min" instead of ">= min"
+  std::vector<std::string> choices = {};        // of an enum, by value
+  std::string unit = {};                        // "px", "deg", or ""
+  std::string symbol = {};  // of the paper: "Delta gamma, Sec. 3", or ""
+  std::string help;         // one line
+};
+
+// The rows in the order of Options; the pointers lead into `options`, which
+// must outlive them.
+std::vector<OptionRow> OptionTable(Options& options);
+
+// The value of a row as text, and text into the row's field.
+// kInvalidArgument: "Validation.max_angle_deg is -1; it must be > 0".
+// A double is printed with the fewest digits that read back as it, a bool as 1
+// or 0 (also read: true, false, yes, no, on, off).
+std::string ValueText(const OptionRow& row);
+Status SetFromText(const OptionRow& row, const std::string& text);
+
+// What a row allows: "> 0", ">= 0 and <= 1", "0 or 1", "wedges or distance".
+std::string RangeText(const OptionRow& row);
+
+// kInvalidArgument, naming the field, its value and the range, if any is
+// outside.
+Status Validate(const Options& options);
+
+}  // namespace curvix

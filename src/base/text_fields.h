@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Lines, words and numbers of text files, the same in every locale.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace curvix {
+
+// Appends the shortest text that reads back as exactly `value`.
+template <typename T>
+void AppendNumber(T value, std::string& out) {
+  std::array<char, 32> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  out.append(text.data(), end);
+}
+
+// The number that `word` is as a whole; an optional sign leads. nullopt: it is
+// none, or does not fit into T.
+template <typename T>
+std::optional<T> ParseNumber(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  T value{};
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+// Takes the next line off `text`, without its "\n" or "\r\n".
+inline std::string_view TakeLine(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+// Takes the next word off `text`; empty at the end.
+inline std::string_view TakeWord(std::string_view& text) {
+  constexpr std::string_view kBlank = " \t\r\n\v\f";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  text.remove_prefix(begin == std::string_view::npos ? text.size() : begin);
+  const std::string_view word = text.substr(0, text.find_first_of(kBlank));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+}  // namespace curvix

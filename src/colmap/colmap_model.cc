@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "colmap/colmap_model.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <system_error>
+
+#include "base/file_io.h"
+#include "colmap/colmap_model_format.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Extension(ColmapFormat format) {
+  return format == ColmapFormat::kBinary ? ".bin" : ".txt";
+}
+
+fs::path FilePath(const fs::path& folder,
+                  const std::string& list,
+                  ColmapFormat format) {
+  return folder / (list + Extension(format));
+}
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+// Reads and parses one file of the model.
+template <typename List, typename Parse>
+Result<List> ReadList(const fs::path& path, const Parse& parse) {
+  const Result<std::string> bytes = ReadFile(path);
+  if (!bytes.ok()) return bytes.status();
+  return parse(*bytes, path.string());
+}
+
+ImagesOrError ReadImages(const fs::path& folder, ColmapFormat format) {
+  return ReadList<std::vector<ColmapImage>>(
+      FilePath(folder, "images", format),
+      format == ColmapFormat::kBinary ? ParseImagesBinary : ParseImagesText);
+}
+
+PointsOrError ReadPoints(const fs::path& path, ColmapFormat format) {
+  std::error_code error;
+  const bool is_there = fs::exists(path, error);
+  if (!is_there || (IsFile(path) && fs::file_size(path, error) == 0)) {
+    return std::vector<ColmapPoint3D>();
+  }
+  return ReadList<std::vector<ColmapPoint3D>>(
+      path,
+      format == ColmapFormat::kBinary ? ParsePointsBinary : ParsePointsText);
+}
+
+void SortById(ColmapModel* model) {
+  std::stable_sort(
+      model->cameras.begin(),
+      model->cameras.end(),
+      [](const auto& a, const auto& b) { return a.camera_id < b.camera_id; });
+  std::stable_sort(
+      model->images.begin(),
+      model->images.end(),
+      [](const auto& a, const auto& b) { return a.image_id < b.image_id; });
+  std::stable_sort(
+      model->points.begin(),
+      model->points.end(),
+      [](const auto& a, const auto& b) { return a.point3D_id < b.point3D_id; });
+}
+
+// Files in `folder` that COLMAP or we would read instead of, or together with,
+// a model written in `format`.
+Status RefuseForeignFiles(const fs::path& folder, ColmapFormat format) {
+  const std::string other = format == ColmapFormat::kBinary ? ".txt" : ".bin";
+  for (const std::string& name : {std::string("rigs.bin"),
+                                  std::string("rigs.txt"),
+                                  std::string("frames.bin"),
+                                  std::string("frames.txt"),
+                                  "cameras" + other,
+                                  "images" + other,
+                                  "points3D" + other}) {
+    if (IsFile(folder / name)) {
+      return {StatusCode::kInvalidArgument,
+              "Cannot write a model to " + folder.string() + ": it holds " +
+                  name + " of another model; choose an empty folder."};
+    }
+  }
+  return {};
+}
+
+// Names that the text format cannot hold.
+Status RefuseUnwritableNames(const ColmapModel& model) {
+  constexpr std::string_view kSpaces = " \t\r\v\f";
+  for (const ColmapImage& image : model.images) {
+    const bool padded = kSpaces.find(image.name.front()) != kSpaces.npos ||
+                        kSpaces.find(image.name.back()) != kSpaces.npos;
+    if (padded || image.name.find('\n') != std::string::npos) {
+      return {StatusCode::kInvalidArgument,
+              "The image name \"" + image.name +
+                  "\" begins or ends with a space or holds a line break, "
+                  "which .txt cannot keep; write .bin."};
+    }
+  }
+  return {};
+}
+
+// A view of the scene and its image in the model.
+struct SceneView {
+  int view_idx = 0;
+  const ColmapImage* image = nullptr;
+};
+
+Eigen::Vector2d PixelOf(const ColmapImage& image, std::size_t point2D_idx) {
+  if (point2D_idx >= image.points2D.size()) {
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return {image.points2D[point2D_idx].x, image.points2D[point2D_idx].y};
+}
+
+// Without images that are no views; of several places in one image the first.
+ScenePoint MakeScenePoint(const ColmapPoint3D& point,
+                          const std::map<std::uint32_t, SceneView>& views) {
+  std::map<int, Eigen::Vector2d> pixels;
+  for (const ColmapTrackElement& element : point.track) {
+    const auto found = views.find(element.image_id);
+    if (found == views.end()) continue;
+    const auto& [view_idx, image] = found->second;
+    pixels.emplace(view_idx, PixelOf(*image, element.point2D_idx));
+  }
+  ScenePoint scene_point;
+  scene_point.position = point.position;
+  for (const auto& [view_idx, pixel] : pixels) {
+    scene_point.view_idxs.push_back(view_idx);
+    scene_point.pixels.push_back(pixel);
+  }
+  return scene_point;
+}
+
+}  // namespace
+
+Status UnsupportedCameraModel(const std::string& file,
+                              std::uint32_t camera_id,
+                              const std::string& model) {
+  const std::string why =
+      model == "EQUIRECTANGULAR"
+          ? "which has no pinhole image; render its panoramas into perspective "
+            "views first."
+          : "which this program does not know; convert the images with "
+            "'colmap image_undistorter' and use its output.";
+  return {StatusCode::kUnsupported,
+          file + ": camera " + std::to_string(camera_id) +
+              " has the camera model " + model + ", " + why};
+}
+
+Eigen::Quaterniond RotationFromColmap(const std::array<double, 4>& wxyz) {
+  Eigen::Quaterniond q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  // Not normalize(), which leaves zero as it is.
+  q.coeffs() /= q.coeffs().stableNorm();
+  return q;
+}
+
+Result<ColmapFormat> FindColmapFormat(const fs::path& folder) {
+  constexpr ColmapFormat kFormats[] = {ColmapFormat::kBinary,
+                                       ColmapFormat::kText};
+  const auto has_poses = [&](ColmapFormat format) {
+    return IsFile(FilePath(folder, "cameras", format)) &&
+           IsFile(FilePath(folder, "images", format));
+  };
+  for (const ColmapFormat format : kFormats) {
+    if (has_poses(format) && IsFile(FilePath(folder, "points3D", format))) {
+      return format;
+    }
+  }
+  for (const ColmapFormat format : kFormats) {
+    if (has_poses(format)) return format;
+  }
+  return Status(StatusCode::kNotFound,
+                folder.string() +
+                    " holds no COLMAP model: cameras and images are needed, "
+                    "both as .bin or both as .txt.");
+}
+
+std::size_t CountColmapImages(const fs::path& folder) {
+  const Result<ColmapFormat> format = FindColmapFormat(folder);
+  if (!format.ok()) return 0;
+  const ImagesOrError images = ReadImages(folder, *format);
+  return images.ok() ? images->size() : 0;
+}
+
+Result<ColmapModel> ReadColmapModel(const fs::path& folder) {
+  const Result<ColmapFormat> format = FindColmapFormat(folder);
+  if (!format.ok()) return format.status();
+  const bool binary = *format == ColmapFormat::kBinary;
+  CamerasOrError cameras = ReadList<std::vector<ColmapCamera>>(
+      FilePath(folder, "cameras", *format),
+      binary ? ParseCamerasBinary : ParseCamerasText);
+  if (!cameras.ok()) return cameras.status();
+  ImagesOrError images = ReadImages(folder, *format);
+  if (!images.ok()) return images.status();
+  PointsOrError points =
+      ReadPoints(FilePath(folder, "points3D", *format), *format);
+  if (!points.ok()) return points.status();
+  ColmapModel model{std::move(cameras).value(),
+                    std::move(images).value(),
+                    std::move(points).value()};
+  SortById(&model);
+  if (const std::optional<ColmapFlaw> flaw = FindFlaw(model)) {
+    return Status(
+        StatusCode::kDataLoss,
+        FilePath(folder, flaw->list, *format).string() + ": " + flaw->sentence);
+  }
+  return model;
+}
+
+Status WriteColmapModel(const ColmapModel& model,
+                        const fs::path& folder,
+                        ColmapFormat format) {
+  const bool binary = format == ColmapFormat::kBinary;
+  Status status = ValidateColmapModel(model);
+  if (status.ok()) status = RefuseForeignFiles(folder, format);
+  if (status.ok() && !binary) status = RefuseUnwritableNames(model);
+  if (!status.ok()) return status;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return {StatusCode::kInvalidArgument,
+            "Cannot make the folder " + folder.string() + " (" +
+                error.message() + "); choose one that may be written."};
+  }
+  const std::pair<std::string, std::string> files[] = {
+      {"cameras",
+       binary ? FormatCamerasBinary(model.cameras)
+              : FormatCamerasText(model.cameras)},
+      {"images",
+       binary ? FormatImagesBinary(model.images)
+              : FormatImagesText(model.images)},
+      {"points3D",
+       binary ? FormatPointsBinary(model.points)
+              : FormatPointsText(model.points)},
+  };
+  for (const auto& [list, bytes] : files) {
+    status = WriteFileAtomically(FilePath(folder, list, format), bytes);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+Scene SceneFromColmapModel(const ColmapModel& model,
+                           const fs::path& image_folder,
+                           const std::vector<std::string>& left_out) {
+  Scene scene;
+  std::map<std::uint32_t, int> camera_idxs;
+  for (const ColmapCamera& item : model.cameras) {
+    camera_idxs[item.camera_id] = static_cast<int>(scene.cameras.size());
+    scene.cameras.push_back(item.camera);
+  }
+  for (const ColmapImage& image : model.images) {
+    if (std::binary_search(left_out.begin(), left_out.end(), image.name)) {
+      continue;
+    }
+    scene.views.push_back({image.name,
+                           image_folder / image.name,
+                           image.image_id,
+                           camera_idxs.at(image.camera_id),
+                           image.cam_from_world,
+                           {}});
+  }
+  std::sort(scene.views.begin(),
+            scene.views.end(),
+            [](const View& a, const View& b) { return a.name < b.name; });
+  std::map<std::uint32_t, SceneView> views;
+  for (const View& view : scene.views) {
+    views.emplace(view.image_id,
+                  SceneView{static_cast<int>(views.size()), nullptr});
+  }
+  for (const ColmapImage& image : model.images) {
+    const auto found = views.find(image.image_id);
+    if (found != views.end()) found->second.image = &image;
+  }
+  for (const ColmapPoint3D& point : model.points) {
+    ScenePoint scene_point = MakeScenePoint(point, views);
+    if (scene_point.view_idxs.empty()) continue;
+    scene.points.push_back(std::move(scene_point));
+  }
+  return scene;
+}
+
+}  // namespace curvix

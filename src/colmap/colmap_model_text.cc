@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include <curvix/scene.h>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "colmap/colmap_model_format.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::string_view kSpaces = " \t\r\v\f";
+
+std::string_view Trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kSpaces);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
+}
+
+// The lines of a text, trimmed, with their numbers from 1.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : text_(text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text_.substr(0, 3) == kByteOrderMark) text_.remove_prefix(3);
+  }
+
+  int line_number() const { return line_number_; }
+
+  // The next line that is not a comment; nullopt at the end.
+  std::optional<std::string_view> Next() {
+    while (!text_.empty()) {
+      const std::size_t end = text_.find('\n');
+      const std::string_view line = Trimmed(text_.substr(0, end));
+      text_.remove_prefix(end == std::string_view::npos ? text_.size()
+                                                        : end + 1);
+      ++line_number_;
+      if (line.empty() || line[0] != '#') return line;
+    }
+    return std::nullopt;
+  }
+
+  // The next line that is neither a comment nor blank; nullopt at the end.
+  std::optional<std::string_view> NextFilled() {
+    std::optional<std::string_view> line = Next();
+    while (line && line->empty()) line = Next();
+    return line;
+  }
+
+ private:
+  std::string_view text_;
+  int line_number_ = 0;
+};
+
+// Reads words from the front of a line. The first that is missing or malformed
+// fails; from then on everything reads as zero.
+class WordReader {
+ public:
+  explicit WordReader(std::string_view line) : rest_(line) {}
+
+  bool failed() const { return failed_; }
+  bool AtEnd() const { return failed_ || rest_.empty(); }
+
+  std::string_view Word() {
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpaces));
+    rest_ = Trimmed(rest_.substr(word.size()));
+    failed_ = failed_ || word.empty();
+    return word;
+  }
+
+  std::string_view Rest() {
+    failed_ = failed_ || rest_.empty();
+    return std::exchange(rest_, {});
+  }
+
+  template <typename T>
+  T Number() {
+    std::string_view word = Word();
+    if (!word.empty() && word[0] == '+') word.remove_prefix(1);
+    T value{};
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    failed_ = failed_ || error != std::errc() || stop != end;
+    return failed_ ? T{} : value;
+  }
+
+  // "-1" means none.
+  std::uint64_t Point3DId() {
+    if (rest_ == "-1" || (rest_.substr(0, 2) == "-1" && rest_.size() > 2 &&
+                          kSpaces.find(rest_[2]) != std::string_view::npos)) {
+      Word();
+      return kNoPoint3D;
+    }
+    return Number<std::uint64_t>();
+  }
+
+ private:
+  std::string_view rest_;
+  bool failed_ = false;
+};
+
+Status Malformed(const std::string& file,
+                 const LineReader& lines,
+                 const std::string& expected) {
+  return {StatusCode::kDataLoss,
+          file + ", line " + std::to_string(lines.line_number()) +
+              " is not \"" + expected +
+              "\"; correct it or export the model again."};
+}
+
+Result<ColmapCamera> ParseCamera(std::string_view line,
+                                 const LineReader& lines,
+                                 const std::string& file) {
+  WordReader words(line);
+  ColmapCamera item;
+  item.camera_id = words.Number<std::uint32_t>();
+  const std::string model_name(words.Word());
+  item.camera.width = words.Number<int>();
+  item.camera.height = words.Number<int>();
+  if (words.failed()) {
+    return Malformed(file, lines, "CAMERA_ID MODEL WIDTH HEIGHT PARAMS...");
+  }
+  const std::optional<CameraModel> model = ModelFromName(model_name);
+  if (!model) return UnsupportedCameraModel(file, item.camera_id, model_name);
+  item.camera.model = *model;
+  while (!words.AtEnd()) item.camera.params.push_back(words.Number<double>());
+  const std::size_t expected = static_cast<std::size_t>(NumParams(*model));
+  if (words.failed() || item.camera.params.size() != expected) {
+    return Malformed(file,
+                     lines,
+                     "CAMERA_ID " + model_name + " WIDTH HEIGHT and " +
+                         std::to_string(expected) + " numbers");
+  }
+  return item;
+}
+
+// The line `ID QW QX QY QZ TX TY TZ CAMERA_ID NAME`; false if it is not one.
+bool ParsePose(std::string_view line, ColmapImage* image) {
+  WordReader words(line);
+  image->image_id = words.Number<std::uint32_t>();
+  std::array<double, 4> wxyz;
+  for (double& q : wxyz) q = words.Number<double>();
+  image->cam_from_world.rotation = RotationFromColmap(wxyz);
+  for (double& t : image->cam_from_world.translation) {
+    t = words.Number<double>();
+  }
+  image->camera_id = words.Number<std::uint32_t>();
+  image->name = words.Rest();
+  return !words.failed();
+}
+
+// The line of `X Y POINT3D_ID` triples; false if it is not one.
+bool ParsePoints2D(std::string_view line, ColmapImage* image) {
+  WordReader words(line);
+  while (!words.AtEnd()) {
+    ColmapPoint2D& point = image->points2D.emplace_back();
+    point.x = words.Number<double>();
+    point.y = words.Number<double>();
+    point.point3D_id = words.Point3DId();
+  }
+  return !words.failed();
+}
+
+bool ParsePoint(std::string_view line, ColmapPoint3D* point) {
+  WordReader words(line);
+  point->point3D_id = words.Number<std::uint64_t>();
+  for (double& x : point->position) x = words.Number<double>();
+  for (std::uint8_t& c : point->rgb) c = words.Number<std::uint8_t>();
+  point->error = words.Number<double>();
+  while (!words.AtEnd()) {
+    ColmapTrackElement& element = point->track.emplace_back();
+    element.image_id = words.Number<std::uint32_t>();
+    element.point2D_idx = words.Number<std::uint32_t>();
+  }
+  return !words.failed();
+}
+
+// Appends words to lines, exactly one space between them: COLMAP 3.8 splits at
+// single spaces. Numbers in the shortest form that reads back exactly.
+class LineWriter {
+ public:
+  explicit LineWriter(std::string_view comment) : text_("# ") {
+    text_ += comment;
+    text_ += '\n';
+  }
+
+  LineWriter& operator<<(std::string_view word) {
+    if (text_.back() != '\n') text_ += ' ';
+    text_ += word;
+    return *this;
+  }
+  template <typename T>
+  requires std::is_arithmetic_v<T> LineWriter& operator<<(T number) {
+    std::array<char, 32> buffer;
+    const auto [end, error] =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
+    const std::size_t length = static_cast<std::size_t>(end - buffer.data());
+    return *this << std::string_view(buffer.data(), length);
+  }
+  void EndLine() { text_ += '\n'; }
+  std::string Take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+CamerasOrError ParseCamerasText(std::string_view bytes,
+                                const std::string& file) {
+  LineReader lines(bytes);
+  std::vector<ColmapCamera> cameras;
+  while (const auto line = lines.NextFilled()) {
+    Result<ColmapCamera> camera = ParseCamera(*line, lines, file);
+    if (!camera.ok()) return camera.status();
+    cameras.push_back(std::move(camera).value());
+  }
+  return cameras;
+}
+
+ImagesOrError ParseImagesText(std::string_view bytes, const std::string& file) {
+  LineReader lines(bytes);
+  std::vector<ColmapImage> images;
+  while (const auto line = lines.NextFilled()) {
+    ColmapImage& image = images.emplace_back();
+    if (!ParsePose(*line, &image)) {
+      return Malformed(
+          file, lines, "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
+    }
+    const auto points = lines.Next();
+    if (points && !ParsePoints2D(*points, &image)) {
+      return Malformed(file,
+                       lines,
+                       "X Y POINT3D_ID ...\" (an image takes two lines, of "
+                       "which the second may be empty) of image \"" +
+                           image.name);
+    }
+  }
+  return images;
+}
+
+PointsOrError ParsePointsText(std::string_view bytes, const std::string& file) {
+  LineReader lines(bytes);
+  std::vector<ColmapPoint3D> points;
+  while (const auto line = lines.NextFilled()) {
+    if (!ParsePoint(*line, &points.emplace_back())) {
+      return Malformed(
+          file,
+          lines,
+          "POINT3D_ID X Y Z R G B ERROR (IMAGE_ID POINT2D_IDX)...");
+    }
+  }
+  return points;
+}
+
+std::string FormatCamerasText(const std::vector<ColmapCamera>& cameras) {
+  LineWriter writer("CAMERA_ID MODEL WIDTH HEIGHT PARAMS...");
+  for (const ColmapCamera& item : cameras) {
+    writer << item.camera_id << ModelName(item.camera.model)
+           << item.camera.width << item.camera.height;
+    for (const double p : item.camera.params) writer << p;
+    writer.EndLine();
+  }
+  return writer.Take();
+}
+
+std::string FormatImagesText(const std::vector<ColmapImage>& images) {
+  LineWriter writer(
+      "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, then a line of "
+      "X Y POINT3D_ID ...");
+  for (const ColmapImage& image : images) {
+    const Eigen::Quaterniond q = image.cam_from_world.rotation.normalized();
+    writer << image.image_id << q.w() << q.x() << q.y() << q.z();
+    for (const double t : image.cam_from_world.translation) writer << t;
+    writer << image.camera_id << image.name;
+    writer.EndLine();
+    for (const ColmapPoint2D& point : image.points2D) {
+      writer << point.x << point.y;
+      if (point.point3D_id == kNoPoint3D) {
+        writer << "-1";
+      } else {
+        writer << point.point3D_id;
+      }
+    }
+    writer.EndLine();
+  }
+  return writer.Take();
+}
+
+std::string FormatPointsText(const std::vector<ColmapPoint3D>& points) {
+  LineWriter writer("POINT3D_ID X Y Z R G B ERROR (IMAGE_ID POINT2D_IDX)...");
+  for (const ColmapPoint3D& point : points) {
+    writer << point.point3D_id;
+    for (const double x : point.position) writer << x;
+    for (const std::uint8_t c : point.rgb) writer << int{c};
+    writer << point.error;
+    for (const ColmapTrackElement& element : point.track) {
+      writer << element.image_id << element.point2D_idx;
+    }
+    writer.EndLine();
+  }
+  return writer.Take();
+}
+
+}  // namespace curvix

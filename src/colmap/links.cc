@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "colmap/links.h"
+
+#include <algorithm>
+#include <system_error>
+
+namespace curvix {
+
+namespace fs = std::filesystem;
+
+bool IsInside(const fs::path& path, const fs::path& folder) {
+  const auto ends =
+      std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return ends.first == folder.end();
+}
+
+bool LiesIn(const fs::path& path, const std::vector<fs::path>& folders) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(path, error);
+  if (error) return false;
+  return std::any_of(
+      folders.begin(), folders.end(), [&](const fs::path& folder) {
+        const fs::path root = fs::canonical(folder, error);
+        return !error && IsInside(real, root);
+      });
+}
+
+}  // namespace curvix

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "colmap/project_file.h"
+
+#include "base/text_fields.h"
+
+namespace curvix {
+namespace {
+
+std::string_view Trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\v\f";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+}  // namespace
+
+Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text) {
+  std::vector<ProjectEntry> entries;
+  std::string section;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = Trimmed(TakeLine(text));
+    if (line.empty() || line.front() == '#') continue;
+    if (line.front() == '[' && line.back() == ']') {
+      section = Trimmed(line.substr(1, line.size() - 2));
+      if (!section.empty()) section += '.';
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    const std::string name(Trimmed(line.substr(0, equals)));
+    if (equals == std::string_view::npos || name.empty()) {
+      return Status(StatusCode::kInvalidArgument,
+                    "line " + std::to_string(number) +
+                        " is neither name=value nor [Section]");
+    }
+    entries.push_back(
+        {section + name, std::string(Trimmed(line.substr(equals + 1)))});
+  }
+  return entries;
+}
+
+}  // namespace curvix

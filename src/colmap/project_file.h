@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Project files: ours, and COLMAP's.
+#pragma once
+
+#include <curvix/status.h>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace curvix {
+
+struct ProjectEntry {
+  std::string name;  // "Section.name", or "name" before the first section
+  std::string value;
+};
+
+// The lines `name = value` and `[Section]` of `text`, in order. Lines that
+// begin with '#' are comments; elsewhere '#' is part of the value, as paths may
+// hold it. Space around names and values does not count. kInvalidArgument, with
+// the number of the line, for any other line.
+Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text);
+
+}  // namespace curvix

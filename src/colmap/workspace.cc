@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "colmap/workspace.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "base/file_io.h"
+#include "colmap/links.h"
+#include "colmap/project_file.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool IsModel(const fs::path& folder) { return FindColmapFormat(folder).ok(); }
+
+// Absolute, without ".", ".." and trailing slashes. Links are kept: results
+// belong beside the link that the user made.
+fs::path Normalized(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal : normal.parent_path();
+}
+
+bool IsNumber(const std::string& name) {
+  return !name.empty() && name.size() <= 9 &&
+         name.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// The sub-folders of `folder` that are named by numbers, in numerical order.
+std::vector<fs::path> NumberedFolders(const fs::path& folder) {
+  std::vector<std::pair<int, fs::path>> found;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (IsNumber(name) && IsFolder(entry->path())) {
+      found.emplace_back(std::stoi(name), entry->path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<fs::path> folders;
+  folders.reserve(found.size());
+  for (auto& [number, path] : found) folders.push_back(std::move(path));
+  return folders;
+}
+
+// " Tried: a, b."
+std::string Tried(const std::vector<fs::path>& places) {
+  std::string text = " Tried: ";
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    text += (i > 0 ? ", " : "") + places[i].string();
+  }
+  return text + ".";
+}
+
+Status NotFound(const std::string& sentence) {
+  return {StatusCode::kNotFound, sentence};
+}
+
+// The folder beside whose sparse/ the model lies: what holds sparse/<k> or
+// sparse; empty if the model lies in neither.
+fs::path RootOfModel(const fs::path& model) {
+  if (model.filename() == "sparse") return model.parent_path();
+  const fs::path parent = model.parent_path();
+  if (IsNumber(model.filename().string()) && parent.filename() == "sparse") {
+    return parent.parent_path();
+  }
+  return {};
+}
+
+// Normalised paths from which images and results are found.
+struct ModelPlace {
+  fs::path workspace;
+  fs::path model;
+  fs::path root;  // RootOfModel
+  bool inside;    // the model lies in the workspace, or is it
+
+  ModelPlace(const fs::path& workspace_path, const fs::path& model_path)
+      : workspace(Normalized(workspace_path)),
+        model(Normalized(model_path)),
+        root(RootOfModel(model)),
+        inside(IsInside(model, workspace)) {}
+};
+
+// Folders without a model last, the others in the given order where they have
+// as many images.
+std::vector<fs::path> MostImagesFirst(const std::vector<fs::path>& folders) {
+  if (folders.size() < 2) return folders;
+  std::vector<std::pair<std::size_t, fs::path>> counted;
+  counted.reserve(folders.size());
+  for (const fs::path& folder : folders) {
+    counted.emplace_back(CountColmapImages(folder), folder);
+  }
+  std::stable_sort(
+      counted.begin(), counted.end(), [](const auto& a, const auto& b) {
+        return a.first > b.first;
+      });
+  std::vector<fs::path> ordered;
+  ordered.reserve(folders.size());
+  for (auto& [count, folder] : counted) ordered.push_back(std::move(folder));
+  return ordered;
+}
+
+std::vector<fs::path> ModelCandidates(const fs::path& workspace) {
+  std::vector<fs::path> places =
+      MostImagesFirst(NumberedFolders(workspace / "sparse"));
+  if (places.empty()) places.push_back(workspace / "sparse" / "0");
+  places.push_back(workspace / "sparse");
+  std::vector<fs::path> dense = NumberedFolders(workspace / "dense");
+  if (dense.empty()) dense.push_back(workspace / "dense" / "0");
+  for (const fs::path& folder : dense) places.push_back(folder / "sparse");
+  places.push_back(workspace);
+  return places;
+}
+
+// Names the numbered siblings of `model` that hold models too; empty: none.
+std::string OtherModelsNote(const fs::path& model) {
+  std::string names;
+  for (const fs::path& other : NumberedFolders(model.parent_path())) {
+    if (other == model || !IsModel(other)) continue;
+    names += (names.empty() ? "" : ", ") + other.filename().string();
+  }
+  if (names.empty()) return "";
+  return "Using the model " + model.string() + ", which has the most images (" +
+         std::to_string(CountColmapImages(model)) +
+         "); there are others beside it (" + names +
+         "), which --input_path chooses.";
+}
+
+// The files of the model must not be links to places elsewhere.
+Status CheckModelFiles(const fs::path& workspace, const fs::path& model) {
+  for (const char* list : {"cameras", "images", "points3D"}) {
+    for (const char* extension : {".bin", ".txt"}) {
+      const fs::path file = model / (std::string(list) + extension);
+      if (LiesIn(file, {workspace, model})) continue;
+      return NotFound(file.string() +
+                      " is a link that leads out of the workspace; copy the "
+                      "file, or name the model's folder with --input_path if "
+                      "the link is meant.");
+    }
+  }
+  return {};
+}
+
+Status FindModel(const WorkspacePaths& paths, Workspace* found) {
+  if (!paths.input_path.empty()) {
+    const Result<ColmapFormat> format = FindColmapFormat(paths.input_path);
+    found->model_path = paths.input_path;
+    return format.status();
+  }
+  const std::vector<fs::path> places = ModelCandidates(paths.workspace_path);
+  const auto place = std::find_if(places.begin(), places.end(), IsModel);
+  if (place == places.end()) {
+    return NotFound(
+        "No COLMAP model (cameras and images, as .bin or .txt) in " +
+        paths.workspace_path.string() + "." + Tried(places) +
+        " Name its folder with --input_path.");
+  }
+  found->model_path = *place;
+  Status status = CheckModelFiles(paths.workspace_path, *place);
+  if (!status.ok()) return status;
+  if (IsNumber(place->filename().string())) {
+    const std::string note = OtherModelsNote(*place);
+    if (!note.empty()) found->notes.push_back(note);
+  }
+  return {};
+}
+
+// The value of image_path in the model's project.ini; empty if there is none.
+fs::path ImagePathOfProject(const fs::path& model) {
+  const Result<std::string> text = ReadFile(model / "project.ini");
+  if (!text.ok()) return {};
+  const auto entries = ParseProjectFile(*text);
+  if (!entries.ok()) return {};
+  const auto entry = std::find_if(
+      entries->begin(), entries->end(), [](const ProjectEntry& candidate) {
+        return candidate.name == "image_path";
+      });
+  return entry == entries->end() ? fs::path() : fs::path(entry->value);
+}
+
+std::vector<fs::path> ImageCandidates(const ModelPlace& place) {
+  std::vector<fs::path> places;
+  const fs::path common = place.workspace / "images";
+  const bool below = place.inside && !place.root.empty() &&
+                     IsInside(place.root, place.workspace) &&
+                     place.root != place.workspace;
+  if (!below) places.push_back(common);
+  if (!place.root.empty()) places.push_back(place.root / "images");
+  const fs::path project = ImagePathOfProject(place.model);
+  if (!project.empty()) {
+    places.push_back(fs::absolute(project));
+    places.push_back(place.workspace / project);
+  }
+  std::vector<fs::path> unique;
+  for (const fs::path& path : places) {
+    if (std::find(unique.begin(), unique.end(), path) == unique.end()) {
+      unique.push_back(path);
+    }
+  }
+  return unique;
+}
+
+Status FindImages(const WorkspacePaths& paths, Workspace* found) {
+  if (!paths.image_path.empty()) {
+    found->image_path = paths.image_path;
+    if (IsFolder(paths.image_path)) return {};
+    return NotFound("--image_path " + paths.image_path.string() +
+                    " is not a folder; name the folder of the images.");
+  }
+  const std::vector<fs::path> places =
+      ImageCandidates(ModelPlace(paths.workspace_path, found->model_path));
+  const auto place = std::find_if(places.begin(), places.end(), IsFolder);
+  if (place == places.end()) {
+    return NotFound("No folder of images for the model " +
+                    found->model_path.string() + "." + Tried(places) +
+                    " Name it with --image_path.");
+  }
+  found->image_path = *place;
+  return {};
+}
+
+fs::path OutputPath(const WorkspacePaths& paths, const fs::path& model) {
+  if (!paths.output_path.empty()) return paths.output_path;
+  const ModelPlace place(paths.workspace_path, model);
+  const bool is_sparse = place.model.filename() == "sparse";
+  const bool beside =
+      !place.root.empty() && (place.inside || paths.input_path.empty());
+  if (beside && is_sparse) return place.root / "curvix";
+  if (beside) return place.root / "curvix" / place.model.filename();
+  if (place.model == place.workspace) return place.workspace / "curvix";
+  return place.workspace / "curvix" / place.model.filename();
+}
+
+// Results are not written through links that nobody asked for.
+Status CheckOutputPath(const WorkspacePaths& paths, const fs::path& output) {
+  if (!paths.output_path.empty()) return {};
+  for (fs::path folder = output;; folder = folder.parent_path()) {
+    std::error_code error;
+    if (fs::is_symlink(folder, error)) {
+      return {StatusCode::kInvalidArgument,
+              folder.string() +
+                  " is a link, and the results would go where it leads; name "
+                  "that folder with --output_path if it is meant."};
+    }
+    if (folder.filename() == "curvix") return {};
+  }
+}
+
+// "a, b, c, d, e, ..." with at most five names.
+std::string FirstFive(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 5); ++i) {
+    text += (i > 0 ? ", " : "") + names[i];
+  }
+  return names.size() > 5 ? text + ", ..." : text;
+}
+
+// The names of the images that are not in `folder`, sorted.
+std::vector<std::string> MissingImages(const ColmapModel& model,
+                                       const fs::path& folder) {
+  std::vector<std::string> missing;
+  for (const ColmapImage& image : model.images) {
+    std::error_code error;
+    if (fs::is_regular_file(folder / image.name, error)) continue;
+    missing.push_back(image.name);
+  }
+  std::sort(missing.begin(), missing.end());
+  return missing;
+}
+
+// "" if there is none.
+fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
+  std::error_code error;
+  fs::path mask = folder / (image_name + ".png");
+  if (fs::is_regular_file(mask, error)) return mask;
+  const fs::path same_name = folder / image_name;
+  const bool is_png = same_name.extension() == ".png";
+  return is_png && fs::is_regular_file(same_name, error) ? same_name
+                                                         : fs::path();
+}
+
+Status FindMasks(const WorkspacePaths& paths, Workspace* found) {
+  if (paths.mask_path.empty()) return {};
+  found->mask_path = fs::absolute(paths.mask_path);
+  if (IsFolder(paths.mask_path)) return {};
+  return NotFound("--mask_path " + paths.mask_path.string() +
+                  " is not a folder; name the folder of the masks.");
+}
+
+// Images without masks are used whole, which people should know.
+void NoteMissingMasks(const Workspace& workspace, WorkspaceScene* result) {
+  if (workspace.mask_path.empty()) return;
+  std::vector<std::string> names;
+  for (const View& view : result->scene.views) {
+    if (view.mask_path.empty()) names.push_back(view.name);
+  }
+  if (names.empty()) return;
+  result->notes.push_back(std::to_string(names.size()) + " of " +
+                          std::to_string(result->scene.views.size()) +
+                          " images have no mask in " +
+                          workspace.mask_path.string() +
+                          " and are used whole: " + FirstFive(names) + ".");
+}
+
+constexpr std::size_t kMinViews = 3;
+
+Status TooFewViews(const Workspace& workspace,
+                   std::size_t num_views,
+                   const std::vector<std::string>& missing) {
+  if (missing.empty()) {
+    return {StatusCode::kInvalidArgument,
+            "The model " + workspace.model_path.string() + " has " +
+                std::to_string(num_views) +
+                " images, and curves need at least three; register more "
+                "images."};
+  }
+  return NotFound("Only " + std::to_string(num_views) + " of the " +
+                  std::to_string(num_views + missing.size()) +
+                  " images of the model " + workspace.model_path.string() +
+                  " are in " + workspace.image_path.string() +
+                  " (missing: " + FirstFive(missing) +
+                  "), and curves need at least three. Name the right folder "
+                  "with --image_path.");
+}
+
+}  // namespace
+
+Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
+  if (paths.workspace_path.empty()) {
+    return Status(StatusCode::kInvalidArgument,
+                  "The option --workspace_path is required but missing.");
+  }
+  if (!IsFolder(paths.workspace_path)) {
+    return NotFound("--workspace_path " + paths.workspace_path.string() +
+                    " is not a folder; name the folder that holds sparse/ and "
+                    "images/.");
+  }
+  Workspace found;
+  Status status = FindModel(paths, &found);
+  if (status.ok()) status = FindImages(paths, &found);
+  if (status.ok()) status = FindMasks(paths, &found);
+  if (!status.ok()) return status;
+  found.output_path = OutputPath(paths, found.model_path);
+  status = CheckOutputPath(paths, found.output_path);
+  if (!status.ok()) return status;
+  return found;
+}
+
+Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
+  Result<ColmapModel> model = ReadColmapModel(workspace.model_path);
+  if (!model.ok()) return model.status();
+  WorkspaceScene result;
+  result.model = std::move(model).value();
+  result.missing_images = MissingImages(result.model, workspace.image_path);
+  result.scene = MakeScene(workspace, result.model, result.missing_images);
+  if (result.scene.views.size() < kMinViews) {
+    return TooFewViews(
+        workspace, result.scene.views.size(), result.missing_images);
+  }
+  if (!result.missing_images.empty()) {
+    result.notes.push_back(
+        std::to_string(result.missing_images.size()) + " of " +
+        std::to_string(result.model.images.size()) + " images are not in " +
+        workspace.image_path.string() +
+        " and are skipped: " + FirstFive(result.missing_images) + ".");
+  }
+  NoteMissingMasks(workspace, &result);
+  return result;
+}
+
+Scene MakeScene(const Workspace& workspace,
+                const ColmapModel& model,
+                const std::vector<std::string>& left_out) {
+  Scene scene = SceneFromColmapModel(model, workspace.image_path, left_out);
+  if (workspace.mask_path.empty()) return scene;
+  for (View& view : scene.views) {
+    view.mask_path = MaskOf(workspace.mask_path, view.name);
+  }
+  return scene;
+}
+
+}  // namespace curvix

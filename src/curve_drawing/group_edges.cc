@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 6.
+#include "curve_drawing/group_edges.h"
+
+#include <utility>
+
+#include "curve_drawing/connect_edges.h"
+#include "curve_drawing/drop_duplicates.h"
+#include "curve_drawing/join_curves.h"
+#include "curve_drawing/split_corners.h"
+#include "curve_drawing/thin_edges.h"
+
+namespace curvix {
+
+std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
+                              const NeighborhoodGraph& graph,
+                              const std::vector<PosedView>& views,
+                              const ConnectivityOptions& options,
+                              int num_threads) {
+  const ThinnedEdges thinned =
+      ThinEdges(edges, graph, views, options, num_threads);
+  const ConnectivityGraph connectivity =
+      ConnectEdges(thinned.edges, thinned.graph, views, options, num_threads);
+  std::vector<Curve> curves = TraceCurves(thinned.edges, connectivity);
+  curves = DropRepeats(std::move(curves), views, options);
+  curves = JoinCurves(std::move(curves), views, options);
+  curves = SplitCorners(curves, views, options);
+  return DropShortCurves(std::move(curves), views, options.min_length_px);
+}
+
+}  // namespace curvix

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_drawing/grow_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "base/parallel.h"
+#include "curve_drawing/claimed_edges.h"
+#include "curve_drawing/keep_significant.h"
+
+namespace curvix {
+namespace {
+
+// Curves that grow side by side, whatever the number of threads; those that
+// get in each other's way grow again. No result depends on it.
+constexpr std::size_t kNumAtOnce = 64;
+
+std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
+  std::vector<std::size_t> order(edges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(
+      order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        // Ties must not depend on the last bits of sums.
+        const double first = std::round(1e6 * edges[a].evidence);
+        const double second = std::round(1e6 * edges[b].evidence);
+        if (first != second) return first > second;
+        return std::lexicographical_compare(edges[a].position.begin(),
+                                            edges[a].position.end(),
+                                            edges[b].position.begin(),
+                                            edges[b].position.end());
+      });
+  return order;
+}
+
+std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
+                             const GrowthInput& input,
+                             int num_threads) {
+  ClaimedEdges claimed(input.indices);
+  const std::vector<std::size_t> order = ByFallingEvidence(seeds);
+  std::vector<GrownCurve> curves;
+  for (std::size_t begin = 0; begin < order.size(); begin += kNumAtOnce) {
+    std::vector<Growth> growths(std::min(kNumAtOnce, order.size() - begin));
+    const auto grow = [&](std::size_t k) {
+      growths[k] = GrowFromSeed(seeds[order[begin + k]], input, claimed);
+    };
+    ParallelFor(growths.size(), num_threads, grow);
+    for (std::size_t k = 0; k < growths.size(); ++k) {
+      // One before it may have claimed what it found.
+      if (!claimed.AreFree(growths[k].found)) grow(k);
+      if (!growths[k].curve) continue;
+      for (const CurveSample& sample : growths[k].curve->curve.samples) {
+        claimed.Claim(sample.support);
+      }
+      curves.push_back(*std::move(growths[k].curve));
+    }
+  }
+  return curves;
+}
+
+}  // namespace
+
+std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
+                              const GrowthInput& input,
+                              int num_threads) {
+  return KeepSignificant(Grow(seeds, input, num_threads),
+                         input.indices,
+                         input.options.min_significance);
+}
+
+}  // namespace curvix

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_drawing/grow_from_seed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <unordered_set>
+#include <utility>
+
+#include "base/angles.h"
+#include "curve_drawing/curve_tip.h"
+#include "curve_drawing/grown_path.h"
+#include "geometry/image_edge.h"
+#include "geometry/nearest_edge.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+// Steps are a pixel long in the view that sees them largest, but no longer than
+// so many where all see them foreshortened.
+constexpr double kStepPx = 1;
+constexpr double kMaxForeshortening = 4;
+// Where a view's edge may be, as for 3D edges (track_support.h).
+constexpr double kMaxNormalPx = 1;
+constexpr double kGateSigmas = 4;
+constexpr double kMaxTangentialPx = 1;
+constexpr double kMaxAngleDeg = 15;
+// Views in which the place is known less surely are not asked.
+constexpr double kMaxPredictedSigmaPx = 0.7;
+// Of samples, whose evidence that of the seed counts as.
+constexpr double kSeedWeight = 5;
+constexpr std::size_t kMinNumSamples = 5;
+// Curves that come back to their seed so near are closed, if they are so long.
+constexpr double kCloseSteps = 2;
+constexpr double kCloseCosine = 0.9;
+constexpr std::size_t kMinClosedSteps = 32;
+// The last steps do not claim their edges yet, so that these are still there
+// for the next ones and for the other direction.
+constexpr std::size_t kUnclaimedSteps = 32;
+
+// What one view says of a place.
+struct Look {
+  std::optional<EdgeRef> hit;
+  double vote = 0;
+};
+
+// The edges that a growing curve has already.
+class OwnEdges {
+ public:
+  bool Contains(const EdgeRef& ref) const { return keys_.contains(Key(ref)); }
+  void Add(const std::vector<EdgeRef>& refs) {
+    for (const EdgeRef& ref : refs) keys_.insert(Key(ref));
+  }
+
+ private:
+  static std::int64_t Key(const EdgeRef& ref) {
+    return (std::int64_t{ref.view_idx} << 32) | ref.edge_idx;
+  }
+  std::unordered_set<std::int64_t> keys_;
+};
+
+class Grower {
+ public:
+  Grower(const GrowthInput& input, const ClaimedEdges& claimed)
+      : views_(input.views),
+        indices_(input.indices),
+        neighbors_(input.neighbors),
+        sigma_px_(input.edge_sigma_px),
+        options_(input.options),
+        claimed_(claimed) {}
+
+  Growth Grow(const Edge3d& seed) {
+    const std::vector<EdgeRef> support = claimed_.FreeOf(seed.support);
+    const double pixel = PixelSize(seed.position, support, views_);
+    if (support.size() < kMinNumSupports ||
+        2 * support.size() < seed.support.size() || !(pixel > 0)) {
+      return {};
+    }
+    found_ = support;
+    const CurveTip tip(
+        {seed.position, seed.tangent}, MeasureAll(support), sigma_px_, pixel);
+    const GrownSample first{tip.edge(),
+                            tip.Sigma(),
+                            seed.evidence,
+                            support,
+                            static_cast<std::int64_t>(support.size())};
+    GrownCurve grown;
+    std::vector<GrownSample> path =
+        GrowBothWays(tip, first, &grown.curve.closed);
+    DropShortStreaks(indices_.size(), path);
+    if (!grown.curve.closed) TrimEnds(path);
+    if (path.size() < kMinNumSamples) return {std::nullopt, std::move(found_)};
+    for (GrownSample& sample : path) {
+      grown.num_looks += sample.num_looks;
+      grown.curve.samples.push_back(ToCurveSample(std::move(sample)));
+    }
+    return {std::move(grown), std::move(found_)};
+  }
+
+ private:
+  PlaneMeasurement Measure(const EdgeRef& ref) const {
+    const ViewIndex& index = indices_[static_cast<std::size_t>(ref.view_idx)];
+    return MeasurePlane(
+        *index.view,
+        ToImageEdge(
+            index.edges->edges[static_cast<std::size_t>(ref.edge_idx)]));
+  }
+
+  std::vector<PlaneMeasurement> MeasureAll(
+      const std::vector<EdgeRef>& refs) const {
+    std::vector<PlaneMeasurement> measurements;
+    for (const EdgeRef& ref : refs) measurements.push_back(Measure(ref));
+    // Sums must not depend on the order of views.
+    std::sort(
+        measurements.begin(),
+        measurements.end(),
+        [](const PlaneMeasurement& m, const PlaneMeasurement& n) {
+          return std::lexicographical_compare(
+              m.plane.begin(), m.plane.end(), n.plane.begin(), n.plane.end());
+        });
+    return measurements;
+  }
+
+  // nullopt if the view cannot tell.
+  std::optional<Look> LookIn(const ViewIndex& index,
+                             std::int32_t view_idx,
+                             const CurveTip& tip) const {
+    const auto projected = ProjectEdge(*index.view, tip.edge());
+    if (!projected || !index.view->Contains(projected->position)) {
+      return std::nullopt;
+    }
+    const double variance_px2 = tip.VarianceIn(*index.view, *projected);
+    if (variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {
+      return std::nullopt;
+    }
+    const double expected_px = std::sqrt(variance_px2 + sigma_px_ * sigma_px_);
+    const auto nearest =
+        NearestEdge(index.grid,
+                    *projected,
+                    {std::min(kMaxNormalPx, kGateSigmas * expected_px),
+                     kMaxTangentialPx,
+                     std::cos(DegToRad(kMaxAngleDeg))},
+                    [&](std::int32_t i) {
+                      return claimed_.IsFree({view_idx, i}) &&
+                             !own_.Contains({view_idx, i});
+                    });
+    Look look{std::nullopt, VoteWithoutSupport()};
+    if (!nearest) return look;
+    look.hit = EdgeRef{view_idx, *nearest};
+    const ImageEdge found =
+        ToImageEdge(index.edges->edges[static_cast<std::size_t>(*nearest)]);
+    const Eigen::Vector2d normal(-found.tangent.y(), found.tangent.x());
+    const double angle = AngleOf(projected->tangent);
+    look.vote =
+        VoteWithSupport({normal.dot(projected->position - found.position),
+                         expected_px,
+                         UndirectedDifference(angle, AngleOf(found.tangent))},
+                        index.density.Density(projected->position, angle));
+    return look;
+  }
+
+  static double AngleOf(const Eigen::Vector2d& direction) {
+    return std::atan2(direction.y(), direction.x());
+  }
+
+  // A step that is a pixel long in the view of `support` that sees it largest,
+  // in pixels of the tip.
+  double StepAlong(const CurveTip& tip,
+                   const std::vector<EdgeRef>& support) const {
+    const double foreshortening =
+        PixelSizeAlong(tip.edge(), support, views_) / tip.pixel();
+    return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
+  }
+
+  // Moves the tip a step on; the hits that count are `trusted`, at first those
+  // of the step before.
+  GrownSample StepOn(CurveTip& tip,
+                     Streaks& streaks,
+                     std::vector<EdgeRef>& trusted) {
+    tip.Step(StepAlong(tip, trusted));
+    GrownSample grown;
+    Votes votes(indices_.size());
+    trusted.clear();
+    for (std::size_t v = 0; v < indices_.size(); ++v) {
+      const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
+      if (!look) continue;
+      ++grown.num_looks;
+      votes[v] = look->vote;
+      if (look->hit) grown.hits.push_back(*look->hit);
+      if (streaks.Count(v, look->hit.has_value())) {
+        trusted.push_back(*look->hit);
+      }
+    }
+    found_.insert(found_.end(), grown.hits.begin(), grown.hits.end());
+    // Rounded, so that the order of views makes no difference.
+    grown.evidence = std::round(1e6 * Evidence(votes, neighbors_)) / 1e6;
+    tip.Correct(MeasureAll(trusted));
+    grown.edge = tip.edge();
+    grown.sigma = SigmaOf(grown, tip);
+    return grown;
+  }
+
+  // As of a 3D edge with this support, which is what the selection of curves
+  // knows; that of the tip is smaller.
+  double SigmaOf(const GrownSample& grown, const CurveTip& tip) const {
+    if (grown.hits.size() < 2) return tip.Sigma();
+    const EdgeEstimate estimate =
+        AdjustEdge(grown.edge, MeasureAll(grown.hits), sigma_px_);
+    return std::sqrt(estimate.covariance.trace() / 2);
+  }
+
+  // The samples ahead of `first`, without it.
+  std::vector<GrownSample> Follow(CurveTip tip,
+                                  const GrownSample& first,
+                                  bool* closed) {
+    Streaks streaks(indices_.size(), first.hits);
+    double sum_evidence = kSeedWeight * first.evidence;
+    double num_evidence = kSeedWeight;
+    std::vector<GrownSample> path;
+    std::vector<EdgeRef> trusted = first.hits;
+    std::size_t num_shown = 0;  // up to the last one that is shown
+    std::size_t num_claimed = 0;
+    while (static_cast<double>(path.size() - num_shown) * kStepPx <=
+           options_.max_gap_px) {
+      path.push_back(StepOn(tip, streaks, trusted));
+      const double evidence = path.back().evidence;
+      if (trusted.size() >= kMinNumSupports &&
+          evidence * num_evidence >=
+              options_.min_relative_evidence * sum_evidence) {
+        sum_evidence += evidence;
+        num_evidence += 1;
+        num_shown = path.size();
+      }
+      while (num_claimed + kUnclaimedSteps < num_shown) {
+        own_.Add(path[num_claimed++].hits);
+      }
+      *closed = path.size() > kMinClosedSteps &&
+                Meets(tip, first, StepAlong(tip, trusted));
+      if (*closed) return path;
+    }
+    path.resize(num_shown);
+    return path;
+  }
+
+  static bool Meets(const CurveTip& tip,
+                    const GrownSample& first,
+                    double step_px) {
+    const Eigen::Vector3d offset = first.edge.position - tip.edge().position;
+    return offset.norm() < kCloseSteps * step_px * tip.pixel() &&
+           tip.edge().tangent.dot(first.edge.tangent) > kCloseCosine;
+  }
+
+  std::vector<GrownSample> GrowBothWays(const CurveTip& tip,
+                                        const GrownSample& first,
+                                        bool* closed) {
+    std::vector<GrownSample> ahead = Follow(tip, first, closed);
+    std::vector<GrownSample> path;
+    if (!*closed) {
+      path = GrowBack(tip, first, closed);
+      if (*closed) ahead.clear();
+    }
+    path.push_back(first);
+    path.insert(path.end(),
+                std::make_move_iterator(ahead.begin()),
+                std::make_move_iterator(ahead.end()));
+    return path;
+  }
+
+  // The samples behind `first`, in the order of those ahead.
+  std::vector<GrownSample> GrowBack(CurveTip tip,
+                                    GrownSample first,
+                                    bool* closed) {
+    tip.Reverse();
+    first.edge = tip.edge();
+    std::vector<GrownSample> path = Follow(tip, first, closed);
+    std::reverse(path.begin(), path.end());
+    for (GrownSample& grown : path) grown.edge.tangent = -grown.edge.tangent;
+    return path;
+  }
+
+  const std::vector<PosedView>& views_;
+  const std::vector<ViewIndex>& indices_;
+  const std::vector<std::vector<ViewNeighbor>>& neighbors_;
+  double sigma_px_;
+  const CurveGrowthOptions& options_;
+  const ClaimedEdges& claimed_;
+  OwnEdges own_;
+  std::vector<EdgeRef> found_;
+};
+
+}  // namespace
+
+Growth GrowFromSeed(const Edge3d& seed,
+                    const GrowthInput& input,
+                    const ClaimedEdges& claimed) {
+  return Grower(input, claimed).Grow(seed);
+}
+
+}  // namespace curvix

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). One curve, from its seed on.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <optional>
+#include <vector>
+
+#include "curve_drawing/claimed_edges.h"
+#include "curve_drawing/keep_significant.h"
+#include "edge_sketch/evidence.h"
+#include "edge_sketch/view_index.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// What a seed grew into.
+struct Growth {
+  std::optional<GrownCurve> curve;  // none: it is too short, or there already
+  // All 2D edges that were found on the way, also those that the curve does not
+  // have in the end. While nobody claims one of them, growing again gives the
+  // same.
+  std::vector<EdgeRef> found;
+};
+
+// What curves grow by; see GrowCurves(). All references must outlive it.
+struct GrowthInput {
+  const std::vector<PosedView>& views;
+  const std::vector<ViewIndex>& indices;                    // by view
+  const std::vector<std::vector<ViewNeighbor>>& neighbors;  // by view
+  double edge_sigma_px = 0;
+  const CurveGrowthOptions& options;
+};
+
+// Grows a curve from `seed` over edges that are not `claimed`, and claims none.
+Growth GrowFromSeed(const Edge3d& seed,
+                    const GrowthInput& input,
+                    const ClaimedEdges& claimed);
+
+}  // namespace curvix

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "curve_drawing/join_curves.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/point_tree.h"
+#include "geometry/directions.h"
+#include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
+
+namespace curvix {
+namespace {
+
+// Samples at an end whose mean tangent is its direction.
+constexpr std::size_t kNumEndSamples = 3;
+
+struct CurveEnd {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d outward = Eigen::Vector3d::UnitX();  // unit
+  double pixel_size = 0;  // 0: closed, no end at all
+};
+
+CurveEnd EndOf(const Curve& curve,
+               bool front,
+               const std::vector<PosedView>& views) {
+  const std::vector<CurveSample>& samples = curve.samples;
+  const CurveSample& last = front ? samples.back() : samples.front();
+  const std::size_t num_used = std::min(kNumEndSamples, samples.size());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < num_used; ++k) {
+    sum += front ? samples[samples.size() - 1 - k].tangent
+                 : Eigen::Vector3d(-samples[k].tangent);
+  }
+  return {last.position,
+          sum.normalized(),
+          curve.closed ? 0 : PixelSize(last.position, last.support, views)};
+}
+
+// The cost of joining two ends; nullopt if they do not continue each other.
+std::optional<double> JoinCost(const CurveEnd& a,
+                               const CurveEnd& b,
+                               const ConnectivityOptions& options) {
+  const double unit = std::min(a.pixel_size, b.pixel_size);
+  const Eigen::Vector3d offset = b.position - a.position;
+  const double gap = offset.norm();
+  const double normal =
+      std::max(a.outward.cross(offset).norm(), b.outward.cross(offset).norm());
+  const double angle = std::max({AngleBetween(a.outward, offset),
+                                 AngleBetween(-b.outward, offset),
+                                 AngleBetween(a.outward, -b.outward)});
+  if (!(unit > 0) || !(gap > 0) || gap > options.max_gap_px * unit ||
+      normal > options.max_normal_distance_px * unit ||
+      angle > DegToRad(options.max_angle_deg)) {
+    return std::nullopt;
+  }
+  return gap + normal;
+}
+
+std::vector<EndPair> FindPairs(const std::vector<CurveEnd>& ends,
+                               const ConnectivityOptions& options) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const CurveEnd& end : ends) positions.push_back(end.position);
+  const PointTree tree(std::move(positions));
+  std::vector<EndPair> pairs;
+  for (EndIdx a = 0; a < ends.size(); ++a) {
+    const double radius = options.max_gap_px * ends[a].pixel_size;
+    for (const EndIdx b : tree.Within(ends[a].position, radius)) {
+      if (b == a) continue;
+      const auto cost = JoinCost(ends[a], ends[b], options);
+      if (cost.has_value()) pairs.push_back({*cost, a, b});
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<Curve> JoinCurves(std::vector<Curve> curves,
+                              const std::vector<PosedView>& views,
+                              const ConnectivityOptions& options) {
+  if (!(options.max_gap_px > 0)) return curves;
+  std::vector<CurveEnd> ends;
+  for (const Curve& curve : curves) {
+    ends.push_back(EndOf(curve, true, views));
+    ends.push_back(EndOf(curve, false, views));
+  }
+  const EndTies ties =
+      TieCheapestFirst(FindPairs(ends, options), curves.size());
+  return StringTogether(std::move(curves), ties, {});
+}
+
+}  // namespace curvix

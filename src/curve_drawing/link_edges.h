@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 5, Fig. 6. The weighted neighborhood graph, step by step.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <vector>
+
+#include "geometry/image_edge.h"
+#include "model/neighborhood_graph.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// Which edges belong together: links of shared 2D edges, light ones pruned by
+// the spread of all, united with the lifted tangential links, all pruned by
+// their projections.
+// Deviation: the paper prunes by projection before it adds the tangential
+// links; these can err as well, where contours of different depth meet in an
+// image.
+NeighborhoodGraph LinkEdges(const std::vector<Edge3d>& edges,
+                            const std::vector<EdgeMap>& edge_maps,
+                            const std::vector<PosedView>& views,
+                            const NeighborhoodOptions& options,
+                            int num_threads);
+
+// Fig. 6(b)-(d): mu + lambda sigma of each distance over all links of `graph`. The same for
+// any number of threads. All zero without links.
+EdgeDistances SpreadLimits(const std::vector<Edge3d>& edges,
+                           const NeighborhoodGraph& graph,
+                           double lambda,
+                           int num_threads);
+
+// `graph` without the links of weight one that exceed any of the limits above,
+// with lambda = options.max_spread. The paper does not say over which links it
+// takes mu and sigma; here over all of them, as those of weight one alone are
+// the ones in doubt.
+NeighborhoodGraph PruneBySpread(const std::vector<Edge3d>& edges,
+                                const NeighborhoodGraph& graph,
+                                const NeighborhoodOptions& options,
+                                int num_threads);
+
+// Fig. 6(e): `graph` without the links whose edges project more than tau_gamma =
+// options.max_projection_distance_px apart in any view that sees both. A view
+// sees an edge if one of its 2D edges supports it: in other views something may
+// hide it, and what they would show says nothing. Edges behind a camera that
+// supports them are at an infinite distance. Links between edges that no view
+// sees both of stay.
+NeighborhoodGraph PruneByProjection(const std::vector<Edge3d>& edges,
+                                    const NeighborhoodGraph& graph,
+                                    const std::vector<PosedView>& views,
+                                    const NeighborhoodOptions& options,
+                                    int num_threads);
+
+}  // namespace curvix

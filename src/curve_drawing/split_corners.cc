@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "curve_drawing/split_corners.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "base/angles.h"
+#include "geometry/directions.h"
+#include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kArmBegin = 3;  // pixels from the corner
+constexpr double kArmEnd = 9;    // pixels from the corner
+constexpr std::size_t kMinArmSamples = 4;
+
+// The directions of one arm, all along the curve.
+struct Arm {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double bend = 0;  // between its halves, radians
+};
+
+// A curve with the length of each step in pixels.
+class CornerFinder {
+ public:
+  CornerFinder(const Curve& curve, const std::vector<PosedView>& views)
+      : curve_(curve) {
+    const std::size_t size = curve.samples.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const CurveSample& a = curve.samples[k];
+      const CurveSample& b = curve.samples[(k + 1) % size];
+      const double unit = PixelSize(a.position, a.support, views);
+      const double step = (b.position - a.position).norm();
+      steps_px_.push_back(unit > 0 ? step / unit : 0);
+    }
+  }
+
+  // The samples after which the curve is to be cut, ascending.
+  std::vector<std::size_t> Corners(double max_turn) const {
+    std::vector<double> turns(steps_px_.size());
+    for (std::size_t k = 0; k < turns.size(); ++k) turns[k] = Turn(k);
+    std::vector<std::size_t> corners;
+    for (std::size_t k = 0; k < turns.size(); ++k) {
+      if (turns[k] > max_turn && IsSharpest(turns, k)) {
+        corners.push_back(SharpestNear(k));
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+
+ private:
+  // The sample after `k` (forward) or before it, and the way there in pixels.
+  std::optional<std::pair<std::size_t, double>> Next(std::size_t k,
+                                                     bool forward) const {
+    const std::size_t size = steps_px_.size();
+    if (!curve_.closed && k == (forward ? size - 1 : 0)) return std::nullopt;
+    const std::size_t next = (forward ? k + 1 : k + size - 1) % size;
+    return std::pair(next, steps_px_[forward ? k : next]);
+  }
+
+  // Calls visit(index, distance) for samples up to kArmEnd away, in order.
+  template <typename Visit>
+  void Walk(std::size_t from, bool forward, const Visit& visit) const {
+    double distance = 0;
+    auto next = Next(from, forward);
+    while (next.has_value() && next->first != from) {
+      distance += next->second;
+      if (distance > kArmEnd) return;
+      visit(next->first, distance);
+      next = Next(next->first, forward);
+    }
+  }
+
+  std::optional<Arm> ArmAt(std::size_t k, bool forward) const {
+    std::size_t num_samples = 0;
+    Eigen::Vector3d near = Eigen::Vector3d::Zero();
+    Eigen::Vector3d far = Eigen::Vector3d::Zero();
+    Walk(k, forward, [&](std::size_t i, double distance) {
+      if (distance < kArmBegin) return;
+      ++num_samples;
+      (2 * distance < kArmBegin + kArmEnd ? near : far) +=
+          curve_.samples[i].tangent;
+    });
+    if (num_samples < kMinArmSamples || near.isZero() || far.isZero()) {
+      return std::nullopt;
+    }
+    return Arm{near + far, AngleBetween(near, far)};
+  }
+
+  // The excess turn at sample `k`, radians; 0 where there are no arms.
+  double Turn(std::size_t k) const {
+    const auto ahead = ArmAt(k, true);
+    const auto behind = ArmAt(k, false);
+    if (!ahead.has_value() || !behind.has_value()) return 0;
+    // Arm centres are this many times further apart than halves of an arm.
+    const double ratio = 2 * (kArmEnd + kArmBegin) / (kArmEnd - kArmBegin);
+    return AngleBetween(behind->mean, ahead->mean) -
+           ratio * std::min(ahead->bend, behind->bend);
+  }
+
+  bool IsSharpest(const std::vector<double>& turns, std::size_t k) const {
+    bool is_sharpest = true;
+    for (const bool forward : {true, false}) {
+      Walk(k, forward, [&](std::size_t i, double) {
+        if (turns[i] > turns[k] || (turns[i] == turns[k] && i < k)) {
+          is_sharpest = false;
+        }
+      });
+    }
+    return is_sharpest;
+  }
+
+  // Between the mean directions right before and right after the cut.
+  double TurnAtCut(std::size_t k) const {
+    Eigen::Vector3d before = curve_.samples[k].tangent;
+    Eigen::Vector3d after = Eigen::Vector3d::Zero();
+    Walk(k, true, [&](std::size_t i, double distance) {
+      if (distance <= kArmBegin) after += curve_.samples[i].tangent;
+    });
+    Walk(k, false, [&](std::size_t i, double distance) {
+      if (distance < kArmBegin) before += curve_.samples[i].tangent;
+    });
+    return AngleBetween(before, after);
+  }
+
+  std::size_t SharpestNear(std::size_t corner) const {
+    std::pair best(-TurnAtCut(corner), corner);
+    for (const bool forward : {true, false}) {
+      Walk(corner, forward, [&](std::size_t i, double distance) {
+        if (distance > kArmBegin) return;
+        best = std::min(best, std::pair(-TurnAtCut(i), i));
+      });
+    }
+    return best.second;
+  }
+
+  const Curve& curve_;
+  std::vector<double> steps_px_;  // from each sample to the next
+};
+
+}  // namespace
+
+std::vector<Curve> SplitCorners(const std::vector<Curve>& curves,
+                                const std::vector<PosedView>& views,
+                                const ConnectivityOptions& options) {
+  std::vector<Curve> split;
+  for (const Curve& curve : curves) {
+    const auto corners =
+        CornerFinder(curve, views).Corners(DegToRad(options.max_corner_deg));
+    for (Curve& piece : CutAfter(curve, corners)) {
+      split.push_back(std::move(piece));
+    }
+  }
+  return split;
+}
+
+}  // namespace curvix

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering), ahead of Sec. 6. Every place once.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <vector>
+
+#include "model/neighborhood_graph.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+struct ThinnedEdges {
+  std::vector<Edge3d> edges;
+  NeighborhoodGraph graph;  // of `edges`: the links between the groups
+};
+
+// Makes one edge of every group of linked edges that stand for the same place:
+// at most options.sample_spacing_px from the group's first edge along it,
+// max_normal_distance_px across it and max_angle_deg off its direction.
+//
+// First edges are chosen greedily: the edge with most support within these
+// limits, its own included, comes first (ties: smaller index), so the middle of
+// parallel tracks goes before its rim. It is moved across its tangent to the
+// mean of its group and turned to its mean direction, members weighted by their
+// inverse variance, or by their number of supports where that is not known. Its
+// sigma is the least and its evidence the greatest of the group: members share
+// most of their 2D edges. Its support is the union, its own first, then members
+// in index order; still at most one 2D edge per view. The edges come in the
+// order of the first edges' indices.
+//
+// Deviation: the paper connects all edges. Several of them at almost the same
+// spot make the order along the tangent a matter of noise, and traces zig-zag
+// or leave edges over. sample_spacing_px = 0 returns the input.
+ThinnedEdges ThinEdges(const std::vector<Edge3d>& edges,
+                       const NeighborhoodGraph& graph,
+                       const std::vector<PosedView>& views,
+                       const ConnectivityOptions& options,
+                       int num_threads);
+
+}  // namespace curvix

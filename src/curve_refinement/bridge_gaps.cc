@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/bridge_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/point_tree.h"
+#include "curve_refinement/curve_ends.h"
+#include "curve_refinement/fill_gap.h"
+#include "model/curve_chains.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kMaxMissPx = 1;
+constexpr double kMaxMissPerGap = 0.1;
+constexpr double kMaxAngleDeg = 15;
+constexpr double kRingTolerance = 3;
+constexpr double kMaxOverlapPx = 6;
+constexpr double kMaxBentPx = 5;  // of an end
+constexpr double kMaxOffPx = 0.4;
+constexpr double kCostOfGap = 0.05;  // a pixel of miss is a pixel
+
+// How far from `to` the fit of `from`, carried on, passes; nullopt if it does
+// not arrive there.
+std::optional<double> Miss(const EndFit& from,
+                           const EndFit& to,
+                           double max_miss,
+                           double max_angle_deg,
+                           double max_overlap) {
+  const double arc_length = from.ArcLengthTo(to.position);
+  const double miss = (from.PointAt(arc_length) - to.position).norm();
+  const double cosine = from.DirectionAt(arc_length).dot(-to.outward);
+  if (arc_length < -max_overlap || miss > max_miss ||
+      cosine < std::cos(DegToRad(max_angle_deg))) {
+    return std::nullopt;
+  }
+  return miss;
+}
+
+// Finds the pairs of ends that continue each other.
+class GapFinder {
+ public:
+  GapFinder(const std::vector<Curve>& curves,
+            const std::vector<PosedView>& views,
+            const ImageSupport& images,
+            const CurveRefinementOptions& options)
+      : curves_(curves), images_(images), options_(options) {
+    for (const Curve& curve : curves) {
+      ends_.push_back(FitLongEnd(curve, true, views));
+      ends_.push_back(FitLongEnd(curve, false, views));
+    }
+  }
+
+  std::vector<EndPair> Pairs() const {
+    std::vector<Eigen::Vector3d> positions;
+    for (const EndFit& end : ends_) positions.push_back(end.position);
+    const PointTree tree(std::move(positions));
+    std::vector<EndPair> pairs;
+    for (EndIdx a = 0; a < ends_.size(); ++a) {
+      if (!(ends_[a].length > 0)) continue;
+      const double reach =
+          std::max(options_.max_gap_px * ends_[a].pixel, ends_[a].length);
+      for (const EndIdx b : tree.Within(ends_[a].position, reach)) {
+        if (b == a) continue;
+        if (const auto cost = Cost(a, b)) pairs.push_back({*cost, a, b});
+      }
+    }
+    return pairs;
+  }
+
+ private:
+  std::optional<double> Cost(EndIdx a, EndIdx b) const {
+    const EndFit& from = ends_[a];
+    const EndFit& to = ends_[b];
+    const double unit = std::min(from.pixel, to.pixel);
+    const double gap = (to.position - from.position).norm();
+    const double longest = std::min(from.length, to.length);
+    if (!(gap > 0) || gap > longest) return std::nullopt;
+    // The two ends of one curve hardly meet by chance.
+    const double tolerance = ItemOf(a) == ItemOf(b) ? kRingTolerance : 1;
+    const bool is_long = gap > options_.max_gap_px * unit;
+    const double max_miss =
+        tolerance * (kMaxMissPx * unit + (is_long ? 0 : kMaxMissPerGap * gap));
+    const auto forth = Miss(
+        from, to, max_miss, tolerance * kMaxAngleDeg, kMaxOverlapPx * unit);
+    const auto back = Miss(
+        to, from, max_miss, tolerance * kMaxAngleDeg, kMaxOverlapPx * unit);
+    if (!forth || !back || (is_long && !ImagesShow(a, b, unit))) {
+      return std::nullopt;
+    }
+    return kCostOfGap * gap + std::max(*forth, *back);
+  }
+
+  const CurveSample& Last(EndIdx end) const {
+    const std::vector<CurveSample>& samples = curves_[ItemOf(end)].samples;
+    return IsFront(end) ? samples.back() : samples.front();
+  }
+
+  bool ImagesShow(EndIdx a, EndIdx b, double unit) const {
+    CurveSample from = Last(a);
+    CurveSample to = Last(b);
+    from.tangent = ends_[a].outward;
+    to.tangent = -ends_[b].outward;
+    return AreShown(SamplesBetween(from, to, unit, images_),
+                    std::min(SupportBefore(curves_[ItemOf(a)], IsFront(a)),
+                             SupportBefore(curves_[ItemOf(b)], IsFront(b))));
+  }
+
+  const std::vector<Curve>& curves_;
+  const ImageSupport& images_;
+  const CurveRefinementOptions& options_;
+  std::vector<EndFit> ends_;
+};
+
+// Last samples that leave the curve they end, as next to a corner.
+void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
+  for (const bool front : {true, false}) {
+    const EndFit fit = FitLongEnd(curve, front, views);
+    if (!(fit.length > 3 * kMaxBentPx * fit.pixel)) continue;
+    CutEnd(curve, front, [&](const CurveSample& sample) {
+      const double arc_length = fit.ArcLengthTo(sample.position);
+      return arc_length < -kMaxBentPx * fit.pixel ||
+             (fit.PointAt(arc_length) - sample.position).norm() <=
+                 kMaxOffPx * fit.pixel;
+    });
+  }
+}
+
+// Ends that are tied and run past each other are cut half-way.
+void CutOverlaps(const EndTies& ties,
+                 const std::vector<PosedView>& views,
+                 std::vector<Curve>& curves) {
+  const std::vector<Curve> before = curves;
+  for (EndIdx a = 0; a < ties.size(); ++a) {
+    if (!ties[a]) continue;
+    const EndIdx b = *ties[a];
+    const EndFit from = FitLongEnd(before[ItemOf(a)], IsFront(a), views);
+    const EndFit to = FitLongEnd(before[ItemOf(b)], IsFront(b), views);
+    const double overlap = -from.ArcLengthTo(to.position);
+    if (!(overlap > 0)) continue;
+    CutEnd(curves[ItemOf(a)], IsFront(a), [&](const CurveSample& sample) {
+      return from.ArcLengthTo(sample.position) < -overlap / 2;
+    });
+  }
+}
+
+std::vector<Curve> Join(std::vector<Curve> curves,
+                        const EndTies& ties,
+                        const std::vector<PosedView>& views,
+                        const ImageSupport& images) {
+  CutOverlaps(ties, views, curves);
+  return StringTogetherFilled(std::move(curves), ties, views, images);
+}
+
+}  // namespace
+
+std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
+                              const std::vector<PosedView>& views,
+                              const ImageSupport& images,
+                              const CurveRefinementOptions& options) {
+  if (!(options.max_gap_px > 0)) return curves;
+  for (Curve& curve : curves) CutBentEnds(views, curve);
+  std::vector<EndPair> pairs =
+      GapFinder(curves, views, images, options).Pairs();
+  EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
+  curves = Join(std::move(curves), ties, views, images);
+
+  pairs = GapFinder(curves, views, images, options).Pairs();
+  std::erase_if(pairs, [](const EndPair& pair) {
+    return ItemOf(pair.a) != ItemOf(pair.b);
+  });
+  ties = TieCheapestFirst(std::move(pairs), curves.size());
+  return Join(std::move(curves), ties, views, images);
+}
+
+}  // namespace curvix

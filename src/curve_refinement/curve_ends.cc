@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "curve_refinement/curve_ends.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+void Walk(const Curve& curve,
+          int direction,
+          double reach,
+          std::vector<SampleAround>& around) {
+  const std::size_t size = curve.samples.size();
+  const std::size_t last = direction > 0 ? size - 1 : 0;
+  std::size_t steps = curve.closed ? (size - 1) / 2 : size;
+  double along = 0;
+  for (std::size_t here = around.front().index; steps > 0; --steps) {
+    if (!curve.closed && here == last) return;
+    const std::size_t next =
+        direction > 0 ? (here + 1) % size : (here + size - 1) % size;
+    along +=
+        (curve.samples[next].position - curve.samples[here].position).norm();
+    if (along > reach) return;
+    around.push_back({next, direction * along});
+    here = next;
+  }
+}
+
+}  // namespace
+
+std::vector<SampleAround> SamplesAround(const Curve& curve,
+                                        std::size_t index,
+                                        double reach) {
+  std::vector<SampleAround> around = {{index, 0}};
+  Walk(curve, 1, reach, around);
+  Walk(curve, -1, reach, around);
+  return around;
+}
+
+Curve ArmTo(const Curve& curve,
+            std::size_t last,
+            bool with_direction,
+            const ArmStretch& stretch) {
+  Curve arm;
+  for (const SampleAround& around :
+       SamplesAround(curve, last, stretch.skipped + stretch.length)) {
+    const double away = with_direction ? -around.along : around.along;
+    if (away < stretch.skipped) continue;
+    CurveSample& sample = arm.samples.emplace_back(curve.samples[around.index]);
+    if (!with_direction) sample.tangent = -sample.tangent;
+  }
+  std::reverse(arm.samples.begin(), arm.samples.end());
+  return arm;
+}
+
+double DistanceFromParabola(const Curve& from, const Curve& to) {
+  const Eigen::Vector3d origin = from.samples.back().position;
+  const Eigen::Vector3d way = to.samples.back().position - origin;
+  const auto num_samples =
+      static_cast<Eigen::Index>(from.samples.size() + to.samples.size());
+  Eigen::MatrixX3d powers(num_samples, 3);
+  Eigen::MatrixX3d positions(num_samples, 3);
+  Eigen::Index row = 0;
+  for (const Curve* arm : {&from, &to}) {
+    for (const CurveSample& sample : arm->samples) {
+      const Eigen::Vector3d offset = sample.position - origin;
+      const double t = offset.dot(way) / way.squaredNorm();
+      powers.row(row) << 1, t, t * t;
+      positions.row(row++) = offset;
+    }
+  }
+  const Eigen::Matrix3d parabola =
+      powers.colPivHouseholderQr().solve(positions);
+  return std::sqrt((powers * parabola - positions).squaredNorm() /
+                   static_cast<double>(num_samples));
+}
+
+namespace {
+
+constexpr std::size_t kMinNumFitted = 4;
+constexpr int kNumRounds = 8;
+constexpr double kScalePx = 0.3;  // of the robust weights
+// A line is good enough while an arc takes less than this share of the sum of
+// squares away.
+constexpr double kLineShare = 0.5;
+
+// Of FitLongEnd.
+constexpr std::array kLongPx = {15.0, 25.0, 40.0, 60.0};
+constexpr double kBentPx = 3;
+constexpr double kMaxRmsPx = 0.25;
+constexpr double kMaxRmsRatio = 1.5;
+
+struct Placed {
+  double along = 0;  // arc length, negative inside the curve
+  Eigen::Vector3d offset;
+  double weight = 1;
+};
+
+// sin(k s) / k and (1 - cos(k s)) / k^2, also for k = 0.
+Eigen::Vector2d ArcBasis(double curvature, double s) {
+  const double turn = curvature * s;
+  if (std::abs(turn) < 1e-4) return {s, s * s / 2};
+  return {std::sin(turn) / curvature,
+          (1 - std::cos(turn)) / (curvature * curvature)};
+}
+
+std::vector<Placed> Take(const Curve& curve,
+                         bool front,
+                         const EndStretch& stretch,
+                         double pixel) {
+  const std::size_t size = curve.samples.size();
+  const auto sample = [&](std::size_t k) -> const Eigen::Vector3d& {
+    return curve.samples[front ? size - 1 - k : k].position;
+  };
+  std::vector<Placed> placed;
+  double along = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    if (k > 0) along += (sample(k) - sample(k - 1)).norm();
+    if (along > stretch.end_px * pixel) break;
+    if (along < stretch.begin_px * pixel) continue;
+    placed.push_back({-along, sample(k) - sample(0), 1});
+  }
+  return placed;
+}
+
+// Rows: place, direction and bend at arc length 0.
+Eigen::Matrix3d SolveArc(const std::vector<Placed>& placed, double curvature) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
+  for (const Placed& p : placed) {
+    Eigen::Vector3d basis;
+    basis << 1, ArcBasis(curvature, p.along);
+    normal += p.weight * basis * basis.transpose();
+    right += p.weight * basis * p.offset.transpose();
+  }
+  return normal.ldlt().solve(right);
+}
+
+Eigen::Matrix3d SolveLine(const std::vector<Placed>& placed) {
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, 2, 3> right = Eigen::Matrix<double, 2, 3>::Zero();
+  for (const Placed& p : placed) {
+    const Eigen::Vector2d basis(1, p.along);
+    normal += p.weight * basis * basis.transpose();
+    right += p.weight * basis * p.offset.transpose();
+  }
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
+  rows.topRows<2>() = normal.ldlt().solve(right);
+  return rows;
+}
+
+// Samples further off than `scale` count little (Cauchy).
+void Reweight(const EndFit& fit,
+              const Eigen::Vector3d& last,
+              double scale,
+              std::vector<Placed>& placed) {
+  for (Placed& p : placed) {
+    const double ratio =
+        (fit.PointAt(p.along) - last - p.offset).norm() / scale;
+    p.weight = 1 / (1 + ratio * ratio);
+  }
+}
+
+// Of the weighted distances.
+double MeanSquare(const EndFit& fit,
+                  const Eigen::Vector3d& last,
+                  const std::vector<Placed>& placed) {
+  double sum = 0, weights = 0;
+  for (const Placed& p : placed) {
+    sum += p.weight * (fit.PointAt(p.along) - last - p.offset).squaredNorm();
+    weights += p.weight;
+  }
+  return sum / weights;
+}
+
+// False if the rows are no curve.
+bool SetFrom(const Eigen::Matrix3d& rows,
+             const Eigen::Vector3d& last,
+             EndFit& fit) {
+  if (!rows.allFinite() || !(rows.row(1).norm() > 0)) return false;
+  fit.position = last + rows.row(0).transpose();
+  fit.outward = rows.row(1).transpose().normalized();
+  const Eigen::Vector3d bend = rows.row(2).transpose();
+  fit.bend = bend - bend.dot(fit.outward) * fit.outward;
+  return true;
+}
+
+}  // namespace
+
+Eigen::Vector3d EndFit::PointAt(double arc_length) const {
+  const Eigen::Vector2d basis = ArcBasis(bend.norm(), arc_length);
+  return position + basis.x() * outward + basis.y() * bend;
+}
+
+Eigen::Vector3d EndFit::DirectionAt(double arc_length) const {
+  const double curvature = bend.norm();
+  const double turn = curvature * arc_length;
+  return (std::cos(turn) * outward + ArcBasis(curvature, arc_length).x() * bend)
+      .normalized();
+}
+
+double EndFit::ArcLengthTo(const Eigen::Vector3d& point) const {
+  const double curvature = bend.norm();
+  const Eigen::Vector3d offset = point - position;
+  const double ahead = offset.dot(outward);
+  if (!(curvature * offset.norm() > 1e-6)) return ahead;
+  const double towards = 1 / curvature - offset.dot(bend) / curvature;
+  const double turn = std::atan2(ahead, towards);
+  constexpr double kMaxTurn = std::numbers::pi / 2;
+  return std::clamp(turn, -kMaxTurn, kMaxTurn) / curvature;
+}
+
+EndFit FitEnd(const Curve& curve,
+              bool front,
+              const EndStretch& stretch,
+              const std::vector<PosedView>& views) {
+  const CurveSample& last =
+      front ? curve.samples.back() : curve.samples.front();
+  EndFit fit;
+  fit.position = last.position;
+  fit.pixel = PixelSize(last.position, last.support, views);
+  if (curve.closed || !(fit.pixel > 0)) return fit;
+  std::vector<Placed> placed = Take(curve, front, stretch, fit.pixel);
+  if (placed.size() < kMinNumFitted) return fit;
+  EndFit arc = fit;
+  for (int round = 0; round < kNumRounds; ++round) {
+    if (!SetFrom(SolveArc(placed, arc.bend.norm()), last.position, arc)) {
+      return fit;
+    }
+    // Strong bends look like outliers at first.
+    if (round < kNumRounds / 2) continue;
+    Reweight(arc, last.position, kScalePx * fit.pixel, placed);
+  }
+  EndFit line = fit;
+  if (!SetFrom(SolveLine(placed), last.position, line)) return fit;
+  const double arc_square = MeanSquare(arc, last.position, placed);
+  const double line_square = MeanSquare(line, last.position, placed);
+  const bool is_arc = arc_square < kLineShare * line_square;
+  fit = is_arc ? arc : line;
+  fit.rms = std::sqrt(is_arc ? arc_square : line_square);
+  fit.length = -placed.back().along;
+  return fit;
+}
+
+EndFit FitLongEnd(const Curve& curve,
+                  bool front,
+                  const std::vector<PosedView>& views) {
+  EndFit best;
+  double max_rms = 0;
+  for (const double long_px : kLongPx) {
+    const EndFit fit = FitEnd(curve, front, {kBentPx, long_px}, views);
+    if (long_px == kLongPx.front()) {
+      best = fit;
+      max_rms = std::max(kMaxRmsPx * fit.pixel, kMaxRmsRatio * fit.rms);
+    } else if (fit.length > best.length && fit.rms <= max_rms) {
+      best = fit;
+    }
+  }
+  return best;
+}
+
+}  // namespace curvix

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). The neighbourhood of a sample on its curve, the
+// curve up to it, and how a curve goes on beyond its end.
+#pragma once
+
+#include <curvix/curves.h>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "model/posed_view.h"
+
+namespace curvix {
+
+struct SampleAround {
+  std::size_t index = 0;
+  double along = 0;  // arc length from the sample asked for, signed
+};
+
+// The sample `index` itself first, then those after it and those before it
+// within `reach` (world units) along the curve; of a closed curve at most half
+// of it either way.
+std::vector<SampleAround> SamplesAround(const Curve& curve,
+                                        std::size_t index,
+                                        double reach);
+
+// Where on a curve a stretch lies, from the sample to which it leads.
+struct ArmStretch {
+  double skipped = 0;  // of what is nearest to it; arc lengths, world units
+  double length = 0;   // of what comes before
+};
+
+// The samples of `curve` that lead to sample `last` in the direction of the
+// curve, or against it, tangents turned; the one nearest to `last` comes last.
+// Open; of a closed curve at most half; empty if it does not reach so far.
+Curve ArmTo(const Curve& curve,
+            std::size_t last,
+            bool with_direction,
+            const ArmStretch& stretch);
+
+// How far the samples of two arms that lead to each other are from the parabola
+// that fits both best, root mean square, world units. Neither may be empty, nor
+// may they end in one place.
+double DistanceFromParabola(const Curve& from, const Curve& to);
+
+// Cuts the last samples of an end off, up to the one nearest to it that `keep`
+// is true for; two stay.
+template <typename Keep>
+void CutEnd(Curve& curve, bool front, const Keep& keep) {
+  std::vector<CurveSample>& samples = curve.samples;
+  if (!front) std::reverse(samples.begin(), samples.end());
+  while (samples.size() > 2 && !keep(samples.back())) samples.pop_back();
+  if (!front) std::reverse(samples.begin(), samples.end());
+}
+
+// A stretch of a curve before one of its ends, in pixels (pixel_size.h) from
+// the last sample.
+struct EndStretch {
+  double begin_px = 0;  // samples nearer to the end are left out
+  double end_px = 15;
+};
+
+// A line or an arc through the last samples of a curve. Arc lengths count from
+// the point nearest to the last sample, on beyond the end.
+struct EndFit {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // at arc length 0
+  Eigen::Vector3d outward = Eigen::Vector3d::UnitX();  // unit, out of the curve
+  Eigen::Vector3d bend = Eigen::Vector3d::Zero();  // 1 / radius, to the centre
+  double length = 0;  // of the fitted samples, world units; 0: no fit
+  double rms = 0;     // distance of the samples, world units
+  double pixel = 0;   // world units
+
+  Eigen::Vector3d PointAt(double arc_length) const;
+  Eigen::Vector3d DirectionAt(double arc_length) const;  // unit
+  // Of the point nearest to `point`, at most a quarter of a turn off.
+  double ArcLengthTo(const Eigen::Vector3d& point) const;
+};
+
+// Fits the samples in `stretch`, few outliers aside, by a line, or by an arc of
+// any radius where it comes nearer to them than their scatter explains; length
+// is 0 if they are fewer than five or of no extent, or the curve is closed.
+EndFit FitEnd(const Curve& curve,
+              bool front,
+              const EndStretch& stretch,
+              const std::vector<PosedView>& views);
+
+// The fit to the last 15, 25, 40 or 60 px, the last three of them aside, which
+// corners bend: the longest that fits to 0.25 px or about as well as the first.
+EndFit FitLongEnd(const Curve& curve,
+                  bool front,
+                  const std::vector<PosedView>& views);
+
+}  // namespace curvix

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/estimate_covariances.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "base/parallel.h"
+#include "curve_refinement/curve_ends.h"
+#include "curve_refinement/response_curve.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/directions.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kMinBandwidthPx = 1;
+constexpr double kReachSigmas = 3;
+// The chord between two rays, of unit length, at which the errors of their
+// views correlate by a half: 6 degrees.
+constexpr double kHalfCorrelated = 0.1;
+constexpr double kNumParameters = 2;  // a place across a curve
+// Degrees of freedom's worth of belief in what is usual in the scene.
+constexpr double kPriorFreedom = 4;
+constexpr double kMinSlope = 0.1;
+
+// What 2D edges of one view say about a curve; sums while they are added up.
+struct Evidence {
+  std::size_t view = 0;  // its place among those that see the curve
+  double weight = 0;
+  double distance_px = 0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  // of the distance
+};
+
+// The score of Cauchy's loss, which grows like the distance as long as that is
+// small, and its derivative.
+double Score(double distance_px, double sigma_px) {
+  const double r = distance_px / sigma_px;
+  return distance_px / (1 + r * r);
+}
+double ScoreSlope(double distance_px, double sigma_px) {
+  const double r = distance_px / sigma_px;
+  return (1 - r * r) / ((1 + r * r) * (1 + r * r));
+}
+
+// How far the views' mean distances scatter, robustly; sums over views, of
+// which those that see only a part of the stretch count as less.
+struct Scatter {
+  double scores2_px2 = 0;
+  double slopes = 0;
+  double num_views = 0;
+  double freedom = 0;
+
+  // `sigma_px`: of a 2D edge, for Cauchy's loss.
+  void Add(double share, double distance_px, double sigma_px) {
+    const double score = Score(distance_px, sigma_px);
+    scores2_px2 += share * score * score;
+    slopes += share * ScoreSlope(distance_px, sigma_px);
+    num_views += share;
+  }
+  void Add(double share, const Scatter& other) {
+    scores2_px2 += share * other.scores2_px2;
+    slopes += share * other.slopes;
+    num_views += share * other.num_views;
+    freedom += share * other.freedom;
+  }
+  // Of an M-estimate, after Huber.
+  double VariancePx2() const {
+    const double slope = std::max(kMinSlope, slopes / num_views);
+    return scores2_px2 / (freedom * slope * slope);
+  }
+};
+
+// What edges of sharp images are off by, if no curve tells.
+constexpr Scatter kSharpImages = {0.05 * 0.05, 1, 1, 1};
+
+// How the views agree about a sample.
+struct Agreement {
+  Scatter scatter;
+  // The covariance for mean distances of variance 1; not finite if unknown.
+  Eigen::Matrix3d unit_covariance = Eigen::Matrix3d::Zero();
+};
+
+class CurveInViews {
+ public:
+  CurveInViews(const Curve& curve,
+               const std::vector<PosedView>& views,
+               const std::vector<EdgeMap>& edge_maps,
+               const ToneCurve& tone,
+               double edge_sigma_px)
+      : curve_(curve), edge_sigma_px_(edge_sigma_px) {
+    std::map<std::int32_t, std::size_t> places;
+    for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+      const CurveSample& sample = curve.samples[k];
+      const std::optional<Bend> bend = BendAround(
+          curve, k, PixelSize(sample.position, sample.support, views));
+      std::vector<Evidence>& evidence = evidence_.emplace_back();
+      for (const EdgeRef& ref : sample.support) {
+        const auto v = static_cast<std::size_t>(ref.view_idx);
+        const auto [place, is_new] =
+            places.emplace(ref.view_idx, centers_.size());
+        if (is_new) centers_.push_back(views[v].center);
+        const Edge2d& edge =
+            edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        evidence.push_back(Measure(sample.position,
+                                   views[v],
+                                   Unblurred(edge, views[v], bend, tone),
+                                   place->second));
+      }
+    }
+  }
+
+  Agreement About(std::size_t i, double bandwidth) const {
+    std::vector<Evidence> sums(centers_.size());
+    double total_weight = 0;
+    for (const SampleAround& near :
+         SamplesAround(curve_, i, kReachSigmas * bandwidth)) {
+      const double r = near.along / bandwidth;
+      const double weight = std::exp(-0.5 * r * r);
+      total_weight += weight;
+      for (const Evidence& e : evidence_[near.index]) {
+        Evidence& sum = sums[e.view];
+        sum.view = e.view;
+        sum.weight += weight;
+        sum.distance_px += weight * e.distance_px;
+        sum.gradient += weight * e.gradient;
+      }
+    }
+    std::erase_if(sums, [](const Evidence& e) { return e.weight == 0; });
+    return Summary(curve_.samples[i], sums, total_weight);
+  }
+
+ private:
+  static Evidence Measure(const Eigen::Vector3d& position,
+                          const PosedView& view,
+                          const ImageEdge& edge,
+                          std::size_t view_place) {
+    const SeenDistance distance =
+        DistanceFrom(MeasurePlane(view, edge), position);
+    return {view_place, 1, distance.px, distance.gradient};
+  }
+
+  Agreement Summary(const CurveSample& sample,
+                    const std::vector<Evidence>& sums,
+                    double total_weight) const {
+    const AcrossAxes axes = AxesAcross(sample.tangent);
+    Agreement result;
+    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+    std::vector<Eigen::Vector2d> pulls;
+    std::vector<Eigen::Vector3d> rays;
+    for (const Evidence& sum : sums) {
+      const double share = sum.weight / total_weight;
+      const Eigen::Vector2d gradient =
+          axes.transpose() * sum.gradient / sum.weight;
+      result.scatter.Add(share, sum.distance_px / sum.weight, edge_sigma_px_);
+      information += share * gradient * gradient.transpose();
+      pulls.push_back(share * gradient);
+      rays.push_back((centers_[sum.view] - sample.position).normalized());
+    }
+    result.scatter.freedom =
+        std::max(0.0, result.scatter.num_views - kNumParameters);
+    const Eigen::Matrix<double, 3, 2> spread = axes * information.inverse();
+    result.unit_covariance =
+        spread * SumOfCorrelated(pulls, rays) * spread.transpose();
+    return result;
+  }
+
+  static Eigen::Matrix2d SumOfCorrelated(
+      const std::vector<Eigen::Vector2d>& pulls,
+      const std::vector<Eigen::Vector3d>& rays) {
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    for (std::size_t v = 0; v < pulls.size(); ++v) {
+      Eigen::Vector2d correlated = Eigen::Vector2d::Zero();
+      for (std::size_t w = 0; w < pulls.size(); ++w) {
+        const double chord2 = (rays[v] - rays[w]).squaredNorm();
+        correlated +=
+            pulls[w] / (1 + chord2 / (kHalfCorrelated * kHalfCorrelated));
+      }
+      sum += pulls[v] * correlated.transpose();
+    }
+    return sum;
+  }
+
+  const Curve& curve_;
+  double edge_sigma_px_;
+  std::vector<Eigen::Vector3d> centers_;         // of the views that see it
+  std::vector<std::vector<Evidence>> evidence_;  // of each sample
+};
+
+std::vector<Agreement> MeasureAgreement(const Curve& curve,
+                                        const std::vector<PosedView>& views,
+                                        const std::vector<EdgeMap>& edge_maps,
+                                        const ToneCurve& tone,
+                                        double edge_sigma_px,
+                                        double smoothing_px) {
+  const CurveInViews in_views(curve, views, edge_maps, tone, edge_sigma_px);
+  const double bandwidth_px = std::max(kMinBandwidthPx, smoothing_px);
+  std::vector<Agreement> agreements;
+  for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+    const CurveSample& sample = curve.samples[k];
+    const double pixel = PixelSize(sample.position, sample.support, views);
+    agreements.push_back(in_views.About(k, bandwidth_px * pixel));
+  }
+  return agreements;
+}
+
+// Of all curves together, for one degree of freedom.
+Scatter UsualScatter(const std::vector<std::vector<Agreement>>& agreements) {
+  Scatter sum;
+  for (const std::vector<Agreement>& curve : agreements) {
+    for (const Agreement& agreement : curve) {
+      if (agreement.scatter.freedom > 0) sum.Add(1, agreement.scatter);
+    }
+  }
+  Scatter usual = kSharpImages;
+  if (sum.freedom > 0) {
+    usual = {};
+    usual.Add(1 / sum.freedom, sum);
+  }
+  return usual;
+}
+
+}  // namespace
+
+std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
+                                       const std::vector<PosedView>& views,
+                                       const std::vector<EdgeMap>& edge_maps,
+                                       const ToneCurve& tone,
+                                       double edge_sigma_px,
+                                       const CurveRefinementOptions& options,
+                                       int num_threads) {
+  std::vector<std::vector<Agreement>> agreements(curves.size());
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    agreements[i] = MeasureAgreement(
+        curves[i], views, edge_maps, tone, edge_sigma_px, options.smoothing_px);
+  });
+  const Scatter usual = UsualScatter(agreements);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (std::size_t k = 0; k < agreements[i].size(); ++k) {
+      const Agreement& agreement = agreements[i][k];
+      if (!agreement.unit_covariance.allFinite()) continue;
+      Scatter scatter = agreement.scatter;
+      scatter.Add(kPriorFreedom, usual);
+      CurveSample& sample = curves[i].samples[k];
+      sample.covariance = scatter.VariancePx2() * agreement.unit_covariance;
+      sample.sigma = std::sqrt(sample.covariance.trace() / 2);
+    }
+  }
+  return curves;
+}
+
+}  // namespace curvix

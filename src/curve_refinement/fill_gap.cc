@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/fill_gap.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kSpacingPx = 1.5;
+constexpr double kMaxSupportDistancePx = 1;
+constexpr double kMinSupportShare = 0.5;    // of the usual support
+constexpr double kMinSupportedShare = 0.8;  // of the samples
+constexpr std::size_t kNumEndSamples = 10;
+
+}  // namespace
+
+std::vector<CurveSample> SamplesBetween(const CurveSample& from,
+                                        const CurveSample& to,
+                                        double pixel,
+                                        const ImageSupport& images) {
+  const double gap = (to.position - from.position).norm();
+  const int num_pieces = static_cast<int>(gap / (kSpacingPx * pixel)) + 1;
+  std::vector<CurveSample> filled;
+  for (int k = 1; k < num_pieces; ++k) {
+    const double u = static_cast<double>(k) / num_pieces;
+    const double v = 1 - u;
+    CurveSample& sample = filled.emplace_back();
+    sample.position = (1 + 2 * u) * v * v * from.position +
+                      (1 + 2 * v) * u * u * to.position +
+                      gap * u * v * (v * from.tangent - u * to.tangent);
+    sample.tangent = (v * from.tangent + u * to.tangent).normalized();
+    sample.sigma = std::max(from.sigma, to.sigma);
+    sample.evidence = std::min(from.evidence, to.evidence);
+    sample.support =
+        images.Find(sample.position, sample.tangent, kMaxSupportDistancePx);
+  }
+  return filled;
+}
+
+std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
+                                        const EndTies& ties,
+                                        const std::vector<PosedView>& views,
+                                        const ImageSupport& images) {
+  return StringTogether(std::move(curves),
+                        ties,
+                        [&](const CurveSample& from, const CurveSample& to) {
+                          const double pixel =
+                              PixelSize(from.position, from.support, views);
+                          return SamplesBetween(from, to, pixel, images);
+                        });
+}
+
+std::size_t SupportBefore(const Curve& curve, bool front) {
+  const std::vector<CurveSample>& samples = curve.samples;
+  const std::size_t num_samples = std::min(kNumEndSamples, samples.size());
+  std::vector<std::size_t> counts;
+  for (std::size_t k = 0; k < num_samples; ++k) {
+    counts.push_back(
+        samples[front ? samples.size() - 1 - k : k].support.size());
+  }
+  std::sort(counts.begin(), counts.end());
+  return counts[counts.size() / 2];
+}
+
+bool AreShown(const std::vector<CurveSample>& filled, std::size_t usual) {
+  const auto num_shown =
+      std::count_if(filled.begin(), filled.end(), [&](const auto& sample) {
+        return static_cast<double>(sample.support.size()) >=
+               kMinSupportShare * static_cast<double>(usual);
+      });
+  return static_cast<double>(num_shown) >=
+         kMinSupportedShare * static_cast<double>(filled.size());
+}
+
+}  // namespace curvix

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/fit_to_images.h"
+
+#include <ceres/ceres.h>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <utility>
+
+#include "base/parallel.h"
+#include "curve_refinement/response_curve.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/directions.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kMinNumSamples = 6;
+constexpr double kBendSigmaPx = 0.05;
+constexpr double kKinkSigmas = 2;   // from here on bends count less
+constexpr double kStiffness = 1.2;  // of the width of the smoothing
+constexpr double kMinStepPx = 0.2;
+constexpr int kMaxNumIterations = 15;
+
+// A sample and the plane across it in which it moves, in pixels.
+struct Station {
+  Eigen::Vector3d start;
+  AcrossAxes axes;  // world units per pixel
+
+  Eigen::Vector3d At(const double* offset) const {
+    return start + axes * Eigen::Vector2d(offset[0], offset[1]);
+  }
+};
+
+// The distance of a sample from one of its 2D edges. `station` must outlive it.
+class EdgeCost : public ceres::SizedCostFunction<1, 2> {
+ public:
+  EdgeCost(const Station& station,
+           const PlaneMeasurement& measured,
+           double sigma_px)
+      : station_(&station), measured_(measured), sigma_px_(sigma_px) {}
+
+  bool Evaluate(double const* const* offsets,
+                double* residual,
+                double** jacobians) const override {
+    const SeenDistance distance =
+        DistanceFrom(measured_, station_->At(offsets[0]));
+    residual[0] = distance.px / sigma_px_;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Vector2d>{jacobians[0]} =
+        station_->axes.transpose() * distance.gradient / sigma_px_;
+    return true;
+  }
+
+ private:
+  const Station* station_;
+  PlaneMeasurement measured_;
+  double sigma_px_;
+};
+
+using Stretch = std::array<Station, 4>;
+
+// The third derivative of four samples in a row.
+class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
+ public:
+  BendCost(const Stretch& stretch, double stiffness_px, double pixel)
+      : stretch_(stretch) {
+    std::array<double, 4> along = {};
+    for (std::size_t j = 1; j < along.size(); ++j) {
+      const double step = (stretch[j].start - stretch[j - 1].start).norm();
+      along[j] = along[j - 1] + std::max(kMinStepPx, step / pixel);
+    }
+    const double scale = std::pow(stiffness_px, 3) * std::sqrt(along[3] / 3) /
+                         (kBendSigmaPx * pixel);
+    for (std::size_t j = 0; j < along.size(); ++j) {
+      factors_[j] = 6 * scale;
+      for (std::size_t i = 0; i < along.size(); ++i) {
+        if (i != j) factors_[j] /= along[j] - along[i];
+      }
+    }
+  }
+
+  bool Evaluate(double const* const* offsets,
+                double* residuals,
+                double** jacobians) const override {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (std::size_t j = 0; j < stretch_.size(); ++j) {
+      sum += factors_[j] * (stretch_[j].At(offsets[j]) - stretch_[0].start);
+      if (jacobians == nullptr || jacobians[j] == nullptr) continue;
+      Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>{jacobians[j]} =
+          factors_[j] * stretch_[j].axes;
+    }
+    Eigen::Map<Eigen::Vector3d>{residuals} = sum;
+    return true;
+  }
+
+ private:
+  Stretch stretch_;
+  std::array<double, 4> factors_ = {};
+};
+
+// A curve has many residuals that are cheap: what Ceres would do about each of
+// them beside its cost counts.
+ceres::Problem::Options WithoutChecksAndOwnership() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+// Ceres' problem of one curve.
+class CurveFitter {
+ public:
+  CurveFitter(Curve curve, double pixel)
+      : curve_(std::move(curve)),
+        pixel_(pixel),
+        offsets_(curve_.samples.size()),
+        problem_(WithoutChecksAndOwnership()) {
+    stations_.reserve(curve_.samples.size());
+    for (const CurveSample& sample : curve_.samples) {
+      Station& station = stations_.emplace_back();
+      station.start = sample.position;
+      station.axes = pixel * AxesAcross(sample.tangent);
+    }
+  }
+
+  void AddEdges(const std::vector<PosedView>& views,
+                const std::vector<EdgeMap>& edge_maps,
+                const ToneCurve& tone,
+                double sigma_px) {
+    for (std::size_t k = 0; k < stations_.size(); ++k) {
+      const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
+      for (const EdgeRef& ref : curve_.samples[k].support) {
+        const auto v = static_cast<std::size_t>(ref.view_idx);
+        const Edge2d& edge =
+            edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        edge_costs_.emplace_back(
+            stations_[k],
+            MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)),
+            sigma_px);
+        problem_.AddResidualBlock(
+            &edge_costs_.back(), &edge_loss_, offsets_[k].data());
+      }
+    }
+  }
+
+  void AddBends(double stiffness_px) {
+    const std::size_t size = stations_.size();
+    const std::size_t num_bends = curve_.closed ? size : size - 3;
+    for (std::size_t k = 0; k < num_bends; ++k) {
+      Stretch stretch;
+      std::vector<double*> offsets;
+      for (std::size_t j = 0; j < stretch.size(); ++j) {
+        stretch[j] = stations_[(k + j) % size];
+        offsets.push_back(offsets_[(k + j) % size].data());
+      }
+      bend_costs_.emplace_back(stretch, stiffness_px, pixel_);
+      problem_.AddResidualBlock(&bend_costs_.back(), &bend_loss_, offsets);
+    }
+  }
+
+  Curve Solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = kMaxNumIterations;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    if (!summary.IsSolutionUsable()) return curve_;
+    for (std::size_t k = 0; k < stations_.size(); ++k) {
+      curve_.samples[k].position = stations_[k].At(offsets_[k].data());
+    }
+    SetTangents();
+    return curve_;
+  }
+
+ private:
+  void SetTangents() {
+    const std::size_t size = curve_.samples.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t before = curve_.closed
+                                     ? (k + size - 2) % size
+                                     : std::max<std::size_t>(k, 2) - 2;
+      const std::size_t after =
+          curve_.closed ? (k + 2) % size : std::min(size - 1, k + 2);
+      const Eigen::Vector3d chord =
+          curve_.samples[after].position - curve_.samples[before].position;
+      if (chord.norm() > 0) curve_.samples[k].tangent = chord.normalized();
+    }
+  }
+
+  Curve curve_;
+  double pixel_;  // world units
+  std::vector<Station> stations_;
+  std::vector<std::array<double, 2>> offsets_;
+  // At addresses that stay.
+  std::deque<EdgeCost> edge_costs_;
+  std::deque<BendCost> bend_costs_;
+  ceres::CauchyLoss edge_loss_{1};
+  ceres::CauchyLoss bend_loss_{kKinkSigmas};
+  ceres::Problem problem_;
+};
+
+}  // namespace
+
+std::vector<Curve> FitToImages(std::vector<Curve> curves,
+                               const std::vector<PosedView>& views,
+                               const std::vector<EdgeMap>& edge_maps,
+                               const ToneCurve& tone,
+                               double edge_sigma_px,
+                               const CurveRefinementOptions& options,
+                               int num_threads) {
+  if (!(options.smoothing_px > 0)) return curves;
+  std::vector<Curve> fitted(curves.size());
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    fitted[i] = curves[i];
+    if (curves[i].samples.size() < kMinNumSamples) return;
+    const CurveSample& first = curves[i].samples.front();
+    const double pixel = PixelSize(first.position, first.support, views);
+    if (!(pixel > 0)) return;
+    CurveFitter fitter(curves[i], pixel);
+    fitter.AddEdges(views, edge_maps, tone, edge_sigma_px);
+    fitter.AddBends(kStiffness * options.smoothing_px);
+    fitted[i] = fitter.Solve();
+  });
+  return fitted;
+}
+
+}  // namespace curvix

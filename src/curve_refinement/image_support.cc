@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/image_support.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/angles.h"
+#include "base/check.h"
+#include "base/parallel.h"
+#include "geometry/edge_geometry.h"
+#include "geometry/nearest_edge.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kCellPx = 4;
+constexpr double kMaxTangentialPx = 1;
+constexpr double kMaxAngleDeg = 15;
+
+}  // namespace
+
+ImageSupport::ImageSupport(const std::vector<PosedView>& views,
+                           const std::vector<EdgeMap>& edge_maps,
+                           int num_threads)
+    : views_(views), grids_(views.size()) {
+  CURVIX_CHECK(edge_maps.size() == views.size(),
+               edge_maps.size() << " edge maps of " << views.size());
+  ParallelFor(views.size(), num_threads, [&](std::size_t v) {
+    grids_[v] = GridIndex(edge_maps[v].edges, kCellPx);
+  });
+}
+
+std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
+                                        const Eigen::Vector3d& tangent,
+                                        double max_distance_px) const {
+  const Gate gate{
+      max_distance_px, kMaxTangentialPx, std::cos(DegToRad(kMaxAngleDeg))};
+  std::vector<EdgeRef> support;
+  for (std::size_t v = 0; v < views_.size(); ++v) {
+    const auto projected = ProjectEdge(views_[v], {position, tangent});
+    if (!projected || !views_[v].Contains(projected->position)) continue;
+    const auto nearest = NearestEdge(grids_[v], *projected, gate);
+    if (nearest) support.push_back({static_cast<std::int32_t>(v), *nearest});
+  }
+  return support;
+}
+
+}  // namespace curvix

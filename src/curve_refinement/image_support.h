@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Which 2D edges of all views a place on a curve has.
+#pragma once
+
+#include <curvix/edges.h>
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/grid_index.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// The edges of all views, indexed by place. Refers to `views`.
+class ImageSupport {
+ public:
+  // One edge map per view.
+  ImageSupport(const std::vector<PosedView>& views,
+               const std::vector<EdgeMap>& edge_maps,
+               int num_threads);
+
+  // In each view the edge nearest to the projection of an edge in space, if it
+  // is at most `max_distance_px` across it and 15 degrees off. Ascending.
+  std::vector<EdgeRef> Find(const Eigen::Vector3d& position,
+                            const Eigen::Vector3d& tangent,
+                            double max_distance_px) const;
+
+ private:
+  const std::vector<PosedView>& views_;
+  std::vector<GridIndex> grids_;
+};
+
+}  // namespace curvix

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/meet_at_junctions.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "base/angles.h"
+#include "curve_refinement/curve_ends.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kRoundedPx = 2.5;       // bent by a corner
+constexpr double kShortRoundedPx = 0.5;  // of curves that are hardly longer
+constexpr double kFittedPx = 20;         // along which a line or arc is fitted
+constexpr double kMinCornerDeg = 10;
+constexpr int kNumRounds = 3;
+constexpr double kStepPx = 1.5;
+
+// One open end of a curve and how it goes on.
+struct CurveEnd {
+  std::size_t curve_idx = 0;
+  bool at_back = false;
+  EndFit fit;
+  // The line on which it goes on, where that matters.
+  Eigen::Vector3d direction;  // unit, out of the curve
+  Eigen::Vector3d origin;     // on the line
+
+  // The tangent of the fit at its point nearest to `point`.
+  CurveEnd Near(const Eigen::Vector3d& point) const {
+    CurveEnd end = *this;
+    const double arc_length = fit.ArcLengthTo(point);
+    end.direction = fit.DirectionAt(arc_length);
+    end.origin = fit.PointAt(arc_length);
+    return end;
+  }
+};
+
+std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
+                              const std::vector<PosedView>& views) {
+  std::vector<CurveEnd> ends;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (const bool at_back : {false, true}) {
+      EndFit fit = FitEnd(curves[i], at_back, {kRoundedPx, kFittedPx}, views);
+      if (!(fit.length > 0)) {
+        fit = FitEnd(curves[i], at_back, {kShortRoundedPx, kFittedPx}, views);
+      }
+      if (fit.length > 0) {
+        ends.push_back({i, at_back, fit, fit.outward, fit.position});
+      }
+    }
+  }
+  return ends;
+}
+
+// Without those of curves that were cut where they touch others: two ends in
+// one place that continue each other.
+std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
+                                     const std::vector<Curve>& curves) {
+  using Place = std::array<double, 3>;
+  std::map<Place, std::vector<Eigen::Vector3d>> directions;
+  const auto place_of = [&](const CurveEnd& end) {
+    const auto& samples = curves[end.curve_idx].samples;
+    const Eigen::Vector3d& last =
+        (end.at_back ? samples.back() : samples.front()).position;
+    return Place{last.x(), last.y(), last.z()};
+  };
+  for (const CurveEnd& end : ends) {
+    directions[place_of(end)].push_back(end.fit.outward);
+  }
+  std::vector<CurveEnd> others;
+  for (const CurveEnd& end : ends) {
+    const auto& here = directions[place_of(end)];
+    if (std::none_of(here.begin(), here.end(), [&](const auto& direction) {
+          return -direction.dot(end.fit.outward) >
+                 std::cos(DegToRad(kMinCornerDeg));
+        })) {
+      others.push_back(end);
+    }
+  }
+  return others;
+}
+
+using Members = std::vector<std::size_t>;  // indices of ends
+
+// The point with the least sum of squared distances from the ends' lines. Lines
+// that are all parallel have none.
+std::optional<Eigen::Vector3d> NearestToLines(
+    const std::vector<CurveEnd>& ends) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d base = ends.front().origin;
+  for (const CurveEnd& end : ends) {
+    const Eigen::Vector3d& d = end.direction;
+    const Eigen::Matrix3d across =
+        Eigen::Matrix3d::Identity() - d * d.transpose();
+    normal += across;
+    right += across * (end.origin - base);
+  }
+  // The least eigenvalue of two lines at angle a is 1 - cos a.
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(normal).eigenvalues()(0);
+  if (least < 1 - std::cos(DegToRad(kMinCornerDeg))) return std::nullopt;
+  return base + normal.ldlt().solve(right);
+}
+
+// Largest distance, in pixels, between the lines and `point`; nullopt if the
+// point is out of reach of an end.
+std::optional<double> GapAt(const std::vector<CurveEnd>& ends,
+                            const Eigen::Vector3d& point,
+                            double reach_px) {
+  double gap = 0;
+  for (const CurveEnd& end : ends) {
+    const double reach = std::min(reach_px * end.fit.pixel, end.fit.length);
+    if ((point - end.fit.position).norm() > reach) return std::nullopt;
+    const Eigen::Vector3d offset = point - end.origin;
+    gap = std::max(gap, end.direction.cross(offset).norm() / end.fit.pixel);
+  }
+  return gap;
+}
+
+struct Junction {
+  Members members;
+  Eigen::Vector3d point;
+  double gap_px = 0;
+};
+
+// Bent curves meet where their tangents there do: a fixed point.
+std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
+                                     Members members,
+                                     const CurveRefinementOptions& options) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (const std::size_t i : members) {
+    point += ends[i].fit.position / static_cast<double>(members.size());
+  }
+  std::vector<CurveEnd> lines(members.size());
+  for (int round = 0; round < kNumRounds; ++round) {
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      lines[k] = ends[members[k]].Near(point);
+    }
+    const auto nearest = NearestToLines(lines);
+    if (!nearest) return std::nullopt;
+    point = *nearest;
+  }
+  const auto gap = GapAt(lines, point, options.junction_reach_px);
+  if (!gap || *gap > options.max_junction_gap_px) return std::nullopt;
+  return Junction{std::move(members), point, *gap};
+}
+
+std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
+                                const CurveRefinementOptions& options) {
+  std::vector<Junction> pairs;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+      const double reach = 2 * options.junction_reach_px *
+                           std::min(ends[i].fit.pixel, ends[j].fit.pixel);
+      if ((ends[i].fit.position - ends[j].fit.position).norm() > reach) {
+        continue;
+      }
+      if (auto pair = MakeJunction(ends, {i, j}, options)) {
+        pairs.push_back(*std::move(pair));
+      }
+    }
+  }
+  std::sort(
+      pairs.begin(), pairs.end(), [](const Junction& a, const Junction& b) {
+        return std::tie(a.gap_px, a.members) < std::tie(b.gap_px, b.members);
+      });
+  return pairs;
+}
+
+// Pairs by rising gap; a free end may still join the junction of the other one.
+std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
+                                    const CurveRefinementOptions& options) {
+  std::vector<Junction> junctions;
+  std::vector<std::optional<std::size_t>> junction_of(ends.size());
+  for (const Junction& pair : FindPairs(ends, options)) {
+    const std::size_t i = pair.members[0], j = pair.members[1];
+    if (junction_of[i] && junction_of[j]) continue;
+    if (!junction_of[i] && !junction_of[j]) {
+      junction_of[i] = junction_of[j] = junctions.size();
+      junctions.push_back(pair);
+      continue;
+    }
+    const std::size_t free = junction_of[i] ? j : i;
+    const std::size_t idx = junction_of[i] ? *junction_of[i] : *junction_of[j];
+    Members members = junctions[idx].members;
+    members.push_back(free);
+    if (auto larger = MakeJunction(ends, std::move(members), options)) {
+      junction_of[free] = idx;
+      junctions[idx] = *std::move(larger);
+    }
+  }
+  return junctions;
+}
+
+// Cuts the bent end off and carries it on to the junction.
+void CarryOn(const CurveEnd& end,
+             const Eigen::Vector3d& junction,
+             Curve& curve) {
+  const EndFit& fit = end.fit;
+  std::vector<CurveSample>& samples = curve.samples;
+  if (!end.at_back) std::reverse(samples.begin(), samples.end());
+  CurveSample last = samples.back();
+  const double arrival = fit.ArcLengthTo(junction);
+  const double limit = std::min(arrival, 0.0) - kRoundedPx * fit.pixel;
+  while (samples.size() > 2 &&
+         fit.ArcLengthTo(samples.back().position) > limit) {
+    samples.pop_back();
+  }
+  const double start = fit.ArcLengthTo(samples.back().position);
+  const int num_steps =
+      std::max(1, static_cast<int>((arrival - start) / (kStepPx * fit.pixel)));
+  const Eigen::Vector3d miss = junction - fit.PointAt(arrival);
+  const double sign = end.at_back ? 1 : -1;
+  for (int k = 1; k <= num_steps; ++k) {
+    const double share = static_cast<double>(k) / num_steps;
+    const double arc_length = start + share * (arrival - start);
+    last.position =
+        k == num_steps
+            ? junction
+            : Eigen::Vector3d(fit.PointAt(arc_length) + share * miss);
+    last.tangent = sign * fit.DirectionAt(arc_length);
+    samples.push_back(last);
+    last.support.clear();
+  }
+  if (!end.at_back) std::reverse(samples.begin(), samples.end());
+}
+
+}  // namespace
+
+std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
+                                   const std::vector<PosedView>& views,
+                                   const CurveRefinementOptions& options) {
+  if (!(options.junction_reach_px > 0)) return curves;
+  const std::vector<CurveEnd> ends =
+      WithoutTouches(FitEnds(curves, views), curves);
+  for (const Junction& junction : FormJunctions(ends, options)) {
+    for (const std::size_t i : junction.members) {
+      CarryOn(ends[i], junction.point, curves[ends[i].curve_idx]);
+    }
+  }
+  return curves;
+}
+
+}  // namespace curvix

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/refine_curves.h"
+
+#include <utility>
+
+#include "curve_refinement/bridge_gaps.h"
+#include "curve_refinement/cut_at_touches.h"
+#include "curve_refinement/cut_corners.h"
+#include "curve_refinement/estimate_covariances.h"
+#include "curve_refinement/fit_to_images.h"
+#include "curve_refinement/image_support.h"
+#include "curve_refinement/meet_at_junctions.h"
+#include "curve_refinement/response_curve.h"
+#include "curve_refinement/select_curves.h"
+#include "curve_refinement/separate_touching.h"
+#include "curve_refinement/smooth_curves.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+
+std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
+                                const std::vector<PosedView>& views,
+                                const std::vector<EdgeMap>& edge_maps,
+                                double edge_sigma_px,
+                                const CurveRefinementOptions& options,
+                                int num_threads) {
+  if (!options.enabled) return curves;
+  SelectedCurves selected = SelectCurves(
+      curves, views, edge_maps, edge_sigma_px, options, num_threads);
+  std::vector<Curve> refined =
+      SmoothCurves(selected.edges, views, options, num_threads);
+  const ImageSupport images(views, edge_maps, num_threads);
+  if (options.separate_touching) {
+    refined = SeparateTouching(std::move(refined), views, images);
+  }
+  refined = BridgeGaps(std::move(refined), views, images, options);
+  const ToneCurve tone =
+      options.undo_tone_curve
+          ? EstimateToneCurve(
+                refined, views, edge_maps, edge_sigma_px, num_threads)
+          : ToneCurve();
+  refined = FitToImages(std::move(refined),
+                        views,
+                        edge_maps,
+                        tone,
+                        edge_sigma_px,
+                        options,
+                        num_threads);
+  if (options.separate_touching) {
+    refined = CutAtTouches(std::move(refined), views);
+  }
+  refined = CutCorners(refined, views, options, num_threads);
+  refined = MeetAtJunctions(std::move(refined), views, options);
+  refined =
+      DropLooseShortCurves(std::move(refined), views, options.min_length_px);
+  if (options.keep_occluding_contours) {
+    for (Curve& contour : SmoothCurves(
+             selected.occluding_contours, views, options, num_threads)) {
+      refined.push_back(std::move(contour));
+    }
+  }
+  return EstimateCovariances(std::move(refined),
+                             views,
+                             edge_maps,
+                             tone,
+                             edge_sigma_px,
+                             options,
+                             num_threads);
+}
+
+}  // namespace curvix

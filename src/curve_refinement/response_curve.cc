@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/response_curve.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "base/parallel.h"
+#include "curve_refinement/curve_ends.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/directions.h"
+#include "geometry/image_edge.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kReachPx = 4;
+constexpr double kMaxShiftPx = 0.25;
+constexpr double kWhite = 255;
+constexpr double kMinLevel = 0.015;  // below it, dark is as good as black
+
+// 1 / radius of the circle through the projections, times the direction away
+// from its centre; zero where a place is not in front of the view.
+Eigen::Vector2d OutwardCurvature(const PosedView& view, const Bend& bend) {
+  std::array<Eigen::Vector2d, 3> p;
+  for (std::size_t j = 0; j < p.size(); ++j) {
+    const Eigen::Vector3d in_camera = view.InCamera(bend[j]);
+    if (!(in_camera.z() > 0)) return Eigen::Vector2d::Zero();
+    p[j] = view.Pixel(in_camera);
+  }
+  const Eigen::Vector2d a = p[1] - p[0];
+  const Eigen::Vector2d b = p[2] - p[1];
+  const Eigen::Vector2d chord = p[2] - p[0];
+  const double twice_area = a.x() * b.y() - a.y() * b.x();
+  const double sides = a.norm() * b.norm() * chord.squaredNorm();
+  if (sides == 0) return Eigen::Vector2d::Zero();
+  return 2 * twice_area / sides * Eigen::Vector2d(chord.y(), -chord.x());
+}
+
+// To where the edge of a curve that bends like this would be without blur.
+Eigen::Vector2d BendShift(const Edge2d& edge,
+                          const PosedView& view,
+                          const Bend& bend) {
+  const Eigen::Vector2d shift =
+      OutwardCurvature(view, bend) / (2 * static_cast<double>(edge.sharpness));
+  const double length = shift.norm();
+  return length > kMaxShiftPx ? kMaxShiftPx / length * shift : shift;
+}
+
+}  // namespace
+
+std::optional<Bend> BendAround(const Curve& curve,
+                               std::size_t index,
+                               double pixel) {
+  std::vector<SampleAround> around =
+      SamplesAround(curve, index, kReachPx * pixel);
+  if (around.size() < 3) return std::nullopt;
+  const auto by_place = [](const SampleAround& a, const SampleAround& b) {
+    return a.along < b.along;
+  };
+  std::sort(around.begin(), around.end(), by_place);
+  const double middle = (around.front().along + around.back().along) / 2;
+  const auto between = std::lower_bound(
+      around.begin() + 1, around.end() - 2, SampleAround{0, middle}, by_place);
+  return Bend{curve.samples[around.front().index].position,
+              curve.samples[between->index].position,
+              curve.samples[around.back().index].position};
+}
+
+Eigen::Vector2d ToneLever(const Edge2d& edge) {
+  if (!(edge.sharpness > 0)) return Eigen::Vector2d::Zero();
+  const double level = static_cast<double>(edge.level) / kWhite;
+  const double half_contrast =
+      static_cast<double>(edge.strength) / kWhite *
+      std::sqrt(std::numbers::pi / 2 / static_cast<double>(edge.sharpness));
+  const bool is_clipped = level - half_contrast < kMinLevel ||
+                          level + half_contrast > 1 - kMinLevel;
+  if (is_clipped) return Eigen::Vector2d::Zero();
+  return {half_contrast / level, half_contrast / (1 - level)};
+}
+
+ImageEdge Unblurred(const Edge2d& edge,
+                    const PosedView& view,
+                    const std::optional<Bend>& bend,
+                    const ToneCurve& tone) {
+  ImageEdge unblurred = ToImageEdge(edge);
+  if (!(edge.sharpness > 0)) return unblurred;
+  const Eigen::Vector2d to_bright(-unblurred.tangent.y(),
+                                  unblurred.tangent.x());
+  unblurred.position += ToneLever(edge).dot(tone.px) * to_bright;
+  if (bend) unblurred.position += BendShift(edge, view, *bend);
+  return unblurred;
+}
+
+namespace {
+
+constexpr double kStepPx = 10;
+constexpr std::size_t kMinNumEdges = 4;
+constexpr double kPrior = 1;  // sum of squared levers
+constexpr int kMaxNumRounds = 10;
+constexpr double kConvergedPx = 0.003;
+
+// Those of least squares: the least of p^T matrix p - 2 vector^T p.
+struct NormalEquations {
+  Eigen::Matrix2d matrix = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d vector = Eigen::Vector2d::Zero();
+
+  void operator+=(const NormalEquations& other) {
+    matrix += other.matrix;
+    vector += other.vector;
+  }
+  double Cost(const Eigen::Vector2d& p) const {
+    return p.dot(matrix * p) - 2 * vector.dot(p);
+  }
+};
+
+// A place on a curve, the edges that show it, and what a tone curve does there.
+struct Place {
+  SpaceEdge edge;
+  std::vector<PlaneMeasurement> measurements;
+  std::vector<Eigen::Vector2d> levers;
+};
+
+Place PlaceOf(const Curve& curve,
+              std::size_t index,
+              double pixel,
+              const std::vector<PosedView>& views,
+              const std::vector<EdgeMap>& edge_maps,
+              const ToneCurve& tone) {
+  const CurveSample& sample = curve.samples[index];
+  Place place = {{sample.position, sample.tangent}, {}, {}};
+  const std::optional<Bend> bend = BendAround(curve, index, pixel);
+  for (const EdgeRef& ref : sample.support) {
+    const auto v = static_cast<std::size_t>(ref.view_idx);
+    const Edge2d& edge =
+        edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+    place.measurements.push_back(
+        MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)));
+    place.levers.push_back(ToneLever(edge));
+  }
+  return place;
+}
+
+// Of what is still missing in the tone curve, without what moving the place
+// across the curve explains as well.
+NormalEquations WithoutMoving(const Place& place, double edge_sigma_px) {
+  const SpaceEdge adjusted =
+      AdjustEdge(place.edge, place.measurements, edge_sigma_px).edge;
+  const AcrossAxes axes = AxesAcross(adjusted.tangent);
+  NormalEquations tone, moving;
+  Eigen::Matrix2d mixed = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < place.measurements.size(); ++i) {
+    const SeenDistance distance =
+        DistanceFrom(place.measurements[i], adjusted.position);
+    const double weight = CauchyWeight(distance.px, edge_sigma_px);
+    const Eigen::Vector2d lever = place.levers[i];
+    const Eigen::Vector2d gradient = axes.transpose() * distance.gradient;
+    tone.matrix += weight * lever * lever.transpose();
+    tone.vector += weight * distance.px * lever;
+    moving.matrix += weight * gradient * gradient.transpose();
+    moving.vector += weight * distance.px * gradient;
+    mixed += weight * lever * gradient.transpose();
+  }
+  const Eigen::Matrix2d explained = mixed * moving.matrix.inverse();
+  tone.matrix -= explained * mixed.transpose();
+  tone.vector -= explained * moving.vector;
+  if (!tone.matrix.allFinite() || !tone.vector.allFinite()) return {};
+  return tone;
+}
+
+NormalEquations OfCurve(const Curve& curve,
+                        const std::vector<PosedView>& views,
+                        const std::vector<EdgeMap>& edge_maps,
+                        const ToneCurve& tone,
+                        double edge_sigma_px) {
+  NormalEquations sum;
+  double since_last_px = kStepPx;
+  for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+    const CurveSample& sample = curve.samples[k];
+    const double pixel = PixelSize(sample.position, sample.support, views);
+    if (k > 0) {
+      since_last_px +=
+          (sample.position - curve.samples[k - 1].position).norm() / pixel;
+    }
+    if (since_last_px < kStepPx || sample.support.size() < kMinNumEdges) {
+      continue;
+    }
+    since_last_px = 0;
+    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, tone),
+                         edge_sigma_px);
+  }
+  return sum;
+}
+
+// The least where neither component is below 0.
+Eigen::Vector2d SolveNotNegative(const NormalEquations& sum) {
+  const Eigen::Vector2d free = sum.matrix.ldlt().solve(sum.vector);
+  if (free.minCoeff() >= 0) return free;
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    Eigen::Vector2d one = Eigen::Vector2d::Zero();
+    one[i] = std::max(0.0, sum.vector[i] / sum.matrix(i, i));
+    if (sum.Cost(one) < sum.Cost(best)) best = one;
+  }
+  return best;
+}
+
+}  // namespace
+
+ToneCurve EstimateToneCurve(const std::vector<Curve>& curves,
+                            const std::vector<PosedView>& views,
+                            const std::vector<EdgeMap>& edge_maps,
+                            double edge_sigma_px,
+                            int num_threads) {
+  ToneCurve tone;
+  for (int round = 0; round < kMaxNumRounds; ++round) {
+    std::vector<NormalEquations> of_curves(curves.size());
+    ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+      of_curves[i] = OfCurve(curves[i], views, edge_maps, tone, edge_sigma_px);
+    });
+    NormalEquations sum;
+    for (const NormalEquations& of_curve : of_curves) sum += of_curve;
+    sum.vector += sum.matrix * tone.px;  // from what is missing to the whole
+    sum.matrix += kPrior * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d px = SolveNotNegative(sum);
+    const double change = (px - tone.px).norm();
+    tone.px = px;
+    if (change < kConvergedPx) break;
+  }
+  return tone;
+}
+
+}  // namespace curvix

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/select_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/median.h"
+#include "base/parallel.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/image_edge.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+// Half as blurred again in variance as an edge of the view is as a rule ...
+constexpr double kBlurred = 0.7;
+// ... and so many standard deviations more blurred than edges of the view are.
+constexpr double kBlurredSigmas = 5;
+constexpr double kSigmasOfLowerQuartile = 0.6745;
+constexpr double kSigmasOfMedianDistance = 1.4826;
+
+// The edges behind a curve.
+struct Support {
+  std::vector<double> distances_px;
+  std::map<std::int32_t, std::vector<double>> sharpness;  // by view
+};
+
+void AddSupport(const CurveSample& sample,
+                const std::vector<PosedView>& views,
+                const std::vector<EdgeMap>& edge_maps,
+                Support& support) {
+  for (const EdgeRef& ref : sample.support) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    const Edge2d& edge =
+        edge_maps[view_idx].edges[static_cast<std::size_t>(ref.edge_idx)];
+    const Eigen::Vector3d in_camera = views[view_idx].InCamera(sample.position);
+    if (!(in_camera.z() > 0)) continue;
+    const Eigen::Vector2d offset =
+        views[view_idx].Pixel(in_camera) - edge.position;
+    const Eigen::Vector2d tangent = ToImageEdge(edge).tangent;
+    support.distances_px.push_back(
+        std::abs(offset.x() * tangent.y() - offset.y() * tangent.x()));
+    support.sharpness[ref.view_idx].push_back(
+        static_cast<double>(edge.sharpness));
+  }
+}
+
+// If all views that look at the sample had an edge where it is projected.
+// Infinite, if less than two look at it.
+double LeastDilution(const CurveSample& sample,
+                     const std::vector<PosedView>& views) {
+  const SpaceEdge edge{sample.position, sample.tangent};
+  std::vector<PlaneMeasurement> measurements;
+  for (const PosedView& view : views) {
+    const auto projected = ProjectEdge(view, edge);
+    if (projected && view.Contains(projected->position)) {
+      measurements.push_back(MeasurePlane(view, *projected));
+    }
+  }
+  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
+  const double pixel = PixelSize(sample.position, sample.support, views);
+  const Eigen::Matrix2d covariance =
+      AdjustEdge(edge, measurements, 1).covariance;
+  return std::sqrt(covariance.trace() / 2) / pixel;
+}
+
+double BlurredShare(const Support& support,
+                    const std::vector<double>& least_sharpness) {
+  double num_blurred = 0;
+  double num_edges = 0;
+  for (const auto& [view_idx, sharpness] : support.sharpness) {
+    const double count = static_cast<double>(sharpness.size());
+    num_edges += count;
+    if (Median(sharpness) <
+        least_sharpness[static_cast<std::size_t>(view_idx)]) {
+      num_blurred += count;
+    }
+  }
+  return num_edges > 0 ? num_blurred / num_edges : 0;
+}
+
+double LeastSharpness(const std::vector<Edge2d>& edges) {
+  if (edges.empty()) return 0;
+  std::vector<double> strengths, sharpness;
+  for (const Edge2d& edge : edges) {
+    strengths.push_back(static_cast<double>(edge.strength));
+  }
+  const double median_strength = Median(std::move(strengths));
+  for (const Edge2d& edge : edges) {
+    if (static_cast<double>(edge.strength) < median_strength) continue;
+    sharpness.push_back(static_cast<double>(edge.sharpness));
+  }
+  const auto quarter =
+      sharpness.begin() + static_cast<std::ptrdiff_t>(sharpness.size() / 4);
+  std::nth_element(sharpness.begin(), quarter, sharpness.end());
+  const double lower_quartile = *quarter;
+  const double typical = Median(std::move(sharpness));
+  if (!(lower_quartile > 0)) return 0;
+  // Sharpness is distributed log-normally.
+  const double sigma =
+      std::log(typical / lower_quartile) / kSigmasOfLowerQuartile;
+  return typical * std::min(kBlurred, std::exp(-kBlurredSigmas * sigma));
+}
+
+}  // namespace
+
+std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps) {
+  std::vector<double> least;
+  for (const EdgeMap& map : edge_maps) {
+    least.push_back(LeastSharpness(map.edges));
+  }
+  return least;
+}
+
+std::optional<CurveTraits> MeasureCurve(
+    const Curve& curve,
+    const std::vector<PosedView>& views,
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<double>& least_sharpness,
+    double edge_sigma_px) {
+  std::vector<double> dilutions;
+  Support support;
+  for (const CurveSample& sample : curve.samples) {
+    const double pixel = PixelSize(sample.position, sample.support, views);
+    if (!(sample.sigma > 0) || !(pixel > 0)) continue;
+    dilutions.push_back(sample.sigma / (edge_sigma_px * pixel));
+    AddSupport(sample, views, edge_maps, support);
+  }
+  if (support.distances_px.empty()) return std::nullopt;
+  CurveTraits traits;
+  traits.dilution = Median(std::move(dilutions));
+  traits.least_dilution =
+      LeastDilution(curve.samples[curve.samples.size() / 2], views);
+  traits.blurred_share = BlurredShare(support, least_sharpness);
+  traits.scatter_px =
+      kSigmasOfMedianDistance * Median(std::move(support.distances_px));
+  return traits;
+}
+
+namespace {
+
+// Sampling by pixels leaves as much.
+constexpr double kLeastScatterPx = 0.06;
+// Curves of a smaller share of blurred edges tell how far good curves scatter,
+// if there are any.
+constexpr double kSharp = 0.1;
+// Where the views cannot tell more, curves may be as dilute as this ...
+constexpr double kTimesLeastDilution = 6;
+// ... but no more than that. In crowded images, where depth is less sure, any
+// such limit takes what exists.
+constexpr double kMostTimesMaxDilution = 1.6;
+constexpr double kTimesLeastDilutionInCrowd = 15;
+
+using AllTraits = std::vector<std::optional<CurveTraits>>;
+
+// The lower quartile of the scatter of curves of a smaller share of blurred
+// edges, weighted by length / dilution^2; nullopt if there are none.
+std::optional<double> ScatterOfSharp(const std::vector<Curve>& curves,
+                                     const AllTraits& all_traits,
+                                     double blurred_share) {
+  std::vector<std::pair<double, double>> scatter_and_weight;
+  double total = 0;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const auto& traits = all_traits[i];
+    if (!traits || traits->blurred_share >= blurred_share) continue;
+    const double weight =
+        Length(curves[i]) / (traits->dilution * traits->dilution);
+    scatter_and_weight.emplace_back(traits->scatter_px, weight);
+    total += weight;
+  }
+  std::sort(scatter_and_weight.begin(), scatter_and_weight.end());
+  double sum = 0;
+  for (const auto& [scatter, weight] : scatter_and_weight) {
+    sum += weight;
+    if (sum >= total / 4) return scatter;
+  }
+  return std::nullopt;
+}
+
+// The scatter of good curves.
+double TypicalScatter(const std::vector<Curve>& curves,
+                      const AllTraits& all_traits,
+                      double max_blurred_share) {
+  for (const double share :
+       {std::min(kSharp, max_blurred_share), max_blurred_share}) {
+    const auto scatter = ScatterOfSharp(curves, all_traits, share);
+    if (scatter) return std::max(kLeastScatterPx, *scatter);
+  }
+  return kLeastScatterPx;
+}
+
+enum class Verdict { kEdge, kOccludingContour, kBorderOfShading };
+
+double LargestDilution(const CurveTraits& traits,
+                       bool are_crowded,
+                       const CurveRefinementOptions& options) {
+  if (are_crowded) {
+    return std::max(options.max_dilution,
+                    kTimesLeastDilutionInCrowd * traits.least_dilution);
+  }
+  return std::clamp(kTimesLeastDilution * traits.least_dilution,
+                    options.max_dilution,
+                    kMostTimesMaxDilution * options.max_dilution);
+}
+
+Verdict Judge(const CurveTraits& traits,
+              double typical_scatter,
+              bool are_crowded,
+              const CurveRefinementOptions& options) {
+  if (options.max_dilution == 0) return Verdict::kEdge;
+  const double dilution =
+      traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
+  const double allowed = LargestDilution(traits, are_crowded, options);
+  if (dilution > allowed) return Verdict::kOccludingContour;
+  if (options.max_blurred_share == 1) return Verdict::kEdge;
+  const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
+  return sharpness > 0 && dilution <= allowed * sharpness
+             ? Verdict::kEdge
+             : Verdict::kBorderOfShading;
+}
+
+}  // namespace
+
+SelectedCurves SelectCurves(std::vector<Curve> curves,
+                            const std::vector<PosedView>& views,
+                            const std::vector<EdgeMap>& edge_maps,
+                            double edge_sigma_px,
+                            const CurveRefinementOptions& options,
+                            int num_threads) {
+  const std::vector<double> least_sharpness = LeastSharpness(edge_maps);
+  AllTraits all_traits(curves.size());
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    all_traits[i] = MeasureCurve(
+        curves[i], views, edge_maps, least_sharpness, edge_sigma_px);
+  });
+  const double typical_scatter =
+      TypicalScatter(curves, all_traits, options.max_blurred_share);
+  const bool are_crowded = AreCrowded(edge_maps);
+  SelectedCurves selected;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const Verdict verdict =
+        all_traits[i]
+            ? Judge(*all_traits[i], typical_scatter, are_crowded, options)
+            : Verdict::kEdge;
+    if (verdict == Verdict::kEdge) {
+      selected.edges.push_back(std::move(curves[i]));
+    } else if (verdict == Verdict::kOccludingContour) {
+      curves[i].is_occluding_contour = true;
+      selected.occluding_contours.push_back(std::move(curves[i]));
+    }
+  }
+  return selected;
+}
+
+}  // namespace curvix

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_refinement/separate_touching.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/point_tree.h"
+#include "curve_refinement/curve_ends.h"
+#include "curve_refinement/fill_gap.h"
+#include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
+#include "model/sample_tree.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kMaxGapPx = 100;
+constexpr double kBesidePx = 8;
+constexpr double kMaxAngleDeg = 30;
+constexpr double kMaxDetour = 1.5;
+constexpr double kMinArmPx = 15;
+constexpr double kMaxArmPx = 60;
+constexpr double kMaxRmsPx = 0.4;
+constexpr double kMaxShare = 0.6;  // of the distances without exchange
+
+struct OpenEnd {
+  Eigen::Vector3d position;
+  Eigen::Vector3d outward;  // unit
+  double pixel = 0;         // 0: of a closed curve, or of a short one
+  Curve arm;
+};
+
+// Where a curve passes an end.
+struct Passage {
+  std::size_t curve_idx = 0;
+  std::size_t sample_idx = 0;
+  bool outward = false;  // it runs as the end does
+};
+
+OpenEnd MakeEnd(const Curve& curve,
+                bool front,
+                const std::vector<PosedView>& views) {
+  const CurveSample& last =
+      front ? curve.samples.back() : curve.samples.front();
+  OpenEnd end;
+  end.position = last.position;
+  end.outward = front ? last.tangent : Eigen::Vector3d(-last.tangent);
+  if (curve.closed) return end;
+  const double pixel = PixelSize(last.position, last.support, views);
+  end.arm = ArmTo(curve,
+                  front ? curve.samples.size() - 1 : 0,
+                  front,
+                  {kBentEndPx * pixel, kMaxArmPx * pixel});
+  if (Length(end.arm) >= kMinArmPx * pixel) end.pixel = pixel;
+  return end;
+}
+
+class MeetingFinder {
+ public:
+  MeetingFinder(const std::vector<Curve>& curves,
+                const std::vector<PosedView>& views,
+                const ImageSupport& images)
+      : curves_(curves), images_(images), samples_(curves) {
+    for (const Curve& curve : curves) {
+      ends_.push_back(MakeEnd(curve, true, views));
+      ends_.push_back(MakeEnd(curve, false, views));
+    }
+    for (EndIdx end = 0; end < ends_.size(); ++end) {
+      passages_.push_back(PassagesAt(end));
+    }
+  }
+
+  std::vector<Meeting> Find() const {
+    std::vector<Eigen::Vector3d> positions;
+    for (const OpenEnd& end : ends_) positions.push_back(end.position);
+    const PointTree tree(std::move(positions));
+    std::vector<Meeting> meetings;
+    for (EndIdx a = 0; a < ends_.size(); ++a) {
+      const double reach = kMaxGapPx * ends_[a].pixel;
+      for (const EndIdx b : tree.Within(ends_[a].position, reach)) {
+        if (b > a && AreFacing(ends_[a], ends_[b])) Meet(a, b, meetings);
+      }
+    }
+    return meetings;
+  }
+
+ private:
+  static bool AreFacing(const OpenEnd& a, const OpenEnd& b) {
+    const Eigen::Vector3d way = b.position - a.position;
+    const double gap = way.norm();
+    const double least = std::cos(DegToRad(kMaxAngleDeg)) * gap;
+    return gap > 0 && gap <= kMaxGapPx * std::min(a.pixel, b.pixel) &&
+           a.outward.dot(way) > least && -b.outward.dot(way) > least;
+  }
+
+  void Meet(EndIdx a, EndIdx b, std::vector<Meeting>& meetings) const {
+    for (const Passage& at_a : passages_[a]) {
+      for (const Passage& at_b : passages_[b]) {
+        if (at_a.curve_idx != at_b.curve_idx || at_a.outward == at_b.outward) {
+          continue;
+        }
+        Meeting meeting{a, b, at_a.curve_idx, at_a.sample_idx, at_b.sample_idx};
+        if (!at_a.outward) {
+          std::swap(meeting.a, meeting.b);
+          std::swap(meeting.sample_at_a, meeting.sample_at_b);
+        }
+        if (Judge(meeting)) meetings.push_back(meeting);
+      }
+    }
+  }
+
+  // The curves beside an end, each at its sample nearest to it.
+  std::vector<Passage> PassagesAt(EndIdx idx) const {
+    const OpenEnd& end = ends_[idx];
+    std::vector<Passage> passages;
+    double least = 0;
+    for (const std::size_t i :
+         samples_.Within(end.position, kBesidePx * end.pixel)) {
+      const auto [c, k] = samples_.Places()[i];
+      const CurveSample& sample = curves_[c].samples[k];
+      const double cosine = sample.tangent.dot(end.outward);
+      const double distance = (sample.position - end.position).norm();
+      if (std::abs(cosine) < std::cos(DegToRad(kMaxAngleDeg)) ||
+          LeadsToEnd(idx, c, k)) {
+        continue;
+      }
+      if (passages.empty() || passages.back().curve_idx != c) {
+        passages.emplace_back();
+      } else if (distance >= least) {
+        continue;
+      }
+      passages.back() = {c, k, cosine > 0};
+      least = distance;
+    }
+    return passages;
+  }
+
+  // A curve may pass its own end, but not with its last samples.
+  bool LeadsToEnd(EndIdx end, std::size_t c, std::size_t k) const {
+    const std::size_t from_end =
+        IsFront(end) ? curves_[c].samples.size() - 1 - k : k;
+    return c == ItemOf(end) && from_end < 2 * ends_[end].arm.samples.size();
+  }
+
+  // Whether the passing curve leads from `a` to `b` and not round about, nor to
+  // one of them as its own end.
+  bool LeadsStraight(const Meeting& meeting) const {
+    const std::size_t c = meeting.passing_idx;
+    for (const EndIdx end : {meeting.a, meeting.b}) {
+      if (LeadsToEnd(end, c, meeting.sample_at_a) ||
+          LeadsToEnd(end, c, meeting.sample_at_b)) {
+        return false;
+      }
+    }
+    if (curves_[c].closed) return meeting.sample_at_a != meeting.sample_at_b;
+    if (meeting.sample_at_b <= meeting.sample_at_a) return false;
+    const auto& samples = curves_[c].samples;
+    double along = 0;
+    for (std::size_t k = meeting.sample_at_a; k < meeting.sample_at_b; ++k) {
+      along += (samples[k + 1].position - samples[k].position).norm();
+    }
+    const double straight = (samples[meeting.sample_at_b].position -
+                             samples[meeting.sample_at_a].position)
+                                .norm();
+    return along <= kMaxDetour * straight;
+  }
+
+  // Completes a meeting; false if it is none.
+  bool Judge(Meeting& meeting) const {
+    const OpenEnd& a = ends_[meeting.a];
+    const OpenEnd& b = ends_[meeting.b];
+    const Curve& passing = curves_[meeting.passing_idx];
+    if (!LeadsStraight(meeting)) return false;
+    const double pixel = std::min(a.pixel, b.pixel);
+    const ArmStretch stretch{0, kMaxArmPx * pixel};
+    const Curve before = ArmTo(passing, meeting.sample_at_a, true, stretch);
+    const Curve after = ArmTo(passing, meeting.sample_at_b, false, stretch);
+    if (std::min(Length(before), Length(after)) < kMinArmPx * pixel) {
+      return false;
+    }
+    const double joined = DistanceFromParabola(a.arm, b.arm);
+    const double exchanged = std::hypot(DistanceFromParabola(a.arm, after),
+                                        DistanceFromParabola(before, b.arm));
+    // A closed curve is whole, whatever else passes.
+    meeting.exchange =
+        !passing.closed &&
+        exchanged <
+            kMaxShare * std::hypot(joined, DistanceFromParabola(before, after));
+    meeting.rms_px = (meeting.exchange ? exchanged : joined) / pixel;
+    if (!(meeting.rms_px <= kMaxRmsPx)) return false;
+    return meeting.exchange ? ImagesShow(a.arm, after, pixel) &&
+                                  ImagesShow(before, b.arm, pixel)
+                            : ImagesShow(a.arm, b.arm, pixel);
+  }
+
+  // Whether they show what is between two arms.
+  bool ImagesShow(const Curve& from, const Curve& to, double pixel) const {
+    CurveSample arrival = to.samples.back();
+    arrival.tangent = -arrival.tangent;
+    return AreShown(
+        SamplesBetween(from.samples.back(), arrival, pixel, images_),
+        std::min(SupportBefore(from, true), SupportBefore(to, true)));
+  }
+
+  const std::vector<Curve>& curves_;
+  const ImageSupport& images_;
+  SampleTree samples_;
+  std::vector<OpenEnd> ends_;
+  std::vector<std::vector<Passage>> passages_;  // by end
+};
+
+}  // namespace
+
+std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
+                                  const std::vector<PosedView>& views,
+                                  const ImageSupport& images) {
+  std::vector<Meeting> meetings = MeetingFinder(curves, views, images).Find();
+  std::sort(meetings.begin(), meetings.end(), [](const auto& x, const auto& y) {
+    return std::tie(x.rms_px, x.a, x.b, x.passing_idx) <
+           std::tie(y.rms_px, y.a, y.b, y.passing_idx);
+  });
+  return meetings;
+}
+
+namespace {
+
+// The ends of a curve that was cut in the middle.
+struct LooseEnds {
+  EndIdx before = 0;
+  EndIdx after = 0;
+};
+
+// Takes what is between `a` and `b` out of the passing curve. An end of it may
+// become one of a new curve.
+LooseEnds CutOut(Meeting& meeting, std::vector<Curve>& curves) {
+  const std::size_t before = meeting.passing_idx;
+  std::vector<CurveSample>& samples = curves[before].samples;
+  const std::size_t after = curves.size();
+  Curve rest;
+  rest.samples.assign(
+      samples.begin() + static_cast<std::ptrdiff_t>(meeting.sample_at_b),
+      samples.end());
+  samples.resize(meeting.sample_at_a + 1);
+  curves.push_back(std::move(rest));
+  for (EndIdx* end : {&meeting.a, &meeting.b}) {
+    if (*end == 2 * before) *end = 2 * after;
+  }
+  return {2 * before, 2 * after + 1};
+}
+
+void CutBentEnd(EndIdx end,
+                const std::vector<PosedView>& views,
+                std::vector<Curve>& curves) {
+  Curve& curve = curves[ItemOf(end)];
+  const CurveSample last =
+      IsFront(end) ? curve.samples.back() : curve.samples.front();
+  const double bent =
+      kBentEndPx * PixelSize(last.position, last.support, views);
+  CutEnd(curve, IsFront(end), [&](const CurveSample& sample) {
+    return (sample.position - last.position).norm() >= bent;
+  });
+}
+
+// Which ends the meetings tie, and the curves cut for it. A curve takes part in
+// one of them; the others wait.
+EndTies TieMeetings(const std::vector<Meeting>& meetings,
+                    const std::vector<PosedView>& views,
+                    std::vector<Curve>& curves) {
+  std::vector<bool> is_busy(curves.size(), false);
+  std::vector<std::pair<EndIdx, EndIdx>> pairs;
+  for (Meeting meeting : meetings) {
+    const auto members = {
+        ItemOf(meeting.a), ItemOf(meeting.b), meeting.passing_idx};
+    if (std::any_of(members.begin(), members.end(), [&](std::size_t c) {
+          return is_busy[c];
+        })) {
+      continue;
+    }
+    for (const std::size_t c : members) is_busy[c] = true;
+    if (meeting.exchange) {
+      const LooseEnds loose = CutOut(meeting, curves);
+      pairs.emplace_back(meeting.a, loose.after);
+      pairs.emplace_back(loose.before, meeting.b);
+    } else {
+      pairs.emplace_back(meeting.a, meeting.b);
+    }
+    CutBentEnd(meeting.a, views, curves);
+    CutBentEnd(meeting.b, views, curves);
+  }
+  EndTies ties(2 * curves.size());
+  for (const auto& [from, to] : pairs) {
+    ties[from] = to;
+    ties[to] = from;
+  }
+  return ties;
+}
+
+}  // namespace
+
+std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
+                                    const std::vector<PosedView>& views,
+                                    const ImageSupport& images) {
+  while (true) {  // each time there are fewer open ends
+    const auto meetings = FindMeetings(curves, views, images);
+    if (meetings.empty()) return curves;
+    const EndTies ties = TieMeetings(meetings, views, curves);
+    curves = StringTogetherFilled(std::move(curves), ties, views, images);
+  }
+}
+
+}  // namespace curvix

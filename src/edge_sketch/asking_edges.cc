@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "edge_sketch/asking_edges.h"
+
+#include <cstddef>
+
+#include "base/median.h"
+#include "model/contours.h"
+
+namespace curvix {
+namespace {
+
+double MedianStrength(const EdgeMap& map) {
+  std::vector<double> strengths;
+  strengths.reserve(map.edges.size());
+  for (const Edge2d& edge : map.edges) {
+    strengths.push_back(static_cast<double>(edge.strength));
+  }
+  return MedianOr(0, std::move(strengths));
+}
+
+}  // namespace
+
+std::vector<bool> AreOnStrongContours(const EdgeMap& map,
+                                      int min_contour_edges) {
+  const Contours contours(map.neighbors);
+  const double least = min_contour_edges * MedianStrength(map);
+  std::vector<bool> are_strong(map.edges.size());
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    double sum = 0;
+    for (const std::int32_t edge_idx : contours[i]) {
+      sum += static_cast<double>(
+          map.edges[static_cast<std::size_t>(edge_idx)].strength);
+    }
+    for (const std::int32_t edge_idx : contours[i]) {
+      are_strong[static_cast<std::size_t>(edge_idx)] = sum >= least;
+    }
+  }
+  return are_strong;
+}
+
+std::vector<std::int32_t> EdgesToAsk(const SketchInput& input,
+                                     int view_idx,
+                                     const UsedEdges& used) {
+  const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(view_idx)];
+  std::vector<bool> are_wanted(map.edges.size(), true);
+  if (input.finds_seeds) {
+    are_wanted = AreOnStrongContours(
+        map, input.options.edge_detection.min_contour_edges);
+  }
+  const std::size_t step = input.h1_step;
+  std::vector<std::int32_t> edge_idxs;
+  for (std::size_t i = step / 2; i < map.edges.size(); i += step) {
+    const auto edge_idx = static_cast<std::int32_t>(i);
+    if (are_wanted[i] && !used.Contains({view_idx, edge_idx})) {
+      edge_idxs.push_back(edge_idx);
+    }
+  }
+  return edge_idxs;
+}
+
+int LinksBetweenAsking(const SketchInput& input) {
+  if (input.finds_seeds) return 8;
+  return AreCrowded(input.edge_maps) ? 4 : 2;
+}
+
+}  // namespace curvix

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "edge_sketch/edge_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "base/median.h"
+#include "edge_sketch/sketch_by_views.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/image_edge.h"
+#include "geometry/rim.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kNumEdgesToAsk = 4000;  // in all views
+// The sketch must see larger distances than it expects.
+constexpr double kPilotSigmas = 2;
+constexpr std::size_t kMinNumSupports = 6;
+constexpr double kNumParameters = 3;  // a place across a rim, its radius
+constexpr std::size_t kMinNumDistances = 100;
+constexpr double kSigmasOfMedianDistance = 1.4826;
+
+// Of the supports of `edge` from the rim that agrees best with all of them, as
+// large as they would be from the true one. On an edge the radius is zero, and
+// rims of smooth bodies do not count as noise.
+void AddDistances(const Edge3d& edge,
+                  const SketchInput& input,
+                  double sigma_px,
+                  std::vector<double>& distances_px) {
+  std::vector<PlaneMeasurement> measurements;
+  for (const EdgeRef& ref : edge.support) {
+    const auto v = static_cast<std::size_t>(ref.view_idx);
+    const auto i = static_cast<std::size_t>(ref.edge_idx);
+    measurements.push_back(
+        MeasurePlane(input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
+  }
+  Rim start;
+  start.axis = {edge.position, edge.tangent};
+  const Rim rim = AdjustRim(start, measurements, sigma_px);
+  const double n = static_cast<double>(measurements.size());
+  for (const PlaneMeasurement& m : measurements) {
+    const double px = DistanceFrom(m, SeenFrom(rim, m.center).position).px;
+    distances_px.push_back(std::abs(px) * std::sqrt(n / (n - kNumParameters)));
+  }
+}
+
+}  // namespace
+
+double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
+  const double least_px = input.sigma_px;
+  std::size_t num_edges = 0;
+  for (const EdgeMap& map : input.edge_maps) num_edges += map.edges.size();
+  SketchInput pilot = input;
+  pilot.sigma_px = kPilotSigmas * least_px;
+  pilot.h1_step = std::max<std::size_t>(1, num_edges / kNumEdgesToAsk);
+  const EdgeSketch sketch =
+      SketchByViews(pilot, [&](int, int total) { return step_done(0, total); });
+  std::vector<double> distances_px;
+  for (const Edge3d& edge : sketch.edges) {
+    if (edge.support.size() < kMinNumSupports) continue;
+    AddDistances(edge, input, pilot.sigma_px, distances_px);
+  }
+  if (distances_px.size() < kMinNumDistances) return least_px;
+  const double sigma_px =
+      kSigmasOfMedianDistance * Median(std::move(distances_px));
+  // Rounded, so that the last bits of sums make no difference.
+  return std::max(least_px, std::round(sigma_px * 1000) / 1000);
+}
+
+}  // namespace curvix

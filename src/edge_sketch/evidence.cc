@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "edge_sketch/evidence.h"
+
+#include <cmath>
+
+#include "base/angles.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kSeenAndDetected = 0.9;  // q
+// Standard deviation of third-order orientations.
+constexpr double kAngleSigmaRad = DegToRad(2);
+// Directions within 15 degrees count as like: the range of chance angles.
+constexpr double kAngleRangeRad = DegToRad(30);
+
+// A normal density of which a sixth is three times as wide: shading, blur and
+// nearby contours move some edges by more than noise does.
+double WideTailedNormal(double x, double sigma) {
+  const double z2 = (x / sigma) * (x / sigma);
+  return (5.0 / 6 * std::exp(-z2 / 2) + 1.0 / 18 * std::exp(-z2 / 18)) /
+         (sigma * std::sqrt(2 * kPi));
+}
+
+}  // namespace
+
+double VoteWithSupport(const SupportFit& fit, double density) {
+  const double real = kSeenAndDetected *
+                      WideTailedNormal(fit.distance_px, fit.sigma_px) *
+                      WideTailedNormal(fit.angle_rad, kAngleSigmaRad);
+  const double chance = density / kAngleRangeRad;
+  return std::log(real / chance + 1 - kSeenAndDetected);
+}
+
+double VoteWithoutSupport() { return std::log(1 - kSeenAndDetected); }
+
+double Evidence(const Votes& votes,
+                const std::vector<std::vector<ViewNeighbor>>& neighbors) {
+  double evidence = 0;
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    if (!votes[i]) continue;
+    double sum = *votes[i];
+    double weights = 1;
+    for (const ViewNeighbor& neighbor : neighbors[i]) {
+      const auto& vote = votes[static_cast<std::size_t>(neighbor.view_idx)];
+      if (!vote) continue;
+      sum += neighbor.weight * *vote;
+      weights += neighbor.weight;
+    }
+    if (sum > 0) evidence += sum / weights;
+  }
+  return evidence;
+}
+
+}  // namespace curvix

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5.
+#include "edge_sketch/hypothesise.h"
+
+#include <cmath>
+
+#include "base/angles.h"
+#include "edge_sketch/slide_to_line.h"
+#include "geometry/image_edge.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kUsualNumCandidates = 64;  // to reserve memory for
+
+}  // namespace
+
+std::optional<HypothesisViews> HypothesisViews::Make(
+    const PosedView& h1,
+    const PosedView& h2,
+    const std::vector<Edge2d>& edges2,
+    const DepthRange& depths,
+    const Options& options) {
+  const auto pencil = EpipolarPencil::Make(h1, h2);
+  if (!pencil) return std::nullopt;
+  return HypothesisViews(*pencil, h1, h2, edges2, depths, options);
+}
+
+HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
+                                 const PosedView& h1,
+                                 const PosedView& h2,
+                                 const std::vector<Edge2d>& edges2,
+                                 const DepthRange& depths,
+                                 const Options& options)
+    : h1_(&h1),
+      h2_(&h2),
+      options_(&options),
+      pencil_(pencil),
+      fundamental_(FundamentalMatrix(h1, h2)),
+      depths_(depths),
+      projection_(h1, h2),
+      sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {
+  edges2_.reserve(edges2.size());
+  for (const std::int32_t edge_idx : sorted2_.EdgeIdxs()) {
+    edges2_.push_back(
+        {ToImageEdge(edges2[static_cast<std::size_t>(edge_idx)]), edge_idx});
+  }
+}
+
+bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
+  // The epipolar plane of the edge meets the image in its epipolar line.
+  const Eigen::Vector3d normal =
+      pencil_.baseline().cross(h1_->Ray(edge1.position));
+  const Eigen::Vector3d line =
+      h1_->calibration.inverse().transpose() * (h1_->rotation * normal);
+  const double sine = line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
+  return std::abs(sine) <
+         std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
+}
+
+Interval HypothesisViews::SearchAlong(const Line2& line,
+                                      const Eigen::Vector2d& pixel1) const {
+  const ConsolidationOptions& options = options_->consolidation;
+  Interval along =
+      projection_.SeenAlong(line, pixel1, depths_.nearest, depths_.farthest);
+  along.begin -= options.max_tangent_shift_px;
+  along.end += options.max_tangent_shift_px;
+  return along;
+}
+
+Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
+  Hypotheses result;
+  const ImageEdge image_edge1 = ToImageEdge(edge1);
+  if (RunsAlongEpipolarLine(image_edge1)) return result;
+  const double tolerance_px = options_->hypotheses.location_tolerance_px;
+  const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
+  if (!wedge) return result;
+  const Line2 line = EpipolarLine(fundamental_, edge1.position);
+
+  const Interval search = SearchAlong(line, edge1.position);
+  const Eigen::Vector2d direction = line.Direction();
+  std::vector<LineEdge> on_line;
+  on_line.reserve(kUsualNumCandidates);
+  sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
+    if (!search.Contains(direction.dot(edges2_[i].edge.position))) return;
+    const auto moved = SlideToLine(
+        edges2_[i].edge, line, tolerance_px, options_->consolidation);
+    if (moved) on_line.push_back({*moved, edges2_[i].edge_idx});
+  });
+  const double min_sine =
+      std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
+  result.virtual_edges = ClusterEdges(on_line, line, options_->consolidation);
+  result.hypotheses.reserve(result.virtual_edges.edges.size());
+  for (const VirtualEdge& virtual_edge : result.virtual_edges.edges) {
+    if (std::abs(line.normal.dot(virtual_edge.edge.tangent)) < min_sine) {
+      continue;
+    }
+    const auto edge =
+        TriangulateEdge(*h1_,
+                        image_edge1,
+                        *h2_,
+                        virtual_edge.edge,
+                        DegToRad(options_->hypotheses.min_ray_angle_deg) / 2,
+                        DegToRad(1));
+    if (!edge) continue;
+    result.hypotheses.push_back({*edge, image_edge1, virtual_edge});
+  }
+  return result;
+}
+
+}  // namespace curvix

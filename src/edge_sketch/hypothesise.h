@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5. From an H1 edge to
+// hypotheses.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <optional>
+#include <vector>
+
+#include "edge_sketch/cluster_edges.h"
+#include "edge_sketch/depth_range.h"
+#include "geometry/edge_geometry.h"
+#include "geometry/epipolar.h"
+#include "geometry/epipolar_wedge.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// One H1 edge paired with one virtual edge of H2 (paper, Sec. 4).
+struct Hypothesis {
+  SpaceEdge edge;
+  ImageEdge edge1;    // as detected in H1
+  VirtualEdge edge2;  // in H2
+};
+
+// The hypotheses of one H1 edge.
+struct Hypotheses {
+  std::vector<Hypothesis> hypotheses;  // in order along the epipolar line
+  VirtualEdges virtual_edges;          // also those that lead to none
+};
+
+// The edges of H2 ready to be paired with those of H1.
+class HypothesisViews {
+ public:
+  // Looks at `depths` of H1 only. nullopt if the views share their centre.
+  static std::optional<HypothesisViews> Make(const PosedView& h1,
+                                             const PosedView& h2,
+                                             const std::vector<Edge2d>& edges2,
+                                             const DepthRange& depths,
+                                             const Options& options);
+
+  // Candidates in the epipolar wedge of `edge1`, moved onto its epipolar line,
+  // clustered, triangulated. None for an edge that
+  // runs along its epipolar line in H1; virtual edges that do so in H2 or give
+  // no 3D edge are left out.
+  Hypotheses Hypothesise(const Edge2d& edge1) const;
+
+  const PosedView& h1() const { return *h1_; }
+  const PosedView& h2() const { return *h2_; }
+
+ private:
+  HypothesisViews(const EpipolarPencil& pencil,
+                  const PosedView& h1,
+                  const PosedView& h2,
+                  const std::vector<Edge2d>& edges2,
+                  const DepthRange& depths,
+                  const Options& options);
+
+  // The part of the epipolar line of `pixel1` that shows `depths_`, and as much
+  // beyond it as an edge may slide: pixels along its direction.
+  Interval SearchAlong(const Line2& line, const Eigen::Vector2d& pixel1) const;
+  bool RunsAlongEpipolarLine(const ImageEdge& edge1) const;
+
+  const PosedView *h1_, *h2_;
+  const Options* options_;
+  EpipolarPencil pencil_;
+  Eigen::Matrix3d fundamental_;
+  DepthRange depths_;
+  RayProjection projection_;
+  SortedByAngle sorted2_;
+  std::vector<LineEdge> edges2_;  // as detected, in the order of sorted2_
+};
+
+}  // namespace curvix

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "edge_sketch/select_validators.h"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "base/angles.h"
+
+namespace curvix {
+namespace {
+
+using Overlaps = std::vector<std::vector<ViewOverlap>>;
+
+// What view `other` is to a view with `overlaps`; nullptr: nothing.
+const ViewOverlap* Find(const std::vector<ViewOverlap>& overlaps, int other) {
+  const auto found = std::lower_bound(
+      overlaps.begin(),
+      overlaps.end(),
+      other,
+      [](const ViewOverlap& overlap, int idx) { return overlap.other < idx; });
+  return found != overlaps.end() && found->other == other ? &*found : nullptr;
+}
+
+// A view that may be chosen and its ray angle to the nearest chosen one.
+struct Candidate {
+  int view_idx = 0;
+  double angle_rad = kPi;
+};
+
+// Adds `view_idx` to the chosen views.
+void Choose(const Overlaps& overlaps,
+            int view_idx,
+            std::vector<Candidate>& candidates,
+            std::vector<int>& chosen) {
+  chosen.push_back(view_idx);
+  std::erase_if(candidates,
+                [&](const Candidate& c) { return c.view_idx == view_idx; });
+  // Both are in the order of views.
+  auto candidate = candidates.begin();
+  for (const ViewOverlap& overlap :
+       overlaps[static_cast<std::size_t>(view_idx)]) {
+    while (candidate != candidates.end() &&
+           candidate->view_idx < overlap.other) {
+      ++candidate;
+    }
+    if (candidate == candidates.end()) return;
+    if (candidate->view_idx == overlap.other) {
+      candidate->angle_rad =
+          std::min(candidate->angle_rad, overlap.ray_angle_rad);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int> SelectValidators(const Overlaps& overlaps,
+                                  int h1,
+                                  const std::vector<int>& partners,
+                                  int max_num) {
+  std::vector<int> chosen;
+  if (overlaps.size() <= static_cast<std::size_t>(max_num)) {
+    chosen.resize(overlaps.size());
+    std::iota(chosen.begin(), chosen.end(), 0);
+    return chosen;
+  }
+  std::vector<Candidate> candidates;
+  for (const ViewOverlap& overlap : overlaps[static_cast<std::size_t>(h1)]) {
+    candidates.push_back({overlap.other, kPi});
+  }
+  Choose(overlaps, h1, candidates, chosen);
+  for (const int partner : partners) {
+    Choose(overlaps, partner, candidates, chosen);
+  }
+  while (!candidates.empty() && static_cast<int>(chosen.size()) < max_num) {
+    const auto best =
+        std::max_element(candidates.begin(),
+                         candidates.end(),
+                         [](const Candidate& a, const Candidate& b) {
+                           return a.angle_rad < b.angle_rad;
+                         });
+    Choose(overlaps, best->view_idx, candidates, chosen);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+Overlaps OverlapsAmong(const Overlaps& overlaps,
+                       const std::vector<int>& chosen) {
+  Overlaps among(overlaps.size());
+  for (const int view_idx : chosen) {
+    const auto i = static_cast<std::size_t>(view_idx);
+    for (const int other : chosen) {
+      if (const ViewOverlap* overlap = Find(overlaps[i], other)) {
+        among[i].push_back(*overlap);
+      }
+    }
+  }
+  return among;
+}
+
+}  // namespace curvix

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3. Chooses hypothesis views H1 and H2.
+#pragma once
+
+#include <curvix/options.h>
+#include <optional>
+#include <vector>
+
+#include "edge_sketch/view_overlap.h"
+
+namespace curvix {
+
+struct ViewPair {
+  int h1 = 0;  // view_idx
+  int h2 = 0;  // view_idx
+};
+
+// The paper's choice: of the pairs whose overlap and ray angle are sound and
+// that are not in `done`, the one with most unused edges in both views
+// together; ties: smaller h1, then smaller h2. H1 is the view with more unused
+// edges; ties: the smaller index. nullopt when no pair with an unused edge is
+// left.
+std::optional<ViewPair> NextViewPair(
+    const std::vector<std::vector<ViewOverlap>>& overlaps,
+    const std::vector<int>& num_unused_edges,
+    const std::vector<ViewPair>& done,
+    const HypothesisOptions& options);
+
+// Deviation: every view as H1. Its partners, best first, at most
+// options.num_partners: much overlap, rays far enough apart for depth and near
+// enough to see the same, and baselines in different directions, because an
+// edge that runs along the epipolar lines of one pair has depth only from
+// another.
+std::vector<int> SelectPartners(const std::vector<ViewOverlap>& overlaps,
+                                const HypothesisOptions& options);
+
+}  // namespace curvix

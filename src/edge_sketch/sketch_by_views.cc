@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Secs. 3 and 4. Deviation: every view is H1 once, with its best
+// partners, for the edges that nothing explains yet; see docs/paper_map.md.
+#include "edge_sketch/sketch_by_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/parallel.h"
+#include "edge_sketch/asking_edges.h"
+#include "edge_sketch/contested_edges.h"
+#include "edge_sketch/hypothesise.h"
+#include "edge_sketch/select_validators.h"
+#include "edge_sketch/select_views.h"
+#include "edge_sketch/split_along_contours.h"
+#include "edge_sketch/track_support.h"
+#include "edge_sketch/view_indices.h"
+#include "model/along_contour.h"
+
+namespace curvix {
+namespace {
+
+// Within it, views see the same edges, unless something stands in front.
+constexpr double kSameSideRad = DegToRad(40);
+// Times the evidence that is asked for.
+constexpr double kSettledEvidence = 3;
+
+// What one H1 edge led to.
+struct H1Result {
+  std::vector<TrackedEdge> tracked;
+  std::vector<EdgeRef> also_shown;  // by views that were not asked
+  std::int64_t hypotheses = 0;
+  std::int64_t unsupported = 0;
+  std::int64_t rivals = 0;
+};
+
+// A partner of an H1 view, and the views to ask about their hypotheses.
+struct Partner {
+  HypothesisViews pair;
+  ViewsToAsk to_ask;
+};
+
+// All partners of an H1 view.
+struct H1View {
+  std::vector<Partner> partners;
+  std::vector<std::vector<ViewNeighbor>> neighbors;  // among those to ask
+  std::vector<std::int32_t> not_asked;               // but overlap it
+};
+
+class ViewSketcher {
+ public:
+  explicit ViewSketcher(const SketchInput& input)
+      : input_(input),
+        indices_(IndexViews(
+            input.views, input.edge_maps, input.options.runtime.num_threads)),
+        sigma_px_(input.sigma_px) {
+    const ValidationOptions& options = input.options.validation;
+    ParallelFor(
+        indices_.size(), input.options.runtime.num_threads, [&](std::size_t i) {
+          indices_[i].presence = EdgePresence(input.edge_maps[i].edges,
+                                              input.views[i].width,
+                                              input.views[i].height,
+                                              options.max_distance_px,
+                                              kMaxSupportSlidePx,
+                                              DegToRad(options.max_angle_deg));
+        });
+  }
+
+  // View h1 and its partners, ready for pairing.
+  H1View Prepare(int h1) const {
+    H1View view;
+    const auto i = static_cast<std::size_t>(h1);
+    const std::vector<int> partners =
+        SelectPartners(input_.overlaps[i], input_.options.hypotheses);
+    const std::vector<int> validators =
+        SelectValidators(input_.overlaps, h1, partners);
+    for (const ViewOverlap& overlap : input_.overlaps[i]) {
+      if (!std::binary_search(
+              validators.begin(), validators.end(), overlap.other)) {
+        view.not_asked.push_back(overlap.other);
+      }
+    }
+    view.neighbors =
+        NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
+    const std::size_t fewest_supports =
+        FewestSupports(input_.options.validation, NumOnThisSide(h1));
+    std::vector<std::optional<HypothesisViews>> pairs(partners.size());
+    ParallelFor(
+        pairs.size(), input_.options.runtime.num_threads, [&](std::size_t k) {
+          const auto j = static_cast<std::size_t>(partners[k]);
+          pairs[k] = HypothesisViews::Make(input_.views[i],
+                                           input_.views[j],
+                                           input_.edge_maps[j].edges,
+                                           input_.depths[i],
+                                           input_.options);
+        });
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      if (!pairs[k]) continue;
+      view.partners.push_back({*std::move(pairs[k]),
+                               {FirstViews(h1, partners[k], view.neighbors),
+                                validators,
+                                fewest_supports}});
+    }
+    return view;
+  }
+
+  H1Result Sketch(const Edge2d& edge1, const H1View& view) const {
+    H1Result result;
+    for (const Partner& partner : view.partners) {
+      if (IsSettled(result)) break;
+      const Hypotheses found = partner.pair.Hypothesise(edge1);
+      for (const Hypothesis& hypothesis : found.hypotheses) {
+        ++result.hypotheses;
+        auto tracked = Track(hypothesis, partner, view.neighbors);
+        if (!tracked) {
+          ++result.unsupported;
+        } else if (!IsKnown(*tracked, result.tracked)) {
+          result.tracked.push_back(*std::move(tracked));
+        }
+      }
+    }
+    DropRivals(result);
+    for (const TrackedEdge& tracked : result.tracked) {
+      const std::vector<EdgeRef> more =
+          FindMoreSupport(tracked.estimate,
+                          indices_,
+                          view.not_asked,
+                          sigma_px_,
+                          input_.options.validation);
+      result.also_shown.insert(
+          result.also_shown.end(), more.begin(), more.end());
+    }
+    return result;
+  }
+
+ private:
+  // View h1, and those that look from nearly the same direction.
+  std::size_t NumOnThisSide(int h1) const {
+    const std::vector<ViewOverlap>& overlaps =
+        input_.overlaps[static_cast<std::size_t>(h1)];
+    return 1 + static_cast<std::size_t>(
+                   std::count_if(overlaps.begin(),
+                                 overlaps.end(),
+                                 [](const ViewOverlap& overlap) {
+                                   return overlap.ray_angle_rad <= kSameSideRad;
+                                 }));
+  }
+
+  // The views next to either in direction, then both.
+  static std::vector<std::int32_t> FirstViews(
+      int h1, int h2, const std::vector<std::vector<ViewNeighbor>>& neighbors) {
+    std::vector<std::int32_t> first;
+    for (const int view_idx : {h1, h2}) {
+      for (const ViewNeighbor& neighbor :
+           neighbors[static_cast<std::size_t>(view_idx)]) {
+        first.push_back(neighbor.view_idx);
+      }
+    }
+    std::erase_if(first, [&](int i) { return i == h1 || i == h2; });
+    std::sort(first.begin(), first.end());
+    first.erase(std::unique(first.begin(), first.end()), first.end());
+    first.insert(first.end(), {h1, h2});
+    return first;
+  }
+
+  std::optional<TrackedEdge> Track(
+      const Hypothesis& hypothesis,
+      const Partner& partner,
+      const std::vector<std::vector<ViewNeighbor>>& neighbors) const {
+    if (!MayBeSupported(hypothesis.edge, indices_, partner.to_ask)) {
+      return std::nullopt;
+    }
+    const EdgeEstimate start = EstimateAtMeeting(
+        hypothesis.edge,
+        MeasurePlane(partner.pair.h1(), hypothesis.edge1),
+        MeasurePlane(partner.pair.h2(), hypothesis.edge2.edge),
+        sigma_px_);
+    return TrackSupport(start,
+                        indices_,
+                        neighbors,
+                        partner.to_ask,
+                        sigma_px_,
+                        input_.options.validation);
+  }
+
+  // Hypotheses from several partners end at the same 3D edge.
+  static bool IsKnown(const TrackedEdge& edge,
+                      const std::vector<TrackedEdge>& known) {
+    return std::any_of(
+        known.begin(), known.end(), [&](const TrackedEdge& other) {
+          std::vector<EdgeRef> shared;
+          std::set_intersection(edge.support.begin(),
+                                edge.support.end(),
+                                other.support.begin(),
+                                other.support.end(),
+                                std::back_inserter(shared));
+          return 2 * shared.size() >= edge.support.size();
+        });
+  }
+
+  // All views have had their say about what is tracked already, so another
+  // partner would lead to the same 3D edge again.
+  bool IsSettled(const H1Result& result) const {
+    return std::any_of(result.tracked.begin(),
+                       result.tracked.end(),
+                       [&](const TrackedEdge& edge) {
+                         return edge.evidence >=
+                                kSettledEvidence *
+                                    input_.options.validation.min_evidence;
+                       });
+  }
+
+  void DropRivals(H1Result& result) const {
+    double best = 0;
+    for (const TrackedEdge& edge : result.tracked) {
+      best = std::max(best, edge.evidence);
+    }
+    const double least = input_.options.validation.min_rival_support * best;
+    result.rivals += static_cast<std::int64_t>(std::erase_if(
+        result.tracked,
+        [&](const TrackedEdge& edge) { return edge.evidence < least; }));
+  }
+
+  const SketchInput& input_;
+  std::vector<ViewIndex> indices_;
+  double sigma_px_;
+};
+
+// The edge itself and its neighbours along the contour, as far as the next ones
+// that ask: a 3D edge takes one 2D edge per view, although contours are sampled
+// at different steps.
+void MarkSupport(const std::vector<EdgeRef>& support,
+                 const std::vector<EdgeMap>& edge_maps,
+                 int num_links,
+                 UsedEdges& used) {
+  for (const EdgeRef& ref : support) {
+    used.Mark(ref);
+    ForEachAlongContour(
+        edge_maps[static_cast<std::size_t>(ref.view_idx)].neighbors,
+        ref.edge_idx,
+        num_links,
+        [&](std::int32_t edge_idx) {
+          used.Mark({ref.view_idx, edge_idx});
+        });
+  }
+}
+
+Edge3d ToEdge3d(TrackedEdge tracked) {
+  Edge3d edge;
+  edge.position = tracked.estimate.edge.position;
+  edge.tangent = tracked.estimate.edge.tangent;
+  edge.sigma = std::sqrt(tracked.estimate.covariance.trace() / 2);
+  edge.evidence = tracked.evidence;
+  edge.support = std::move(tracked.support);
+  return edge;
+}
+
+// In an order that has nothing to do with that of views.
+bool IsBefore(const EdgeMap& a, const EdgeMap& b) {
+  return std::lexicographical_compare(
+      a.edges.begin(),
+      a.edges.end(),
+      b.edges.begin(),
+      b.edges.end(),
+      [](const Edge2d& edge, const Edge2d& other) {
+        return std::tie(edge.position.y(), edge.position.x()) <
+               std::tie(other.position.y(), other.position.x());
+      });
+}
+
+// The view with most unused edges among those not done; ties: that with more
+// edges in all, then that whose edges come first. So the order of views makes
+// no difference: many views may have as many edges as they are allowed.
+std::optional<int> NextView(const SketchInput& input,
+                            const std::vector<int>& num_unused,
+                            const std::vector<bool>& done) {
+  std::optional<std::size_t> best;
+  const auto rank = [&](std::size_t i) {
+    return std::pair(num_unused[i], input.edge_maps[i].edges.size());
+  };
+  const auto is_better = [&](std::size_t i) {
+    if (rank(i) != rank(*best)) return rank(i) > rank(*best);
+    return IsBefore(input.edge_maps[i], input.edge_maps[*best]);
+  };
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    if (!done[i] && (!best || is_better(i))) best = i;
+  }
+  if (!best) return std::nullopt;
+  return static_cast<int>(*best);
+}
+
+// What the unused edges of view h1 that ask lead to, in their order: some along
+// each contour, then, unless images are crowded, those next to one that led to
+// a 3D edge.
+std::vector<H1Result> AskInTurns(const SketchInput& input,
+                                 const ViewSketcher& sketcher,
+                                 int h1,
+                                 const H1View& view,
+                                 const UsedEdges& used) {
+  const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(h1)];
+  std::vector<std::optional<H1Result>> results(map.edges.size());
+  const auto ask = [&](const std::vector<std::int32_t>& edge_idxs) {
+    ParallelFor(edge_idxs.size(),
+                input.options.runtime.num_threads,
+                [&](std::size_t k) {
+                  const auto i = static_cast<std::size_t>(edge_idxs[k]);
+                  results[i] = sketcher.Sketch(map.edges[i], view);
+                });
+  };
+  const auto has_found = [&](const std::optional<std::int32_t>& edge_idx) {
+    if (!edge_idx) return false;
+    const auto& result = results[static_cast<std::size_t>(*edge_idx)];
+    return result && !result->tracked.empty();
+  };
+  TwoTurns turns = SplitAlongContours(
+      EdgesToAsk(input, h1, used), map.neighbors, LinksBetweenAsking(input));
+  ask(turns.first);
+  if (AreCrowded(input.edge_maps)) turns.second.clear();
+  std::erase_if(turns.second, [&](std::int32_t edge_idx) {
+    const EdgeNeighbors& neighbors =
+        map.neighbors[static_cast<std::size_t>(edge_idx)];
+    return !has_found(neighbors.previous) && !has_found(neighbors.next);
+  });
+  ask(turns.second);
+  std::vector<H1Result> asked;
+  for (std::optional<H1Result>& result : results) {
+    if (result) asked.push_back(*std::move(result));
+  }
+  return asked;
+}
+
+void Add(H1Result result,
+         const SketchInput& input,
+         UsedEdges& used,
+         EdgeSketch& sketch) {
+  const std::vector<EdgeMap>& edge_maps = input.edge_maps;
+  const int num_links = LinksBetweenAsking(input) - 1;
+  ++sketch.counts.h1_edges;
+  sketch.counts.hypotheses += result.hypotheses;
+  sketch.counts.unsupported += result.unsupported;
+  sketch.counts.rivals += result.rivals;
+  MarkSupport(result.also_shown, edge_maps, num_links, used);
+  for (TrackedEdge& tracked : result.tracked) {
+    MarkSupport(tracked.support, edge_maps, num_links, used);
+    sketch.edges.push_back(ToEdge3d(std::move(tracked)));
+  }
+}
+
+}  // namespace
+
+EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
+  const ViewSketcher sketcher(input);
+  UsedEdges used(input.edge_maps);
+  EdgeSketch sketch;
+  sketch.edge_sigma_px = input.sigma_px;
+  std::vector<bool> done(input.views.size(), false);
+  const int total = static_cast<int>(input.views.size());
+  for (int step = 0; step_done(step, total); ++step) {
+    const auto h1 = NextView(input, used.num_unused(), done);
+    if (!h1) break;
+    done[static_cast<std::size_t>(*h1)] = true;
+    const H1View view = sketcher.Prepare(*h1);
+    sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
+    for (H1Result& result : AskInTurns(input, sketcher, *h1, view, used)) {
+      Add(std::move(result), input, used, sketch);
+    }
+  }
+  sketch.counts.used_edges = used.total();
+  const std::size_t num_confirmed = sketch.edges.size();
+  sketch.edges = DropContested(std::move(sketch.edges),
+                               input.views,
+                               input.edge_maps,
+                               input.options.validation.min_num_own_views);
+  sketch.counts.rivals +=
+      static_cast<std::int64_t>(num_confirmed - sketch.edges.size());
+  return sketch;
+}
+
+}  // namespace curvix

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Secs. 3 and 4. What both ways to a 3D edge sketch take.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "edge_sketch/depth_range.h"
+#include "edge_sketch/view_overlap.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// Called with (done, total); false stops early.
+using StepDone = std::function<bool(int, int)>;
+
+struct SketchInput {
+  const std::vector<PosedView>& views;
+  const std::vector<EdgeMap>& edge_maps;
+  const std::vector<std::vector<ViewOverlap>>& overlaps;
+  const std::vector<DepthRange>& depths;  // of each view
+  const Options& options;
+  // Standard deviation of a 2D edge's place. Pixels, > 0.
+  double sigma_px = 0;
+  // One edge in so many of each view asks for hypotheses, with SketchByViews.
+  std::size_t h1_step = 1;
+  // Curves will grow from the 3D edges: a few along each contour do, and none
+  // on contours that are too weak for a curve. With SketchByViews.
+  bool finds_seeds = false;
+};
+
+// Which 2D edges have been used so far.
+class UsedEdges {
+ public:
+  explicit UsedEdges(const std::vector<EdgeMap>& edge_maps);
+  void Mark(const EdgeRef& ref);
+  bool Contains(const EdgeRef& ref) const {
+    return used_[static_cast<std::size_t>(ref.view_idx)]
+                [static_cast<std::size_t>(ref.edge_idx)];
+  }
+  // Unused edges of each view.
+  const std::vector<int>& num_unused() const { return num_unused_; }
+  std::int64_t total() const;
+
+ private:
+  std::vector<std::vector<bool>> used_;
+  std::vector<int> num_unused_;
+};
+
+}  // namespace curvix

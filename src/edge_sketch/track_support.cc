@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(c).
+#include "edge_sketch/track_support.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angles.h"
+#include "geometry/image_edge.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kNumRounds = 4;
+// Views in which the estimate may be off by more are not asked yet: pixels, or
+// standard deviations of an edge's location where these are larger.
+constexpr double kMaxPredictedSigmaPx = 0.7;
+constexpr double kMaxPredictedSigmas = 4.6;
+// The hypothesis views and one more.
+constexpr std::size_t kFewestSupports = 3;
+// Of the first views: fewer are hardly ever followed by enough of all.
+constexpr std::size_t kFewestToGoOn = 4;
+constexpr double kGateSigmas = 4;
+
+struct Search {
+  double sigma_px = 0;
+  double max_distance_px = 0;
+  double min_cosine = 0;
+};
+
+Search MakeSearch(double sigma_px, const ValidationOptions& options) {
+  return {sigma_px,
+          options.max_distance_px,
+          std::cos(DegToRad(options.max_angle_deg))};
+}
+
+// nullopt where ProjectEdge() has no answer, and outside the image.
+std::optional<ImageEdge> ProjectInto(const ViewIndex& view,
+                                     const SpaceEdge& edge) {
+  auto projected = ProjectEdge(*view.view, edge);
+  if (!projected || !view.view->Contains(projected->position)) {
+    return std::nullopt;
+  }
+  return projected;
+}
+
+// False only if no edge can be found for `edge`.
+bool MayShow(const ViewIndex& view, const SpaceEdge& edge) {
+  const Eigen::Vector3d x = view.view->InCamera(edge.position);
+  if (!(x.z() > 0)) return false;
+  const Eigen::Vector2d tangent = TangentInImage(*view.view, x, edge.tangent);
+  if (!(tangent.squaredNorm() > 0)) return false;
+  const Eigen::Vector2d pixel = view.view->Pixel(x);
+  return view.view->Contains(pixel) && view.presence.MayHave(pixel, tangent);
+}
+
+// The standard deviation of the distance between the estimate, as `view` shows
+// it, and its edge there; nullopt if the estimate is not known well enough.
+std::optional<double> ExpectedDistance(const EdgeEstimate& estimate,
+                                       const ImageEdge& projected,
+                                       const ViewIndex& view,
+                                       const Search& search) {
+  const double variance_px2 = VarianceAcross(*view.view, projected, estimate);
+  const double limit_px =
+      std::max(kMaxPredictedSigmaPx, kMaxPredictedSigmas * search.sigma_px);
+  if (variance_px2 > limit_px * limit_px) return std::nullopt;
+  return std::sqrt(variance_px2 + search.sigma_px * search.sigma_px);
+}
+
+std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
+                                     const ImageEdge& projected,
+                                     const ViewIndex& view,
+                                     const Search& search) {
+  const auto expected_px = ExpectedDistance(estimate, projected, view, search);
+  if (!expected_px) return std::nullopt;
+  return NearestEdge(
+      view,
+      projected,
+      {std::min(search.max_distance_px, kGateSigmas * *expected_px),
+       kMaxSupportSlidePx,
+       search.min_cosine});
+}
+
+std::size_t FewestToGoOn(const ViewsToAsk& to_ask) {
+  return std::min(kFewestToGoOn, to_ask.fewest_supports);
+}
+
+// A view and where it shows an estimate.
+struct Sighting {
+  std::int32_t view_idx = 0;
+  ImageEdge projected;
+};
+
+// The support of an estimate in the views of `asked`, ascending; nullopt if it
+// is less than `fewest`. Asks no more of them than it takes to know.
+std::optional<std::vector<EdgeRef>> FindSupport(
+    const EdgeEstimate& estimate,
+    const std::vector<ViewIndex>& views,
+    const std::vector<std::int32_t>& asked,
+    std::size_t fewest,
+    const Search& search) {
+  // Most estimates end with this, before any edge is looked up.
+  std::vector<Sighting> sightings;
+  sightings.reserve(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (sightings.size() + (asked.size() - i) < fewest) return std::nullopt;
+    const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
+    const auto projected = ProjectInto(view, estimate.edge);
+    if (projected &&
+        view.presence.MayHave(projected->position, projected->tangent)) {
+      sightings.push_back({asked[i], *projected});
+    }
+  }
+  std::vector<EdgeRef> support;
+  support.reserve(sightings.size());
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (support.size() + (sightings.size() - i) < fewest) return std::nullopt;
+    const auto& [view_idx, projected] = sightings[i];
+    const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
+    if (const auto edge_idx = FindEdge(estimate, projected, view, search)) {
+      support.push_back({view_idx, *edge_idx});
+    }
+  }
+  if (support.size() < fewest) return std::nullopt;
+  std::sort(support.begin(), support.end());
+  return support;
+}
+
+ImageEdge EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views) {
+  return ToImageEdge(views[static_cast<std::size_t>(ref.view_idx)]
+                         .edges->edges[static_cast<std::size_t>(ref.edge_idx)]);
+}
+
+std::vector<PlaneMeasurement> Measure(const std::vector<EdgeRef>& support,
+                                      const std::vector<ViewIndex>& views) {
+  std::vector<PlaneMeasurement> measurements;
+  measurements.reserve(support.size());
+  for (const EdgeRef& ref : support) {
+    measurements.push_back(
+        MeasurePlane(*views[static_cast<std::size_t>(ref.view_idx)].view,
+                     EdgeOf(ref, views)));
+  }
+  return measurements;
+}
+
+double AngleOf(const Eigen::Vector2d& direction) {
+  return std::atan2(direction.y(), direction.x());
+}
+
+double VoteWithSupport(const ImageEdge& projected,
+                       double expected_px,
+                       const ImageEdge& support,
+                       const ViewIndex& view) {
+  const Eigen::Vector2d normal(-support.tangent.y(), support.tangent.x());
+  const double angle = AngleOf(projected.tangent);
+  const SupportFit fit{normal.dot(projected.position - support.position),
+                       expected_px,
+                       UndirectedDifference(angle, AngleOf(support.tangent))};
+  return VoteWithSupport(fit, view.density.Density(projected.position, angle));
+}
+
+// What a view with this support, if any, says of an estimate; nullopt if it
+// cannot tell.
+std::optional<double> VoteOf(const ViewIndex& view,
+                             const std::optional<ImageEdge>& support,
+                             const EdgeEstimate& estimate,
+                             const Search& search) {
+  const auto projected = ProjectInto(view, estimate.edge);
+  if (!projected) return std::nullopt;
+  const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
+  if (!expected_px) return std::nullopt;
+  return support ? VoteWithSupport(*projected, *expected_px, *support, view)
+                 : VoteWithoutSupport();
+}
+
+// The votes of the views of `asked` (ascending) on an estimate with this
+// support (FindSupport()).
+Votes VotesOf(const EdgeEstimate& estimate,
+              const std::vector<EdgeRef>& support,
+              const std::vector<ViewIndex>& views,
+              const std::vector<std::int32_t>& asked,
+              const Search& search) {
+  Votes votes(views.size());
+  auto next = support.begin();
+  for (const std::int32_t view_idx : asked) {
+    std::optional<ImageEdge> supporting;
+    if (next != support.end() && next->view_idx == view_idx) {
+      supporting = EdgeOf(*next++, views);
+    }
+    const auto i = static_cast<std::size_t>(view_idx);
+    votes[i] = VoteOf(views[i], supporting, estimate, search);
+  }
+  return votes;
+}
+
+}  // namespace
+
+std::size_t FewestSupports(const ValidationOptions& options,
+                           std::size_t num_on_this_side) {
+  return std::min(static_cast<std::size_t>(options.min_num_support_views) + 2,
+                  std::max(kFewestSupports, num_on_this_side / 2 + 1));
+}
+
+bool MayBeSupported(const SpaceEdge& edge,
+                    const std::vector<ViewIndex>& views,
+                    const ViewsToAsk& to_ask) {
+  const std::vector<std::int32_t>& asked = to_ask.first;
+  const std::size_t fewest = FewestToGoOn(to_ask);
+  std::size_t num_found = 0;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (num_found + (asked.size() - i) < fewest) return false;
+    const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
+    if (MayShow(view, edge) && ++num_found == fewest) return true;
+  }
+  return false;
+}
+
+std::optional<TrackedEdge> TrackSupport(
+    const EdgeEstimate& start,
+    const std::vector<ViewIndex>& views,
+    const std::vector<std::vector<ViewNeighbor>>& neighbors,
+    const ViewsToAsk& to_ask,
+    double sigma_px,
+    const ValidationOptions& options) {
+  const Search search = MakeSearch(sigma_px, options);
+  auto support =
+      FindSupport(start, views, to_ask.first, FewestToGoOn(to_ask), search);
+  if (!support) return std::nullopt;
+  TrackedEdge tracked;
+  tracked.estimate = start;
+  EdgeEstimate asked;  // that led to the support
+  for (int round = 1;; ++round) {
+    tracked.support = *std::move(support);
+    asked = tracked.estimate;
+    tracked.estimate = AdjustEdge(
+        tracked.estimate.edge, Measure(tracked.support, views), sigma_px);
+    if (round == kNumRounds) break;
+    support = FindSupport(
+        tracked.estimate, views, to_ask.all, to_ask.fewest_supports, search);
+    if (!support) return std::nullopt;
+    // Settled: further rounds would ask the same views.
+    if (*support == tracked.support) {
+      asked = tracked.estimate;
+      break;
+    }
+  }
+  tracked.evidence = Evidence(
+      VotesOf(asked, tracked.support, views, to_ask.all, search), neighbors);
+  if (tracked.evidence < options.min_evidence) return std::nullopt;
+  return tracked;
+}
+
+std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
+                                     const std::vector<ViewIndex>& views,
+                                     const std::vector<std::int32_t>& asked,
+                                     double sigma_px,
+                                     const ValidationOptions& options) {
+  return *FindSupport(tracked, views, asked, 0, MakeSearch(sigma_px, options));
+}
+
+}  // namespace curvix

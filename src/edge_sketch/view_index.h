@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(c). One view and the means to find its edges.
+#pragma once
+
+#include <curvix/edges.h>
+#include <cstdint>
+#include <optional>
+
+#include "base/grid_index.h"
+#include "edge_sketch/edge_density.h"
+#include "geometry/edge_geometry.h"
+#include "geometry/nearest_edge.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// What validation asks of a view, made once.
+struct ViewIndex {
+  const PosedView* view = nullptr;
+  const EdgeMap* edges = nullptr;
+  GridIndex grid;
+  EdgeDensity density;
+  EdgePresence presence = {};  // may be left out
+};
+
+inline std::optional<std::int32_t> NearestEdge(const ViewIndex& index,
+                                               const ImageEdge& expected,
+                                               const Gate& gate) {
+  return NearestEdge(index.grid, expected, gate);
+}
+
+}  // namespace curvix

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3 ("overlapping views").
+#include "edge_sketch/view_overlap.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <unsupported/Eigen/BVH>
+#include <utility>
+
+#include "base/median.h"
+#include "base/point_tree.h"
+#include "geometry/epipolar.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kMinNumPoints = 8;
+constexpr std::size_t kMaxNumPlaces = 64;
+constexpr std::size_t kMaxNumCameras = 64;  // that tell of a working depth
+// Shares of the baseline below this have no direction.
+constexpr double kMinAcross = 1e-6;
+
+Eigen::Vector3d OpticalAxis(const PosedView& view) {
+  return view.rotation.row(2).transpose();
+}
+
+bool ShareCenter(const PosedView& a, const PosedView& b) {
+  return !EpipolarPencil::Make(a, b);
+}
+
+// The depth at which the optical axis of `view` passes nearest to that of
+// `other`. nullopt for axes less than a degree from parallel, and behind.
+std::optional<double> DepthNearestTo(const PosedView& view,
+                                     const PosedView& other) {
+  const Eigen::Vector3d a = OpticalAxis(view), b = OpticalAxis(other);
+  const Eigen::Vector3d baseline = other.center - view.center;
+  const double cosine = a.dot(b);
+  const double sine2 = 1 - cosine * cosine;
+  if (sine2 < 3e-4) return std::nullopt;
+  const double depth = (baseline.dot(a) - cosine * baseline.dot(b)) / sine2;
+  if (!(depth > 0)) return std::nullopt;
+  return depth;
+}
+
+// Of the cameras, the nearest to one of them, nearest first; none in its place.
+class NearestCameras {
+ public:
+  explicit NearestCameras(const std::vector<PosedView>& views)
+      : views_(views), tree_(Centers(views)) {
+    Eigen::AlignedBox3d box;
+    for (const PosedView& view : views) box.extend(view.center);
+    size_ = box.isEmpty() ? 0 : box.diagonal().norm();
+  }
+
+  std::vector<std::size_t> To(std::size_t view_idx) const {
+    const Eigen::Vector3d& center = views_[view_idx].center;
+    std::vector<std::size_t> near;
+    for (double radius = size_ / static_cast<double>(views_.size());
+         near.size() < kMaxNumCameras;
+         radius *= 2) {
+      near = tree_.Within(center, std::min(radius, 2 * size_));
+      std::erase_if(near, [&](std::size_t other) {
+        return other == view_idx ||
+               ShareCenter(views_[view_idx], views_[other]);
+      });
+      if (radius >= 2 * size_) break;
+    }
+    const auto distance = [&](std::size_t other) {
+      return (views_[other].center - center).norm();
+    };
+    std::stable_sort(near.begin(), near.end(), [&](auto a, auto b) {
+      return distance(a) < distance(b);
+    });
+    near.resize(std::min(near.size(), kMaxNumCameras));
+    return near;
+  }
+
+ private:
+  static std::vector<Eigen::Vector3d> Centers(
+      const std::vector<PosedView>& views) {
+    std::vector<Eigen::Vector3d> centers;
+    for (const PosedView& view : views) centers.push_back(view.center);
+    return centers;
+  }
+
+  const std::vector<PosedView>& views_;
+  PointTree tree_;
+  double size_ = 0;  // no two cameras are further apart
+};
+
+double WorkingDepth(const std::vector<PosedView>& views,
+                    const NearestCameras& cameras,
+                    std::size_t view_idx) {
+  const std::vector<std::size_t> near = cameras.To(view_idx);
+  std::vector<double> depths;
+  for (const std::size_t other : near) {
+    if (const auto depth = DepthNearestTo(views[view_idx], views[other])) {
+      depths.push_back(*depth);
+    }
+  }
+  if (!depths.empty()) return Median(depths);
+  // Parallel cameras: an object some baselines away, as in a row of
+  // photographs.
+  if (near.empty()) return 1;
+  return 5 * (views[near.front()].center - views[view_idx].center).norm();
+}
+
+std::vector<Eigen::Vector3d> PlacesOnGrid(const PosedView& view, double depth) {
+  std::vector<Eigen::Vector3d> places;
+  for (const double fy : {0.3, 0.5, 0.7}) {
+    for (const double fx : {0.3, 0.5, 0.7}) {
+      places.push_back(view.center +
+                       depth * view.Ray({fx * view.width, fy * view.height}));
+    }
+  }
+  return places;
+}
+
+// The half spaces of what a view sees.
+class Frustum {
+ public:
+  explicit Frustum(const PosedView& view) {
+    const double fx = view.calibration(0, 0), cx = view.calibration(0, 2);
+    const double fy = view.calibration(1, 1), cy = view.calibration(1, 2);
+    const double m = view.margin_px;
+    const std::array<Eigen::Vector3d, 5> inward = {
+        {{0, 0, 1},
+         {fx, 0, cx + m},
+         {-fx, 0, view.width + m - cx},
+         {0, fy, cy + m},
+         {0, -fy, view.height + m - cy}}};
+    for (std::size_t i = 0; i < inward.size(); ++i) {
+      normals_[i] = view.rotation.transpose() * inward[i];
+      offsets_[i] = inward[i].dot(view.translation);
+    }
+  }
+
+  // False if the view sees nothing in the box.
+  bool MayMeet(const Eigen::AlignedBox3d& box) const {
+    constexpr double kRounding = 1e-9;
+    const Eigen::Vector3d center = box.center();
+    const Eigen::Vector3d half = box.sizes() / 2;
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+      const Eigen::Vector3d reach = normals_[i].cwiseAbs();
+      const double rounding = kRounding * (reach.dot(center.cwiseAbs() + half) +
+                                           std::abs(offsets_[i]));
+      if (normals_[i].dot(center) + reach.dot(half) + offsets_[i] < -rounding) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::array<Eigen::Vector3d, 5> normals_;
+  std::array<double, 5> offsets_;
+};
+
+// Finds the views some of whose places another view may see.
+class PlacesIndex {
+ public:
+  explicit PlacesIndex(
+      const std::vector<std::vector<Eigen::Vector3d>>& places) {
+    std::vector<std::size_t> view_idxs;
+    for (const std::vector<Eigen::Vector3d>& seen : places) {
+      view_idxs.push_back(view_idxs.size());
+      Eigen::AlignedBox3d& box = boxes_.emplace_back();
+      for (const Eigen::Vector3d& place : seen) box.extend(place);
+    }
+    tree_.init(
+        view_idxs.begin(), view_idxs.end(), boxes_.begin(), boxes_.end());
+  }
+
+  std::vector<std::size_t> SeenBy(const PosedView& view) const {
+    Query query{Frustum(view), boxes_, {}};
+    Eigen::BVIntersect(tree_, query);
+    return std::move(query.found);
+  }
+
+ private:
+  struct Query {
+    bool intersectVolume(const Eigen::AlignedBox3d& box) const {
+      return frustum.MayMeet(box);
+    }
+    bool intersectObject(std::size_t view_idx) {
+      if (frustum.MayMeet(boxes[view_idx])) found.push_back(view_idx);
+      return false;  // go on
+    }
+    Frustum frustum;
+    const std::vector<Eigen::AlignedBox3d>& boxes;
+    std::vector<std::size_t> found;
+  };
+
+  std::vector<Eigen::AlignedBox3d> boxes_;  // of the places of each view
+  Eigen::KdBVH<double, 3, std::size_t> tree_;
+};
+
+std::optional<ViewOverlap> Overlap(const PosedView& view,
+                                   const std::vector<Eigen::Vector3d>& places,
+                                   const PosedView& other) {
+  if (ShareCenter(view, other)) return std::nullopt;
+  std::vector<double> angles;
+  for (const Eigen::Vector3d& place : places) {
+    const Eigen::Vector3d x = other.InCamera(place);
+    if (!(x.z() > 0) || !other.Contains(other.Pixel(x))) continue;
+    const Eigen::Vector3d ray1 = place - view.center;
+    const Eigen::Vector3d ray2 = place - other.center;
+    angles.push_back(std::atan2(ray1.cross(ray2).norm(), ray1.dot(ray2)));
+  }
+  if (angles.empty()) return std::nullopt;
+  const Eigen::Vector3d baseline = (other.center - view.center).normalized();
+  const Eigen::Vector3d axis = OpticalAxis(view);
+  const Eigen::Vector3d across = baseline - axis * axis.dot(baseline);
+  ViewOverlap overlap;
+  overlap.share =
+      static_cast<double>(angles.size()) / static_cast<double>(places.size());
+  overlap.ray_angle_rad = Median(std::move(angles));
+  if (across.norm() > kMinAcross) overlap.baseline_across = across.normalized();
+  return overlap;
+}
+
+}  // namespace
+
+std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
+    const std::vector<PosedView>& views,
+    const std::vector<ScenePoint>& points) {
+  std::vector<std::vector<Eigen::Vector3d>> places(views.size());
+  for (const ScenePoint& point : points) {
+    for (const int view_idx : point.view_idxs) {
+      places[static_cast<std::size_t>(view_idx)].push_back(point.position);
+    }
+  }
+  const NearestCameras cameras(views);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<Eigen::Vector3d>& seen = places[i];
+    if (seen.size() < kMinNumPoints) {
+      seen = PlacesOnGrid(views[i], WorkingDepth(views, cameras, i));
+    } else if (seen.size() > kMaxNumPlaces) {
+      std::vector<Eigen::Vector3d> some;
+      for (std::size_t k = 0; k < kMaxNumPlaces; ++k) {
+        some.push_back(seen[k * seen.size() / kMaxNumPlaces]);
+      }
+      seen = std::move(some);
+    }
+  }
+  return places;
+}
+
+std::vector<std::vector<ViewOverlap>> FindOverlaps(
+    const std::vector<PosedView>& views,
+    const std::vector<ScenePoint>& points) {
+  const auto places = FindPlaces(views, points);
+  std::vector<std::vector<ViewOverlap>> overlaps(views.size());
+  if (views.size() < 2) return overlaps;
+  const PlacesIndex index(places);
+  std::vector<std::vector<std::size_t>> candidates(views.size());
+  for (std::size_t j = 0; j < views.size(); ++j) {
+    for (const std::size_t i : index.SeenBy(views[j])) {
+      if (i != j) candidates[i].push_back(j);
+    }
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (const std::size_t j : candidates[i]) {
+      if (auto overlap = Overlap(views[i], places[i], views[j])) {
+        overlap->other = static_cast<int>(j);
+        overlaps[i].push_back(*overlap);
+      }
+    }
+  }
+  return overlaps;
+}
+
+}  // namespace curvix

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 7 (accuracy, completeness, precision, recall, F-score, IoU); the
+// other measures are ours.
+#include "evaluation/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/median.h"
+#include "evaluation/resample_curves.h"
+#include "base/point_tree.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kNearMm = 5;         // what counts as the same place
+constexpr double kMinLengthMm = 10;   // shorter true curves are not counted
+constexpr double kMaxGapMm = 1.5;     // between the ends of touching curves
+constexpr double kMinCoverage = 0.9;  // of a curve that is drawn as a whole
+constexpr double kMaxNumSteps = 1e8;
+
+// Both sets and how they lie to each other.
+struct Comparison {
+  std::vector<CurveStep> predicted;
+  std::vector<TrueSample> truth;
+  std::vector<bool> visible;           // per true sample
+  std::vector<double> predicted_mm;    // distances predicted -> true
+  std::vector<double> true_mm;         // distances true -> predicted
+  std::vector<std::size_t> true_idxs;  // the nearest, per predicted sample
+  double near = 0;                     // kNearMm in world units
+  double unit_mm = 0;
+};
+
+Status Check(const CurveSet& curves,
+             const GroundTruth& truth,
+             const EvaluationOptions& options) {
+  const auto bad = [](const std::string& message) {
+    return Status(StatusCode::kInvalidArgument, message);
+  };
+  if (!(options.step > 0) || !std::isfinite(options.step)) {
+    return bad("The step of the evaluation must be > 0.");
+  }
+  if (!(options.unit_mm > 0) || !std::isfinite(options.unit_mm)) {
+    return bad("The millimetres per world unit must be > 0.");
+  }
+  if (truth.samples.empty()) {
+    return bad("There is no ground truth to compare with.");
+  }
+  if (!(CountSteps(curves, options.step) <= kMaxNumSteps)) {
+    return bad("The curves are too long for this step of the evaluation; " +
+               std::string("choose a longer one."));
+  }
+  return {};
+}
+
+template <typename Samples>
+std::vector<Eigen::Vector3d> Positions(const Samples& samples) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(samples.size());
+  for (const auto& sample : samples) positions.push_back(sample.position);
+  return positions;
+}
+
+void CompareNearest(Comparison& c) {
+  const PointTree truth_index(Positions(c.truth));
+  for (const CurveStep& step : c.predicted) {
+    const auto nearest = truth_index.Nearest(step.position);
+    c.predicted_mm.push_back(nearest.distance * c.unit_mm);
+    c.true_idxs.push_back(nearest.index);
+  }
+  const PointTree predicted_index(Positions(c.predicted));
+  for (const TrueSample& sample : c.truth) {
+    const auto nearest = predicted_index.Nearest(sample.position);
+    c.true_mm.push_back(nearest.distance * c.unit_mm);
+  }
+}
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double CountBelow(const std::vector<double>& values, double threshold) {
+  const auto below = [threshold](double value) { return value < threshold; };
+  return static_cast<double>(
+      std::count_if(values.begin(), values.end(), below));
+}
+
+double PercentBelow(const std::vector<double>& values, double threshold) {
+  return 100 * CountBelow(values, threshold) /
+         static_cast<double>(values.size());
+}
+
+double FScore(double precision, double recall) {
+  return 2 * precision * recall / std::max(precision + recall, 1e-12);
+}
+
+Agreement MeasureAgreement(const Comparison& c, double threshold_mm) {
+  Agreement result{threshold_mm};
+  result.precision = PercentBelow(c.predicted_mm, threshold_mm);
+  result.recall = PercentBelow(c.true_mm, threshold_mm);
+  result.f_score = FScore(result.precision, result.recall);
+  const auto [fewer, more] =
+      std::minmax({CountBelow(c.predicted_mm, threshold_mm),
+                   CountBelow(c.true_mm, threshold_mm)});
+  const double sum =
+      static_cast<double>(c.predicted_mm.size() + c.true_mm.size());
+  result.iou = 100 * fewer / (sum - more);
+  return result;
+}
+
+void MeasureVisible(const Comparison& c, Evaluation& result) {
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < c.truth.size(); ++i) {
+    if (c.visible[i]) distances.push_back(c.true_mm[i]);
+  }
+  if (distances.empty()) return;
+  result.visible_completeness_mm = Mean(distances);
+  result.visible_recall_5 = PercentBelow(distances, 5);
+  result.visible_recall_10 = PercentBelow(distances, 10);
+  result.visible_f_score_5 =
+      FScore(result.agreement[0].precision, *result.visible_recall_5);
+}
+
+std::optional<double> MedianTangentAngle(const Comparison& c) {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < c.predicted.size(); ++i) {
+    if (c.predicted_mm[i] >= kNearMm) continue;
+    const Eigen::Vector3d& tangent = c.truth[c.true_idxs[i]].tangent;
+    const double cosine = std::abs(c.predicted[i].tangent.dot(tangent));
+    angles.push_back(std::acos(std::min(cosine, 1.0)) * 180 / std::acos(-1.0));
+  }
+  if (angles.empty()) return std::nullopt;
+  return MedianOrNan(std::move(angles));
+}
+
+// The distance of neighbouring samples of the truth.
+std::optional<double> TrueSpacing(const std::vector<TrueSample>& truth) {
+  std::vector<double> distances;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    if (truth[i].curve_id != truth[i - 1].curve_id) continue;
+    distances.push_back((truth[i].position - truth[i - 1].position).norm());
+  }
+  if (distances.empty()) return std::nullopt;
+  return MedianOrNan(std::move(distances));
+}
+
+std::size_t MaxVotes(const std::map<std::size_t, std::size_t>& votes) {
+  std::size_t most = 0;
+  for (const auto& [key, count] : votes) most = std::max(most, count);
+  return most;
+}
+
+void MeasureWhole(const Comparison& c,
+                  const std::vector<int>& groups,
+                  double spacing,
+                  Evaluation& result) {
+  const PointTree index(Positions(c.predicted));
+  std::map<int, std::vector<std::size_t>> visible_of_curve;
+  for (std::size_t i = 0; i < c.truth.size(); ++i) {
+    if (c.visible[i]) visible_of_curve[c.truth[i].curve_id].push_back(i);
+  }
+  std::size_t num_curves = 0;
+  std::size_t num_whole = 0;
+  std::set<int> counted_groups;
+  for (const auto& [id, visible] : visible_of_curve) {
+    const auto size = static_cast<double>(visible.size());
+    if (size * spacing * c.unit_mm < kMinLengthMm) continue;
+    ++num_curves;
+    counted_groups.insert(groups[visible[0]]);
+    std::map<std::size_t, std::size_t> votes;  // per predicted curve
+    for (const std::size_t i : visible) {
+      std::set<std::size_t> touching;
+      for (const std::size_t k : index.Within(c.truth[i].position, c.near)) {
+        touching.insert(c.predicted[k].curve_idx);
+      }
+      for (const std::size_t curve_idx : touching) ++votes[curve_idx];
+    }
+    num_whole +=
+        static_cast<double>(MaxVotes(votes)) >= kMinCoverage * size ? 1 : 0;
+  }
+  result.num_true_curves = counted_groups.size();
+  if (num_curves == 0) return;
+  result.whole =
+      100 * static_cast<double>(num_whole) / static_cast<double>(num_curves);
+}
+
+std::optional<double> MeasurePure(const Comparison& c,
+                                  const std::vector<int>& groups) {
+  const PointTree index(Positions(c.truth));
+  // Per predicted curve, votes for the groups of true curves that it touches.
+  std::map<std::size_t, std::map<std::size_t, std::size_t>> votes_of_curve;
+  std::size_t num_near = 0;
+  for (std::size_t i = 0; i < c.predicted.size(); ++i) {
+    if (c.predicted_mm[i] >= kNearMm) continue;
+    ++num_near;
+    std::set<int> touching;
+    for (const std::size_t k : index.Within(c.predicted[i].position, c.near)) {
+      touching.insert(groups[k]);
+    }
+    auto& votes = votes_of_curve[c.predicted[i].curve_idx];
+    for (const int group : touching) ++votes[static_cast<std::size_t>(group)];
+  }
+  if (num_near == 0) return std::nullopt;
+  std::size_t num_pure = 0;
+  for (const auto& [curve, votes] : votes_of_curve) num_pure += MaxVotes(votes);
+  return 100 * static_cast<double>(num_pure) / static_cast<double>(num_near);
+}
+
+void MeasureCurves(const Comparison& c, double step, Evaluation& result) {
+  const std::optional<double> spacing = TrueSpacing(c.truth);
+  if (!spacing) return;
+  const double recalled = CountBelow(c.true_mm, kNearMm) * *spacing;
+  if (recalled > 0) {
+    result.duplication = CountBelow(c.predicted_mm, kNearMm) * step / recalled;
+  }
+  const std::vector<int> groups = SmoothGroups(c.truth, kMaxGapMm / c.unit_mm);
+  MeasureWhole(c, groups, *spacing, result);
+  result.pure = MeasurePure(c, groups);
+}
+
+std::size_t CountCurves(const std::vector<CurveStep>& steps) {
+  std::set<std::size_t> curves;
+  for (const CurveStep& step : steps) curves.insert(step.curve_idx);
+  return curves.size();
+}
+
+}  // namespace
+
+Result<Evaluation> EvaluateCurves(const CurveSet& curves,
+                                  const GroundTruth& truth,
+                                  const EvaluationOptions& options) {
+  Status status = Check(curves, truth, options);
+  if (!status.ok()) return status;
+  Comparison c;
+  c.predicted = Resample(curves, options.step);
+  c.truth = truth.samples;
+  c.unit_mm = options.unit_mm;
+  c.near = kNearMm / options.unit_mm;
+  for (const TrueSample& sample : truth.samples) {
+    c.visible.push_back(!truth.has_views ||
+                        sample.num_views_edge >= options.min_num_views);
+  }
+  Evaluation result;
+  result.num_predicted = c.predicted.size();
+  result.num_true = c.truth.size();
+  if (c.predicted.empty()) return result;
+
+  CompareNearest(c);
+  result.accuracy_mm = Mean(c.predicted_mm);
+  result.completeness_mm = Mean(c.true_mm);
+  for (Agreement& agreement : result.agreement) {
+    agreement = MeasureAgreement(c, agreement.threshold_mm);
+  }
+  MeasureVisible(c, result);
+  if (truth.has_tangents) result.tangent_deg = MedianTangentAngle(c);
+  if (truth.has_curve_ids) MeasureCurves(c, options.step, result);
+  result.num_curves = CountCurves(c.predicted);
+  return result;
+}
+
+}  // namespace curvix

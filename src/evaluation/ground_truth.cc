@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Ground-truth curves as text.
+#include "evaluation/ground_truth.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "base/file_io.h"
+
+namespace curvix {
+namespace {
+
+// The numbers of one line, comments removed; nothing if a word is not a finite
+// number.
+std::optional<std::vector<double>> ParseRow(std::string_view line) {
+  constexpr std::string_view kBlank = " \t\r\v\f,";
+  line = line.substr(0, line.find('#'));
+  std::vector<double> row;
+  while (true) {
+    const std::size_t begin = line.find_first_not_of(kBlank);
+    if (begin == std::string_view::npos) return row;
+    line.remove_prefix(begin);
+    std::string_view word = line.substr(0, line.find_first_of(kBlank));
+    line.remove_prefix(word.size());
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0;
+    const char* end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value)) {
+      return std::nullopt;
+    }
+    row.push_back(value);
+  }
+}
+
+int ToInt(double value) {
+  return static_cast<int>(std::clamp(value, -2e9, 2e9));
+}
+
+TrueSample MakeSample(const std::vector<double>& row) {
+  TrueSample sample;
+  sample.position = Eigen::Vector3d::Map(row.data());
+  if (row.size() >= 6) {
+    sample.tangent = Eigen::Vector3d::Map(row.data() + 3);
+  }
+  if (row.size() >= 7) sample.curve_id = ToInt(row[6]);
+  if (row.size() >= 8) {
+    sample.num_views_seen = ToInt(row[7]);
+    sample.num_views_edge = ToInt(row[row.size() >= 9 ? 8 : 7]);
+  }
+  return sample;
+}
+
+Status Broken(std::size_t line_number) {
+  return {StatusCode::kDataLoss,
+          "line " + std::to_string(line_number) +
+              " is not \"x y z [tx ty tz [curve_id [views_seen "
+              "[views_edge]]]]\" with as many numbers as the rows before it"};
+}
+
+}  // namespace
+
+Result<GroundTruth> ParseGroundTruth(std::string_view text) {
+  GroundTruth truth;
+  std::size_t num_columns = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const auto row = ParseRow(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (!row) return Broken(number);
+    if (row->empty()) continue;
+    if (num_columns == 0) num_columns = row->size();
+    if (row->size() != num_columns || num_columns < 3) return Broken(number);
+    truth.samples.push_back(MakeSample(*row));
+  }
+  if (truth.samples.empty()) {
+    return Status(StatusCode::kDataLoss, "there is no ground-truth sample");
+  }
+  truth.has_tangents = num_columns >= 6;
+  truth.has_curve_ids = num_columns >= 7;
+  truth.has_views = num_columns >= 8;
+  return truth;
+}
+
+Result<GroundTruth> ReadGroundTruth(const std::filesystem::path& path) {
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  Result<GroundTruth> truth = ParseGroundTruth(*text);
+  if (truth.ok()) return truth;
+  return Status(truth.status().code(),
+                path.string() + ": " + truth.status().message() + ".");
+}
+
+}  // namespace curvix

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Directions in space.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace curvix {
+
+using AcrossAxes = Eigen::Matrix<double, 3, 2>;
+
+// Two columns of unit length, orthogonal to each other and to `tangent`, which
+// has unit length. Together they are right-handed: tangent, first, second.
+inline AcrossAxes AxesAcross(const Eigen::Vector3d& tangent) {
+  AcrossAxes axes;
+  axes.col(0) = tangent.unitOrthogonal();
+  axes.col(1) = tangent.cross(axes.col(0));
+  return axes;
+}
+
+// In [0, pi], of vectors of any length; exact for small angles, too.
+inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace curvix

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Chooses the format by the extension.
+#include <curvix/curve_io.h>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "base/file_io.h"
+#include "io/dxf_drawing.h"
+#include "io/glb_curves.h"
+#include "io/obj_lines.h"
+#include "io/pcl_lines.h"
+#include "io/ply_lines.h"
+#include "io/svg_curves.h"
+#include "io/txt_curves.h"
+#include "io/vtp_curves.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// kInvalidArgument: another extension than ".ply" and so on.
+Status Encode(const std::string& extension,
+              const CurveSource& curves,
+              const Scene& scene,
+              const ByteSink& sink) {
+  if (extension == ".ply") return EncodePlyLines(curves, sink);
+  if (extension == ".pcd") return EncodePcd(curves, sink);
+  if (extension == ".glb") return EncodeGlbCurves(curves, sink);
+  if (extension == ".obj") {
+    EncodeObjLines(curves, sink);
+  } else if (extension == ".txt") {
+    EncodeTxtCurves(curves, scene, sink);
+  } else if (extension == ".vtp") {
+    EncodeVtpCurves(curves, sink);
+  } else {
+    return {StatusCode::kInvalidArgument,
+            "curves are written as .ply, .pcd, .obj, .txt, .vtp or .glb, "
+            "not as \"" +
+                extension + "\""};
+  }
+  return {};
+}
+
+Result<CurveSet> Decode(const std::string& extension,
+                        const std::string& bytes,
+                        const Scene& scene) {
+  if (extension == ".ply") return DecodePlyLines(bytes);
+  if (extension == ".obj") return DecodeObjLines(bytes);
+  if (extension == ".txt") return DecodeTxtCurves(bytes, scene);
+  return Status(StatusCode::kInvalidArgument,
+                "curves are read from .ply, .obj or .txt, not from \"" +
+                    extension + "\"");
+}
+
+// The same status with the file that it is about.
+Status About(const fs::path& path, const Status& status) {
+  return {status.code(), path.string() + ": " + status.message() + "."};
+}
+
+// A file of what `encode` gives.
+Status Write(const fs::path& path,
+             const std::function<Status(const ByteSink&)>& encode) {
+  FileWriter file(path);
+  if (const Status status = encode(file.Sink()); !status.ok()) {
+    return About(path, status);
+  }
+  return file.Finish();
+}
+
+// The same of curves, all of which can be read.
+Status Write(const fs::path& path,
+             const CurveSource& curves,
+             const std::function<Status(const ByteSink&)>& encode) {
+  FileWriter file(path);
+  const Status status = encode(file.Sink());
+  if (!curves.status().ok()) return curves.status();
+  return status.ok() ? file.Finish() : About(path, status);
+}
+
+}  // namespace
+
+Status WriteCurves(const fs::path& path,
+                   const CurveSource& curves,
+                   const Scene& scene) {
+  return Write(path, curves, [&](const ByteSink& sink) {
+    return Encode(path.extension().string(), curves, scene, sink);
+  });
+}
+
+Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
+  const Result<std::string> bytes = ReadFile(path);
+  if (!bytes.ok()) return bytes.status();
+  Result<CurveSet> curves = Decode(path.extension().string(), *bytes, scene);
+  if (!curves.ok()) return About(path, curves.status());
+  return curves;
+}
+
+Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
+  if (path.extension() != ".ply") {
+    return About(path,
+                 {StatusCode::kInvalidArgument, "edges are written as .ply"});
+  }
+  return Write(
+      path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
+}
+
+Status ConcatenateEdges(const fs::path& path,
+                        const std::vector<fs::path>& parts) {
+  FileWriter file(path);
+  const auto for_each_part =
+      [&](const std::function<void(std::string_view edges)>& take) -> Status {
+    for (const fs::path& part : parts) {
+      const Result<std::string> bytes = ReadFile(part);
+      if (!bytes.ok()) return bytes.status();
+      const Result<std::string_view> edges = FindPlyEdges(*bytes);
+      if (!edges.ok()) return About(part, edges.status());
+      take(*edges);
+    }
+    return {};
+  };
+  std::size_t num_bytes = 0;
+  Status status =
+      for_each_part([&](std::string_view edges) { num_bytes += edges.size(); });
+  if (!status.ok()) return status;
+  const Result<std::string> header = PlyEdgesHeader(num_bytes);
+  if (!header.ok()) return About(path, header.status());
+  file.Append(*header);
+  status = for_each_part(file.Sink());
+  return status.ok() ? file.Finish() : status;
+}
+
+Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
+  if (path.extension() != ".dxf") {
+    return About(path,
+                 {StatusCode::kInvalidArgument,
+                  "a drawing of fitted curves is written as .dxf, not as \"" +
+                      path.extension().string() + "\""});
+  }
+  return Write(path, [&](const ByteSink& sink) {
+    EncodeDxfDrawing(fitted, sink);
+    return Status();
+  });
+}
+
+Status WriteProjection(const fs::path& path,
+                       const CurveSource& curves,
+                       const View& view,
+                       const Camera& camera) {
+  if (path.extension() != ".svg") {
+    return About(path,
+                 {StatusCode::kInvalidArgument,
+                  "projected curves are written as .svg, not as \"" +
+                      path.extension().string() + "\""});
+  }
+  return Write(path, curves, [&](const ByteSink& sink) {
+    EncodeSvgCurves(curves, view, camera, sink);
+    return Status();
+  });
+}
+
+}  // namespace curvix

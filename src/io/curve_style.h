@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). What the files say about a curve beyond geometry.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace curvix {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+// The colour of curve `id`: hues a golden section of the circle apart, so that
+// neighbouring ids look different, in three brightnesses.
+Rgb CurveColor(std::size_t id);
+
+// The colour of a sign-free unit direction: |x| red, |y| green, |z| blue, as
+// tensor images colour it.
+Rgb DirectionColor(const Eigen::Vector3d& tangent);
+
+// How far a sample may be trusted, in [0, 1): n / (n + 4) for n supporting
+// views. Four views, the least that validation asks for by default, give 0.5;
+// twelve give 0.75; a sample that a gap was bridged with gives 0.
+float Confidence(std::size_t num_supporting_views);
+
+}  // namespace curvix

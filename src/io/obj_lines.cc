@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Line sets as Wavefront OBJ.
+#include "io/obj_lines.h"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "base/text_fields.h"
+#include "io/curve_style.h"
+#include "io/polylines.h"
+
+namespace curvix {
+namespace {
+
+void AppendSegment(std::size_t a, std::size_t b, std::string& out) {
+  out += "l ";
+  AppendNumber(a, out);
+  out += ' ';
+  AppendNumber(b, out);
+  out += '\n';
+}
+
+void AppendVertex(const Eigen::Vector3d& position,
+                  const Rgb& color,
+                  std::string& out) {
+  out += 'v';
+  for (int i = 0; i < 3; ++i) {
+    out += ' ';
+    AppendNumber(position[i], out);
+  }
+  for (const std::uint8_t channel : color) {
+    out += ' ';
+    AppendNumber(std::round(channel / 0.255) / 1000, out);
+  }
+  out += '\n';
+}
+
+// Adds the vertices and edges of one line; false if it is broken.
+bool ParseVertex(std::string_view words, LineGraph& graph) {
+  Eigen::Vector3d position;
+  for (int i = 0; i < 3; ++i) {
+    const auto value = ParseNumber<double>(TakeWord(words));
+    if (!value) return false;
+    position[i] = *value;
+  }
+  graph.positions.push_back(position);
+  return true;
+}
+
+bool ParseLine(std::string_view words, LineGraph& graph) {
+  const auto size = static_cast<std::int64_t>(graph.positions.size());
+  std::optional<std::int64_t> previous;
+  while (true) {
+    const std::string_view word = TakeWord(words);
+    if (word.empty()) return previous.has_value();
+    const auto number =
+        ParseNumber<std::int64_t>(word.substr(0, word.find('/')));
+    // Numbers count from 1; negative ones count back from the last vertex.
+    if (!number || *number == 0 || *number < -size) return false;
+    const std::int64_t vertex = *number > 0 ? *number - 1 : size + *number;
+    if (previous) graph.edges.push_back({*previous, vertex});
+    previous = vertex;
+  }
+}
+
+Status Broken(std::size_t line_number, std::string_view line) {
+  return {StatusCode::kDataLoss,
+          "line " + std::to_string(line_number) + " is not understood: \"" +
+              std::string(line.substr(0, 80)) + "\""};
+}
+
+}  // namespace
+
+void EncodeObjLines(const CurveSource& curves, const ByteSink& sink) {
+  sink("# 3D curves of curvix: v x y z red green blue, l from to\n");
+  std::size_t first = 1;
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    const std::size_t n = curve.samples.size();
+    std::string out = "o curve_";
+    AppendNumber(id, out);
+    out += '\n';
+    for (const CurveSample& sample : curve.samples) {
+      AppendVertex(sample.position, CurveColor(id), out);
+    }
+    for (std::size_t i = 1; i < n; ++i) {
+      AppendSegment(first + i - 1, first + i, out);
+    }
+    if (curve.closed && n > 2) AppendSegment(first + n - 1, first, out);
+    first += n;
+    sink(out);
+  });
+}
+
+Result<CurveSet> DecodeObjLines(std::string_view bytes) {
+  LineGraph graph;
+  bool any_line = false;
+  bool only_comments = true;
+  for (std::size_t number = 1; !bytes.empty(); ++number) {
+    const std::string_view line = TakeLine(bytes);
+    std::string_view words = line;
+    const std::string_view keyword = TakeWord(words);
+    if (keyword.empty() || keyword.starts_with('#')) continue;
+    only_comments = false;
+    bool understood = true;
+    if (keyword == "v") understood = ParseVertex(words, graph);
+    if (keyword == "l") {
+      any_line = true;
+      understood = ParseLine(words, graph);
+    }
+    if (!understood) return Broken(number, line);
+  }
+  if (!any_line && !only_comments) {
+    return Status(StatusCode::kUnsupported,
+                  "the OBJ has no line (\"l\"), so it holds no curves");
+  }
+  return JoinPolylines(graph);
+}
+
+}  // namespace curvix

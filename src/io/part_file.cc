@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Results of parts to and from files.
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <istream>
+#include <string>
+
+#include "io/stage_file.h"
+#include "io/stage_io.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48;
+
+Eigen::Matrix3d TakeSymmetric(ByteReader& in) {
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) {
+      matrix(row, column) = matrix(column, row) = in.Take<double>();
+    }
+  }
+  return matrix;
+}
+
+namespace fs = std::filesystem;
+
+// Up to so many of the bytes that come next.
+std::string ReadSome(std::istream& in, std::size_t num_bytes) {
+  std::string bytes(num_bytes, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(num_bytes));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+// Whether what follows is what the head says.
+bool HasContent(std::istream& in, const StageHead& head) {
+  constexpr std::size_t kChunk = 1 << 20;
+  std::uint64_t num_bytes = 0;
+  std::uint64_t hash = HashBytes("");
+  while (in) {
+    const std::string bytes = ReadSome(in, kChunk);
+    num_bytes += bytes.size();
+    hash = HashBytes(bytes, hash);
+  }
+  in.clear();
+  return num_bytes == head.num_bytes && hash == head.checksum;
+}
+
+void Put(const TracedCurve& traced, ByteWriter& out) {
+  const Curve& curve = traced.curve;
+  out.Put(static_cast<std::uint8_t>(curve.closed));
+  out.Put(static_cast<std::uint8_t>(curve.is_occluding_contour));
+  out.PutCount(curve.samples.size());
+  for (const CurveSample& sample : curve.samples) {
+    PutEdge(sample, out);
+    for (const double entry : Triangle(sample.covariance)) out.Put(entry);
+  }
+  out.PutCount(traced.edges.size());
+  for (const Edge2d& edge : traced.edges) Put(edge, out);
+}
+
+TracedCurve TakeTracedCurve(ByteReader& in) {
+  TracedCurve traced;
+  traced.curve.closed = in.Take<std::uint8_t>() != 0;
+  traced.curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
+  traced.curve.samples.resize(in.TakeCount(kCurveSampleBytes));
+  for (CurveSample& sample : traced.curve.samples) {
+    sample = TakeEdge<CurveSample>(in);
+    sample.covariance = TakeSymmetric(in);
+  }
+  traced.edges.resize(in.TakeCount(kEdge2dBytes));
+  for (Edge2d& edge : traced.edges) edge = TakeEdge2d(in);
+  return traced;
+}
+
+}  // namespace
+
+Status WritePartResult(const fs::path& path,
+                       std::uint64_t key,
+                       const PartResult& part) {
+  ByteWriter head;
+  head.Put(part.num_own_edges_2d);
+  head.Put(part.num_core_edges_3d);
+  head.PutCount(part.curves.size());
+  ByteWriter curves;
+  for (const TracedCurve& curve : part.curves) {
+    const std::size_t begin = curves.bytes().size();
+    Put(curve, curves);
+    head.PutCount(curves.bytes().size() - begin);
+  }
+  return WriteStage(
+      path, StageKind::kPartResult, key, head.bytes() + curves.bytes());
+}
+
+Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
+  PartFile file(path);
+  file.stream_.open(path, std::ios::binary);
+  if (!file.stream_) {
+    return Status(StatusCode::kNotFound, "Cannot open " + path.string() + ".");
+  }
+  const Result<StageHead> head =
+      ReadStageHead(path,
+                    ReadSome(file.stream_, kStageHeadBytes),
+                    StageKind::kPartResult,
+                    key);
+  if (!head.ok()) return head.status();
+  if (!HasContent(file.stream_, *head)) return BrokenStage(path);
+
+  constexpr std::size_t kCountsBytes = 24;
+  file.stream_.seekg(kStageHeadBytes);
+  const std::string counts = ReadSome(file.stream_, kCountsBytes);
+  ByteReader in(counts);
+  file.num_own_edges_2d_ = in.Take<std::int64_t>();
+  file.num_core_edges_3d_ = in.Take<std::int64_t>();
+  const auto num_curves = in.Take<std::uint64_t>();
+  constexpr std::size_t kSizeBytes = 8;
+  if (!in.ok() || num_curves > head->num_bytes / kSizeBytes) {
+    return BrokenStage(path);
+  }
+  const std::string sizes = ReadSome(file.stream_, kSizeBytes * num_curves);
+  in = ByteReader(sizes);
+  std::uint64_t offset = kStageHeadBytes + kCountsBytes + sizes.size();
+  const std::uint64_t end = kStageHeadBytes + head->num_bytes;
+  file.offsets_.push_back(offset);
+  for (std::uint64_t i = 0; i < num_curves; ++i) {
+    const auto size = in.Take<std::uint64_t>();
+    if (offset > end || size > end - offset) return BrokenStage(path);
+    file.offsets_.push_back(offset += size);
+  }
+  if (!in.AtEnd() || offset != end) return BrokenStage(path);
+  return file;
+}
+
+Result<TracedCurve> PartFile::Read(std::size_t curve_idx) {
+  if (!stream_.is_open()) stream_.open(path_, std::ios::binary);
+  stream_.clear();
+  const std::uint64_t begin = offsets_.at(curve_idx);
+  const std::uint64_t end = offsets_.at(curve_idx + 1);
+  stream_.seekg(static_cast<std::streamoff>(begin));
+  const std::string bytes = ReadSome(stream_, end - begin);
+  ByteReader in(bytes);
+  TracedCurve curve = TakeTracedCurve(in);
+  if (bytes.size() != end - begin || !in.AtEnd()) return BrokenStage(path_);
+  return curve;
+}
+
+}  // namespace curvix

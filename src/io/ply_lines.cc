@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Line sets as PLY.
+#include "io/ply_lines.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "base/bytes.h"
+#include "io/curve_style.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::string_view kPlyStart =
+    "ply\n"
+    "format binary_little_endian 1.0\n"
+    "comment curvix: coordinates are those of the COLMAP model\n"
+    "element vertex ";
+constexpr std::string_view kPlyGeometry =
+    "\n"
+    "property float x\n"
+    "property float y\n"
+    "property float z\n"
+    "property float tx\n"
+    "property float ty\n"
+    "property float tz\n"
+    "property uchar red\n"
+    "property uchar green\n"
+    "property uchar blue\n";
+constexpr std::string_view kEndOfHeader = "end_header\n";
+constexpr std::size_t kEdgeBytes = 31;  // of edges before they are grouped
+constexpr std::size_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
+
+Status TooManyVertices(std::size_t count) {
+  return {StatusCode::kUnsupported,
+          "A PLY file names vertices with 32 bits, too few for " +
+              std::to_string(count) + " of them; write .txt instead"};
+}
+
+void AppendVector(const Eigen::Vector3d& vector, std::string& out) {
+  for (int i = 0; i < 3; ++i) {
+    AppendLittleEndian(static_cast<float>(vector[i]), out);
+  }
+}
+
+void AppendRgb(const Rgb& rgb, std::string& out) {
+  for (const std::uint8_t channel : rgb) AppendLittleEndian(channel, out);
+}
+
+// A curve of two samples closes onto the same segment, so it stays open.
+bool HasClosingEdge(const Curve& curve) {
+  return curve.closed && curve.samples.size() > 2;
+}
+
+std::string LinesHeader(std::size_t num_vertices,
+                        std::size_t num_edges,
+                        bool is_labelled) {
+  std::string header(kPlyStart);
+  header += std::to_string(num_vertices);
+  header += kPlyGeometry;
+  header +=
+      "property float curve_id\n"
+      "property float confidence\n"
+      "property float support\n";
+  if (is_labelled) header += "property uchar occluding\n";
+  header += "element edge ";
+  header += std::to_string(num_edges);
+  header +=
+      "\n"
+      "property int vertex1\n"
+      "property int vertex2\n"
+      "end_header\n";
+  return header;
+}
+
+void AppendVertices(const Curve& curve,
+                    std::size_t id,
+                    bool is_labelled,
+                    std::string& out) {
+  const Rgb color = CurveColor(id);
+  for (const CurveSample& sample : curve.samples) {
+    AppendVector(sample.position, out);
+    AppendVector(sample.tangent, out);
+    AppendRgb(color, out);
+    AppendLittleEndian(static_cast<float>(id), out);
+    AppendLittleEndian(Confidence(sample.support.size()), out);
+    AppendLittleEndian(static_cast<float>(sample.support.size()), out);
+    if (is_labelled) {
+      AppendLittleEndian(
+          static_cast<std::uint8_t>(curve.is_occluding_contour ? 1 : 0), out);
+    }
+  }
+}
+
+void AppendEdge(std::size_t from, std::size_t to, std::string& out) {
+  AppendLittleEndian(static_cast<std::int32_t>(from), out);
+  AppendLittleEndian(static_cast<std::int32_t>(to), out);
+}
+
+void AppendEdges(const Curve& curve, std::size_t first, std::string& out) {
+  for (std::size_t i = 1; i < curve.samples.size(); ++i) {
+    AppendEdge(first + i - 1, first + i, out);
+  }
+  if (HasClosingEdge(curve)) {
+    AppendEdge(first + curve.samples.size() - 1, first, out);
+  }
+}
+
+std::string EdgesHeader(std::size_t num_edges) {
+  std::string header(kPlyStart);
+  header += std::to_string(num_edges);
+  header += kPlyGeometry;
+  header += "property float support\n";
+  header += kEndOfHeader;
+  return header;
+}
+
+}  // namespace
+
+Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
+  std::size_t num_vertices = 0;
+  std::size_t num_edges = 0;
+  bool is_labelled = false;  // only if the user asked for it
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    num_vertices += curve.samples.size();
+    num_edges += curve.samples.empty() ? 0 : curve.samples.size() - 1;
+    num_edges += HasClosingEdge(curve) ? 1 : 0;
+    is_labelled = is_labelled || curve.is_occluding_contour;
+  });
+  if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
+
+  sink(LinesHeader(num_vertices, num_edges, is_labelled));
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    std::string out;
+    AppendVertices(curve, id, is_labelled, out);
+    sink(out);
+  });
+  std::size_t first = 0;
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    std::string out;
+    AppendEdges(curve, first, out);
+    first += curve.samples.size();
+    sink(out);
+  });
+  return {};
+}
+
+Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink) {
+  if (edges.size() > kMaxVertices) return TooManyVertices(edges.size());
+  sink(EdgesHeader(edges.size()));
+  for (const Edge3d& edge : edges) {
+    std::string out;
+    AppendVector(edge.position, out);
+    AppendVector(edge.tangent, out);
+    AppendRgb(DirectionColor(edge.tangent), out);
+    AppendLittleEndian(static_cast<float>(edge.support.size()), out);
+    sink(out);
+  }
+  return {};
+}
+
+Result<std::string_view> FindPlyEdges(std::string_view bytes) {
+  const std::size_t end = bytes.find(kEndOfHeader);
+  if (end != std::string_view::npos) {
+    const std::string_view body = bytes.substr(end + kEndOfHeader.size());
+    if (bytes.substr(0, bytes.size() - body.size()) ==
+            EdgesHeader(body.size() / kEdgeBytes) &&
+        body.size() % kEdgeBytes == 0) {
+      return body;
+    }
+  }
+  return Status(StatusCode::kDataLoss,
+                "it is broken, or was not written by curvix");
+}
+
+Result<std::string> PlyEdgesHeader(std::size_t num_bytes_of_edges) {
+  const std::size_t num_edges = num_bytes_of_edges / kEdgeBytes;
+  if (num_edges > kMaxVertices) return TooManyVertices(num_edges);
+  return EdgesHeader(num_edges);
+}
+
+}  // namespace curvix

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Line sets as PLY; docs/output_format.md.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/status.h>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/file_io.h"
+
+namespace curvix {
+
+// Binary little endian. Vertex: float x y z tx ty tz, uchar red green blue (one
+// colour per curve), float curve_id confidence support, and if any curve is
+// labelled as an occluding contour, uchar occluding (0 or 1). Edge: int vertex1
+// vertex2. Only float and uchar in vertices: COLMAP aborts on anything else.
+// Each curve has its own consecutive vertices, in order, and its edges follow
+// in order too, the closing edge last. More than 2^31 - 1 vertices are
+// kUnsupported.
+Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink);
+
+// The same vertices for edges before they are grouped: float x y z tx ty tz,
+// uchar red green blue (by direction), float support. No `element edge`.
+Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink);
+
+// The edges in such a file, which are of one size, and what must stand before
+// so many of them. kDataLoss: it is no such file.
+Result<std::string_view> FindPlyEdges(std::string_view bytes);
+Result<std::string> PlyEdgesHeader(std::size_t num_bytes_of_edges);
+
+// The curves of any PLY with `element vertex` (x, y, z, of any scalar type) and
+// `element edge` (vertex1, vertex2): ASCII or binary, with whatever further
+// elements and properties. Vertices tx, ty, tz become tangents where present
+// and not zero. Curves as JoinPolylines makes them; sigma 0, no support.
+// kDataLoss for a file that is broken, truncated or not PLY, kUnsupported for a
+// PLY without lines. Memory stays in proportion to bytes.size().
+Result<CurveSet> DecodePlyLines(std::string_view bytes);
+
+}  // namespace curvix

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Any PLY file as columns of numbers.
+#include "io/ply_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "base/bytes.h"
+#include "base/text_fields.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
+    {"char", PlyType::kInt8},
+    {"int8", PlyType::kInt8},
+    {"uchar", PlyType::kUint8},
+    {"uint8", PlyType::kUint8},
+    {"short", PlyType::kInt16},
+    {"int16", PlyType::kInt16},
+    {"ushort", PlyType::kUint16},
+    {"uint16", PlyType::kUint16},
+    {"int", PlyType::kInt32},
+    {"int32", PlyType::kInt32},
+    {"uint", PlyType::kUint32},
+    {"uint32", PlyType::kUint32},
+    {"float", PlyType::kFloat32},
+    {"float32", PlyType::kFloat32},
+    {"double", PlyType::kFloat64},
+    {"float64", PlyType::kFloat64},
+}};
+
+std::optional<PlyType> TypeOf(std::string_view name) {
+  for (const auto& [known, type] : kTypeNames) {
+    if (known == name) return type;
+  }
+  return std::nullopt;
+}
+
+std::size_t SizeOf(PlyType type) {
+  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+std::optional<PlyFormat> FormatOf(std::string_view name) {
+  if (name == "ascii") return PlyFormat::kAscii;
+  if (name == "binary_little_endian") return PlyFormat::kBinaryLittleEndian;
+  if (name == "binary_big_endian") return PlyFormat::kBinaryBigEndian;
+  return std::nullopt;
+}
+
+std::optional<PlyElement> ParseElement(std::string_view words) {
+  PlyElement element;
+  element.name = TakeWord(words);
+  const auto count = ParseNumber<std::uint64_t>(TakeWord(words));
+  if (!count) return std::nullopt;
+  element.count = *count;
+  return element;
+}
+
+std::optional<PlyProperty> ParseProperty(std::string_view words) {
+  PlyProperty property;
+  std::string_view type_name = TakeWord(words);
+  if (type_name == "list") {
+    property.count_type = TypeOf(TakeWord(words));
+    if (!property.count_type) return std::nullopt;
+    type_name = TakeWord(words);
+  }
+  const std::optional<PlyType> type = TypeOf(type_name);
+  property.name = TakeWord(words);
+  if (!type || property.name.empty()) return std::nullopt;
+  property.type = *type;
+  return property;
+}
+
+// Adds what one line says to `header`; false if it says nothing sensible.
+bool ParseHeaderLine(std::string_view line, PlyHeader& header) {
+  const std::string_view keyword = TakeWord(line);
+  if (keyword.empty() || keyword == "comment" || keyword == "obj_info") {
+    return true;
+  }
+  if (keyword == "format") {
+    const std::optional<PlyFormat> format = FormatOf(TakeWord(line));
+    if (format) header.format = *format;
+    return format.has_value();
+  }
+  if (keyword == "element") {
+    std::optional<PlyElement> element = ParseElement(line);
+    if (!element) return false;
+    header.elements.push_back(*std::move(element));
+    return true;
+  }
+  if (keyword == "property" && !header.elements.empty()) {
+    std::optional<PlyProperty> property = ParseProperty(line);
+    if (!property) return false;
+    header.elements.back().properties.push_back(*std::move(property));
+    return true;
+  }
+  return false;
+}
+
+double LoadScalar(const char* bytes, PlyType type, std::endian order) {
+  switch (type) {
+    case PlyType::kInt8:
+      return LoadBytes<std::int8_t>(bytes, order);
+    case PlyType::kUint8:
+      return LoadBytes<std::uint8_t>(bytes, order);
+    case PlyType::kInt16:
+      return LoadBytes<std::int16_t>(bytes, order);
+    case PlyType::kUint16:
+      return LoadBytes<std::uint16_t>(bytes, order);
+    case PlyType::kInt32:
+      return LoadBytes<std::int32_t>(bytes, order);
+    case PlyType::kUint32:
+      return LoadBytes<std::uint32_t>(bytes, order);
+    case PlyType::kFloat32:
+      return static_cast<double>(LoadBytes<float>(bytes, order));
+    case PlyType::kFloat64:
+      return LoadBytes<double>(bytes, order);
+  }
+  return 0;
+}
+
+std::optional<double> TakeScalar(PlyType type,
+                                 PlyFormat format,
+                                 std::string_view& body) {
+  if (format == PlyFormat::kAscii) {
+    return ParseNumber<double>(TakeWord(body));
+  }
+  const std::size_t size = SizeOf(type);
+  if (body.size() < size) return std::nullopt;
+  const double value =
+      LoadScalar(body.data(),
+                 type,
+                 format == PlyFormat::kBinaryBigEndian ? std::endian::big
+                                                       : std::endian::little);
+  body.remove_prefix(size);
+  return value;
+}
+
+bool SkipListItems(const PlyProperty& property,
+                   double count,
+                   PlyFormat format,
+                   std::string_view& body) {
+  // Every item takes at least a byte.
+  if (!(count >= 0 && count <= static_cast<double>(body.size()))) return false;
+  for (auto left = static_cast<std::uint64_t>(count); left > 0; --left) {
+    if (!TakeScalar(property.type, format, body)) return false;
+  }
+  return true;
+}
+
+// Reads one row into `row`: a scalar per property, the length for a list.
+bool TakeRow(const PlyElement& element,
+             PlyFormat format,
+             std::string_view& body,
+             std::vector<double>& row) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    const PlyType type = property.count_type.value_or(property.type);
+    const std::optional<double> value = TakeScalar(type, format, body);
+    if (!value) return false;
+    row[i] = *value;
+    if (property.count_type && !SkipListItems(property, *value, format, body)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The least number of bytes that a row takes.
+std::uint64_t MinRowBytes(const PlyElement& element, PlyFormat format) {
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    bytes += format == PlyFormat::kAscii
+                 ? 2  // a digit and the blank or line end after it
+                 : SizeOf(property.count_type.value_or(property.type));
+  }
+  return bytes;
+}
+
+Status Broken(const PlyElement& element, std::uint64_t row) {
+  return {StatusCode::kDataLoss,
+          "element " + element.name + " announces " +
+              std::to_string(element.count) + " rows but ends or breaks in " +
+              "row " + std::to_string(row) +
+              "; the file is truncated or "
+              "damaged"};
+}
+
+}  // namespace
+
+Result<PlyHeader> TakePlyHeader(std::string_view& bytes) {
+  Status not_ply(StatusCode::kDataLoss, "the file is not PLY");
+  if (TakeLine(bytes) != "ply") return not_ply;
+  PlyHeader header;
+  while (!bytes.empty()) {
+    const std::string_view line = TakeLine(bytes);
+    if (line == "end_header") return header;
+    if (ParseHeaderLine(line, header)) continue;
+    return Status(StatusCode::kDataLoss,
+                  "the PLY header has a line that is not understood: \"" +
+                      std::string(line.substr(0, 80)) + "\"");
+  }
+  return Status(StatusCode::kDataLoss,
+                "the PLY header has no end_header; the file is truncated");
+}
+
+std::optional<std::size_t> FindScalar(const PlyElement& element,
+                                      std::string_view name) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    const PlyProperty& property = element.properties[i];
+    if (property.name == name && !property.count_type) return i;
+  }
+  return std::nullopt;
+}
+
+Result<std::vector<double>> TakePlyRows(const PlyElement& element,
+                                        PlyFormat format,
+                                        const std::vector<std::size_t>& wanted,
+                                        std::string_view& body) {
+  std::vector<double> table;
+  const std::uint64_t row_bytes = MinRowBytes(element, format);
+  if (row_bytes == 0) return table;
+  // The last blank of an ASCII file may be missing.
+  const std::uint64_t max_rows = (body.size() + 1) / row_bytes;
+  if (element.count > max_rows) return Broken(element, max_rows);
+
+  table.reserve(element.count * wanted.size());
+  std::vector<double> row(element.properties.size());
+  for (std::uint64_t i = 0; i < element.count; ++i) {
+    if (!TakeRow(element, format, body, row)) return Broken(element, i);
+    for (const std::size_t column : wanted) table.push_back(row[column]);
+  }
+  return table;
+}
+
+}  // namespace curvix

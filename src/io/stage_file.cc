@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "io/stage_file.h"
+
+#include "base/file_io.h"
+#include "io/stage_io.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "CVXSTAGE" in the byte order of the machine.
+constexpr std::uint64_t kMagic = 0x4547415453585643;
+constexpr std::uint32_t kVersion = 5;
+
+Status Other(const fs::path& path) {
+  return {StatusCode::kNotFound,
+          path.string() + " is the result of another input, of other options " +
+              "or of another program."};
+}
+
+}  // namespace
+
+std::uint64_t HashBytes(std::string_view bytes, std::uint64_t hash) {
+  for (const char c : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  return hash;
+}
+
+Status BrokenStage(const fs::path& path) {
+  return {StatusCode::kDataLoss,
+          path.string() + " is broken or truncated; remove it."};
+}
+
+Status WriteStage(const fs::path& path,
+                  StageKind kind,
+                  std::uint64_t key,
+                  const std::string& content) {
+  ByteWriter file;
+  file.Put(kMagic);
+  file.Put(kVersion);
+  file.Put(static_cast<std::uint32_t>(kind));
+  file.Put(key);
+  file.PutCount(content.size());
+  file.Put(HashBytes(content));
+  return WriteFileAtomically(path, file.bytes() + content);
+}
+
+Result<StageHead> ReadStageHead(const fs::path& path,
+                                std::string_view bytes,
+                                StageKind kind,
+                                std::uint64_t key) {
+  ByteReader in(bytes);
+  const bool is_stage = in.Take<std::uint64_t>() == kMagic &&
+                        in.Take<std::uint32_t>() == kVersion;
+  const bool is_kind =
+      in.Take<std::uint32_t>() == static_cast<std::uint32_t>(kind);
+  const bool is_key = in.Take<std::uint64_t>() == key;
+  StageHead head;
+  head.num_bytes = in.Take<std::uint64_t>();
+  head.checksum = in.Take<std::uint64_t>();
+  if (!in.ok()) return BrokenStage(path);
+  if (!is_stage || !is_kind || !is_key) return Other(path);
+  return head;
+}
+
+Result<std::string> ReadStage(const fs::path& path,
+                              StageKind kind,
+                              std::uint64_t key) {
+  Result<std::string> bytes = ReadFile(path);
+  if (!bytes.ok()) return bytes;
+  const Result<StageHead> head = ReadStageHead(path, *bytes, kind, key);
+  if (!head.ok()) return head.status();
+  bytes->erase(0, kStageHeadBytes);
+  if (bytes->size() != head->num_bytes || HashBytes(*bytes) != head->checksum) {
+    return BrokenStage(path);
+  }
+  return bytes;
+}
+
+}  // namespace curvix

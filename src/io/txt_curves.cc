@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Curves as text.
+#include "io/txt_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "base/check.h"
+#include "base/text_fields.h"
+
+namespace curvix {
+namespace {
+
+// image id -> view number
+using ViewByImageId = std::map<std::uint32_t, std::int32_t>;
+
+struct CurveHead {
+  bool closed = false;
+  std::size_t num_samples = 0;
+};
+
+void AppendSample(const CurveSample& sample,
+                  const Scene& scene,
+                  std::string& out) {
+  for (int i = 0; i < 3; ++i) {
+    AppendNumber(sample.position[i], out);
+    out += ' ';
+  }
+  for (int i = 0; i < 3; ++i) {
+    AppendNumber(sample.tangent[i], out);
+    out += ' ';
+  }
+  AppendNumber(sample.sigma, out);
+  for (const EdgeRef& ref : sample.support) {
+    if (scene.views.empty()) break;
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    CURVIX_CHECK(view_idx < scene.views.size(), "support names a view");
+    out += ' ';
+    AppendNumber(scene.views[view_idx].image_id, out);
+  }
+  out += '\n';
+}
+
+std::optional<CurveHead> ParseHead(std::string_view line) {
+  const auto id = ParseNumber<std::uint64_t>(TakeWord(line));
+  const std::string_view closed = TakeWord(line);
+  const auto count = ParseNumber<std::uint64_t>(TakeWord(line));
+  const bool is_flag = closed == "0" || closed == "1";
+  if (!id || !is_flag || !count || !TakeWord(line).empty()) return std::nullopt;
+  if (*count < 2) return std::nullopt;
+  return CurveHead{closed == "1", static_cast<std::size_t>(*count)};
+}
+
+// Fills `support` from the image ids in `words`; false if one is not a number.
+bool ParseSupport(std::string_view words,
+                  const ViewByImageId& views,
+                  std::vector<EdgeRef>& support) {
+  while (true) {
+    const std::string_view word = TakeWord(words);
+    if (word.empty()) break;
+    const auto image_id = ParseNumber<std::uint32_t>(word);
+    if (!image_id) return false;
+    const auto view = views.find(*image_id);
+    if (view != views.end()) support.push_back({view->second, 0});
+  }
+  std::sort(support.begin(), support.end());
+  support.erase(std::unique(support.begin(), support.end()), support.end());
+  return true;
+}
+
+std::optional<CurveSample> ParseSample(std::string_view line,
+                                       const ViewByImageId& views) {
+  std::array<double, 7> numbers;
+  for (double& number : numbers) {
+    const auto value = ParseNumber<double>(TakeWord(line));
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    number = *value;
+  }
+  CurveSample sample;
+  sample.position = Eigen::Vector3d::Map(numbers.data());
+  sample.tangent = Eigen::Vector3d::Map(numbers.data() + 3);
+  sample.sigma = numbers[6];
+  if (!ParseSupport(line, views, sample.support)) return std::nullopt;
+  return sample;
+}
+
+Status Broken(std::size_t line_number, const std::string& expected) {
+  return {StatusCode::kDataLoss,
+          "line " + std::to_string(line_number) + " is not " + expected +
+              "; the file is truncated or was changed by hand"};
+}
+
+// The lines of a text that are neither blank nor comments.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : text_(text) {}
+
+  std::optional<std::string_view> Next() {
+    while (!text_.empty()) {
+      const std::string_view line = TakeLine(text_);
+      ++number_;
+      std::string_view words = line;
+      const std::string_view first = TakeWord(words);
+      if (!first.empty() && !first.starts_with('#')) return line;
+    }
+    return std::nullopt;
+  }
+  std::size_t number() const { return number_; }  // of the line given last
+  std::size_t bytes_left() const { return text_.size(); }
+
+ private:
+  std::string_view text_;
+  std::size_t number_ = 0;
+};
+
+// Reads the samples that `head` announces into `curve`.
+Status ReadSamples(const CurveHead& head,
+                   const ViewByImageId& views,
+                   LineReader& lines,
+                   Curve& curve) {
+  constexpr std::size_t kMinBytesOfSample = 13;  // seven digits, six blanks
+  if (head.num_samples > lines.bytes_left() / kMinBytesOfSample) {
+    return Broken(lines.number(),
+                  "followed by as many samples as it announces");
+  }
+  curve.closed = head.closed;
+  curve.samples.reserve(head.num_samples);
+  for (std::size_t i = 0; i < head.num_samples; ++i) {
+    const std::optional<std::string_view> line = lines.Next();
+    std::optional<CurveSample> sample;
+    if (line) sample = ParseSample(*line, views);
+    if (!sample) {
+      return Broken(lines.number(),
+                    "a sample (X Y Z TX TY TZ SIGMA IMAGE_IDS)");
+    }
+    curve.samples.push_back(*std::move(sample));
+  }
+  return {};
+}
+
+}  // namespace
+
+void EncodeTxtCurves(const CurveSource& curves,
+                     const Scene& scene,
+                     const ByteSink& sink) {
+  std::string out =
+      "# Curves, with two kinds of lines:\n"
+      "#   CURVE_ID CLOSED NUM_SAMPLES, then for each of its samples\n"
+      "#   X Y Z TX TY TZ SIGMA IMAGE_IDS...\n"
+      "# Number of curves: ";
+  AppendNumber(curves.size(), out);
+  out += '\n';
+  sink(out);
+  curves.ForEach([&](std::size_t id, const Curve& curve) {
+    out.clear();
+    AppendNumber(id, out);
+    out += curve.closed ? " 1 " : " 0 ";
+    AppendNumber(curve.samples.size(), out);
+    out += '\n';
+    for (const CurveSample& sample : curve.samples) {
+      AppendSample(sample, scene, out);
+    }
+    sink(out);
+  });
+}
+
+Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene) {
+  ViewByImageId views;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    views.emplace(scene.views[i].image_id, static_cast<std::int32_t>(i));
+  }
+  LineReader lines(bytes);
+  CurveSet curves;
+  while (const std::optional<std::string_view> line = lines.Next()) {
+    const std::optional<CurveHead> head = ParseHead(*line);
+    if (!head) {
+      return Broken(lines.number(), "a curve (CURVE_ID CLOSED NUM_SAMPLES)");
+    }
+    Curve curve;
+    Status status = ReadSamples(*head, views, lines, curve);
+    if (!status.ok()) return status;
+    curves.curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace curvix

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "model/check_input.h"
+
+#include <curvix/scene.h>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace curvix {
+namespace {
+
+// Of an edge from the corner of its image. No camera sees further, and indices
+// of places stay small numbers.
+constexpr double kFarthestPx = 1e6;
+
+Status Invalid(const std::string& message) {
+  return {StatusCode::kInvalidArgument, message};
+}
+
+Status CheckView(const Scene& scene, const View& view) {
+  if (view.camera_idx < 0 ||
+      static_cast<std::size_t>(view.camera_idx) >= scene.cameras.size()) {
+    return Invalid("view " + view.name + " has camera index " +
+                   std::to_string(view.camera_idx) + ", but there are " +
+                   std::to_string(scene.cameras.size()) + " cameras");
+  }
+  const Rigid3& pose = view.cam_from_world;
+  if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite() ||
+      std::abs(pose.rotation.norm() - 1) > 1e-6) {
+    return Invalid("the pose of view " + view.name +
+                   " is no rigid motion: a number is not finite or the "
+                   "quaternion is not of unit length");
+  }
+  return {};
+}
+
+bool IsIn(const std::optional<std::int32_t>& idx, std::size_t size) {
+  return !idx || (*idx >= 0 && static_cast<std::size_t>(*idx) < size);
+}
+
+bool IsSound(const EdgeMap& map) {
+  if (map.neighbors.size() != map.edges.size()) return false;
+  if (!(map.spacing_px > 0) || !std::isfinite(map.spacing_px)) return false;
+  for (const Edge2d& edge : map.edges) {
+    const bool is_near = edge.position.cwiseAbs().maxCoeff() <= kFarthestPx;
+    if (!edge.position.allFinite() || !is_near || !std::isfinite(edge.angle)) {
+      return false;
+    }
+  }
+  for (const EdgeNeighbors& neighbors : map.neighbors) {
+    if (!IsIn(neighbors.previous, map.edges.size()) ||
+        !IsIn(neighbors.next, map.edges.size())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool IsSound(const Edge3d& edge, const std::vector<EdgeMap>& edge_maps) {
+  int last_view_idx = -1;
+  for (const EdgeRef& ref : edge.support) {
+    if (ref.view_idx <= last_view_idx || ref.edge_idx < 0) return false;
+    last_view_idx = ref.view_idx;
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    if (view_idx >= edge_maps.size() ||
+        static_cast<std::size_t>(ref.edge_idx) >=
+            edge_maps[view_idx].edges.size()) {
+      return false;
+    }
+  }
+  return edge.position.allFinite() && edge.tangent.allFinite() &&
+         std::isfinite(edge.sigma) && std::isfinite(edge.evidence);
+}
+
+}  // namespace
+
+Status CheckScene(const Scene& scene) {
+  if (scene.views.size() < 3) {
+    return Invalid("curves need at least three views, and there are " +
+                   std::to_string(scene.views.size()));
+  }
+  for (const Camera& camera : scene.cameras) {
+    if (Status status = Validate(camera); !status.ok()) return status;
+  }
+  for (const View& view : scene.views) {
+    if (Status status = CheckView(scene, view); !status.ok()) return status;
+  }
+  for (const ScenePoint& point : scene.points) {
+    bool sound =
+        point.position.allFinite() &&
+        (point.pixels.empty() || point.pixels.size() == point.view_idxs.size());
+    for (const int idx : point.view_idxs) {
+      sound = sound && idx >= 0 &&
+              static_cast<std::size_t>(idx) < scene.views.size();
+    }
+    if (!sound) return Invalid("a sparse point is not finite or has no view");
+  }
+  return {};
+}
+
+Status CheckEdgeMaps(const Scene& scene,
+                     const std::vector<EdgeMap>& edge_maps) {
+  if (edge_maps.size() != scene.views.size()) {
+    return Invalid("there are " + std::to_string(edge_maps.size()) +
+                   " edge maps for " + std::to_string(scene.views.size()) +
+                   " views; one per view is needed");
+  }
+  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
+    if (IsSound(edge_maps[i])) continue;
+    return Invalid("the edges of view " + scene.views[i].name +
+                   " are not sound: one entry of neighbors per edge, "
+                   "neighbors among the edges, finite numbers, and "
+                   "positions within a million pixels are needed");
+  }
+  return {};
+}
+
+Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
+                       const EdgeSketch& sketch) {
+  const bool is_sound =
+      sketch.edge_sigma_px > 0 && std::isfinite(sketch.edge_sigma_px) &&
+      std::all_of(sketch.edges.begin(),
+                  sketch.edges.end(),
+                  [&](const Edge3d& edge) { return IsSound(edge, edge_maps); });
+  if (is_sound) return {};
+  return Invalid(
+      "the 3D edges are not sound: finite numbers, a positive edge_sigma_px "
+      "and, in the order of views, "
+      "at most one 2D edge per view are needed, and these among the edges");
+}
+
+}  // namespace curvix

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3, Fig. 3(c). Support in the intersection of two epipolar wedges.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/edge_geometry.h"
+#include "geometry/epipolar.h"
+#include "geometry/epipolar_wedge.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// Answers, for all hypotheses of one pair of hypothesis views, whether one
+// validation view supports them.
+class WedgeSupport {
+ public:
+  // nullopt if the view shares its centre with a hypothesis view.
+  static std::optional<WedgeSupport> Make(const PosedView& h1,
+                                          const PosedView& h2,
+                                          const PosedView& view,
+                                          const std::vector<Edge2d>& edges,
+                                          double tolerance_px);
+
+  // The edge nearest to `projected` (ties: smaller index) among those in both
+  // epipolar wedges, that of `edge1` in H1 and that of `edge2` in H2, and
+  // within max_angle_rad of the projected direction. nullopt if there is none.
+  std::optional<std::int32_t> Find(const ImageEdge& edge1,
+                                   const ImageEdge& edge2,
+                                   const ImageEdge& projected,
+                                   double max_angle_rad) const;
+
+ private:
+  WedgeSupport(const EpipolarPencil& pencil1,
+               const EpipolarPencil& pencil2,
+               const PosedView& h1,
+               const PosedView& h2,
+               const PosedView& view,
+               const std::vector<Edge2d>& edges,
+               double tolerance_px);
+
+  EpipolarPencil pencil1_, pencil2_;
+  const PosedView *h1_, *h2_, *view_;
+  const std::vector<Edge2d>* edges_;
+  double tolerance_px_;
+  SortedByAngle sorted1_;
+};
+
+}  // namespace curvix

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Scenes in parts.
+#include "parts/scene_parts.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/median.h"
+#include "edge_sketch/view_overlap.h"
+#include "geometry/posed_views.h"
+#include "model/check_input.h"
+#include "parts/cut_curves.h"
+#include "parts/joined_curves.h"
+#include "parts/partition_views.h"
+#include "parts/regions.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kOverlapPx = 25;
+
+// The length that a typical view shows on one pixel, world units.
+double TypicalPixel(const std::vector<PosedView>& views,
+                    const std::vector<std::vector<Eigen::Vector3d>>& places) {
+  std::vector<double> pixels;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<double> depths;
+    for (const Eigen::Vector3d& place : places[i]) {
+      depths.push_back(std::max(0.0, views[i].InCamera(place).z()));
+    }
+    pixels.push_back(Median(std::move(depths)) / views[i].calibration(0, 0));
+  }
+  return Median(std::move(pixels));
+}
+
+}  // namespace
+
+Result<ScenePartition> PartitionScene(const Scene& scene,
+                                      int max_views_per_part) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  const std::vector<PosedView> views = MakePosedViews(scene);
+  const auto places = FindPlaces(views, scene.points);
+  std::optional<ScenePartition> partition = PartitionViews(
+      places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
+  if (partition) return *std::move(partition);
+  return Status(StatusCode::kInvalidArgument,
+                "the " + std::to_string(views.size()) +
+                    " views cannot be divided into parts of " +
+                    std::to_string(max_views_per_part) +
+                    " views, because too many of them see the same places; "
+                    "allow more views per part");
+}
+
+PartResult TakePart(const ScenePartition& partition,
+                    int part_idx,
+                    const CurveSet& curves,
+                    const std::vector<EdgeMap>& edge_maps) {
+  const auto cores = CoresOf(partition);
+  PartResult result;
+  for (Curve& curve : CutCurves(curves.curves,
+                                cores[static_cast<std::size_t>(part_idx)],
+                                partition.overlap)) {
+    result.curves.push_back(TraceCurve(std::move(curve), edge_maps));
+  }
+  const ScenePart& part = partition.parts[static_cast<std::size_t>(part_idx)];
+  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
+    if (std::binary_search(part.own_view_idxs.begin(),
+                           part.own_view_idxs.end(),
+                           part.view_idxs[i])) {
+      result.num_own_edges_2d +=
+          static_cast<std::int64_t>(edge_maps[i].edges.size());
+    }
+  }
+  return result;
+}
+
+std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
+                                int part_idx,
+                                std::vector<Edge3d> edges) {
+  std::erase_if(edges, [&](const Edge3d& edge) {
+    return OwnerOf(partition, edge.position) != part_idx;
+  });
+  return edges;
+}
+
+Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,
+                                               PartResults& parts,
+                                               const Scene& scene,
+                                               const Options& options) {
+  auto joined = std::make_unique<JoinedCurves>(
+      partition, parts, MakePosedViews(scene), options);
+  if (!joined->status().ok()) return joined->status();
+  return std::unique_ptr<CurveSource>(std::move(joined));
+}
+
+}  // namespace curvix

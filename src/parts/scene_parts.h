@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Scenes larger than one machine: cut into parts that are reconstructed one by
+// one, and put together again.
+//
+// Space is cut by planes into cores; each part owns one of them and all curves
+// in it. Around its core a part sees `overlap` further, and its views show
+// twice that, so what lies in the overlap of two parts is drawn by both, nearly
+// alike. There curves are joined.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <curvix/reconstruct.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace curvix {
+
+// A plane that divides a region in two. x lies below it if normal . x < offset.
+struct SceneCut {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit
+  double offset = 0;                                  // world units
+  // What is on either side: the cut of that index, or part -1 - value.
+  int below = 0;
+  int above = 0;
+};
+
+struct ScenePart {
+  std::vector<int> view_idxs;  // ascending
+  // Of these, those that look mainly at the core: each view is one part's own.
+  std::vector<int> own_view_idxs;
+};
+
+struct ScenePartition {
+  double overlap = 0;          // world units, >= 0
+  std::vector<SceneCut> cuts;  // the first divides all of space; none: one part
+  std::vector<ScenePart> parts;
+};
+
+// Parts of at most `max_views_per_part` views (>= 3), as few as suffice, with
+// nearly as many own views each. Views are divided by the places that they see
+// (sparse points; without them, a grid at their working depth): across the
+// longest direction of these, again and again. A part has all views of which
+// the core and twice the overlap around it hold at least one place in twenty.
+// The overlap is 25 pixels long where a typical view looks. Time: views times
+// log views.
+// kInvalidArgument if the scene is none, or if so few views are too few to
+// divide it, as where all views see the same.
+Result<ScenePartition> PartitionScene(const Scene& scene,
+                                      int max_views_per_part);
+
+// The part in whose core `position` is.
+int OwnerOf(const ScenePartition& partition, const Eigen::Vector3d& position);
+
+// A curve and the 2D edges behind it.
+struct TracedCurve {
+  Curve curve;  // EdgeRef::edge_idx: index into `edges`
+  std::vector<Edge2d> edges;
+};
+
+// What a part gives to its scene.
+struct PartResult {
+  // Those in its core and the overlap around it, cut there; they name views of
+  // the part.
+  std::vector<TracedCurve> curves;
+  // For the report: edges detected in its own views, and 3D edges in its core.
+  std::int64_t num_own_edges_2d = 0;
+  std::int64_t num_core_edges_3d = 0;
+};
+
+PartResult TakePart(const ScenePartition& partition,
+                    int part_idx,
+                    const CurveSet& curves,
+                    const std::vector<EdgeMap>& edge_maps);
+
+// Those of the 3D edges that lie in the core of a part.
+std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
+                                int part_idx,
+                                std::vector<Edge3d> edges);
+
+// The curves of PartResult of all parts, wherever they are.
+class PartResults {
+ public:
+  virtual ~PartResults() = default;
+  virtual std::size_t NumCurves(int part_idx) const = 0;
+  virtual Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) = 0;
+};
+
+// The curves of the scene, which read those of `parts` again whenever they are
+// shown; partition and parts outlive them. In memory are only a table of the
+// curves and the one that is shown, and before, while they are joined, places
+// and directions of samples near borders.
+//
+// Where several parts have drawn a place, that of the owner stays; ends at
+// borders are joined to what goes on there in another part. Curves come in the
+// order of the parts and of the curves in them, by their first piece. Pieces
+// without a continuation go if they are shorter than
+// options.curve_refinement.min_length_px. Errors are those of `parts`, the
+// first one; kDataLoss if a curve names views or edges that are not there.
+Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,
+                                               PartResults& parts,
+                                               const Scene& scene,
+                                               const Options& options);
+
+}  // namespace curvix

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "poses/held_out.h"
+
+#include <curvix/scene.h>
+#include <algorithm>
+#include <cmath>
+
+#include "base/median.h"
+#include "base/parallel.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kMaxErrorPx = 1;  // of places
+constexpr double kMaxPointErrorPx = 2;
+constexpr double kMinLossScalePx = 0.3;
+// Standard deviations: what would be wrong once in some twenty times.
+constexpr double kContrary = 2;
+
+using Error = std::optional<double>;
+
+// The errors of a place fitted to the poses of `edges`, in its views to ask.
+std::vector<Error> ErrorsOfPlace(const CurvePlace& start,
+                                 const PosedEdges& edges) {
+  const std::vector<std::size_t> views = edges.ViewsToAsk(start);
+  CurvePlace place = start;
+  struct Pass {
+    double gate_px, sigma_px;
+  };
+  for (const Pass& pass : {Pass{2, 0.5}, Pass{1, 0.25}, Pass{1, 0.15}}) {
+    const std::vector<double> gates(edges.views().size(), pass.gate_px);
+    place.support = edges.FindEdges(place.rim, views, gates);
+    place.rim = edges.Adjusted(place, pass.sigma_px);
+  }
+  const std::vector<double> gates(edges.views().size(), kMaxErrorPx);
+  std::vector<Error> errors(views.size());
+  for (const EdgeRef& ref : edges.FindEdges(place.rim, views, gates)) {
+    const auto found = std::lower_bound(
+        views.begin(), views.end(), static_cast<std::size_t>(ref.view_idx));
+    errors[static_cast<std::size_t>(found - views.begin())] =
+        std::min(kMaxErrorPx, edges.Distance(place.rim, ref));
+  }
+  return errors;
+}
+
+std::vector<double> ErrorsOfPoint(const PointSample& point,
+                                  const PosedEdges& edges) {
+  const std::vector<PointInImage> seen = edges.Observed(point);
+  const Eigen::Vector3d position = FitPoint(point.position, seen);
+  std::vector<double> errors;
+  for (const PointInImage& at : seen) {
+    const auto pixel = Project(*at.camera, at.cam_from_world, position);
+    errors.push_back(
+        pixel ? std::min(kMaxPointErrorPx, (*pixel - at.pixel).norm())
+              : kMaxPointErrorPx);
+  }
+  return errors;
+}
+
+// Errors over three times the smaller of their medians, or over 0.3 px, at most
+// 1: what fits nowhere tells nothing, nor does what fits perfectly.
+class Loss {
+ public:
+  Loss(std::vector<double> before, std::vector<double> after)
+      : scale_px_(std::max(kMinLossScalePx,
+                           3 * std::min(MedianOr(1, std::move(before)),
+                                        MedianOr(1, std::move(after))))) {}
+  double operator()(double error_px) const {
+    return std::min(1.0, error_px / scale_px_);
+  }
+
+ private:
+  double scale_px_;
+};
+
+}  // namespace
+
+double GainsByCell::Sum() const {
+  double sum = 0;
+  for (const auto& [cell, gain] : gains_) sum += gain;
+  return sum;
+}
+
+double GainsByCell::Significance() const {
+  double squares = 0;
+  for (const auto& [cell, gain] : gains_) squares += gain * gain;
+  return squares > 0 ? Sum() / std::sqrt(squares) : 0;
+}
+
+HeldOutErrors MeasureHeldOut(const PoseEvidence& held_out,
+                             int num_threads,
+                             const PosedEdges& edges) {
+  HeldOutErrors errors;
+  errors.places.resize(held_out.places.size());
+  errors.points.resize(held_out.points.size());
+  ParallelFor(errors.places.size(), num_threads, [&](std::size_t i) {
+    errors.places[i] = ErrorsOfPlace(held_out.places[i], edges);
+  });
+  ParallelFor(errors.points.size(), num_threads, [&](std::size_t i) {
+    errors.points[i] = ErrorsOfPoint(held_out.points[i], edges);
+  });
+  return errors;
+}
+
+std::vector<ErrorPair> PairErrors(const PoseEvidence& held_out,
+                                  const HeldOutErrors& before,
+                                  const HeldOutErrors& after,
+                                  const PosedEdges& edges) {
+  std::vector<ErrorPair> pairs;
+  for (std::size_t i = 0; i < held_out.places.size(); ++i) {
+    const std::vector<std::size_t> views = edges.ViewsToAsk(held_out.places[i]);
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      const Error& from = before.places[i][k];
+      const Error& to = after.places[i][k];
+      if (!from && !to) continue;
+      pairs.push_back(
+          {i, views[k], from.value_or(kMaxErrorPx), to.value_or(kMaxErrorPx)});
+    }
+  }
+  return pairs;
+}
+
+SignificanceOfGain CompareErrors(const PoseEvidence& held_out,
+                                 const SpaceCells& cells,
+                                 const HeldOutErrors& before,
+                                 const HeldOutErrors& after,
+                                 const PosedEdges& edges) {
+  const auto pairs = PairErrors(held_out, before, after, edges);
+  std::vector<double> from, to;
+  for (const ErrorPair& pair : pairs) {
+    from.push_back(pair.before);
+    to.push_back(pair.after);
+  }
+  const Loss loss_of_places(from, to);
+  GainsByCell places(cells);
+  for (const ErrorPair& pair : pairs) {
+    places.Add(PositionOf(held_out.places[pair.place_idx]),
+               loss_of_places(pair.before) - loss_of_places(pair.after));
+  }
+  const Loss loss_of_points(Concatenate(before.points),
+                            Concatenate(after.points));
+  GainsByCell points(cells);
+  for (std::size_t i = 0; i < held_out.points.size(); ++i) {
+    for (std::size_t k = 0; k < before.points[i].size(); ++k) {
+      points.Add(held_out.points[i].position,
+                 loss_of_points(before.points[i][k]) -
+                     loss_of_points(after.points[i][k]));
+    }
+  }
+  return Together(places, points);
+}
+
+SignificanceOfGain Together(const GainsByCell& places,
+                            const GainsByCell& points) {
+  SignificanceOfGain gain{places.Significance(), points.Significance(), 0};
+  const int num_kinds = (gain.places != 0) + (gain.points != 0);
+  gain.all = (gain.places + gain.points) / std::sqrt(std::max(1, num_kinds));
+  return gain;
+}
+
+bool IsBetter(const SignificanceOfGain& gain) {
+  return gain.all >= kSignificant && IsNoWorse(gain);
+}
+
+bool IsNoWorse(const SignificanceOfGain& gain) {
+  return gain.all >= 0 && std::min(gain.places, gain.points) >= -kContrary;
+}
+
+std::vector<bool> WorseViews(const std::vector<ErrorPair>& pairs,
+                             std::size_t num_views) {
+  std::vector<double> sums(num_views, 0), squares(num_views, 0);
+  for (const ErrorPair& pair : pairs) {
+    const double gain = pair.before - pair.after;
+    sums[pair.view_idx] += gain;
+    squares[pair.view_idx] += gain * gain;
+  }
+  std::vector<bool> worse(num_views);
+  for (std::size_t i = 0; i < num_views; ++i) {
+    worse[i] = sums[i] < -kContrary * std::sqrt(squares[i]);
+  }
+  return worse;
+}
+
+}  // namespace curvix

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "poses/pose_evidence.h"
+
+#include <curvix/scene.h>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "base/median.h"
+
+namespace curvix {
+namespace {
+
+constexpr std::size_t kMinViewsOfPoint = 2;
+constexpr std::size_t kMinPoints = 100;
+constexpr int kMaxPointsPerView = 400;  // more tell little more
+constexpr std::size_t kPointsPerHeldOut = 5;
+constexpr int kCellsPerHeldOut = 5;
+constexpr double kCellsPerDistance = 10;
+
+std::optional<PointSample> SampleOf(const ScenePoint& point,
+                                    const Scene& scene) {
+  PointSample sample;
+  sample.position = point.position;
+  for (std::size_t i = 0; i < point.pixels.size(); ++i) {
+    const View& view =
+        scene.views[static_cast<std::size_t>(point.view_idxs[i])];
+    const auto k = static_cast<std::size_t>(view.camera_idx);
+    if (point.pixels[i].allFinite() &&
+        Project(scene.cameras[k], view.cam_from_world, point.position)) {
+      sample.observations.push_back({point.view_idxs[i], point.pixels[i]});
+    }
+  }
+  if (sample.observations.size() < kMinViewsOfPoint) return std::nullopt;
+  return sample;
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> PositionsOf(const PoseEvidence& evidence) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& place : evidence.places) {
+    positions.push_back(PositionOf(place));
+  }
+  for (const auto& point : evidence.points) {
+    positions.push_back(PositionOf(point));
+  }
+  return positions;
+}
+
+std::vector<PointSample> UsablePoints(const Scene& scene) {
+  std::vector<PointSample> points;
+  for (const ScenePoint& point : scene.points) {
+    if (auto sample = SampleOf(point, scene)) {
+      points.push_back(*std::move(sample));
+    }
+  }
+  if (points.size() < kMinPoints) points.clear();
+  return points;
+}
+
+ChosenPoints ChoosePoints(std::vector<PointSample> points,
+                          std::size_t num_views) {
+  std::stable_sort(
+      points.begin(), points.end(), [](const auto& a, const auto& b) {
+        return a.observations.size() > b.observations.size();
+      });
+  std::vector<int> counts(num_views, 0);
+  const auto count_of = [&](const PointSample::Observation& seen) -> int& {
+    return counts[static_cast<std::size_t>(seen.view_idx)];
+  };
+  ChosenPoints result;
+  std::size_t num_needed = 0;
+  for (PointSample& point : points) {
+    const bool is_needed = std::any_of(
+        point.observations.begin(),
+        point.observations.end(),
+        [&](const auto& seen) { return count_of(seen) < kMaxPointsPerView; });
+    if (!is_needed || ++num_needed % kPointsPerHeldOut == 0) {
+      result.held_out.push_back(std::move(point));
+      continue;
+    }
+    for (const auto& seen : point.observations) ++count_of(seen);
+    result.chosen.push_back(std::move(point));
+  }
+  return result;
+}
+
+SpaceCells::SpaceCells(const std::vector<Eigen::Vector3d>& positions) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& position : positions) {
+      values.push_back(position[axis]);
+    }
+    center_[axis] = MedianOr(0, std::move(values));
+  }
+  std::vector<double> distances;
+  for (const Eigen::Vector3d& position : positions) {
+    distances.push_back((position - center_).norm());
+  }
+  const double distance = MedianOr(0, std::move(distances));
+  if (distance > 0) size_ = distance / kCellsPerDistance;
+}
+
+SpaceCells::Cell SpaceCells::CellOf(const Eigen::Vector3d& position) const {
+  const Eigen::Array3d cell = ((position - center_) / size_).array().floor();
+  return {cell.x(), cell.y(), cell.z()};
+}
+
+bool SpaceCells::IsHeldOut(const Eigen::Vector3d& position) const {
+  const Cell cell = CellOf(position);
+  const double sum = cell[0] + 2 * cell[1] + 3 * cell[2];
+  return sum - kCellsPerHeldOut * std::floor(sum / kCellsPerHeldOut) == 0;
+}
+
+std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
+                                    std::vector<CurvePlace>* places) {
+  const auto first = std::stable_partition(
+      places->begin(), places->end(), [&](const CurvePlace& place) {
+        return !cells.IsHeldOut(PositionOf(place));
+      });
+  std::vector<CurvePlace> taken(std::make_move_iterator(first),
+                                std::make_move_iterator(places->end()));
+  places->erase(first, places->end());
+  return taken;
+}
+
+}  // namespace curvix

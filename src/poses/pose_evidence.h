@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). What tells poses and cameras: places on curves and
+// points.
+#pragma once
+
+#include <curvix/scene.h>
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "poses/adjust_poses.h"
+#include "poses/posed_edges.h"
+
+namespace curvix {
+
+struct PoseEvidence {
+  std::vector<CurvePlace> places;
+  std::vector<PointSample> points;
+};
+
+// World.
+inline Eigen::Vector3d PositionOf(const CurvePlace& place) {
+  return MiddleOf(place.rim);
+}
+inline Eigen::Vector3d PositionOf(const PointSample& point) {
+  return point.position;
+}
+
+// Of the places, then of the points.
+std::vector<Eigen::Vector3d> PositionsOf(const PoseEvidence& evidence);
+
+// Calls f(view_idx, position) for all places and points and their views.
+template <typename F>
+void VisitSeen(const PoseEvidence& evidence, const F& f) {
+  const auto visit = [&f](const auto& seen, const Eigen::Vector3d& position) {
+    for (const auto& at : seen) {
+      f(static_cast<std::size_t>(at.view_idx), position);
+    }
+  };
+  for (const CurvePlace& place : evidence.places) {
+    visit(place.support, PositionOf(place));
+  }
+  for (const PointSample& point : evidence.points) {
+    visit(point.observations, point.position);
+  }
+}
+
+// The points of the scene that at least two views see at known pixels; none if
+// they are less than a hundred.
+std::vector<PointSample> UsablePoints(const Scene& scene);
+
+// Of the points that most views see, as many as the views need, all but every
+// fifth; and all others. Ties: the order of `points`.
+struct ChosenPoints {
+  std::vector<PointSample> chosen;
+  std::vector<PointSample> held_out;
+};
+ChosenPoints ChoosePoints(std::vector<PointSample> points,
+                          std::size_t num_views);
+
+// Cubes of a tenth of the median distance of positions from their median. Every
+// fifth is held out.
+class SpaceCells {
+ public:
+  using Cell = std::array<double, 3>;
+
+  explicit SpaceCells(const std::vector<Eigen::Vector3d>& positions);
+  Cell CellOf(const Eigen::Vector3d& position) const;
+  bool IsHeldOut(const Eigen::Vector3d& position) const;
+
+ private:
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double size_ = 1;
+};
+
+// Moves the places of cells that are held out from `places`; both keep their
+// order.
+std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
+                                    std::vector<CurvePlace>* places);
+
+}  // namespace curvix

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "poses/pose_search.h"
+
+#include <curvix/scene.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/median.h"
+#include "base/parallel.h"
+#include "poses/find_shift.h"
+#include "poses/hold_world.h"
+#include "poses/residual_spread.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kMaxNumTurns = 6;
+constexpr double kMinGainOfTurn = 0.01;
+// Sketches expect larger errors until they find so many places.
+constexpr std::size_t kMinPlaces = 100;
+constexpr double kMaxSketchSigmaPx = 1.2;
+constexpr std::size_t kMinDistancesPerView = 12;
+constexpr double kReachPx = 6;  // of the search for shifts
+// Standard deviations of edges around projections.
+constexpr double kFirstSigmaPx = 0.5;
+constexpr double kMinSigmaPx = 0.15;
+constexpr double kMaxSigmaPx = 1.5;
+constexpr double kSigmaPerSpread = 1.5;
+constexpr double kGateSigmas = 4;
+constexpr double kPlaceSigmaPx = 0.3;
+// Of a normal distribution, over the median of absolute values.
+constexpr double kSigmaPerMedian = 1.4826;
+constexpr double kFirstPriorPx = 10;
+constexpr double kMinPriorPx = 0.02;
+// If cameras are free: another principal point turns all views, which shows in
+// no picture.
+constexpr double kPriorOfFreeLensesPx = 50;
+
+// The median ratio of distances between positions to those between the same
+// ones elsewhere; 1 of too few.
+double MedianRatio(const std::vector<Eigen::Vector3d>& positions,
+                   const std::vector<Eigen::Vector3d>& elsewhere) {
+  std::vector<double> ratios;
+  const std::size_t step = positions.size() / 2;
+  for (std::size_t i = 0; i + step < positions.size(); ++i) {
+    const double from = (elsewhere[i] - elsewhere[i + step]).norm();
+    if (from > 0) {
+      ratios.push_back((positions[i] - positions[i + step]).norm() / from);
+    }
+  }
+  return MedianOr(1, std::move(ratios));
+}
+
+// The standard deviation of a pixel of a point, in x and in y.
+double PointSigma(const Scene& scene) {
+  std::vector<double> residuals;
+  for (const PointSample& point : UsablePoints(scene)) {
+    for (const PointSample::Observation& seen : point.observations) {
+      const View& view = scene.views[static_cast<std::size_t>(seen.view_idx)];
+      const auto pixel =
+          Project(scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+                  view.cam_from_world,
+                  point.position);
+      residuals.push_back(std::abs(pixel->x() - seen.pixel.x()));
+      residuals.push_back(std::abs(pixel->y() - seen.pixel.y()));
+    }
+  }
+  return std::max(kMinSigmaPx,
+                  kSigmaPerMedian * MedianOr(1, std::move(residuals)));
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const Scene& scene,
+                       const std::vector<EdgeMap>& edge_maps,
+                       const Options& options,
+                       StepDone step_done)
+    : scene_(scene),
+      num_threads_(options.runtime.num_threads),
+      edge_sigma_px_(options.hypotheses.EdgeSigmaPx()),
+      step_done_([this, step = std::move(step_done)](auto done, auto all) {
+        is_stopped_ = is_stopped_ || !step(done, all);
+        return !is_stopped_;
+      }),
+      point_sigma_px_(PointSigma(scene)),
+      edges_(scene, edge_maps, options),
+      sigmas_px_(scene.views.size(), kFirstSigmaPx),
+      prior_px_(kFirstPriorPx) {}
+
+std::vector<CurvePlace> PoseSearch::Sketch() {
+  double sigma_px = edge_sigma_px_;
+  std::vector<CurvePlace> places = edges_.Sketch(sigma_px, step_done_);
+  while (places.size() < kMinPlaces && 2 * sigma_px <= kMaxSketchSigmaPx &&
+         !is_stopped_) {
+    sigma_px *= 2;
+    places = edges_.Sketch(sigma_px, step_done_);
+  }
+  return places;
+}
+
+bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
+  const std::size_t num_views = scene_.views.size();
+  MovedCameras moved = edges_.moved();
+  std::vector<Eigen::Vector2d> shifts(num_views, Eigen::Vector2d::Zero());
+  const auto by_view = edges_.PlacesByView(places);
+  ParallelFor(num_views, num_threads_, [&](std::size_t i) {
+    shifts[i] = FindShift(edges_.LookAround(by_view[i], i, kReachPx), kReachPx);
+    const Eigen::Vector2d& shift = shifts[i];
+    if (shift.isZero(0)) return;
+    const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
+    const Eigen::Vector3d turn(
+        -shift.y() / calibration(1, 1), shift.x() / calibration(0, 0), 0);
+    Rigid3 motion;
+    motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    moved.new_cam_from_cam[i] = motion * moved.new_cam_from_cam[i];
+  });
+  edges_.Move(moved);
+  sigmas_px_.assign(num_views, kFirstSigmaPx);
+  return std::any_of(shifts.begin(), shifts.end(), [](const auto& shift) {
+    return !shift.isZero(0);
+  });
+}
+
+void PoseSearch::FindEdges(std::vector<CurvePlace>* places) const {
+  std::vector<double> gates_px;
+  for (const double sigma : sigmas_px_) gates_px.push_back(kGateSigmas * sigma);
+  ParallelFor(places->size(), num_threads_, [&](std::size_t i) {
+    CurvePlace& place = (*places)[i];
+    place.support =
+        edges_.FindEdges(place.rim, edges_.ViewsToAsk(place), gates_px);
+  });
+  std::erase_if(*places, [](const CurvePlace& place) {
+    return place.support.size() < kMinSupportsOfPlace;
+  });
+}
+
+std::vector<std::vector<double>> PoseSearch::DistancesByView(
+    const std::vector<CurvePlace>& places) const {
+  std::vector<std::vector<double>> distances(scene_.views.size());
+  for (const CurvePlace& place : places) {
+    for (const EdgeRef& ref : place.support) {
+      distances[static_cast<std::size_t>(ref.view_idx)].push_back(
+          edges_.Distance(place.rim, ref));
+    }
+  }
+  return distances;
+}
+
+// Where few edges are found, the search becomes wider.
+void PoseSearch::UpdateSigmas(const std::vector<CurvePlace>& places) {
+  const std::vector<std::vector<double>> distances = DistancesByView(places);
+  ParallelFor(sigmas_px_.size(), num_threads_, [&](std::size_t i) {
+    const double sigma_px =
+        distances[i].size() < kMinDistancesPerView
+            ? 2 * sigmas_px_[i]
+            : kSigmaPerSpread *
+                  FitSpread(distances[i], kGateSigmas * sigmas_px_[i]);
+    sigmas_px_[i] = std::clamp(sigma_px, kMinSigmaPx, kMaxSigmaPx);
+  });
+}
+
+void PoseSearch::AdjustInTurns(PoseEvidence* evidence) {
+  double error_px = kMaxSigmaPx;
+  for (int turn = 0; turn < kMaxNumTurns && !is_stopped_; ++turn) {
+    FindEdges(&evidence->places);
+    UpdateSigmas(evidence->places);
+    Adjust(evidence);
+    const double previous = std::exchange(
+        error_px, MedianOr(0, Concatenate(DistancesByView(evidence->places))));
+    if (turn > 1 && error_px > previous * (1 - kMinGainOfTurn)) break;
+  }
+}
+
+AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
+                                double prior_px,
+                                const std::vector<bool>& free_lenses) {
+  std::vector<PoseSample> samples;
+  for (const CurvePlace& place : evidence.places) {
+    PoseSample& sample = samples.emplace_back();
+    sample.rim = place.rim;
+    for (const EdgeRef& ref : place.support) {
+      sample.observations.push_back(
+          {ref.view_idx, edges_.EdgeInPhotograph(ref)});
+    }
+  }
+  return AdjustPoses({scene_,
+                      samples,
+                      evidence.points,
+                      sigmas_px_,
+                      point_sigma_px_,
+                      prior_px,
+                      free_lenses},
+                     edges_.moved(),
+                     num_threads_,
+                     [this] { return step_done_(0, 0); });
+}
+
+// Points hold poses better than a narrow prior, which would keep the drift of
+// all.
+double PoseSearch::PriorFor(const PoseEvidence& evidence) const {
+  if (!free_lenses_.empty()) return kPriorOfFreeLensesPx;
+  return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
+}
+
+void PoseSearch::Adjust(PoseEvidence* evidence) {
+  const AdjustedPoses adjusted =
+      Solve(*evidence, PriorFor(*evidence), free_lenses_);
+  edges_.Move(adjusted.moved);
+  for (std::size_t i = 0; i < evidence->points.size(); ++i) {
+    evidence->points[i].position = adjusted.points[i];
+  }
+  ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
+    CurvePlace& place = evidence->places[i];
+    place.rim = adjusted.rims[i];
+    place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
+  });
+  prior_px_ = std::clamp(MedianShift(*evidence), kMinPriorPx, kFirstPriorPx);
+}
+
+void PoseSearch::Fit(PoseEvidence* evidence) const {
+  ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
+    CurvePlace& place = evidence->places[i];
+    place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
+  });
+  ParallelFor(evidence->points.size(), num_threads_, [&](std::size_t i) {
+    evidence->points[i].position = Fitted(evidence->points[i]);
+  });
+}
+
+std::vector<double> PoseSearch::LossesOf(const PoseEvidence& evidence) {
+  PoseEvidence fitted = evidence;
+  Fit(&fitted);
+  return Solve(fitted, kFirstPriorPx, {}).costs;
+}
+
+std::vector<std::optional<double>> PoseSearch::Shifts(
+    const PoseEvidence& evidence) const {
+  std::vector<std::vector<double>> shifts(scene_.views.size());
+  VisitSeen(evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
+    if (const auto shift = edges_.ShiftIn(i, x)) shifts[i].push_back(*shift);
+  });
+  std::vector<std::optional<double>> medians(shifts.size());
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    if (shifts[i].size() >= kMinDistancesPerView) {
+      medians[i] = Median(std::move(shifts[i]));
+    }
+  }
+  return medians;
+}
+
+double PoseSearch::MedianShift(const PoseEvidence& evidence) const {
+  std::vector<double> medians;
+  for (const std::optional<double>& shift : Shifts(evidence)) {
+    if (shift) medians.push_back(*shift);
+  }
+  return MedianOr(0, std::move(medians));
+}
+
+Eigen::Vector3d PoseSearch::Fitted(const PointSample& point) const {
+  return FitPoint(point.position, edges_.Observed(point));
+}
+
+std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
+    const PoseEvidence& evidence) {
+  const MovedCameras moved = edges_.moved();
+  edges_.Move({std::vector<Rigid3>(scene_.views.size()), scene_.cameras});
+  const std::size_t num_places = evidence.places.size();
+  std::vector<Eigen::Vector3d> positions(num_places + evidence.points.size());
+  ParallelFor(positions.size(), num_threads_, [&](std::size_t i) {
+    positions[i] =
+        i < num_places
+            ? MiddleOf(edges_.Adjusted(evidence.places[i], kPlaceSigmaPx))
+            : Fitted(evidence.points[i - num_places]);
+  });
+  edges_.Move(moved);
+  return positions;
+}
+
+// Cameras would tell the unit worse: with another focal length they stand
+// elsewhere.
+void PoseSearch::RestoreUnit(PoseEvidence* evidence) {
+  const double unit =
+      MedianRatio(PositionsByInput(*evidence), PositionsOf(*evidence));
+  MovedCameras moved = edges_.moved();
+  for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+    Rigid3 pose = edges_.PoseOf(i);
+    pose.translation *= unit;
+    moved.new_cam_from_cam[i] = pose * scene_.views[i].cam_from_world.Inverse();
+  }
+  edges_.Move(moved);
+  for (CurvePlace& place : evidence->places) {
+    place.rim.axis.position *= unit;
+    place.rim.radius *= unit;
+  }
+  for (PointSample& point : evidence->points) point.position *= unit;
+}
+
+void PoseSearch::HoldTheWorld(PoseEvidence* evidence) {
+  RestoreUnit(evidence);
+  std::vector<SeenPlace> seen;
+  VisitSeen(*evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
+    if (const auto pixel = edges_.PixelByInputCamera(i, x)) {
+      seen.push_back({i, x, *pixel});
+    }
+  });
+  const Rigid3 new_from_old = HoldWorld(edges_.input_views(), seen).Inverse();
+  MovedCameras moved = edges_.moved();
+  for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+    const Rigid3& pose = scene_.views[i].cam_from_world;
+    moved.new_cam_from_cam[i] =
+        moved.new_cam_from_cam[i] * pose * new_from_old * pose.Inverse();
+  }
+  edges_.Move(moved);
+}
+
+}  // namespace curvix

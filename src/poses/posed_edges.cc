@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "poses/posed_edges.h"
+
+#include <curvix/scene.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/parallel.h"
+#include "edge_detection/undistort_edges.h"
+#include "edge_sketch/sketch_by_views.h"
+#include "geometry/image_edge.h"
+#include "geometry/lens.h"
+#include "geometry/posed_views.h"
+
+namespace curvix {
+namespace {
+
+// Edges that ask for hypotheses, in all views: some half of them lead to a
+// place, and a view sees some half of the places.
+constexpr std::size_t kNumEdgesToAsk = 2500;
+constexpr std::size_t kNumEdgesToAskPerView = 50;
+constexpr double kGateSigmas = 4;
+constexpr double kMaxTangentialPx = 1;
+constexpr double kMinCosine = 0.9659258;  // 15 degrees
+// Edges along one contour are one.
+constexpr double kSameContourPx = 0.2;
+
+}  // namespace
+
+PosedEdges::PosedEdges(const Scene& scene,
+                       const std::vector<EdgeMap>& edge_maps,
+                       const Options& options)
+    : scene_(scene),
+      edge_maps_(edge_maps),
+      options_(options),
+      input_views_(MakePosedViews(scene)),
+      views_(input_views_),
+      indices_(IndexViews(views_, edge_maps, options.runtime.num_threads)),
+      overlaps_(FindOverlaps(views_, scene.points)),
+      depths_(FindDepthRanges(
+          views_, scene.points, options.hypotheses.depth_margin)),
+      neighbors_(NeighborsInDirection(overlaps_)),
+      moved_{std::vector<Rigid3>(views_.size()), scene.cameras} {}
+
+const Camera& PosedEdges::CameraOf(std::size_t view_idx) const {
+  return moved_
+      .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
+}
+
+Rigid3 PosedEdges::PoseOf(std::size_t view_idx) const {
+  return moved_.new_cam_from_cam[view_idx] *
+         scene_.views[view_idx].cam_from_world;
+}
+
+void PosedEdges::Move(const MovedCameras& moved) {
+  moved_ = moved;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const Rigid3 pose = PoseOf(i);
+    PosedView& view = views_[i];
+    view.calibration = PinholeCalibration(CameraOf(i));
+    view.rotation = pose.rotation.toRotationMatrix();
+    view.translation = pose.translation;
+    view.center = -(view.rotation.transpose() * view.translation);
+  }
+}
+
+const Camera& PosedEdges::InputCameraOf(std::size_t view_idx) const {
+  return scene_
+      .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
+}
+
+std::optional<ImageEdge> PosedEdges::Seen(const Rim& rim,
+                                          std::size_t view_idx) const {
+  const PosedView& view = views_[view_idx];
+  const auto seen = ProjectEdge(view, SeenFrom(rim, view.center));
+  if (!seen || !view.Contains(seen->position)) return std::nullopt;
+  return CarryEdge(*seen, CameraOf(view_idx), InputCameraOf(view_idx));
+}
+
+std::vector<EdgeMap> PosedEdges::CarriedMaps() const {
+  std::vector<EdgeMap> carried(views_.size());
+  ParallelFor(views_.size(), options_.runtime.num_threads, [&](std::size_t i) {
+    auto edges = CarryEdges(edge_maps_[i], InputCameraOf(i), CameraOf(i));
+    if (edges) carried[i] = *std::move(edges);
+  });
+  return carried;
+}
+
+std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
+                                           const StepDone& step_done) const {
+  std::size_t num_edges = 0;
+  for (const EdgeMap& map : edge_maps_) num_edges += map.edges.size();
+  const std::size_t num_asked =
+      std::max(kNumEdgesToAsk, kNumEdgesToAskPerView * views_.size());
+  Options options = options_;
+  options.hypotheses.location_tolerance_px = 2 * sigma_px;
+  options.validation.max_distance_px =
+      std::max(options.validation.max_distance_px, kGateSigmas * sigma_px);
+  const bool is_as_input = moved_.cameras == scene_.cameras;
+  const std::vector<EdgeMap> carried =
+      is_as_input ? std::vector<EdgeMap>() : CarriedMaps();
+  const EdgeSketch sketch =
+      SketchByViews({views_,
+                     is_as_input ? edge_maps_ : carried,
+                     overlaps_,
+                     depths_,
+                     options,
+                     sigma_px,
+                     std::max<std::size_t>(1, num_edges / num_asked)},
+                    step_done);
+  std::vector<CurvePlace> places;
+  for (const Edge3d& edge : sketch.edges) {
+    if (edge.support.size() < kMinSupportsOfPlace) continue;
+    CurvePlace& place = places.emplace_back();
+    place.rim.axis = {edge.position, edge.tangent};
+    place.support = edge.support;
+    place.rim = Adjusted(place, sigma_px);
+  }
+  return places;
+}
+
+std::vector<std::size_t> PosedEdges::ViewsToAsk(const CurvePlace& place) const {
+  std::vector<std::size_t> views;
+  for (const EdgeRef& ref : place.support) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    views.push_back(view_idx);
+    for (const ViewNeighbor& neighbor : neighbors_[view_idx]) {
+      views.push_back(static_cast<std::size_t>(neighbor.view_idx));
+    }
+  }
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  return views;
+}
+
+std::vector<EdgeRef> PosedEdges::FindEdges(
+    const Rim& rim,
+    const std::vector<std::size_t>& views,
+    const std::vector<double>& gates_px) const {
+  std::vector<EdgeRef> found;
+  for (const std::size_t i : views) {
+    const auto projected = Seen(rim, i);
+    if (!projected) continue;
+    const Gate gate{gates_px[i], kMaxTangentialPx, kMinCosine};
+    const auto nearest = NearestEdge(indices_[i], *projected, gate);
+    if (nearest) found.push_back({static_cast<std::int32_t>(i), *nearest});
+  }
+  return found;
+}
+
+std::vector<std::vector<const CurvePlace*>> PosedEdges::PlacesByView(
+    const std::vector<CurvePlace>& places) const {
+  std::vector<std::vector<const CurvePlace*>> by_view(views_.size());
+  for (const CurvePlace& place : places) {
+    for (const std::size_t i : ViewsToAsk(place)) by_view[i].push_back(&place);
+  }
+  return by_view;
+}
+
+std::vector<EdgesAround> PosedEdges::LookAround(
+    const std::vector<const CurvePlace*>& places,
+    std::size_t view_idx,
+    double reach_px) const {
+  std::vector<EdgesAround> result;
+  for (const CurvePlace* place : places) {
+    const auto projected = Seen(place->rim, view_idx);
+    if (!projected) continue;
+    const Eigen::Vector2d& tangent = projected->tangent;
+    EdgesAround around;
+    around.normal = {-tangent.y(), tangent.x()};
+    const auto look = [&](const IndexedEdge& edge) {
+      const Eigen::Vector2d offset =
+          edge.position.cast<double>() - projected->position;
+      const double distance = around.normal.dot(offset);
+      const auto is_same = [&](double other) {
+        return std::abs(other - distance) < kSameContourPx;
+      };
+      if (std::abs(edge.tangent.cast<double>().dot(tangent)) >= kMinCosine &&
+          std::abs(offset.dot(tangent)) <= kMaxTangentialPx &&
+          std::abs(distance) <= reach_px &&
+          std::none_of(around.distances_px.begin(),
+                       around.distances_px.end(),
+                       is_same)) {
+        around.distances_px.push_back(distance);
+      }
+    };
+    indices_[view_idx].grid.VisitAround(projected->position, reach_px, look);
+    if (!around.distances_px.empty()) result.push_back(std::move(around));
+  }
+  return result;
+}
+
+ImageEdge PosedEdges::InputEdge(const EdgeRef& ref) const {
+  return ToImageEdge(edge_maps_[static_cast<std::size_t>(ref.view_idx)]
+                         .edges[static_cast<std::size_t>(ref.edge_idx)]);
+}
+
+ImageEdge PosedEdges::EdgeInPhotograph(const EdgeRef& ref) const {
+  const auto i = static_cast<std::size_t>(ref.view_idx);
+  return curvix::EdgeInPhotograph(InputEdge(ref), InputCameraOf(i));
+}
+
+double PosedEdges::Distance(const Rim& rim, const EdgeRef& ref) const {
+  const auto seen = Seen(rim, static_cast<std::size_t>(ref.view_idx));
+  if (!seen) return std::numeric_limits<double>::infinity();
+  const ImageEdge edge = InputEdge(ref);
+  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
+  return std::abs(normal.dot(seen->position - edge.position));
+}
+
+std::vector<PointInImage> PosedEdges::Observed(const PointSample& point) const {
+  std::vector<PointInImage> seen;
+  for (const PointSample::Observation& at : point.observations) {
+    const auto i = static_cast<std::size_t>(at.view_idx);
+    seen.push_back({&CameraOf(i), PoseOf(i), at.pixel});
+  }
+  return seen;
+}
+
+std::optional<Eigen::Vector2d> PosedEdges::PixelByInputCamera(
+    std::size_t view_idx, const Eigen::Vector3d& x) const {
+  const auto seen = Project(CameraOf(view_idx), PoseOf(view_idx), x);
+  if (!seen) return std::nullopt;
+  const auto k = static_cast<std::size_t>(scene_.views[view_idx].camera_idx);
+  const auto ideal = IdealFromImage(scene_.cameras[k], *seen);
+  if (!ideal) return std::nullopt;
+  return (input_views_[view_idx].calibration * ideal->homogeneous()).head<2>();
+}
+
+std::optional<double> PosedEdges::ShiftIn(std::size_t view_idx,
+                                          const Eigen::Vector3d& x) const {
+  const View& view = scene_.views[view_idx];
+  const auto from = Project(InputCameraOf(view_idx), view.cam_from_world, x);
+  const auto to = Project(CameraOf(view_idx), PoseOf(view_idx), x);
+  if (!from || !to) return std::nullopt;
+  return (*to - *from).norm();
+}
+
+Rim PosedEdges::Adjusted(const CurvePlace& place, double sigma_px) const {
+  if (place.support.size() < 2) return place.rim;
+  std::vector<PlaneMeasurement> measurements;
+  for (const EdgeRef& ref : place.support) {
+    const auto i = static_cast<std::size_t>(ref.view_idx);
+    const auto edge = CarryEdge(InputEdge(ref), InputCameraOf(i), CameraOf(i));
+    if (edge) measurements.push_back(MeasurePlane(views_[i], *edge));
+  }
+  return AdjustRim(place.rim, measurements, sigma_px);
+}
+
+}  // namespace curvix

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). The edges of views whose poses and cameras
+// change, and samples of the curves that they show.
+#pragma once
+
+#include <curvix/edges.h>
+#include <curvix/options.h>
+#include <curvix/scene.h>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "edge_sketch/sketch_input.h"
+#include "edge_sketch/view_indices.h"
+#include "geometry/rim.h"
+#include "poses/adjust_poses.h"
+#include "poses/find_shift.h"
+
+namespace curvix {
+
+// More than an edge of a curve needs, since places are many.
+inline constexpr std::size_t kMinSupportsOfPlace = 6;
+
+// A place on a curve and the 2D edges that show it.
+struct CurvePlace {
+  Rim rim;
+  std::vector<EdgeRef> support;  // at most one per view, ascending
+};
+
+class PosedEdges {
+ public:
+  // The arguments must outlive it.
+  PosedEdges(const Scene& scene,
+             const std::vector<EdgeMap>& edge_maps,
+             const Options& options);
+  PosedEdges(const PosedEdges&) = delete;
+  PosedEdges& operator=(const PosedEdges&) = delete;
+
+  // With the poses of the scene, each followed by its motion, and the cameras
+  // that are set.
+  const std::vector<PosedView>& views() const { return views_; }
+  const std::vector<PosedView>& input_views() const { return input_views_; }
+  const MovedCameras& moved() const { return moved_; }
+  const Camera& CameraOf(std::size_t view_idx) const;
+  // The pose of the scene followed by the view's motion.
+  Rigid3 PoseOf(std::size_t view_idx) const;
+  void Move(const MovedCameras& moved);
+
+  // Places on curves, from some thousand edges spread over the views. Edges
+  // are expected within a few times `sigma_px` of where the poses put them.
+  std::vector<CurvePlace> Sketch(double sigma_px,
+                                 const StepDone& step_done) const;
+
+  // The views to ask about a place: its supporters and the views next to them.
+  std::vector<std::size_t> ViewsToAsk(const CurvePlace& place) const;
+
+  // The nearest edge in each of `views` that is within its gate, by view.
+  std::vector<EdgeRef> FindEdges(const Rim& rim,
+                                 const std::vector<std::size_t>& views,
+                                 const std::vector<double>& gates_px) const;
+
+  // For each view the places that ask it; they outlive the result.
+  std::vector<std::vector<const CurvePlace*>> PlacesByView(
+      const std::vector<CurvePlace>& places) const;
+  // What the places see around them in a view, up to reach_px away.
+  std::vector<EdgesAround> LookAround(
+      const std::vector<const CurvePlace*>& places,
+      std::size_t view_idx,
+      double reach_px) const;
+
+  // In pixels of the photograph.
+  ImageEdge EdgeInPhotograph(const EdgeRef& ref) const;
+  // Pixels; of the projection of `rim` from the line of the edge.
+  double Distance(const Rim& rim, const EdgeRef& ref) const;
+  // Where views see the point, with their poses and cameras as they are.
+  std::vector<PointInImage> Observed(const PointSample& point) const;
+  // The pixel of the photograph in which a view sees `x`, in the ideal pinhole
+  // of the scene's camera; nothing where there is none.
+  std::optional<Eigen::Vector2d> PixelByInputCamera(
+      std::size_t view_idx, const Eigen::Vector3d& x) const;
+  // By how many pixels the photograph of a view shows a place elsewhere than by
+  // the scene's own pose and camera; nothing where either does not see it.
+  std::optional<double> ShiftIn(std::size_t view_idx,
+                                const Eigen::Vector3d& x) const;
+  // The rim of the place, adjusted to its support.
+  Rim Adjusted(const CurvePlace& place, double sigma_px) const;
+
+ private:
+  const Camera& InputCameraOf(std::size_t view_idx) const;
+  ImageEdge InputEdge(const EdgeRef& ref) const;
+  // Where a view sees the rim, in the ideal image of the input camera, in which
+  // edges are indexed; nothing outside the image.
+  std::optional<ImageEdge> Seen(const Rim& rim, std::size_t view_idx) const;
+  // The edges in the ideal images of the cameras as they are; none of a view
+  // whose camera cannot be inverted.
+  std::vector<EdgeMap> CarriedMaps() const;
+
+  const Scene& scene_;
+  const std::vector<EdgeMap>& edge_maps_;
+  const Options& options_;
+  const std::vector<PosedView> input_views_;
+  std::vector<PosedView> views_;  // indices_ points into it
+  std::vector<ViewIndex> indices_;
+  std::vector<std::vector<ViewOverlap>> overlaps_;
+  std::vector<DepthRange> depths_;
+  std::vector<std::vector<ViewNeighbor>> neighbors_;
+  MovedCameras moved_;
+};
+
+}  // namespace curvix

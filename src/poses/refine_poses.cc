@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). What is refined, in which order, and what of it is
+// accepted; see docs/stages/poses.md.
+#include <curvix/refine_poses.h>
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "base/median.h"
+#include "base/option_table.h"
+#include "base/parallel.h"
+#include "edge_detection/undistort_edges.h"
+#include "geometry/lens.h"
+#include "model/check_input.h"
+#include "pipeline/run_recorder.h"
+#include "poses/held_out.h"
+#include "poses/pose_search.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kNumSketches = 2;  // the second with poses that are nearly right
+constexpr double kSmallShiftPx = 0.1;  // asks for no second sketch
+// Edges of exact poses are half as far off; poses a quarter of a pixel off make
+// it twice as much.
+constexpr double kGoodEnoughPx = 0.06;
+constexpr int kNumFinalRounds = 2;
+constexpr std::size_t kMinHeldOut = 20;  // places and points
+// A lens of fewer views is hardly told from poses and from what they show.
+constexpr int kMinViewsPerLens = 5;
+
+ErrorsOfViews Summarize(std::vector<double> errors) {
+  ErrorsOfViews summary;
+  for (const double error : errors) {
+    summary.mean_px += error / static_cast<double>(errors.size());
+  }
+  summary.median_px = MedianOr(0, std::move(errors));
+  return summary;
+}
+
+class Refiner {
+ public:
+  Refiner(const Scene& scene,
+          const std::vector<EdgeMap>& edge_maps,
+          const Options& options,
+          bool refine_intrinsics,
+          RunRecorder* run)
+      : scene_(scene),
+        num_threads_(options.runtime.num_threads),
+        search_(scene, edge_maps, options, run->Steps()) {
+    if (refine_intrinsics) shared_lenses_ = SharedLenses();
+  }
+
+  CurvePoses Run() {
+    Begin();
+    const bool has_shifted = search_.ShiftViews(evidence_.places);
+    if (!has_shifted && IsGoodEnough()) {
+      CurvePoses as_they_are = Judge();
+      as_they_are.reason = "the edges are where the poses put them";
+      return as_they_are;
+    }
+    if (!evidence_.points.empty()) AdjustToPoints();
+    for (int i = 0; i < kNumSketches && !search_.is_stopped(); ++i) {
+      search_.AdjustInTurns(&evidence_);
+      if (i + 1 == kNumSketches ||
+          search_.MedianShift(evidence_) < kSmallShiftPx) {
+        break;
+      }
+      SketchAgain();
+      search_.ShiftViews(evidence_.places);
+    }
+    if (TryLenses()) {
+      SketchAgain();
+      search_.AdjustInTurns(&evidence_);
+    }
+    search_.HoldTheWorld(&evidence_);
+    CurvePoses result = Judge();
+    if (result.accepted) Finish(&result);
+    return result;
+  }
+
+ private:
+  // Places and points by the input, and what of them is held out.
+  void Begin() {
+    ChosenPoints points =
+        ChoosePoints(UsablePoints(scene_), scene_.views.size());
+    evidence_ = {search_.Sketch(), std::move(points.chosen)};
+    cells_ = SpaceCells(PositionsOf(evidence_));
+    held_out_ = {TakeHeldOut(cells_, &evidence_.places),
+                 std::move(points.held_out)};
+    before_ = Measure();
+  }
+
+  void SketchAgain() {
+    evidence_.places = search_.Sketch();
+    TakeHeldOut(cells_, &evidence_.places);
+  }
+
+  HeldOutErrors Measure() const {
+    return MeasureHeldOut(held_out_, num_threads_, search_.edges());
+  }
+
+  // Saves the time of looking for what cannot be found.
+  bool IsGoodEnough() const {
+    std::vector<double> errors;
+    for (const ErrorPair& pair :
+         PairErrors(held_out_, before_, before_, search_.edges())) {
+      errors.push_back(pair.before);
+    }
+    return !errors.empty() && Median(std::move(errors)) < kGoodEnoughPx;
+  }
+
+  // Poses from points alone; then places by these.
+  void AdjustToPoints() {
+    evidence_.places.clear();
+    search_.Adjust(&evidence_);
+    SketchAgain();
+  }
+
+  // By camera: whether enough views share it.
+  std::vector<bool> SharedLenses() const {
+    std::vector<int> counts(scene_.cameras.size(), 0);
+    for (const View& view : scene_.views) {
+      ++counts[static_cast<std::size_t>(view.camera_idx)];
+    }
+    std::vector<bool> is_shared;
+    for (const int count : counts) {
+      is_shared.push_back(count >= kMinViewsPerLens);
+    }
+    return is_shared;
+  }
+
+  // The shared cameras by models with more terms.
+  std::vector<Camera> Extended(std::vector<Camera> cameras) const {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      if (shared_lenses_[i]) cameras[i] = WithMoreTerms(cameras[i]);
+    }
+    return cameras;
+  }
+
+  // Refines shared cameras, first by their own terms, then by more. Poses are
+  // adjusted to what is held out with either cameras; the new ones are kept if
+  // that fits better. Whether cameras have changed.
+  bool TryLenses() {
+    if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
+      return false;
+    }
+    struct Lenses {
+      MovedCameras moved;
+      PoseEvidence evidence;
+      std::vector<bool> free_lenses;
+    };
+    const Lenses without{
+        search_.edges().moved(), evidence_, search_.free_lenses()};
+    // The same edges for all, as losses of more edges are more.
+    PoseEvidence held_out = held_out_;
+    search_.Fit(&held_out);
+    search_.FindEdges(&held_out.places);
+    std::vector<double> best_losses = search_.LossesOf(held_out);
+    Lenses best = without;
+    std::vector<Camera> cameras = without.moved.cameras;
+    while (!search_.is_stopped()) {
+      evidence_ = without.evidence;
+      search_.Move({without.moved.new_cam_from_cam, cameras});
+      search_.FreeLenses(shared_lenses_);
+      search_.Adjust(&evidence_);
+      std::vector<double> losses = search_.LossesOf(held_out);
+      if (IsProven(held_out, best_losses, losses)) {
+        best_losses = std::move(losses);
+        best = {search_.edges().moved(), evidence_, shared_lenses_};
+      }
+      std::vector<Camera> longer = Extended(cameras);
+      if (longer == cameras) break;
+      cameras = std::move(longer);
+    }
+    search_.Move(best.moved);
+    search_.FreeLenses(best.free_lenses);
+    evidence_ = std::move(best.evidence);
+    return best.moved.cameras != without.moved.cameras;
+  }
+
+  // Whether the losses of what is held out fall, and not by chance.
+  bool IsProven(const PoseEvidence& held_out,
+                const std::vector<double>& before,
+                const std::vector<double>& after) const {
+    const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out);
+    GainsByCell places(cells_), points(cells_);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      GainsByCell& gains = i < held_out.places.size() ? places : points;
+      gains.Add(positions[i], before[i] - after[i]);
+    }
+    return IsBetter(Together(places, points));
+  }
+
+  // Views whose places come away from their edges keep their poses, unless
+  // lenses have changed: then old poses are of no use.
+  void RestoreWorseViews(const HeldOutErrors& after) {
+    if (!search_.free_lenses().empty()) return;
+    const std::vector<bool> worse =
+        WorseViews(PairErrors(held_out_, before_, after, search_.edges()),
+                   scene_.views.size());
+    MovedCameras moved = search_.edges().moved();
+    for (std::size_t i = 0; i < worse.size(); ++i) {
+      if (worse[i]) moved.new_cam_from_cam[i] = Rigid3();
+    }
+    search_.Move(moved);
+  }
+
+  CurvePoses Judge() {
+    CurvePoses result;
+    result.num_samples = evidence_.places.size() + held_out_.places.size();
+    result.num_points = evidence_.points.size() + held_out_.points.size();
+    result.num_check_samples = held_out_.places.size();
+    result.num_check_points = held_out_.points.size();
+    RestoreWorseViews(Measure());
+    const HeldOutErrors after = Measure();
+    SummarizeErrors(after, &result);
+    Decide(CompareErrors(held_out_, cells_, before_, after, search_.edges()),
+           &result);
+    PutPoses(held_out_, &result);
+    return result;
+  }
+
+  void SummarizeErrors(const HeldOutErrors& after, CurvePoses* result) const {
+    std::vector<double> from, to;
+    for (const ErrorPair& pair :
+         PairErrors(held_out_, before_, after, search_.edges())) {
+      from.push_back(pair.before);
+      to.push_back(pair.after);
+    }
+    result->num_check_observations = from.size();
+    result->before = Summarize(std::move(from));
+    result->after = Summarize(std::move(to));
+    result->points_before = Summarize(Concatenate(before_.points));
+    result->points_after = Summarize(Concatenate(after.points));
+  }
+
+  // Cameras that are proven better are enough: the poses of the scene were made
+  // for the old ones.
+  void Decide(const SignificanceOfGain& gain, CurvePoses* result) const {
+    char text[256];
+    std::snprintf(text,
+                  sizeof(text),
+                  "what was held out comes nearer by %.1f standard deviations "
+                  "(edges %.1f, points %.1f)",
+                  gain.all,
+                  gain.places,
+                  gain.points);
+    result->significance = gain.all;
+    const bool has_new_cameras = !search_.free_lenses().empty();
+    result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
+    result->reason = text;
+    if (!result->accepted) result->reason = "may be chance: " + result->reason;
+    if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
+      result->accepted = false;
+      result->reason = "too little is left to judge by";
+    }
+  }
+
+  // Adjusts to all there is, what was held out included.
+  void Finish(CurvePoses* result) {
+    for (PointSample& point : held_out_.points) {
+      point.position = search_.Fitted(point);
+    }
+    evidence_.places.insert(evidence_.places.end(),
+                            held_out_.places.begin(),
+                            held_out_.places.end());
+    evidence_.points.insert(evidence_.points.end(),
+                            held_out_.points.begin(),
+                            held_out_.points.end());
+    for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
+      search_.FindEdges(&evidence_.places);
+      search_.Adjust(&evidence_);
+    }
+    search_.HoldTheWorld(&evidence_);
+    PutPoses(evidence_, result);
+  }
+
+  std::size_t NumViewsMoved() const {
+    const MovedCameras& moved = search_.edges().moved();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      const Rigid3& motion = moved.new_cam_from_cam[i];
+      const auto k = static_cast<std::size_t>(scene_.views[i].camera_idx);
+      const bool stays =
+          motion.translation.isZero(0) &&
+          motion.rotation.coeffs() == Rigid3().rotation.coeffs() &&
+          moved.cameras[k] == scene_.cameras[k];
+      if (!stays) ++count;
+    }
+    return count;
+  }
+
+  void PutPoses(const PoseEvidence& evidence, CurvePoses* result) const {
+    std::vector<double> shifts;
+    for (const std::optional<double>& shift : search_.Shifts(evidence)) {
+      shifts.push_back(shift.value_or(0));
+    }
+    const auto largest = std::max_element(shifts.begin(), shifts.end());
+    result->max_shift_px = *largest;
+    result->max_shift_view_idx =
+        static_cast<std::size_t>(largest - shifts.begin());
+    result->num_views_moved = NumViewsMoved();
+    result->median_shift_px = MedianOr(0, std::move(shifts));
+    result->cameras =
+        result->accepted ? search_.edges().moved().cameras : scene_.cameras;
+    result->cam_from_world.clear();
+    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+      result->cam_from_world.push_back(result->accepted
+                                           ? search_.edges().PoseOf(i)
+                                           : scene_.views[i].cam_from_world);
+    }
+  }
+
+  const Scene& scene_;
+  const int num_threads_;
+  PoseSearch search_;
+  std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
+  PoseEvidence evidence_;
+  PoseEvidence held_out_;
+  SpaceCells cells_{{}};
+  HeldOutErrors before_;
+};
+
+}  // namespace
+
+Result<std::vector<EdgeMap>> EdgesWithCameras(
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<Camera>& cameras) {
+  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+    return status;
+  }
+  std::vector<EdgeMap> carried;
+  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
+    const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
+    auto edges = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
+    if (!edges) {
+      return Status(StatusCode::kInvalidArgument,
+                    "the camera of " + scene.views[i].name +
+                        " cannot be inverted at an edge");
+    }
+    carried.push_back(*std::move(edges));
+  }
+  return carried;
+}
+
+Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
+                                         const std::vector<EdgeMap>& edge_maps,
+                                         const Options& options,
+                                         const Progress& progress,
+                                         bool refine_intrinsics) {
+  if (Status status = CheckScene(scene); !status.ok()) return status;
+  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
+    return status;
+  }
+  if (Status status = Validate(options); !status.ok()) return status;
+  RunRecorder run(progress);
+  run.Begin("refine_poses_with_curves");
+  CurvePoses result =
+      Refiner(scene, edge_maps, options, refine_intrinsics, &run).Run();
+  if (run.cancelled()) return run.CancelledStatus();
+  return result;
+}
+
+}  // namespace curvix

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Synthetic scenes with exact curves: for tests, for the quick start, and for
+// trying the tool. Nothing here knows how curves are reconstructed.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+enum class SyntheticSolid {
+  kBlock,     // a box with a step: straight edges only
+  kCylinder,  // an upright cylinder on a plate: circles and occluding contours
+  kCone,      // a truncated cone on a plate
+  kSphere,    // a sphere cut by a plane: one circle, and an occluding contour
+  kPart,      // a bracket with a hole, a boss and a cone: all of the above
+  kFacade,    // the front of a row of houses, as long as the views need
+};
+
+struct SyntheticOptions {
+  SyntheticSolid solid = SyntheticSolid::kPart;
+  int num_views = 24;  // 3 to 999
+  int width = 480;     // pixels, 16 to 8192
+  int height = 480;    // pixels, 16 to 8192
+  double noise = 0;    // standard deviation, grey levels, 0 to 255
+  double texture = 0;  // contrast of surface texture, grey levels, 0 to 255:
+                       // spots, whose outlines are not part of the truth
+  CameraModel camera_model = CameraModel::kPinhole;
+  // The first radial coefficient, -0.5 to 0.5; FOV's omega and EUCM's alpha, 0
+  // to 0.9; 0 for models that have none.
+  double distortion = 0;
+  // Root mean square by which the projections of the truth move when the
+  // written poses replace those that the images were rendered with, 0 to 100.
+  double pose_error_px = 0;
+  // Longest side of the solid, height of the facade; world units, 1e-6 to 1e6.
+  double scale = 1;
+  int points_per_view = 0;  // sparse points found by each view, 0 to 10000
+  std::uint64_t seed = 1;
+  int num_threads = 0;  // 0: all cores; the result does not depend on it
+};
+
+// 8-bit RGB, row-major.
+struct RgbImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+// One exact sample of a sharp edge.
+struct TrueSample {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
+  int curve_id = 0;
+  int num_views_seen = 0;  // views in which nothing hides it
+  int num_views_edge = 0;  // of these, with a difference of 8 grey levels
+                           // across (1.5 px to both sides, without noise)
+};
+
+// A point of the surface, where exact cameras see it.
+struct TruePoint {
+  struct Sight {
+    int view_idx = 0;
+    Eigen::Vector2d pixel;  // in the image, distortion included
+  };
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
+  std::vector<Sight> sights;                           // ascending by view
+};
+
+struct SyntheticScene {
+  // Poses as written, views named view_000.png ..., along the facade in order;
+  // the points are in `points`.
+  Scene scene;
+  std::vector<TruePoint> points;  // seen by two views at least
+  std::vector<RgbImage> images;   // one per view, rendered with the exact poses
+  std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
+};
+
+// Deterministic for equal options. kInvalidArgument if an option is out of
+// range.
+Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options);
+
+}  // namespace curvix

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <csignal>
+#include <string>
+
+#include "base/file_io.h"
+#include "tests/support/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class FileIo : public ::testing::Test {
+ protected:
+  // The names in the folder, one after the other.
+  std::string Names() const {
+    std::string names;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      names += entry.path().filename().string() + " ";
+    }
+    return names;
+  }
+  fs::path Target() const { return folder_.path() / "target.bin"; }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(FileIo, WritesAndReplacesWholeFiles) {
+  const std::string bytes("a\0b\r\n", 5);
+  ASSERT_TRUE(WriteFileAtomically(Target(), "something longer").ok());
+  ASSERT_TRUE(WriteFileAtomically(Target(), bytes).ok());
+  EXPECT_EQ(*ReadFile(Target()), bytes);
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, DoesNotWriteThroughLinks) {
+  const TemporaryFolder outside;
+  const fs::path victim = outside.Write("victim", "precious");
+  fs::create_symlink(victim, Target());
+  fs::create_symlink(victim, folder_.path() / "target.bin.tmp");
+  ASSERT_TRUE(WriteFileAtomically(Target(), "new").ok());
+  EXPECT_EQ(*ReadFile(victim), "precious");
+  EXPECT_EQ(*ReadFile(Target()), "new");
+  EXPECT_FALSE(fs::is_symlink(Target()));
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, AFullDiskLeavesTheTargetAsItWas) {
+  ASSERT_TRUE(WriteFileAtomically(Target(), "old").ok());
+  rlimit old_limit;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old_limit), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit = old_limit;
+  limit.rlim_cur = 1000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  const Status status = WriteFileAtomically(Target(), std::string(5000, 'x'));
+  setrlimit(RLIMIT_FSIZE, &old_limit);
+  std::signal(SIGXFSZ, old_handler);
+
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("free space"));
+  EXPECT_EQ(*ReadFile(Target()), "old");
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, WritesPieceByPiece) {
+  FileWriter file(Target());
+  const ByteSink sink = file.Sink();
+  sink("a");
+  sink("");
+  sink("bc");
+  EXPECT_FALSE(fs::exists(Target()));
+  ASSERT_TRUE(file.Finish().ok());
+  EXPECT_EQ(*ReadFile(Target()), "abc");
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, AFileThatIsNotFinishedLeavesTheTargetAsItWas) {
+  ASSERT_TRUE(WriteFileAtomically(Target(), "old").ok());
+  { FileWriter(Target()).Append("new"); }
+  EXPECT_EQ(*ReadFile(Target()), "old");
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, AReadOnlyFolderLeavesTheTargetAsItWas) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  ASSERT_TRUE(WriteFileAtomically(Target(), "old").ok());
+  fs::permissions(folder_.path(),
+                  fs::perms::owner_read | fs::perms::owner_exec);
+  const Status status = WriteFileAtomically(Target(), "new");
+  fs::permissions(folder_.path(), fs::perms::owner_all);
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(*ReadFile(Target()), "old");
+}
+
+TEST_F(FileIo, AMissingFolderIsNamed) {
+  const Status status =
+      WriteFileAtomically(folder_.path() / "none" / "a.ply", "new");
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("none/a.ply"));
+  EXPECT_THAT(status.message(), HasSubstr("No such file"));
+}
+
+TEST_F(FileIo, AFolderIsNotReplacedByAFile) {
+  fs::create_directories(Target() / "inside");
+  const Status status = WriteFileAtomically(Target(), "new");
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(Names(), "target.bin ");
+  EXPECT_TRUE(fs::is_directory(Target() / "inside"));
+}
+
+TEST_F(FileIo, ReadingWhatIsNotAFileIsNotFound) {
+  EXPECT_EQ(ReadFile(Target()).status().code(), StatusCode::kNotFound);
+  EXPECT_EQ(ReadFile(folder_.path()).status().code(), StatusCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace curvix

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "curve_refinement/response_curve.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
+
+#include "tests/curve_refinement/drawn_curves.h"
+#include "tests/support/random.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kEdgeSigmaPx = 0.15;
+
+const ToneCurve kTone = {{0.5, 0.3}};
+
+struct SeenCurves {
+  std::vector<Curve> curves;
+  std::vector<PosedView> views;
+  std::vector<EdgeMap> edge_maps;
+};
+
+// A light and a dark side, as behind an edge of the object another background
+// may show in each view.
+void SetSides(Random& random, Edge2d& edge) {
+  constexpr double kSharpness = 0.8;
+  const double half_contrast = 10 + 30 * random.Uniform();
+  edge.level = static_cast<float>(60 + 140 * random.Uniform());
+  edge.sharpness = static_cast<float>(kSharpness);
+  edge.strength = static_cast<float>(
+      half_contrast / std::sqrt(std::numbers::pi / 2 / kSharpness));
+  if (random.Uniform() < 0.5) edge.angle += std::numbers::pi_v<float>;
+}
+
+// Eighty lines in eight views. All edges of a line in a view have the same
+// sides, and lie where `tone` puts them, but for noise.
+SeenCurves See(const Eigen::Vector2d& tone_px, int length_px = 40) {
+  Random random(3);
+  SeenCurves seen;
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.2 * i;
+    seen.views.push_back(LookAt(
+        {4 * std::sin(angle), -8, 1.5 * std::cos(2 * angle)}, {0, 0, 0}));
+  }
+  for (int i = 0; i < 80; ++i) {
+    const double angle = std::numbers::pi * i / 80;
+    const Eigen::Vector3d half =
+        length_px / 2.0 * InPlane(std::cos(angle), std::sin(angle));
+    seen.curves.push_back(Line(-half, half));
+  }
+  seen.edge_maps = SupportByEdges(seen.views, seen.curves);
+  for (const Curve& line : seen.curves) {
+    std::vector<Edge2d> sides(seen.views.size());
+    for (Edge2d& edge : sides) SetSides(random, edge);
+    for (const CurveSample& sample : line.samples) {
+      for (const EdgeRef& ref : sample.support) {
+        const auto v = static_cast<std::size_t>(ref.view_idx);
+        Edge2d& edge =
+            seen.edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        edge.level = sides[v].level;
+        edge.strength = sides[v].strength;
+        edge.sharpness = sides[v].sharpness;
+        edge.angle += sides[v].angle;
+        MoveAcross(0.03 * random.Normal() - ToneLever(edge).dot(tone_px), edge);
+      }
+    }
+  }
+  return seen;
+}
+
+Eigen::Vector2d Estimate(const SeenCurves& seen, int num_threads = 1) {
+  return EstimateToneCurve(
+             seen.curves, seen.views, seen.edge_maps, kEdgeSigmaPx, num_threads)
+      .px;
+}
+
+TEST(EstimateToneCurve, IsFoundFromHowViewsDiffer) {
+  const Eigen::Vector2d found = Estimate(See(kTone.px));
+  EXPECT_LT((found - kTone.px).norm(), 0.1);
+}
+
+TEST(EstimateToneCurve, OneOfItsPartsMayBeAll) {
+  const Eigen::Vector2d gamma(0.6, 0), shoulder(0, 0.6);
+  EXPECT_LT((Estimate(See(gamma)) - gamma).norm(), 0.1);
+  EXPECT_LT((Estimate(See(shoulder)) - shoulder).norm(), 0.1);
+}
+
+TEST(EstimateToneCurve, WithoutToneThereIsNone) {
+  EXPECT_LT(Estimate(See({0, 0})).norm(), 0.05);
+}
+
+TEST(EstimateToneCurve, BrightnessDoesNotGrowFasterThanLight) {
+  EXPECT_EQ(Estimate(See(-kTone.px)), Eigen::Vector2d::Zero());
+}
+
+TEST(EstimateToneCurve, OnePlaceInFourViewsTellsLittle) {
+  SeenCurves seen = See(kTone.px, 8);
+  seen.curves.resize(1);
+  for (CurveSample& sample : seen.curves[0].samples) sample.support.resize(4);
+  EXPECT_LT(Estimate(seen).norm(), 0.2 * kTone.px.norm());
+}
+
+TEST(EstimateToneCurve, WithoutCurvesThereIsNone) {
+  EXPECT_EQ(Estimate({}), Eigen::Vector2d::Zero());
+}
+
+TEST(EstimateToneCurve, EdgesOfUnknownLevelTellNothing) {
+  SeenCurves seen = See(kTone.px);
+  for (EdgeMap& map : seen.edge_maps) {
+    for (Edge2d& edge : map.edges) edge.level = 0;
+  }
+  EXPECT_EQ(Estimate(seen), Eigen::Vector2d::Zero());
+}
+
+TEST(EstimateToneCurve, DoesNotDependOnTheUnit) {
+  SeenCurves seen = See(kTone.px);
+  const Eigen::Vector2d found = Estimate(seen);
+  seen.curves = Scaled(std::move(seen.curves), 1000);
+  seen.views = Scaled(std::move(seen.views), 1000);
+  EXPECT_LT((Estimate(seen) - found).norm(), 1e-6);
+}
+
+TEST(EstimateToneCurve, ThreadsChangeNothing) {
+  const SeenCurves seen = See(kTone.px);
+  EXPECT_EQ(Estimate(seen, 1), Estimate(seen, 3));
+}
+
+}  // namespace
+}  // namespace curvix

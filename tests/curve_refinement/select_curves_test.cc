@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "curve_refinement/select_curves.h"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "tests/curve_refinement/drawn_curves.h"
+
+namespace curvix {
+namespace {
+
+constexpr CurveRefinementOptions kOptions = {.max_dilution = 2.5,
+                                             .max_blurred_share = 0.2};
+constexpr double kGoodScatterPx = 0.1;
+constexpr double kEdgeSigmaPx = 0.2;
+
+struct Drawn {
+  double dilution = 1;
+  double scatter_px = kGoodScatterPx;
+  double blurred_share = 0;
+};
+
+// Cameras all around the x axis.
+std::vector<PosedView> Around(int num_views) {
+  std::vector<PosedView> views;
+  for (int i = 0; i < num_views; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.25) / num_views;
+    views.push_back(
+        LookAt({0, -8 * std::cos(angle), 8 * std::sin(angle)}, {0, 0, 0}));
+  }
+  return views;
+}
+
+// Curves in two of the views, in which edges as sharp as all others support
+// them but for the share that is blurred. If all n views did, dilution would
+// be sqrt(2 / n).
+class Scene {
+ public:
+  explicit Scene(int num_views = 16)
+      : views_(Around(num_views)), edge_maps_(views_.size()) {
+    for (int k = 0; k < 1000; ++k) {  // what else the views show
+      for (EdgeMap& map : edge_maps_) {
+        map.edges.push_back(
+            {{0.5 * k, 5}, 0, 20, static_cast<float>(kSharpness)});
+      }
+    }
+  }
+
+  // A line of 200 samples, the blurred ones of which are seen in view 1. How
+  // many there were before, which its evidence tells, too.
+  double Add(const Drawn& drawn) {
+    const auto idx = static_cast<double>(curves_.size());
+    Curve curve = Line(InPlane(-100, 0), InPlane(99, 0));
+    const std::size_t count = curve.samples.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      CurveSample& sample = curve.samples[k];
+      sample.evidence = idx;
+      sample.sigma = kEdgeSigmaPx * drawn.dilution * kPixel;
+      const bool is_blurred = static_cast<double>(k) + 0.5 <
+                              drawn.blurred_share * static_cast<double>(count);
+      sample.support = {
+          AddEdge(sample,
+                  is_blurred,
+                  drawn.scatter_px / 1.4826 * (k % 2 == 0 ? 1 : -1))};
+    }
+    curves_.push_back(std::move(curve));
+    return idx;
+  }
+
+  SelectedCurves Select(const CurveRefinementOptions& options = kOptions,
+                        double unit = 1) const {
+    return SelectCurves(Scaled(curves_, unit),
+                        Scaled(views_, unit),
+                        edge_maps_,
+                        kEdgeSigmaPx,
+                        options,
+                        1);
+  }
+
+ private:
+  static constexpr double kSharpness = 0.7;
+
+  // An edge `offset_px` beside the sample.
+  EdgeRef AddEdge(const CurveSample& sample,
+                  bool is_blurred,
+                  double offset_px) {
+    const std::int32_t view_idx = is_blurred ? 1 : 0;
+    const PosedView& view = views_[static_cast<std::size_t>(view_idx)];
+    Edge2d edge;
+    edge.position = view.Pixel(view.InCamera(sample.position)) +
+                    Eigen::Vector2d(0, offset_px);
+    edge.strength = 10;
+    edge.sharpness =
+        static_cast<float>(is_blurred ? kSharpness / 2 : kSharpness);
+    auto& edges = edge_maps_[static_cast<std::size_t>(view_idx)].edges;
+    edges.push_back(edge);
+    return {view_idx, static_cast<std::int32_t>(edges.size() - 1)};
+  }
+
+  std::vector<PosedView> views_;
+  std::vector<EdgeMap> edge_maps_;
+  std::vector<Curve> curves_;
+};
+
+enum class Kind { kEdge, kOccludingContour, kNone };
+
+// What becomes of a curve in a scene with two good ones.
+Kind KindOf(const Drawn& drawn, Scene scene = Scene()) {
+  scene.Add({});
+  scene.Add({});
+  const double idx = scene.Add(drawn);
+  const SelectedCurves selected = scene.Select();
+  const auto holds_it = [&](const std::vector<Curve>& curves) {
+    return std::any_of(curves.begin(), curves.end(), [&](const Curve& curve) {
+      return curve.samples.front().evidence == idx;
+    });
+  };
+  if (holds_it(selected.edges)) return Kind::kEdge;
+  return holds_it(selected.occluding_contours) ? Kind::kOccludingContour
+                                               : Kind::kNone;
+}
+
+// Curves of this scatter and blur are edges up to this dilution, and `beyond`
+// above it.
+void ExpectLimit(double dilution,
+                 const Drawn& drawn,
+                 const Scene& scene = Scene(),
+                 Kind beyond = Kind::kOccludingContour) {
+  Drawn at_limit = drawn;
+  at_limit.dilution = 0.999 * dilution;
+  EXPECT_EQ(KindOf(at_limit, scene), Kind::kEdge);
+  at_limit.dilution = 1.001 * dilution;
+  EXPECT_EQ(KindOf(at_limit, scene), beyond);
+}
+
+TEST(SelectCurves, AsksThatPlacesAreKnownSurely) { ExpectLimit(2.5, {}); }
+
+TEST(SelectCurves, AsksForMoreWhereEdgesScatterMoreThanInThisScene) {
+  ExpectLimit(2.5, {.scatter_px = 0.5 * kGoodScatterPx});
+  for (const double ratio : {1.5, 3.0}) {
+    ExpectLimit(2.5 / ratio, {.scatter_px = ratio * kGoodScatterPx});
+  }
+}
+
+TEST(SelectCurves, AsksForLessWhereTheViewsCannotTellMore) {
+  ExpectLimit(6 * std::sqrt(2.0 / 8), {}, Scene(8));
+  ExpectLimit(1.6 * 2.5, {}, Scene(4));
+  ExpectLimit(1.6 * 2.5, {}, Scene(2));  // both in one plane with the curve
+}
+
+TEST(SelectCurves, AsksForMoreOfBlurredCurves) {
+  ExpectLimit(0.75 * 2.5, {.blurred_share = 0.05}, Scene(), Kind::kNone);
+  ExpectLimit(0.25 * 2.5, {.blurred_share = 0.15}, Scene(), Kind::kNone);
+}
+
+TEST(SelectCurves, LeavesBordersOfShadingOut) {
+  EXPECT_EQ(KindOf({.dilution = 0.1, .blurred_share = 0.195}), Kind::kNone);
+  EXPECT_EQ(KindOf({.dilution = 0.01, .blurred_share = 0.25}), Kind::kNone);
+  EXPECT_EQ(KindOf({.dilution = 3, .blurred_share = 0.25}),
+            Kind::kOccludingContour);
+}
+
+TEST(SelectCurves, KeepsBlurredCurvesIfAsked) {
+  Scene scene;
+  scene.Add({});
+  scene.Add({.dilution = 2.4, .blurred_share = 1});
+  scene.Add({.dilution = 2.6, .blurred_share = 1});
+  CurveRefinementOptions options = kOptions;
+  options.max_blurred_share = 1;
+  EXPECT_EQ(scene.Select(options).edges.size(), 2u);
+}
+
+TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
+  Scene scene;
+  for (int i = 0; i < 5; ++i) {
+    scene.Add({.dilution = 5, .scatter_px = 0.5});
+    scene.Add({.scatter_px = 0.5, .blurred_share = 0.1});
+  }
+  ExpectLimit(1.25, {.scatter_px = 2 * kGoodScatterPx}, scene);
+}
+
+TEST(SelectCurves, LearnsTheScatterFromSoftCurvesIfNoneIsSharp) {
+  Scene scene;
+  for (const double dilution : {0.5, 1.2, 1.3}) {
+    scene.Add({.dilution = dilution,
+               .scatter_px = 5 * kGoodScatterPx,
+               .blurred_share = 0.1});
+  }
+  EXPECT_EQ(scene.Select().edges.size(), 2u);
+}
+
+TEST(SelectCurves, KeepsCurvesOfUnknownSigma) {
+  EXPECT_EQ(KindOf({.dilution = 0}), Kind::kEdge);
+}
+
+TEST(SelectCurves, KeepsAllIfAsked) {
+  Scene scene;
+  scene.Add({.dilution = 1000, .blurred_share = 1});
+  CurveRefinementOptions options = kOptions;
+  options.max_dilution = 0;
+  EXPECT_EQ(scene.Select(options).edges.size(), 1u);
+}
+
+TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
+  Scene scene;
+  for (const double dilution : {1, 5, 2, 1, 6}) {
+    scene.Add({.dilution = dilution});
+    scene.Add({.dilution = 1, .blurred_share = 0.5});
+  }
+  const SelectedCurves selected = scene.Select();
+  std::vector<double> edges, contours;
+  for (const Curve& curve : selected.edges) {
+    edges.push_back(curve.samples.front().evidence);
+    EXPECT_FALSE(curve.is_occluding_contour);
+  }
+  for (const Curve& curve : selected.occluding_contours) {
+    contours.push_back(curve.samples.front().evidence);
+    EXPECT_TRUE(curve.is_occluding_contour);
+  }
+  EXPECT_EQ(edges, (std::vector<double>{0, 4, 6}));
+  EXPECT_EQ(contours, (std::vector<double>{2, 8}));
+}
+
+TEST(SelectCurves, DoesNotDependOnTheUnit) {
+  Scene scene;
+  for (const double dilution : {1.0, 2.49, 2.51}) {
+    scene.Add({.dilution = dilution});
+  }
+  EXPECT_EQ(scene.Select(kOptions, 1000).edges.size(), 2u);
+  EXPECT_EQ(scene.Select(kOptions, 1).edges.size(), 2u);
+}
+
+}  // namespace
+}  // namespace curvix

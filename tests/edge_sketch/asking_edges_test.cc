@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_sketch/asking_edges.h"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace curvix {
+namespace {
+
+struct Contour {
+  int num_edges = 0;
+  float strength = 0;
+};
+
+// Contours one after the other.
+EdgeMap MapOf(const std::vector<Contour>& contours) {
+  EdgeMap map;
+  for (const Contour& contour : contours) {
+    for (int i = 0; i < contour.num_edges; ++i) {
+      const auto edge_idx = static_cast<std::int32_t>(map.edges.size());
+      map.edges.emplace_back().strength = contour.strength;
+      EdgeNeighbors& neighbors = map.neighbors.emplace_back();
+      if (i > 0) neighbors.previous = edge_idx - 1;
+      if (i + 1 < contour.num_edges) neighbors.next = edge_idx + 1;
+    }
+  }
+  return map;
+}
+
+// Whether all edges of the contour, or none, are among these.
+bool IsStrong(const std::vector<bool>& are_strong,
+              const std::vector<Contour>& contours,
+              std::size_t contour_idx) {
+  auto begin = are_strong.begin();
+  for (std::size_t i = 0; i < contour_idx; ++i) {
+    begin += contours[i].num_edges;
+  }
+  const auto end = begin + contours[contour_idx].num_edges;
+  EXPECT_EQ(std::count(begin, end, *begin), end - begin) << contour_idx;
+  return *begin;
+}
+
+TEST(AreOnStrongContours, WeighsLengthAndStrength) {
+  // Of 101 edges the median has strength 1.
+  const std::vector<Contour> contours = {{51, 1},
+                                         {5, 1},
+                                         {6, 1},
+                                         {1, 5.5F},
+                                         {1, 6},
+                                         {2, 3},
+                                         {11, 0.5F},
+                                         {12, 0.5F},
+                                         {12, 0.25F}};
+  const EdgeMap map = MapOf(contours);
+  ASSERT_EQ(map.edges.size(), 101u);
+  const std::vector<bool> are_strong = AreOnStrongContours(map, 6);
+  const std::vector<bool> expected = {
+      true, false, true, false, true, true, false, true, false};
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    EXPECT_EQ(IsStrong(are_strong, contours, i), expected[i]) << i;
+  }
+}
+
+TEST(AreOnStrongContours, OfNoEdgesThereAreNone) {
+  EXPECT_TRUE(AreOnStrongContours({}, 6).empty());
+}
+
+// What is asked for is in units of the image itself.
+TEST(AreOnStrongContours, ContrastMakesNoDifference) {
+  EdgeMap map = MapOf({{3, 1}, {7, 2}, {1, 9}, {20, 0.3F}, {40, 1}});
+  const std::vector<bool> before = AreOnStrongContours(map, 6);
+  for (Edge2d& edge : map.edges) edge.strength *= 4;
+  EXPECT_EQ(AreOnStrongContours(map, 6), before);
+}
+
+}  // namespace
+}  // namespace curvix

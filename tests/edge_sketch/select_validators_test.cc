@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_sketch/select_validators.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <vector>
+
+#include "base/angles.h"
+#include "tests/support/synthetic_edges.h"
+
+namespace curvix {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+std::vector<std::vector<ViewOverlap>> Ring(int num_views) {
+  return FindOverlaps(RingOfViews(num_views), {});
+}
+
+TEST(SelectValidators, TakesAllOfFewViews) {
+  EXPECT_THAT(SelectValidators(Ring(5), 3, {1}, 5), ElementsAre(0, 1, 2, 3, 4));
+}
+
+TEST(SelectValidators, SpreadsThemOverAllDirections) {
+  const auto chosen = SelectValidators(Ring(200), 7, {17, 197}, 25);
+  EXPECT_THAT(chosen, SizeIs(25));
+  EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+  for (const int must : {7, 17, 197}) EXPECT_THAT(chosen, Contains(must));
+  // 25 of 200 are 8 apart; halving gaps leaves none twice as wide.
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const int next = chosen[(i + 1) % chosen.size()];
+    const int gap = (next - chosen[i] + 200) % 200;
+    EXPECT_LE(gap, 16) << chosen[i];
+    EXPECT_GE(gap, 2) << chosen[i];
+  }
+}
+
+TEST(SelectValidators, TakesViewsThatOverlapOnly) {
+  auto overlaps = Ring(20);
+  std::erase_if(overlaps[4],
+                [](const ViewOverlap& overlap) { return overlap.other > 9; });
+  for (const int view_idx : SelectValidators(overlaps, 4, {}, 12)) {
+    EXPECT_LE(view_idx, 9);
+  }
+}
+
+TEST(OverlapsAmong, KeepsWhatConcernsTheChosenOnly) {
+  const auto overlaps = Ring(6);
+  const auto among = OverlapsAmong(overlaps, {1, 2, 4});
+  ASSERT_THAT(among, SizeIs(6));
+  for (const std::size_t i : {0U, 3U, 5U}) EXPECT_THAT(among[i], IsEmpty());
+  ASSERT_THAT(among[2], SizeIs(2));
+  EXPECT_EQ(among[2][0].other, 1);
+  EXPECT_EQ(among[2][1].other, 4);
+  EXPECT_EQ(among[2][1].ray_angle_rad, overlaps[2][3].ray_angle_rad);
+}
+
+}  // namespace
+}  // namespace curvix

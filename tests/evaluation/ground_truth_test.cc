@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/ground_truth.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace curvix {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ParseGroundTruth, NineColumnsGiveEverything) {
+  const auto truth = ParseGroundTruth(
+      "# x y z\n\n1 2 3 0 0 1 4 7 5 # here\r\n+1e0 2 3 0 0 1 "
+      "4.0 8 6");
+  ASSERT_TRUE(truth.ok()) << truth.status().message();
+  ASSERT_EQ(truth->samples.size(), 2u);
+  EXPECT_EQ(truth->samples[0].position, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(truth->samples[0].tangent, Eigen::Vector3d(0, 0, 1));
+  EXPECT_EQ(truth->samples[1].curve_id, 4);
+  EXPECT_EQ(truth->samples[1].num_views_seen, 8);
+  EXPECT_EQ(truth->samples[1].num_views_edge, 6);
+  EXPECT_TRUE(truth->has_tangents && truth->has_curve_ids && truth->has_views);
+}
+
+TEST(ParseGroundTruth, MissingColumnsAreMarked) {
+  const auto truth = ParseGroundTruth("1 2 3\n4 5 6\n");
+  ASSERT_TRUE(truth.ok());
+  EXPECT_FALSE(truth->has_tangents || truth->has_curve_ids || truth->has_views);
+  EXPECT_TRUE(ParseGroundTruth("1 2 3 1 0 0")->has_tangents);
+  EXPECT_FALSE(ParseGroundTruth("1 2 3 1 0 0")->has_curve_ids);
+  EXPECT_TRUE(ParseGroundTruth("1 2 3 1 0 0 0")->has_curve_ids);
+  EXPECT_FALSE(ParseGroundTruth("1 2 3 1 0 0 0")->has_views);
+}
+
+TEST(ParseGroundTruth, ViewsThatSeeStandInForViewsWithAnEdge) {
+  const auto truth = ParseGroundTruth("1 2 3 1 0 0 0 9");
+  EXPECT_TRUE(truth->has_views);
+  EXPECT_EQ(truth->samples[0].num_views_edge, 9);
+}
+
+TEST(ParseGroundTruth, BrokenRowsAreReportedWithTheirLine) {
+  for (const char* text : {"0 0 0\n1 2\n",
+                           "0 0 0\n1 2 x\n",
+                           "0 0 0\n1 2 nan\n",
+                           "0 0 0\n1 2 3 4\n",
+                           "0 0 0\n1 2 1e999\n"}) {
+    const auto truth = ParseGroundTruth(text);
+    EXPECT_EQ(truth.status().code(), StatusCode::kDataLoss) << text;
+    EXPECT_THAT(truth.status().message(), HasSubstr("line 2")) << text;
+  }
+  EXPECT_EQ(ParseGroundTruth("# only\n").status().code(),
+            StatusCode::kDataLoss);
+  EXPECT_EQ(ParseGroundTruth("1 2\n").status().code(), StatusCode::kDataLoss);
+}
+
+}  // namespace
+}  // namespace curvix

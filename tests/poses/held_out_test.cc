@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poses/held_out.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+
+#include "tests/support/random.h"
+
+namespace curvix {
+namespace {
+
+std::vector<Eigen::Vector3d> RandomPositions(int count) {
+  Random random(5);
+  std::vector<Eigen::Vector3d> positions;
+  for (int i = 0; i < count; ++i) positions.push_back(random.NormalVector());
+  return positions;
+}
+
+TEST(SpaceCells, HoldsOutAFifthWhateverTheUnit) {
+  const std::vector<Eigen::Vector3d> positions = RandomPositions(5000);
+  std::vector<Eigen::Vector3d> in_other_unit;
+  for (const auto& x : positions) in_other_unit.push_back(1024 * x);
+  const SpaceCells cells(positions), others(in_other_unit);
+  int count = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    count += cells.IsHeldOut(positions[i]);
+    EXPECT_EQ(cells.IsHeldOut(positions[i]),
+              others.IsHeldOut(in_other_unit[i]));
+  }
+  EXPECT_NEAR(count, 1000, 100);
+}
+
+// Gains of many items that are as often losses, those of a cell being the same:
+// significant once in a thousand times at most, however many items a cell has.
+TEST(GainsByCell, CallsChanceSignificantOnceInAThousandTimes) {
+  const std::vector<Eigen::Vector3d> positions = RandomPositions(300);
+  const SpaceCells cells(positions);
+  Random random(6);
+  constexpr int kNumTrials = 4000;
+  int num_significant = 0;
+  for (int trial = 0; trial < kNumTrials; ++trial) {
+    std::map<SpaceCells::Cell, double> gain_of_cell;
+    GainsByCell gains(cells);
+    for (const Eigen::Vector3d& x : positions) {
+      const auto [at, is_new] = gain_of_cell.try_emplace(cells.CellOf(x), 0);
+      if (is_new) at->second = std::pow(random.Normal(), 3);
+      gains.Add(x, at->second);
+    }
+    num_significant += gains.Significance() >= kSignificant;
+  }
+  EXPECT_LE(num_significant, kNumTrials / 1000);
+}
+
+TEST(GainsByCell, SeesASmallGainOfManyCells) {
+  const std::vector<Eigen::Vector3d> positions = RandomPositions(2000);
+  const SpaceCells cells(positions);
+  Random random(7);
+  GainsByCell gains(cells);
+  for (const Eigen::Vector3d& x : positions) {
+    gains.Add(x, 0.2 + random.Normal());
+  }
+  EXPECT_GT(gains.Significance(), kSignificant);
+}
+
+TEST(GainsByCell, IsNoneWithoutGains) {
+  const SpaceCells cells({});
+  EXPECT_EQ(GainsByCell(cells).Significance(), 0);
+}
+
+TEST(IsBetter, AsksBothKinds) {
+  EXPECT_TRUE(IsBetter({3, 3, 4.2}));
+  EXPECT_FALSE(IsBetter({-3, 10, 5}));  // places tell the contrary
+  EXPECT_FALSE(IsBetter({2, 2, 2.8}));
+}
+
+TEST(WorseViews, AreThoseThatLoseBeyondChance) {
+  std::vector<ErrorPair> pairs;
+  for (std::size_t i = 0; i < 10; ++i) {
+    pairs.push_back({i, 0, 0.1, 0.3});
+    pairs.push_back({i, 1, 0.3, 0.1});
+    pairs.push_back({i, 2, 0.2, i % 2 == 0 ? 0.1 : 0.3});
+  }
+  EXPECT_EQ(WorseViews(pairs, 4),
+            (std::vector<bool>{true, false, false, false}));
+}
+
+TEST(ChoosePoints, HoldsOutEveryFifthAndWhatNoViewNeeds) {
+  std::vector<PointSample> points(3000);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].position = {static_cast<double>(i), 0, 0};
+    points[i].observations.resize(i % 2 == 0 ? 3 : 2);
+    for (std::size_t k = 0; k < points[i].observations.size(); ++k) {
+      points[i].observations[k].view_idx = static_cast<std::int32_t>(k);
+    }
+  }
+  const ChosenPoints chosen = ChoosePoints(points, 3);
+  EXPECT_EQ(chosen.chosen.size() + chosen.held_out.size(), points.size());
+  EXPECT_EQ(chosen.chosen.size(), 400u);
+  for (const PointSample& point : chosen.chosen) {
+    EXPECT_EQ(point.observations.size(), 3u);  // those that most views see
+  }
+}
+
+}  // namespace
+}  // namespace curvix
