@@ -151,7 +151,7 @@ struct ConnectivityOptions {
   double max_gap_px = 10.0;
   // A piece of a curve nearer to a longer one is drawn once. Pixels, >= 0; 0
   // (paper) keeps all.
-  double max_repeat_distance_px = 1.0;
+  double max_duplicate_distance_px = 1.0;
   // Curves are cut where they turn by more in one place. Degrees, > 0, <= 180;
   // 180 (paper) cuts none.
   double max_corner_deg = 30.0;
@@ -193,8 +193,8 @@ struct CurveRefinementOptions {
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
   // smooths nothing.
   double smoothing_px = 2.5;
-  // Edges that the tone curve of the images has moved are moved back.
-  bool undo_tone_curve = true;
+  // Edges that the response curve of the images has moved are moved back.
+  bool undo_response_curve = true;
   // Longest gap closed between ends that continue each other at their own
   // curvature, though the images do not show it. Pixels, >= 0; 0 closes none.
   double max_gap_px = 15.0;

@@ -56,7 +56,7 @@ FlagSection TruthSection(EvaluateSettings* settings) {
 std::vector<FlagSection> Sections(EvaluateSettings* settings) {
   std::vector<FlagSection> sections = {
       TruthSection(settings),
-      {"Against photographs held out, with a workspace",
+      {"Against images held out, with a workspace",
        {RowFlag({.name = "holdout_every",
                  .field = &settings->holdout_every,
                  .help = "reconstruct the workspace without one of N views "

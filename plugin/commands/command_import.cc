@@ -55,7 +55,7 @@ FlagSection DataSetFlags(Settings* settings) {
                              "COLMAP model")),
            PathFlag("image_path",
                     &settings->options.image_path,
-                    "the folder of the photographs; looked for around the "
+                    "the folder of the images; looked for around the "
                     "cameras if not given"),
            ChoiceFlag("first_pixel",
                       {"auto", "0", "0.5", "1"},
@@ -64,7 +64,7 @@ FlagSection DataSetFlags(Settings* settings) {
                       "data set; auto: the convention of the format"),
            PathFlag("image_filter",
                     &settings->image_filter,
-                    "dtu: only photographs whose names hold this text"),
+                    "dtu: only images whose names hold this text"),
            Switch("normalize",
                   &settings->options.normalize,
                   "dtu: the unit sphere of scale_mat instead of "
@@ -80,7 +80,7 @@ FlagSection WorkspaceFlags(Settings* settings) {
            ChoiceFlag("copy_policy",
                       CopyPolicies(),
                       &settings->copy_policy,
-                      "how photographs get there; those that are in images/ "
+                      "how images get there; those that are in images/ "
                       "already stay")}};
 }
 
@@ -135,8 +135,8 @@ ExitCode RunImport(const Arguments& arguments) {
   const std::string path = settings.workspace_path.string();
   const bool has_links =
       PolicyOf(settings.copy_policy) == CopyPolicy::kSoftLink;
-  std::cout << "Wrote " << Counted(scene->model.images.size(), "photograph")
-            << ", " << Counted(scene->model.cameras.size(), "camera") << " and "
+  std::cout << "Wrote " << Counted(scene->model.images.size(), "image") << ", "
+            << Counted(scene->model.cameras.size(), "camera") << " and "
             << Counted(scene->model.points.size(), "point") << " to " << path
             << "\nTry: colmap_curvix --workspace_path " << path
             << (has_links ? " --image_path " + path + "/images" : "")

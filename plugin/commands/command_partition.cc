@@ -16,7 +16,7 @@ FlagSection PartsSection(int* max_views_per_part) {
                     .field = max_views_per_part,
                     .min = 3,
                     .max = 1000000,
-                    .help = "most photographs that a part is reconstructed "
+                    .help = "most images that a part is reconstructed "
                             "from, those around it included"})}};
 }
 

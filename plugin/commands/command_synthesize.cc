@@ -39,19 +39,19 @@ FlagSection ImageFlags(Settings* settings) {
                     .field = &o.num_views,
                     .min = 3,
                     .max = 10000,
-                    .help = "photographs: all around, or along a facade"}),
+                    .help = "images: all around, or along a facade"}),
            RowFlag({.name = "width",
                     .field = &o.width,
                     .min = 16,
                     .max = 10000,
                     .unit = "px",
-                    .help = "width of a photograph"}),
+                    .help = "width of an image"}),
            RowFlag({.name = "height",
                     .field = &o.height,
                     .min = 16,
                     .max = 10000,
                     .unit = "px",
-                    .help = "height of a photograph"}),
+                    .help = "height of an image"}),
            RowFlag({.name = "noise",
                     .field = &o.noise,
                     .max = 255,
@@ -85,7 +85,7 @@ FlagSection CameraFlags(Settings* settings) {
            RowFlag({.name = "points_per_view",
                     .field = &o.points_per_view,
                     .max = 10000,
-                    .help = "sparse points that each photograph finds"})}};
+                    .help = "sparse points that each image finds"})}};
 }
 
 std::vector<FlagSection> Sections(Settings* settings) {
@@ -130,7 +130,7 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   if (!status.ok()) return Fail(status, ExitCodeOf(status));
   const std::string path = settings.workspace_path.string();
   std::cout << "Wrote " << settings.options.num_views
-            << " photographs and their poses to " << path
+            << " images and their poses to " << path
             << "\nTry: colmap_curvix --workspace_path " << path << std::endl;
   return kExitSuccess;
 }

@@ -32,8 +32,8 @@ void PrintRow(std::string name,
 }
 
 void PrintTable(const HoldoutResult& result, std::ostream& out) {
-  const PhotographAgreement& agreement = result.agreement;
-  std::string head = "in the photographs held out, %";
+  const ImageAgreement& agreement = result.agreement;
+  std::string head = "in the images held out, %";
   head.resize(40, ' ');
   out << result.num_held_out << " views held out, "
       << GroupDigits(result.curves.num_curves) << " curves of total length "
@@ -52,7 +52,7 @@ void PrintTable(const HoldoutResult& result, std::ostream& out) {
 }
 
 void PrintJson(const HoldoutResult& result, std::ostream& out) {
-  const PhotographAgreement& agreement = result.agreement;
+  const ImageAgreement& agreement = result.agreement;
   nlohmann::ordered_json json;
   json["held_out"] = result.num_held_out;
   json["curves"] = result.curves.num_curves;
@@ -117,7 +117,7 @@ Status RunHoldout(const RunSettings& settings,
           ? ReconstructOthers(scene, settings.options, every, progress)
           : ReadCurves(curves_path, scene);
   if (!curves.ok()) return curves.status();
-  const Result<PhotographAgreement> agreement = CompareWithPhotographs(
+  const Result<ImageAgreement> agreement = CompareWithImages(
       curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
   if (!agreement.ok()) return agreement.status();
   progress.Finish();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). `evaluate --holdout_every`: curves against those
-// photographs of a workspace that had no part in them.
+// images of a workspace that had no part in them.
 #pragma once
 
 #include <curvix/status.h>
@@ -17,7 +17,7 @@ namespace curvix {
 struct HoldoutResult {
   int num_held_out = 0;  // views
   ResultSummary curves;
-  PhotographAgreement agreement;
+  ImageAgreement agreement;
 };
 
 // Prints a table for people, or one JSON object: held_out, curves, length,
@@ -28,10 +28,10 @@ void PrintHoldout(const HoldoutResult& result,
                   std::ostream& out);
 
 // Reads the workspace, reconstructs without one of `every` views, compares with
-// the photographs of these, and prints. Poses are taken as they are. With a
+// the images of these, and prints. Poses are taken as they are. With a
 // `curves_path`, these curves are compared, whoever made them, and nothing is
 // reconstructed. Nothing is written to disk. Fails as RunWorkspace,
-// ReconstructWithHoldout, ReadCurves and CompareWithPhotographs do.
+// ReconstructWithHoldout, ReadCurves and CompareWithImages do.
 Status RunHoldout(const RunSettings& settings,
                   const std::filesystem::path& curves_path,
                   int every,

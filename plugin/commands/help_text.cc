@@ -44,31 +44,32 @@ std::string FlagHelp(const Flag& flag) {
   return is_list ? text + WrapText("one of: " + allowed, 6) : text;
 }
 
-std::string MarkdownRow(const OptionRow& row, const OptionRow& paper) {
-  const std::string value = ValueText(row);
-  const std::string paper_value = ValueText(paper);
-  const auto or_dash = [](const std::string& text) {
-    return text.empty() ? std::string("–") : text;
-  };
-  return "| `--" + row.name + "` | " + value + " | " +
-         (paper_value == value ? "same" : paper_value) + " | " +
-         RangeText(row) + " | " + or_dash(row.unit) + " | " +
-         or_dash(row.symbol) + " | " + row.help + " |\n";
+// `text`, and `more` behind it if it says something.
+std::string With(const std::string& text,
+                 const std::string& before,
+                 const std::string& more,
+                 const std::string& after = "") {
+  return more.empty() ? text : text + before + more + after;
 }
 
-// A table of flags that the option table does not have.
-std::string MarkdownTable(const FlagSection& section) {
+std::string MarkdownRow(const Flag& flag, const std::string& paper_value) {
+  std::string value = With(flag.default_value, " ", flag.unit);
+  if (paper_value != flag.default_value) {
+    value = With(value, value.empty() ? "" : "; ", "paper " + paper_value);
+  }
+  return "| `--" + flag.name + "` | " + (value.empty() ? "–" : value) + " | " +
+         (flag.range.empty() ? "–" : flag.range) + " | " +
+         With(flag.help, " (", flag.symbol, ")") + " |\n";
+}
+
+std::string MarkdownTable(const FlagSection& section,
+                          const FlagSection& paper) {
   std::string text = "\n## " + section.title +
                      "\n\n"
-                     "| option | default | range | unit | meaning |\n"
-                     "|---|---|---|---|---|\n";
-  for (const Flag& flag : section.flags) {
-    text += "| `--" + flag.name + "` |";
-    for (const std::string& cell :
-         {flag.default_value, flag.range, flag.unit, flag.help}) {
-      text += " " + (cell.empty() ? std::string("–") : cell) + " |";
-    }
-    text += "\n";
+                     "| option | default | range | meaning |\n"
+                     "|---|---|---|---|\n";
+  for (std::size_t i = 0; i < section.flags.size(); ++i) {
+    text += MarkdownRow(section.flags[i], paper.flags[i].default_value);
   }
   return text;
 }
@@ -78,24 +79,12 @@ constexpr char kMarkdownHead[] =
     "\n"
     "<!-- Written by `colmap_curvix help --markdown`; a test compares. -->\n"
     "\n"
-    "Every option of the reconstruction, stage by stage in the order of the\n"
-    "paper. Give them on the command line (`--Validation.max_angle_deg 10`) "
-    "or\n"
-    "in a project file (`--project_path x.ini`):\n"
-    "\n"
-    "```ini\n"
-    "workspace_path=proj\n"
-    "[Validation]\n"
-    "max_angle_deg=10\n"
-    "```\n"
-    "\n"
-    "The command line wins over the project file, and both over `--preset`.\n"
-    "*Paper* is the value with `--preset paper`. Pixels are those of the\n"
-    "original images.\n";
-
-constexpr char kMarkdownTable[] =
-    "| option | default | paper | range | unit | in the paper | meaning |\n"
-    "|---|---|---|---|---|---|---|\n";
+    "Every option of the reconstruction, in the order of the paper. Give them\n"
+    "on the command line (`--Validation.max_angle_deg 10`) or in a project\n"
+    "file (`--project_path x.ini`, with `max_angle_deg=10` below\n"
+    "`[Validation]`). The command line wins over the project file, and both\n"
+    "over `--preset`. *Paper*: the value with `--preset paper`, where it is\n"
+    "another. Pixels are those of the original images.\n";
 
 }  // namespace
 
@@ -120,22 +109,15 @@ std::string HelpText(const std::string& usage,
 }
 
 std::string OptionsMarkdown() {
+  PoseRefinementSettings poses;
+  const FlagSection pose_flags = PoseRefinementFlags(&poses);
+  std::string text = kMarkdownHead + MarkdownTable(pose_flags, pose_flags);
   Options options;
   Options paper = PaperOptions();
-  const std::vector<OptionRow> rows = OptionTable(options);
-  const std::vector<OptionRow> paper_rows = OptionTable(paper);
-  PoseRefinementSettings poses;
-  std::string text = kMarkdownHead + MarkdownTable(PoseRefinementFlags(&poses));
-  std::string previous = "-";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::size_t dot = rows[i].name.find('.');
-    const std::string section =
-        dot == std::string::npos ? "Runtime" : rows[i].name.substr(0, dot);
-    if (section != previous) {
-      text += "\n## " + section + "\n\n" + kMarkdownTable;
-    }
-    previous = section;
-    text += MarkdownRow(rows[i], paper_rows[i]);
+  const std::vector<FlagSection> sections = OptionSections(options);
+  const std::vector<FlagSection> papers = OptionSections(paper);
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    text += MarkdownTable(sections[i], papers[i]);
   }
   return text;
 }

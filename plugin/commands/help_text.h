@@ -18,7 +18,7 @@ std::string HelpText(const std::string& usage,
                      bool with_advanced);
 
 // docs/options.md: every row of the option table with its default, its value
-// with `--preset paper`, range, unit, place in the paper and meaning.
+// with `--preset paper`, range and meaning.
 std::string OptionsMarkdown();
 
 }  // namespace curvix

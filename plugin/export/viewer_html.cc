@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/median.h"
-#include "plugin/export/pictures.h"
+#include "plugin/export/small_images.h"
 
 namespace curvix {
 namespace {
@@ -39,7 +39,7 @@ std::string Base64(std::string_view bytes) {
   return text;
 }
 
-// Without its photograph where `jpeg` is empty.
+// Without its image where `jpeg` is empty.
 Json ImageJson(const View& view,
                const Camera& camera,
                const std::string& jpeg) {

@@ -9,7 +9,7 @@
 namespace curvix {
 
 // One page that needs nothing else, with the curves, the cameras and small
-// copies of up to 16 well-spread photographs; those that cannot be read are
+// copies of up to 16 well-spread images; those that cannot be read are
 // left out. Names of images cannot break out of the page.
 void EncodeViewerHtml(const CurveRecord& record,
                       int num_threads,

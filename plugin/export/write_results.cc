@@ -8,7 +8,7 @@
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
 #include "plugin/export/curves_as_points.h"
-#include "plugin/export/pictures.h"
+#include "plugin/export/small_images.h"
 #include "plugin/export/viewer_html.h"
 
 namespace curvix {
@@ -175,7 +175,7 @@ FlagSection OutputFlags(OutputSettings* settings) {
                     .field = &settings->num_overlays,
                     .max = 10000,
                     .help = "draw the curves over so many well-spread "
-                            "photographs, into overlays/"})}};
+                            "images, into overlays/"})}};
 }
 
 Result<std::vector<std::string>> WriteResults(const CurveRecord& record,

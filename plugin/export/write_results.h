@@ -17,7 +17,7 @@ struct OutputSettings {
   std::vector<std::string> formats = {
       "ply", "obj", "pcd", "txt", "json", "html"};
   std::string svg_image;  // the view of curves.svg; "": the first one
-  int num_overlays = 0;   // photographs with curves drawn over them
+  int num_overlays = 0;   // images with curves drawn over them
 };
 
 // A kind of file, and what it is for.
@@ -40,7 +40,7 @@ FlagSection OutputFlags(OutputSettings* settings);
 // Writes the files that `settings` ask for into `folder`, each whole or not at
 // all, and returns their names. Overlays go to overlays/<image name>.png.
 // kInvalidArgument: svg_image is not the name of a view, or a file cannot be
-// written; kNotFound: a photograph for an overlay cannot be read.
+// written; kNotFound: an image for an overlay cannot be read.
 Result<std::vector<std::string>> WriteResults(
     const CurveRecord& record,
     const OutputSettings& settings,

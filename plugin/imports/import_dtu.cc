@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A projection matrix and the photograph that it belongs to.
+// A projection matrix and the image that it belongs to.
 struct DtuView {
   std::string source;  // "world_mat_3", "pos_004.txt"
   Matrix34d projection;
@@ -111,7 +111,7 @@ Result<Projections> ReadPosFolder(const fs::path& folder) {
   return projections;
 }
 
-// The photographs by the first number in their names.
+// The images by the first number in their names.
 Result<std::map<int, std::string>> NumberedImages(
     const std::vector<std::string>& names, const fs::path& folder) {
   std::map<int, std::string> numbered;
@@ -121,7 +121,7 @@ Result<std::map<int, std::string>> NumberedImages(
     const auto [other, is_new] = numbered.emplace(*number, name);
     if (!is_new) {
       return Status(StatusCode::kInvalidArgument,
-                    folder.string() + " holds several photographs number " +
+                    folder.string() + " holds several images number " +
                         std::to_string(*number) + " (" + other->second + ", " +
                         name +
                         "); choose with --image_filter, say "
@@ -156,14 +156,14 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
     views.push_back(
         {"camera " + std::to_string(number), projection, image->second});
   }
-  const std::string counts = std::to_string(names.size()) + " photographs in " +
+  const std::string counts = std::to_string(names.size()) + " images in " +
                              folder.string() + " and " +
                              std::to_string(projections.size()) + " cameras";
   if (views.empty()) {
     return Status(StatusCode::kNotFound,
                   "There are " + counts +
                       ", but no number of a camera is in the name of a "
-                      "photograph; name their folder with --image_path.");
+                      "image; name their folder with --image_path.");
   }
   if (views.size() < std::max(names.size(), projections.size())) {
     notes->push_back("There are " + counts + "; " +
@@ -223,7 +223,7 @@ Result<std::vector<ImportedView>> ViewsOf(const std::vector<DtuView>& views,
   return imported;
 }
 
-// The folder of the photographs: the first that holds any.
+// The folder of the images: the first that holds any.
 Result<fs::path> FindFolder(const ImportOptions& options,
                             const fs::path& base) {
   for (const fs::path& place : {base / "image", base / "images"}) {

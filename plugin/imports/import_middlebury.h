@@ -13,7 +13,7 @@ namespace curvix {
 //   name k11 k12 ... k33 r11 r12 ... r33 t1 t2 t3,
 // x_cam = R x + t in metres, with COLMAP's axes. Middlebury does not say where
 // in the first pixel its origin is; its centre is taken as (0, 0).
-// Photographs are looked for beside the file and in its folder images/.
+// Images are looked for beside the file and in its folder images/.
 Result<ImportedScene> ImportMiddlebury(const ImportOptions& options);
 
 }  // namespace curvix

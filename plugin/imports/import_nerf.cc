@@ -52,7 +52,7 @@ std::string FilePathOf(const json& frame) {
   return fs::path(text).lexically_normal().generic_string();
 }
 
-// The name below `root`, with extension, of the photograph `name`, which may
+// The name below `root`, with extension, of the image `name`, which may
 // lack its extension; empty: it is not there.
 std::string FindName(const fs::path& root, const std::string& name) {
   for (const char* extension : {"",
@@ -70,7 +70,7 @@ std::string FindName(const fs::path& root, const std::string& name) {
   return "";
 }
 
-// The names of the frames' photographs below `root`. By the last parts of
+// The names of the frames' images below `root`. By the last parts of
 // their paths, if `by_last_part` and the whole is not there.
 Result<std::vector<std::string>> FindNames(const json& frames,
                                            const fs::path& root,

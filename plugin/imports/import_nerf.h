@@ -24,11 +24,11 @@ namespace curvix {
 // OPENCV_FISHEYE or is_fisheye OPENCV_FISHEYE (k1 to k4). w and h, where given,
 // must be the size of the image.
 //
-// Photographs: file_path, with or without an extension, below the file's folder
+// Images: file_path, with or without an extension, below the file's folder
 // or below options.image_path; there also by its last part alone, since the
 // folders of file_path are often those of another machine.
 //
-// kNotFound: photographs that are not there. kDataLoss: not such a file.
+// kNotFound: images that are not there. kDataLoss: not such a file.
 // kUnsupported: another camera model.
 Result<ImportedScene> ImportNerf(const ImportOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 // What the importers of data sets have in common. Each reads cameras, finds the
-// photographs and gives a COLMAP model; none writes anything.
+// images and gives a COLMAP model; none writes anything.
 #pragma once
 
 #include <curvix/scene.h>
@@ -18,11 +18,11 @@ namespace curvix {
 
 struct ImportOptions {
   std::filesystem::path input_path;  // the cameras: a file or its folder
-  std::filesystem::path image_path;  // the photographs; empty: looked for
+  std::filesystem::path image_path;  // the images; empty: looked for
   // The coordinate that the source gives to the centre of the first pixel;
   // nullopt: what its format says.
   std::optional<double> first_pixel;
-  // DTU: take only photographs whose names hold this text.
+  // DTU: take only images whose names hold this text.
   std::string image_filter;
   // DTU .npz: world unit and origin of scale_mat instead of world_mat.
   bool normalize = false;
@@ -34,7 +34,7 @@ struct ImportedScene {
   std::vector<std::string> notes;  // sentences worth telling the user
 };
 
-// One photograph with its camera, pixels and axes in COLMAP's conventions.
+// One image with its camera, pixels and axes in COLMAP's conventions.
 struct ImportedView {
   std::string name;            // for the model
   std::filesystem::path file;  // where it is

@@ -27,7 +27,7 @@ inline constexpr double kMaxShiftPx = 20;
 inline constexpr double kMaxMove = 0.05;  // of the median distance to points
 // Refused: the typical view shifts by more than so many times the error that
 // the move explains. Wrong poses explain about as much error as they shift the
-// picture; a larger shift is one that the points hardly feel.
+// image; a larger shift is one that the points hardly feel.
 inline constexpr double kMaxShiftPerExplained = 3;
 
 struct ErrorSummary {

@@ -217,7 +217,7 @@ const char* OpenedBy(const std::string& file) {
   for (const OutputFormat& format : OutputFormats()) {
     if (file == format.file) return format.opened_by;
   }
-  if (file == "overlays/") return "photographs with the curves drawn over them";
+  if (file == "overlays/") return "images with the curves drawn over them";
   if (file == "edges.ply") return "3D edges before grouping, as points";
   if (file == "sparse/") return "model with the refined poses: COLMAP";
   if (file == "bundle_adjuster.log") return "what COLMAP said";

@@ -200,7 +200,7 @@ void AddRows(ConnectivityOptions& o, Section row) {
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other; 0 closes "
       "none");
-  row("max_repeat_distance_px", &o.max_repeat_distance_px, AtLeast(0), "px",
+  row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0), "px",
       "",
       "a piece of a curve nearer to a longer one is drawn once; 0 keeps all");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
@@ -234,8 +234,8 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "chance");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
       "standard deviation of the weights of the local fits; 0 smooths nothing");
-  row.Switch("undo_tone_curve", &o.undo_tone_curve,
-      "move edges back that a tone curve, a gamma say, has moved to their dark "
+  row.Switch("undo_response_curve", &o.undo_response_curve,
+      "move edges back that a response curve, a gamma say, has moved to their dark "
       "side; the views tell the curve");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other in a bend");

@@ -2,7 +2,7 @@
 // Paper: none (engineering).
 // Where things are in a COLMAP workspace, and its scene.
 //
-//   <workspace>/images/                 photographs
+//   <workspace>/images/                 images
 //   <workspace>/sparse/<k>/  sparse/    models           -> curvix/<k>/ curvix/
 //   <workspace>/dense/<k>/              a workspace of its own, undistorted:
 //                                       images/, sparse/ -> curvix/

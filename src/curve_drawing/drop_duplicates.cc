@@ -35,7 +35,7 @@ class SampleFilter {
         stays_(samples_.Places().size(), false) {}
 
   // Decides on sample `k` in the order of curves and samples.
-  void Visit(std::size_t k) { stays_[k] = !IsRepeat(k); }
+  void Visit(std::size_t k) { stays_[k] = !IsDuplicate(k); }
   bool Stays(std::size_t k) const { return stays_[k]; }
 
  private:
@@ -53,10 +53,10 @@ class SampleFilter {
     return gap < kMinLoop ||
            (curve.closed && curve.samples.size() - gap < kMinLoop);
   }
-  bool IsRepeat(std::size_t k) const {
+  bool IsDuplicate(std::size_t k) const {
     const CurveSample& sample = Sample(k);
     const double unit = PixelSize(sample.position, sample.support, views_);
-    const double max_normal = options_.max_repeat_distance_px * unit;
+    const double max_normal = options_.max_duplicate_distance_px * unit;
     const double max_along = options_.sample_spacing_px * unit;
     const double radius = std::hypot(max_normal, max_along);
     for (const std::size_t j : samples_.Within(sample.position, radius)) {
@@ -119,10 +119,10 @@ std::vector<Curve> Pieces(Curve curve,
 
 }  // namespace
 
-std::vector<Curve> DropRepeats(std::vector<Curve> curves,
-                               const std::vector<PosedView>& views,
-                               const ConnectivityOptions& options) {
-  if (!(options.max_repeat_distance_px > 0)) return curves;
+std::vector<Curve> DropDuplicates(std::vector<Curve> curves,
+                                  const std::vector<PosedView>& views,
+                                  const ConnectivityOptions& options) {
+  if (!(options.max_duplicate_distance_px > 0)) return curves;
   std::vector<std::size_t> bases;
   std::size_t num_samples = 0;
   for (const Curve& curve : curves) {

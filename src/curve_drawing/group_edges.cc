@@ -22,7 +22,7 @@ std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
   const ConnectivityGraph connectivity =
       ConnectEdges(thinned.edges, thinned.graph, views, options, num_threads);
   std::vector<Curve> curves = TraceCurves(thinned.edges, connectivity);
-  curves = DropRepeats(std::move(curves), views, options);
+  curves = DropDuplicates(std::move(curves), views, options);
   curves = JoinCurves(std::move(curves), views, options);
   curves = SplitCorners(curves, views, options);
   return DropShortCurves(std::move(curves), views, options.min_length_px);

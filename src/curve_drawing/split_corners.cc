@@ -17,12 +17,12 @@
 namespace curvix {
 namespace {
 
-constexpr double kArmBegin = 3;  // pixels from the corner
-constexpr double kArmEnd = 9;    // pixels from the corner
-constexpr std::size_t kMinArmSamples = 4;
+constexpr double kBranchBegin = 3;  // pixels from the corner
+constexpr double kBranchEnd = 9;    // pixels from the corner
+constexpr std::size_t kMinBranchSamples = 4;
 
-// The directions of one arm, all along the curve.
-struct Arm {
+// The directions of one branch, all along the curve.
+struct Branch {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   double bend = 0;  // between its halves, radians
 };
@@ -66,42 +66,44 @@ class CornerFinder {
     return std::pair(next, steps_px_[forward ? k : next]);
   }
 
-  // Calls visit(index, distance) for samples up to kArmEnd away, in order.
+  // Calls visit(index, distance) for samples up to kBranchEnd away, in order.
   template <typename Visit>
   void Walk(std::size_t from, bool forward, const Visit& visit) const {
     double distance = 0;
     auto next = Next(from, forward);
     while (next.has_value() && next->first != from) {
       distance += next->second;
-      if (distance > kArmEnd) return;
+      if (distance > kBranchEnd) return;
       visit(next->first, distance);
       next = Next(next->first, forward);
     }
   }
 
-  std::optional<Arm> ArmAt(std::size_t k, bool forward) const {
+  std::optional<Branch> BranchAt(std::size_t k, bool forward) const {
     std::size_t num_samples = 0;
     Eigen::Vector3d near = Eigen::Vector3d::Zero();
     Eigen::Vector3d far = Eigen::Vector3d::Zero();
     Walk(k, forward, [&](std::size_t i, double distance) {
-      if (distance < kArmBegin) return;
+      if (distance < kBranchBegin) return;
       ++num_samples;
-      (2 * distance < kArmBegin + kArmEnd ? near : far) +=
+      (2 * distance < kBranchBegin + kBranchEnd ? near : far) +=
           curve_.samples[i].tangent;
     });
-    if (num_samples < kMinArmSamples || near.isZero() || far.isZero()) {
+    if (num_samples < kMinBranchSamples || near.isZero() || far.isZero()) {
       return std::nullopt;
     }
-    return Arm{near + far, AngleBetween(near, far)};
+    return Branch{near + far, AngleBetween(near, far)};
   }
 
-  // The excess turn at sample `k`, radians; 0 where there are no arms.
+  // The excess turn at sample `k`, radians; 0 where there are no branches.
   double Turn(std::size_t k) const {
-    const auto ahead = ArmAt(k, true);
-    const auto behind = ArmAt(k, false);
+    const auto ahead = BranchAt(k, true);
+    const auto behind = BranchAt(k, false);
     if (!ahead.has_value() || !behind.has_value()) return 0;
-    // Arm centres are this many times further apart than halves of an arm.
-    const double ratio = 2 * (kArmEnd + kArmBegin) / (kArmEnd - kArmBegin);
+    // Branch centres are this many times further apart than halves of an
+    // branch.
+    const double ratio =
+        2 * (kBranchEnd + kBranchBegin) / (kBranchEnd - kBranchBegin);
     return AngleBetween(behind->mean, ahead->mean) -
            ratio * std::min(ahead->bend, behind->bend);
   }
@@ -123,10 +125,10 @@ class CornerFinder {
     Eigen::Vector3d before = curve_.samples[k].tangent;
     Eigen::Vector3d after = Eigen::Vector3d::Zero();
     Walk(k, true, [&](std::size_t i, double distance) {
-      if (distance <= kArmBegin) after += curve_.samples[i].tangent;
+      if (distance <= kBranchBegin) after += curve_.samples[i].tangent;
     });
     Walk(k, false, [&](std::size_t i, double distance) {
-      if (distance < kArmBegin) before += curve_.samples[i].tangent;
+      if (distance < kBranchBegin) before += curve_.samples[i].tangent;
     });
     return AngleBetween(before, after);
   }
@@ -135,7 +137,7 @@ class CornerFinder {
     std::pair best(-TurnAtCut(corner), corner);
     for (const bool forward : {true, false}) {
       Walk(corner, forward, [&](std::size_t i, double distance) {
-        if (distance > kArmBegin) return;
+        if (distance > kBranchBegin) return;
         best = std::min(best, std::pair(-TurnAtCut(i), i));
       });
     }

@@ -45,20 +45,21 @@ std::vector<SampleAround> SamplesAround(const Curve& curve,
   return around;
 }
 
-Curve ArmTo(const Curve& curve,
-            std::size_t last,
-            bool with_direction,
-            const ArmStretch& stretch) {
-  Curve arm;
+Curve BranchTo(const Curve& curve,
+               std::size_t last,
+               bool with_direction,
+               const BranchSegment& stretch) {
+  Curve branch;
   for (const SampleAround& around :
        SamplesAround(curve, last, stretch.skipped + stretch.length)) {
     const double away = with_direction ? -around.along : around.along;
     if (away < stretch.skipped) continue;
-    CurveSample& sample = arm.samples.emplace_back(curve.samples[around.index]);
+    CurveSample& sample =
+        branch.samples.emplace_back(curve.samples[around.index]);
     if (!with_direction) sample.tangent = -sample.tangent;
   }
-  std::reverse(arm.samples.begin(), arm.samples.end());
-  return arm;
+  std::reverse(branch.samples.begin(), branch.samples.end());
+  return branch;
 }
 
 double DistanceFromParabola(const Curve& from, const Curve& to) {
@@ -69,8 +70,8 @@ double DistanceFromParabola(const Curve& from, const Curve& to) {
   Eigen::MatrixX3d powers(num_samples, 3);
   Eigen::MatrixX3d positions(num_samples, 3);
   Eigen::Index row = 0;
-  for (const Curve* arm : {&from, &to}) {
-    for (const CurveSample& sample : arm->samples) {
+  for (const Curve* branch : {&from, &to}) {
+    for (const CurveSample& sample : branch->samples) {
       const Eigen::Vector3d offset = sample.position - origin;
       const double t = offset.dot(way) / way.squaredNorm();
       powers.row(row) << 1, t, t * t;

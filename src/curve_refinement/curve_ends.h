@@ -26,7 +26,7 @@ std::vector<SampleAround> SamplesAround(const Curve& curve,
                                         double reach);
 
 // Where on a curve a stretch lies, from the sample to which it leads.
-struct ArmStretch {
+struct BranchSegment {
   double skipped = 0;  // of what is nearest to it; arc lengths, world units
   double length = 0;   // of what comes before
 };
@@ -34,14 +34,14 @@ struct ArmStretch {
 // The samples of `curve` that lead to sample `last` in the direction of the
 // curve, or against it, tangents turned; the one nearest to `last` comes last.
 // Open; of a closed curve at most half; empty if it does not reach so far.
-Curve ArmTo(const Curve& curve,
-            std::size_t last,
-            bool with_direction,
-            const ArmStretch& stretch);
+Curve BranchTo(const Curve& curve,
+               std::size_t last,
+               bool with_direction,
+               const BranchSegment& stretch);
 
-// How far the samples of two arms that lead to each other are from the parabola
-// that fits both best, root mean square, world units. Neither may be empty, nor
-// may they end in one place.
+// How far the samples of two branches that lead to each other are from the
+// parabola that fits both best, root mean square, world units. Neither may be
+// empty, nor may they end in one place.
 double DistanceFromParabola(const Curve& from, const Curve& to);
 
 // Cuts the last samples of an end off, up to the one nearest to it that `keep`

@@ -20,11 +20,11 @@ namespace curvix {
 namespace {
 
 constexpr double kRoundedPx = 2.5;  // by blur, on either side of a corner
-constexpr double kArmPx = 20;
-constexpr double kMinArmPx = 8;
-constexpr double kMaxMissPx = 1;      // of the arms, of each other
+constexpr double kBranchPx = 20;
+constexpr double kMinBranchPx = 8;
+constexpr double kMaxMissPx = 1;      // of the branches, of each other
 constexpr double kCostOfMiss = 0.1;   // a pixel of rms is a pixel
-constexpr double kMaxRmsPx = 0.2;     // of the samples from their arms
+constexpr double kMaxRmsPx = 0.2;     // of the samples from their branches
 constexpr double kMaxRmsShare = 0.3;  // of that from one parabola
 constexpr double kApartPx = 12;       // between two corners
 
@@ -35,9 +35,9 @@ struct Turn {
   double pixel = 0;  // world units
 };
 
-// Between tangents half an arm before and behind a sample.
+// Between tangents half an branch before and behind a sample.
 double TurnAround(const Curve& curve, std::size_t k, double pixel) {
-  const auto around = SamplesAround(curve, k, kArmPx / 2 * pixel);
+  const auto around = SamplesAround(curve, k, kBranchPx / 2 * pixel);
   const auto [first, last] = std::minmax_element(
       around.begin(), around.end(), [](const auto& a, const auto& b) {
         return a.along < b.along;
@@ -46,13 +46,13 @@ double TurnAround(const Curve& curve, std::size_t k, double pixel) {
                       curve.samples[last->index].tangent);
 }
 
-double MeanSquare(const Curve& arm, const EndFit& fit) {
+double MeanSquare(const Curve& branch, const EndFit& fit) {
   double sum = 0;
-  for (const CurveSample& sample : arm.samples) {
+  for (const CurveSample& sample : branch.samples) {
     const double arc_length = fit.ArcLengthTo(sample.position);
     sum += (fit.PointAt(arc_length) - sample.position).squaredNorm();
   }
-  return sum / static_cast<double>(arm.samples.size());
+  return sum / static_cast<double>(branch.samples.size());
 }
 
 std::optional<Turn> TurnAt(const Curve& curve,
@@ -65,13 +65,13 @@ std::optional<Turn> TurnAt(const Curve& curve,
   if (!(pixel > 0) || TurnAround(curve, k, pixel) < max_turn / 2) {
     return std::nullopt;
   }
-  const ArmStretch stretch{kRoundedPx * pixel, kArmPx * pixel};
-  const Curve before = ArmTo(curve, k, true, stretch);
-  const Curve after = ArmTo(curve, k, false, stretch);
-  if (std::min(Length(before), Length(after)) < kMinArmPx * pixel)
+  const BranchSegment stretch{kRoundedPx * pixel, kBranchPx * pixel};
+  const Curve before = BranchTo(curve, k, true, stretch);
+  const Curve after = BranchTo(curve, k, false, stretch);
+  if (std::min(Length(before), Length(after)) < kMinBranchPx * pixel)
     return std::nullopt;
-  const EndFit in = FitEnd(before, true, {0, kArmPx}, views);
-  const EndFit out = FitEnd(after, true, {0, kArmPx}, views);
+  const EndFit in = FitEnd(before, true, {0, kBranchPx}, views);
+  const EndFit out = FitEnd(after, true, {0, kBranchPx}, views);
   if (!(in.length > 0) || !(out.length > 0)) return std::nullopt;
   const double rms =
       std::sqrt((MeanSquare(before, in) + MeanSquare(after, out)) / 2);
@@ -91,7 +91,7 @@ std::optional<Turn> TurnAt(const Curve& curve,
               pixel};
 }
 
-// Of neighbouring samples the one whose arms fit best, if it is a corner.
+// Of neighbouring samples the one whose branches fit best, if it is a corner.
 std::vector<std::size_t> CornersOf(const Curve& curve,
                                    double max_turn,
                                    const std::vector<PosedView>& views) {

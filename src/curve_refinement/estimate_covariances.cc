@@ -92,7 +92,7 @@ class CurveInViews {
   CurveInViews(const Curve& curve,
                const std::vector<PosedView>& views,
                const std::vector<EdgeMap>& edge_maps,
-               const ToneCurve& tone,
+               const ResponseCurve& response,
                double edge_sigma_px)
       : curve_(curve), edge_sigma_px_(edge_sigma_px) {
     std::map<std::int32_t, std::size_t> places;
@@ -110,7 +110,7 @@ class CurveInViews {
             edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
         evidence.push_back(Measure(sample.position,
                                    views[v],
-                                   Unblurred(edge, views[v], bend, tone),
+                                   Unblurred(edge, views[v], bend, response),
                                    place->second));
       }
     }
@@ -196,10 +196,10 @@ class CurveInViews {
 std::vector<Agreement> MeasureAgreement(const Curve& curve,
                                         const std::vector<PosedView>& views,
                                         const std::vector<EdgeMap>& edge_maps,
-                                        const ToneCurve& tone,
+                                        const ResponseCurve& response,
                                         double edge_sigma_px,
                                         double smoothing_px) {
-  const CurveInViews in_views(curve, views, edge_maps, tone, edge_sigma_px);
+  const CurveInViews in_views(curve, views, edge_maps, response, edge_sigma_px);
   const double bandwidth_px = std::max(kMinBandwidthPx, smoothing_px);
   std::vector<Agreement> agreements;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
@@ -231,14 +231,18 @@ Scatter UsualScatter(const std::vector<std::vector<Agreement>>& agreements) {
 std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
                                        const std::vector<PosedView>& views,
                                        const std::vector<EdgeMap>& edge_maps,
-                                       const ToneCurve& tone,
+                                       const ResponseCurve& response,
                                        double edge_sigma_px,
                                        const CurveRefinementOptions& options,
                                        int num_threads) {
   std::vector<std::vector<Agreement>> agreements(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    agreements[i] = MeasureAgreement(
-        curves[i], views, edge_maps, tone, edge_sigma_px, options.smoothing_px);
+    agreements[i] = MeasureAgreement(curves[i],
+                                     views,
+                                     edge_maps,
+                                     response,
+                                     edge_sigma_px,
+                                     options.smoothing_px);
   });
   const Scatter usual = UsualScatter(agreements);
   for (std::size_t i = 0; i < curves.size(); ++i) {

@@ -133,7 +133,7 @@ class CurveFitter {
 
   void AddEdges(const std::vector<PosedView>& views,
                 const std::vector<EdgeMap>& edge_maps,
-                const ToneCurve& tone,
+                const ResponseCurve& response,
                 double sigma_px) {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
@@ -143,7 +143,7 @@ class CurveFitter {
             edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
         edge_costs_.emplace_back(
             stations_[k],
-            MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)),
+            MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)),
             sigma_px);
         problem_.AddResidualBlock(
             &edge_costs_.back(), &edge_loss_, offsets_[k].data());
@@ -214,7 +214,7 @@ class CurveFitter {
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,
-                               const ToneCurve& tone,
+                               const ResponseCurve& response,
                                double edge_sigma_px,
                                const CurveRefinementOptions& options,
                                int num_threads) {
@@ -227,7 +227,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
     const double pixel = PixelSize(first.position, first.support, views);
     if (!(pixel > 0)) return;
     CurveFitter fitter(curves[i], pixel);
-    fitter.AddEdges(views, edge_maps, tone, edge_sigma_px);
+    fitter.AddEdges(views, edge_maps, response, edge_sigma_px);
     fitter.AddBends(kStiffness * options.smoothing_px);
     fitted[i] = fitter.Solve();
   });

@@ -18,16 +18,17 @@ namespace curvix {
 //   sum rho1(d / edge_sigma_px) + sum rho2(b^3 |x'''| / (0.05 px)),
 // where d is the distance of a projected sample from the line of its 2D edge,
 // which stands where it would without blur (response_curve.h, in images of
-// this tone curve), b is 1.2 options.smoothing_px, x''' is the third derivative
-// by arc length of four samples in a row, small for all smooth curves, and the
-// losses are Cauchy's: a wrong 2D edge hardly pulls, and a kink that the images
-// show stays. So noise goes on lengths of some b and curvature stays. Tangents
-// become those of the samples five in a row. Curves of fewer than six samples
-// stay; smoothing_px = 0 returns the input. Pixels in space as in pixel_size.h.
+// this response curve), b is 1.2 options.smoothing_px, x''' is the third
+// derivative by arc length of four samples in a row, small for all smooth
+// curves, and the losses are Cauchy's: a wrong 2D edge hardly pulls, and a kink
+// that the images show stays. So noise goes on lengths of some b and curvature
+// stays. Tangents become those of the samples five in a row. Curves of fewer
+// than six samples stay; smoothing_px = 0 returns the input. Pixels in space as
+// in pixel_size.h.
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,
-                               const ToneCurve& tone,
+                               const ResponseCurve& response,
                                double edge_sigma_px,
                                const CurveRefinementOptions& options,
                                int num_threads);

@@ -35,15 +35,15 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
     refined = SeparateTouching(std::move(refined), views, images);
   }
   refined = BridgeGaps(std::move(refined), views, images, options);
-  const ToneCurve tone =
-      options.undo_tone_curve
-          ? EstimateToneCurve(
+  const ResponseCurve response =
+      options.undo_response_curve
+          ? EstimateResponseCurve(
                 refined, views, edge_maps, edge_sigma_px, num_threads)
-          : ToneCurve();
+          : ResponseCurve();
   refined = FitToImages(std::move(refined),
                         views,
                         edge_maps,
-                        tone,
+                        response,
                         edge_sigma_px,
                         options,
                         num_threads);
@@ -63,7 +63,7 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   return EstimateCovariances(std::move(refined),
                              views,
                              edge_maps,
-                             tone,
+                             response,
                              edge_sigma_px,
                              options,
                              num_threads);

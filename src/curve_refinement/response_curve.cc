@@ -73,7 +73,7 @@ std::optional<Bend> BendAround(const Curve& curve,
               curve.samples[around.back().index].position};
 }
 
-Eigen::Vector2d ToneLever(const Edge2d& edge) {
+Eigen::Vector2d ResponseShift(const Edge2d& edge) {
   if (!(edge.sharpness > 0)) return Eigen::Vector2d::Zero();
   const double level = static_cast<double>(edge.level) / kWhite;
   const double half_contrast =
@@ -88,12 +88,12 @@ Eigen::Vector2d ToneLever(const Edge2d& edge) {
 ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
                     const std::optional<Bend>& bend,
-                    const ToneCurve& tone) {
+                    const ResponseCurve& response) {
   ImageEdge unblurred = ToImageEdge(edge);
   if (!(edge.sharpness > 0)) return unblurred;
   const Eigen::Vector2d to_bright(-unblurred.tangent.y(),
                                   unblurred.tangent.x());
-  unblurred.position += ToneLever(edge).dot(tone.px) * to_bright;
+  unblurred.position += ResponseShift(edge).dot(response.px) * to_bright;
   if (bend) unblurred.position += BendShift(edge, view, *bend);
   return unblurred;
 }
@@ -120,7 +120,8 @@ struct NormalEquations {
   }
 };
 
-// A place on a curve, the edges that show it, and what a tone curve does there.
+// A place on a curve, the edges that show it, and what a response curve does
+// there.
 struct Place {
   SpaceEdge edge;
   std::vector<PlaneMeasurement> measurements;
@@ -132,7 +133,7 @@ Place PlaceOf(const Curve& curve,
               double pixel,
               const std::vector<PosedView>& views,
               const std::vector<EdgeMap>& edge_maps,
-              const ToneCurve& tone) {
+              const ResponseCurve& response) {
   const CurveSample& sample = curve.samples[index];
   Place place = {{sample.position, sample.tangent}, {}, {}};
   const std::optional<Bend> bend = BendAround(curve, index, pixel);
@@ -141,19 +142,19 @@ Place PlaceOf(const Curve& curve,
     const Edge2d& edge =
         edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
     place.measurements.push_back(
-        MeasurePlane(views[v], Unblurred(edge, views[v], bend, tone)));
-    place.levers.push_back(ToneLever(edge));
+        MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)));
+    place.levers.push_back(ResponseShift(edge));
   }
   return place;
 }
 
-// Of what is still missing in the tone curve, without what moving the place
+// Of what is still missing in the response curve, without what moving the place
 // across the curve explains as well.
 NormalEquations WithoutMoving(const Place& place, double edge_sigma_px) {
   const SpaceEdge adjusted =
       AdjustEdge(place.edge, place.measurements, edge_sigma_px).edge;
   const AcrossAxes axes = AxesAcross(adjusted.tangent);
-  NormalEquations tone, moving;
+  NormalEquations response, moving;
   Eigen::Matrix2d mixed = Eigen::Matrix2d::Zero();
   for (std::size_t i = 0; i < place.measurements.size(); ++i) {
     const SeenDistance distance =
@@ -161,23 +162,23 @@ NormalEquations WithoutMoving(const Place& place, double edge_sigma_px) {
     const double weight = CauchyWeight(distance.px, edge_sigma_px);
     const Eigen::Vector2d lever = place.levers[i];
     const Eigen::Vector2d gradient = axes.transpose() * distance.gradient;
-    tone.matrix += weight * lever * lever.transpose();
-    tone.vector += weight * distance.px * lever;
+    response.matrix += weight * lever * lever.transpose();
+    response.vector += weight * distance.px * lever;
     moving.matrix += weight * gradient * gradient.transpose();
     moving.vector += weight * distance.px * gradient;
     mixed += weight * lever * gradient.transpose();
   }
   const Eigen::Matrix2d explained = mixed * moving.matrix.inverse();
-  tone.matrix -= explained * mixed.transpose();
-  tone.vector -= explained * moving.vector;
-  if (!tone.matrix.allFinite() || !tone.vector.allFinite()) return {};
-  return tone;
+  response.matrix -= explained * mixed.transpose();
+  response.vector -= explained * moving.vector;
+  if (!response.matrix.allFinite() || !response.vector.allFinite()) return {};
+  return response;
 }
 
 NormalEquations OfCurve(const Curve& curve,
                         const std::vector<PosedView>& views,
                         const std::vector<EdgeMap>& edge_maps,
-                        const ToneCurve& tone,
+                        const ResponseCurve& response,
                         double edge_sigma_px) {
   NormalEquations sum;
   double since_last_px = kStepPx;
@@ -192,7 +193,7 @@ NormalEquations OfCurve(const Curve& curve,
       continue;
     }
     since_last_px = 0;
-    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, tone),
+    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, response),
                          edge_sigma_px);
   }
   return sum;
@@ -213,27 +214,29 @@ Eigen::Vector2d SolveNotNegative(const NormalEquations& sum) {
 
 }  // namespace
 
-ToneCurve EstimateToneCurve(const std::vector<Curve>& curves,
-                            const std::vector<PosedView>& views,
-                            const std::vector<EdgeMap>& edge_maps,
-                            double edge_sigma_px,
-                            int num_threads) {
-  ToneCurve tone;
+ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
+                                    const std::vector<PosedView>& views,
+                                    const std::vector<EdgeMap>& edge_maps,
+                                    double edge_sigma_px,
+                                    int num_threads) {
+  ResponseCurve response;
   for (int round = 0; round < kMaxNumRounds; ++round) {
     std::vector<NormalEquations> of_curves(curves.size());
     ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-      of_curves[i] = OfCurve(curves[i], views, edge_maps, tone, edge_sigma_px);
+      of_curves[i] =
+          OfCurve(curves[i], views, edge_maps, response, edge_sigma_px);
     });
     NormalEquations sum;
     for (const NormalEquations& of_curve : of_curves) sum += of_curve;
-    sum.vector += sum.matrix * tone.px;  // from what is missing to the whole
+    sum.vector +=
+        sum.matrix * response.px;  // from what is missing to the whole
     sum.matrix += kPrior * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d px = SolveNotNegative(sum);
-    const double change = (px - tone.px).norm();
-    tone.px = px;
+    const double change = (px - response.px).norm();
+    response.px = px;
     if (change < kConvergedPx) break;
   }
-  return tone;
+  return response;
 }
 
 }  // namespace curvix

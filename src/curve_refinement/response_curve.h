@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). What blur does to edges, and how the brightness of the
-// images answers to light.
+// Paper: none (beyond it). What blur does to edges, and how the brightness of
+// the images answers to light.
 //
 // The edge of a disc that is blurred by a Gaussian of standard deviation w, the
 // detector's own included, appears inside the disc: by w^2 / (2 r) where its
@@ -40,39 +40,39 @@ std::optional<Bend> BendAround(const Curve& curve,
 // standard deviation of the blur of light in pixels. px[0] is 0 or more, that
 // of a gamma, px[1] that of a shoulder, on which highlights saturate. Both 0:
 // brightness is light.
-struct ToneCurve {
+struct ResponseCurve {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
 };
 
 // How far, in pixels, `edge` is on the dark side of where it would be without
-// blur, for each pixel of ToneCurve::px: half its contrast over its level I and
-// over 1 - I; the contrast is that of a blurred step as strong and as sharp.
-// Zero if a side is black or white (to 1.5 %), where brightness does not tell
-// light, and for edges of unknown sharpness.
-Eigen::Vector2d ToneLever(const Edge2d& edge);
+// blur, for each pixel of ResponseCurve::px: half its contrast over its level I
+// and over 1 - I; the contrast is that of a blurred step as strong and as
+// sharp. Zero if a side is black or white (to 1.5 %), where brightness does not
+// tell light, and for edges of unknown sharpness.
+Eigen::Vector2d ResponseShift(const Edge2d& edge);
 
 // `edge` of a curve that bends like this, where it would be without blur: moved
-// to the bright side by ToneLever(), and to the outer side of the bend by w^2 /
-// (2 r), w from the edge's sharpness, at most by a quarter of a pixel. Edges of
-// unknown sharpness stay.
+// to the bright side by ResponseShift(), and to the outer side of the bend by
+// w^2 / (2 r), w from the edge's sharpness, at most by a quarter of a pixel.
+// Edges of unknown sharpness stay.
 ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
                     const std::optional<Bend>& bend,
-                    const ToneCurve& tone);
+                    const ResponseCurve& response);
 
-// The tone curve with which the views agree best about the curves. A curve
+// The response curve with which the views agree best about the curves. A curve
 // that some views see against the sky and others against a wall has an edge of
-// another contrast and level in each, so a tone curve moves it by another
+// another contrast and level in each, so a response curve moves it by another
 // amount in each, or to the other side; only what the samples, each by itself,
 // cannot follow tells of it. Least squares with Cauchy's weights
 // (`edge_sigma_px`) over samples some ten pixels apart, in turn with their
 // places; neither parameter is below 0, since no camera's brightness grows
-// faster than light; as if a little had been seen of a curve without tone, so
-// that few curves change nothing.
-ToneCurve EstimateToneCurve(const std::vector<Curve>& curves,
-                            const std::vector<PosedView>& views,
-                            const std::vector<EdgeMap>& edge_maps,
-                            double edge_sigma_px,
-                            int num_threads);
+// faster than light; as if a little had been seen of a curve without response,
+// so that few curves change nothing.
+ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
+                                    const std::vector<PosedView>& views,
+                                    const std::vector<EdgeMap>& edge_maps,
+                                    double edge_sigma_px,
+                                    int num_threads);
 
 }  // namespace curvix

@@ -24,8 +24,8 @@ constexpr double kMaxGapPx = 100;
 constexpr double kBesidePx = 8;
 constexpr double kMaxAngleDeg = 30;
 constexpr double kMaxDetour = 1.5;
-constexpr double kMinArmPx = 15;
-constexpr double kMaxArmPx = 60;
+constexpr double kMinBranchPx = 15;
+constexpr double kMaxBranchPx = 60;
 constexpr double kMaxRmsPx = 0.4;
 constexpr double kMaxShare = 0.6;  // of the distances without exchange
 
@@ -33,7 +33,7 @@ struct OpenEnd {
   Eigen::Vector3d position;
   Eigen::Vector3d outward;  // unit
   double pixel = 0;         // 0: of a closed curve, or of a short one
-  Curve arm;
+  Curve branch;
 };
 
 // Where a curve passes an end.
@@ -53,11 +53,11 @@ OpenEnd MakeEnd(const Curve& curve,
   end.outward = front ? last.tangent : Eigen::Vector3d(-last.tangent);
   if (curve.closed) return end;
   const double pixel = PixelSize(last.position, last.support, views);
-  end.arm = ArmTo(curve,
-                  front ? curve.samples.size() - 1 : 0,
-                  front,
-                  {kBentEndPx * pixel, kMaxArmPx * pixel});
-  if (Length(end.arm) >= kMinArmPx * pixel) end.pixel = pixel;
+  end.branch = BranchTo(curve,
+                        front ? curve.samples.size() - 1 : 0,
+                        front,
+                        {kBentEndPx * pixel, kMaxBranchPx * pixel});
+  if (Length(end.branch) >= kMinBranchPx * pixel) end.pixel = pixel;
   return end;
 }
 
@@ -145,7 +145,7 @@ class MeetingFinder {
   bool LeadsToEnd(EndIdx end, std::size_t c, std::size_t k) const {
     const std::size_t from_end =
         IsFront(end) ? curves_[c].samples.size() - 1 - k : k;
-    return c == ItemOf(end) && from_end < 2 * ends_[end].arm.samples.size();
+    return c == ItemOf(end) && from_end < 2 * ends_[end].branch.samples.size();
   }
 
   // Whether the passing curve leads from `a` to `b` and not round about, nor to
@@ -178,15 +178,15 @@ class MeetingFinder {
     const Curve& passing = curves_[meeting.passing_idx];
     if (!LeadsStraight(meeting)) return false;
     const double pixel = std::min(a.pixel, b.pixel);
-    const ArmStretch stretch{0, kMaxArmPx * pixel};
-    const Curve before = ArmTo(passing, meeting.sample_at_a, true, stretch);
-    const Curve after = ArmTo(passing, meeting.sample_at_b, false, stretch);
-    if (std::min(Length(before), Length(after)) < kMinArmPx * pixel) {
+    const BranchSegment stretch{0, kMaxBranchPx * pixel};
+    const Curve before = BranchTo(passing, meeting.sample_at_a, true, stretch);
+    const Curve after = BranchTo(passing, meeting.sample_at_b, false, stretch);
+    if (std::min(Length(before), Length(after)) < kMinBranchPx * pixel) {
       return false;
     }
-    const double joined = DistanceFromParabola(a.arm, b.arm);
-    const double exchanged = std::hypot(DistanceFromParabola(a.arm, after),
-                                        DistanceFromParabola(before, b.arm));
+    const double joined = DistanceFromParabola(a.branch, b.branch);
+    const double exchanged = std::hypot(DistanceFromParabola(a.branch, after),
+                                        DistanceFromParabola(before, b.branch));
     // A closed curve is whole, whatever else passes.
     meeting.exchange =
         !passing.closed &&
@@ -194,12 +194,12 @@ class MeetingFinder {
             kMaxShare * std::hypot(joined, DistanceFromParabola(before, after));
     meeting.rms_px = (meeting.exchange ? exchanged : joined) / pixel;
     if (!(meeting.rms_px <= kMaxRmsPx)) return false;
-    return meeting.exchange ? ImagesShow(a.arm, after, pixel) &&
-                                  ImagesShow(before, b.arm, pixel)
-                            : ImagesShow(a.arm, b.arm, pixel);
+    return meeting.exchange ? ImagesShow(a.branch, after, pixel) &&
+                                  ImagesShow(before, b.branch, pixel)
+                            : ImagesShow(a.branch, b.branch, pixel);
   }
 
-  // Whether they show what is between two arms.
+  // Whether they show what is between two branches.
   bool ImagesShow(const Curve& from, const Curve& to, double pixel) const {
     CurveSample arrival = to.samples.back();
     arrival.tangent = -arrival.tangent;

@@ -30,12 +30,12 @@ struct Meeting {
 };
 
 // Ends that face each other, at most 100 px apart, and curves that pass both
-// within 8 px and 30 degrees. Parabolas through 15 to 60 px of the four arms
-// tell which belong together: `a` and `b`, or, unless the passing curve is
-// closed, those that are exchanged, if their distances are below 0.6 times the
-// others. They must fit to 0.4 px, and the images show what is between the arms
-// (fill_gap.h). Best fits first; ties by the order of curves. Pixels as in
-// pixel_size.h.
+// within 8 px and 30 degrees. Parabolas through 15 to 60 px of the four
+// branches tell which belong together: `a` and `b`, or, unless the passing
+// curve is closed, those that are exchanged, if their distances are below 0.6
+// times the others. They must fit to 0.4 px, and the images show what is
+// between the branches (fill_gap.h). Best fits first; ties by the order of
+// curves. Pixels as in pixel_size.h.
 std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
                                   const std::vector<PosedView>& views,
                                   const ImageSupport& images);

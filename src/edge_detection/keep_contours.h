@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which edges of a photograph are worth keeping.
+// Paper: none (engineering). Which edges of an image are worth keeping.
 #pragma once
 
 #include <curvix/edges.h>

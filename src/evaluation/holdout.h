@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). How well curves agree with photographs that had no
+// Paper: none (beyond it). How well curves agree with images that had no
 // part in making them: a measure that needs no true curves.
 #pragma once
 
@@ -27,10 +27,10 @@ struct ShareAboveChance {
   }
 };
 
-// Curves and photographs. What is in a photograph is found by Canny's edges and
+// Curves and images. What is in an image is found by Canny's edges and
 // LSD's lines, not by the edges that curves are made of. Hidden curves are not
 // left out.
-struct PhotographAgreement {
+struct ImageAgreement {
   // Of the steps of 2 pixels that the projected curves take, each segment at
   // least one, those that lie on a contour: within 1.5 pixels and 15 degrees.
   ShareAboveChance precision;
@@ -43,17 +43,16 @@ struct PhotographAgreement {
   // Of the length of straight lines that are 2 % of the image's diagonal and
   // longer, what lies within 3 pixels and 10 degrees of a curve.
   ShareAboveChance long_lines;
-  // Median length of a curve in a photograph. Pixels; 0 if there is none.
+  // Median length of a curve in an image. Pixels; 0 if there is none.
   double median_piece_px = 0;
 };
 
-// Compares curves of any origin with the photographs of `view_idxs`, by their
+// Compares curves of any origin with the images of `view_idxs`, by their
 // image files. Fails if an image cannot be read.
-Result<PhotographAgreement> CompareWithPhotographs(
-    const std::vector<Curve>& curves,
-    const Scene& scene,
-    const std::vector<int>& view_idxs,
-    int num_threads);
+Result<ImageAgreement> CompareWithImages(const std::vector<Curve>& curves,
+                                         const Scene& scene,
+                                         const std::vector<int>& view_idxs,
+                                         int num_threads);
 
 // The views that are held out if it is one of `every` (>= 2), from the middle
 // of the first `every` on: of 8, numbers 4, 12, 20 and so on, from 0.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). What a photograph shows, found by other means than
+// Paper: none (beyond it). What an image shows, found by other means than
 // the edges that curves are made of: curves must not be judged by their own
 // detector.
 #pragma once

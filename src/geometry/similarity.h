@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 // Similarities of space, and the one that brings two sets of poses of the same
-// cameras together. Photographs do not tell where the world's origin is nor how
+// cameras together. Images do not tell where the world's origin is nor how
 // long its unit: every bundle adjustment moves, turns and scales the world.
 #pragma once
 
@@ -25,12 +25,12 @@ struct Similarity3 {
 };
 
 // The pose in b of the camera that has the pose `cam_from_a` in a. Lengths
-// seen from the camera change by the scale, its pictures do not.
+// seen from the camera change by the scale, its images do not.
 Rigid3 MovePose(const Similarity3& b_from_a, const Rigid3& cam_from_a);
 
 // The similarity that brings the cameras of `from` back to those of `to`; two
 // poses with the same index are of one camera. The rotation is the mean of the
-// rotations between the cameras: it keeps the pictures in place where centres
+// rotations between the cameras: it keeps the images in place where centres
 // on a line, or in a small part of space, tell little about it. The scale is
 // the one of the least squares similarity between the centres (Umeyama 1991),
 // or 1 where they coincide in both sets. The translation brings the means of

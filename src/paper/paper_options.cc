@@ -26,7 +26,7 @@ Options PaperOptions() {
   options.alignment.use_mean_direction = false;
   options.connectivity.sample_spacing_px = 0;
   options.connectivity.max_gap_px = 0;
-  options.connectivity.max_repeat_distance_px = 0;
+  options.connectivity.max_duplicate_distance_px = 0;
   options.connectivity.max_corner_deg = 180;
   options.connectivity.min_length_px = 10;
   options.curve_growth.enabled = false;

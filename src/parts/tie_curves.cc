@@ -68,12 +68,12 @@ std::vector<Eigen::Vector3d> Positions(const std::vector<Piece>& pieces,
 
 }  // namespace
 
-TwinSamples::TwinSamples(const ScenePartition& partition,
-                         const std::vector<Piece>& pieces,
-                         const ConnectivityOptions& options)
+DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
+                                   const std::vector<Piece>& pieces,
+                                   const ConnectivityOptions& options)
     : partition_(partition), pieces_(pieces) {
   for (const Piece& piece : pieces) {
-    twins_.emplace_back(piece.border_samples.size());
+    duplicates_.emplace_back(piece.border_samples.size());
   }
   const std::vector<SampleRef> refs = AllOf(pieces);
   const PointTree tree(Positions(pieces, refs));
@@ -97,26 +97,27 @@ TwinSamples::TwinSamples(const ScenePartition& partition,
         at->second = {distance, refs[k]};
       }
     }
-    for (const auto& [part_idx, twin] : nearest) {
-      twins_[ref.piece][ref.border_sample].push_back(twin.second);
+    for (const auto& [part_idx, duplicate] : nearest) {
+      duplicates_[ref.piece][ref.border_sample].push_back(duplicate.second);
     }
   }
 }
 
-bool TwinSamples::Stays(const SampleRef& ref) const {
-  const std::vector<SampleRef>& twins = Of(ref);
-  if (twins.empty()) return true;
+bool DuplicateSamples::Stays(const SampleRef& ref) const {
+  const std::vector<SampleRef>& duplicates = Of(ref);
+  if (duplicates.empty()) return true;
   const auto part = [&](const SampleRef& r) {
     return pieces_[r.piece].part_idx;
   };
   const SampleRef& first =
-      part(ref) < part(twins.front()) ? ref : twins.front();
+      part(ref) < part(duplicates.front()) ? ref : duplicates.front();
   const int owner = OwnerOf(partition_, At(pieces_, first).position);
   const bool owner_is_there =
-      part(ref) == owner ||
-      std::any_of(twins.begin(), twins.end(), [&](const SampleRef& twin) {
-        return part(twin) == owner;
-      });
+      part(ref) == owner || std::any_of(duplicates.begin(),
+                                        duplicates.end(),
+                                        [&](const SampleRef& duplicate) {
+                                          return part(duplicate) == owner;
+                                        });
   return part(ref) == (owner_is_there ? owner : part(first));
 }
 
@@ -130,12 +131,12 @@ class Tier {
   Tier(const ScenePartition& partition,
        const std::vector<Piece>& pieces,
        const ConnectivityOptions& options)
-      : pieces_(pieces), twins_(partition, pieces, options) {
+      : pieces_(pieces), duplicates_(partition, pieces, options) {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       first_stretches_.push_back(stretches_.size());
       std::vector<bool> stays(pieces[i].num_samples, true);
       for (std::size_t k = 0; k < pieces[i].border_samples.size(); ++k) {
-        stays[pieces[i].border_samples[k].sample] = twins_.Stays({i, k});
+        stays[pieces[i].border_samples[k].sample] = duplicates_.Stays({i, k});
       }
       for (const Run& run : RunsOf(stays)) stretches_.push_back({i, run});
     }
@@ -205,17 +206,17 @@ class Tier {
     return std::nullopt;
   }
 
-  // The tie to a stretch of another piece, which has a twin of the k-th sample
-  // beyond `end`.
+  // The tie to a stretch of another piece, which has a duplicate of the k-th
+  // sample beyond `end`.
   std::optional<EndPair> TieAcross(EndIdx end,
                                    std::size_t k,
                                    const SampleRef& beyond) const {
-    for (const SampleRef& twin : twins_.Of(beyond)) {
-      const std::size_t sample = At(twin).sample;
-      const auto to = StretchOf(twin.piece, sample);
-      if (!to || IsOfOtherKind(beyond.piece, twin.piece)) continue;
+    for (const SampleRef& duplicate : duplicates_.Of(beyond)) {
+      const std::size_t sample = At(duplicate).sample;
+      const auto to = StretchOf(duplicate.piece, sample);
+      if (!to || IsOfOtherKind(beyond.piece, duplicate.piece)) continue;
       const bool runs_on =
-          (At(beyond).tangent.dot(At(twin).tangent) > 0) == IsFront(end);
+          (At(beyond).tangent.dot(At(duplicate).tangent) > 0) == IsFront(end);
       const Run& run = stretches_[*to].run;
       const std::size_t skipped =
           runs_on ? sample - run.begin : run.end - 1 - sample;
@@ -231,7 +232,7 @@ class Tier {
   }
 
   const std::vector<Piece>& pieces_;
-  const TwinSamples twins_;
+  const DuplicateSamples duplicates_;
   std::vector<Stretch> stretches_;
   // Of each piece, and the end.
   std::vector<std::size_t> first_stretches_;

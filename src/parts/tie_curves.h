@@ -52,20 +52,20 @@ struct SampleRef {
 // For border samples, the nearest sample in each other part that is the same
 // place on the same curve: at most options.max_normal_distance_px away and
 // max_angle_deg off in direction. Ties: the earlier sample.
-class TwinSamples {
+class DuplicateSamples {
  public:
   // Partition and pieces outlive it.
-  TwinSamples(const ScenePartition& partition,
-              const std::vector<Piece>& pieces,
-              const ConnectivityOptions& options);
+  DuplicateSamples(const ScenePartition& partition,
+                   const std::vector<Piece>& pieces,
+                   const ConnectivityOptions& options);
 
   // In the order of the parts.
   const std::vector<SampleRef>& Of(const SampleRef& ref) const {
-    return twins_[ref.piece][ref.border_sample];
+    return duplicates_[ref.piece][ref.border_sample];
   }
 
-  // Whether, of a sample and its twins, it is the one that stays: that of the
-  // part that owns the place where the first of their parts has put it; if
+  // Whether, of a sample and its duplicates, it is the one that stays: that of
+  // the part that owns the place where the first of their parts has put it; if
   // that part has none, that of the first.
   bool Stays(const SampleRef& ref) const;
 
@@ -73,7 +73,7 @@ class TwinSamples {
   const ScenePartition& partition_;
   const std::vector<Piece>& pieces_;
   // Of each border sample of each piece.
-  std::vector<std::vector<std::vector<SampleRef>>> twins_;
+  std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
 };
 
 // Samples of a piece that stay.
@@ -89,9 +89,10 @@ struct TiedStretches {
 };
 
 // Of the samples that several parts have of one place, one stays
-// (TwinSamples), so that pieces fall into stretches. Beyond its end, a
+// (DuplicateSamples), so that pieces fall into stretches. Beyond its end, a
 // stretch goes on as its part has drawn it: the first sample there that has a
-// twin that stays leads to the stretch to which it is tied; the nearest first.
+// duplicate that stays leads to the stretch to which it is tied; the nearest
+// first.
 TiedStretches TieStretches(const ScenePartition& partition,
                            const std::vector<Piece>& pieces,
                            const ConnectivityOptions& options);

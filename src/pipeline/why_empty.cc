@@ -37,12 +37,12 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
          << options.hypotheses.min_ray_angle_deg << " and "
          << options.hypotheses.max_ray_angle_deg
          << " degrees apart, so nothing has depth. Was the camera only "
-            "turned? Photographs from more places help.";
+            "turned? Images from more places help.";
   } else if (counts.hypotheses == 0) {
     text << "None of " << counts.h1_edges
          << " edges has a counterpart on its epipolar line in another view: "
             "the poses may be wrong, or all edges run along the epipolar lines "
-            "(photographs from above and below help).";
+            "(images from above and below help).";
   } else if (sketch.edges.empty()) {
     text << "None of " << counts.hypotheses
          << " edge pairs is confirmed by enough other views. Are the poses "

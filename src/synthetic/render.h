@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Pictures of a solid, with exact pixel areas.
+// Paper: none (engineering). Images of a solid, with exact pixel areas.
 #pragma once
 
 #include <curvix/scene.h>
@@ -24,7 +24,7 @@ struct RenderedImage {
 // The mean of the scene's brightness over each square pixel (a box filter; no
 // blur besides). Where faces meet inside a pixel, the shares of both are
 // measured to about 1/100 of its area; a camera with distortion bends the
-// picture itself, not a resampled one. Directions that the camera model cannot
+// image itself, not a resampled one. Directions that the camera model cannot
 // invert show the background.
 //
 // Faces are lit by fixed lights that cast no shadows, so that all brightness

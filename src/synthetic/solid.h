@@ -63,7 +63,7 @@ class Solid {
 };
 
 // `solid` centred on the origin, z up, longest side `scale` world units; a
-// facade has that height, and the length that `num_views` photographs need.
+// facade has that height, and the length that `num_views` images need.
 //
 // For CreaseCurves to know every edge, round faces meet planar ones only, and
 // planes meet frustums at right angles to the axis.

@@ -22,7 +22,7 @@ struct SampleInView {
   bool is_edge = false;  // seen, and its two sides differ in the image
 };
 
-// One entry for each sample. `image` is the view's picture without noise: sides
+// One entry for each sample. `image` is the view's image without noise: sides
 // differ if their grey values 1.5 px from the edge do by at least 8.
 std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
                                         const Solid& solid,

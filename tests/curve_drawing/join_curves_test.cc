@@ -106,25 +106,25 @@ TEST(JoinCurves, LeavesClosedCurvesAndTakesNone) {
   EXPECT_TRUE(JoinCurves({}, Views(), {}).empty());
 }
 
-TEST(DropRepeats, KeepsTheLongerOfTwoTracksAndWhatItDoesNotCover) {
+TEST(DropDuplicates, KeepsTheLongerOfTwoTracksAndWhatItDoesNotCover) {
   const auto kept =
-      DropRepeats({Straight(5, 60, 0.5), Straight(0, 100)}, Views(), {});
+      DropDuplicates({Straight(5, 60, 0.5), Straight(0, 100)}, Views(), {});
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_EQ(kept[0].samples.size(), 101u);
   const auto split =
-      DropRepeats({Straight(40, -20, 0.5), Straight(0, 100)}, Views(), {});
+      DropDuplicates({Straight(40, -20, 0.5), Straight(0, 100)}, Views(), {});
   ASSERT_EQ(split.size(), 2u);
   EXPECT_LT(split[0].samples.size(), 21u);
   EXPECT_GT(split[0].samples.size(), 15u);
 }
 
-TEST(DropRepeats, KeepsCurvesThatAreApartOrCross) {
+TEST(DropDuplicates, KeepsCurvesThatAreApartOrCross) {
   Curve across = Straight(-20, 20);
   for (CurveSample& sample : across.samples) {
     std::swap(sample.position.x(), sample.position.y());
     sample.tangent = Eigen::Vector3d::UnitY();
   }
-  const auto kept = DropRepeats(
+  const auto kept = DropDuplicates(
       {Straight(-30, 30), Straight(-20, 20, 2), across}, Views(), {});
   ASSERT_EQ(kept.size(), 3u);
   EXPECT_EQ(kept[0].samples.size(), 61u);
@@ -132,16 +132,16 @@ TEST(DropRepeats, KeepsCurvesThatAreApartOrCross) {
   EXPECT_EQ(kept[2].samples.size(), 41u);
 }
 
-TEST(DropRepeats, UnwindsACurveThatRunsTwiceRound) {
-  const auto kept = DropRepeats({Arc(40, 0, 12.5)}, Views(), {});
+TEST(DropDuplicates, UnwindsACurveThatRunsTwiceRound) {
+  const auto kept = DropDuplicates({Arc(40, 0, 12.5)}, Views(), {});
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_NEAR(Length(kept[0]), 6.283 * 40 * kPx, 5 * kPx);
 }
 
-TEST(DropRepeats, KeepsAWholeRing) {
+TEST(DropDuplicates, KeepsAWholeRing) {
   Curve ring = Arc(40, 0, 6.28);
   ring.closed = true;
-  const auto kept = DropRepeats({ring}, Views(), {});
+  const auto kept = DropDuplicates({ring}, Views(), {});
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_TRUE(kept[0].closed);
   EXPECT_EQ(kept[0].samples.size(), ring.samples.size());

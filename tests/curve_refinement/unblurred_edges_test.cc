@@ -134,33 +134,33 @@ Edge2d EdgeOfStep(double dark, double bright) {
   return edge;
 }
 
-TEST(ToneLever, IsHalfTheContrastOverTheLevelAndOverTheRest) {
-  const Eigen::Vector2d lever = ToneLever(EdgeOfStep(0.2, 0.3));
+TEST(ResponseShift, IsHalfTheContrastOverTheLevelAndOverTheRest) {
+  const Eigen::Vector2d lever = ResponseShift(EdgeOfStep(0.2, 0.3));
   EXPECT_NEAR(lever[0], 0.05 / 0.25, 1e-6);
   EXPECT_NEAR(lever[1], 0.05 / 0.75, 1e-6);
 }
 
-TEST(ToneLever, BlackAndWhiteSidesDoNotTellTheirLight) {
-  EXPECT_EQ(ToneLever(EdgeOfStep(0.5, 1)), Eigen::Vector2d::Zero());
-  EXPECT_EQ(ToneLever(EdgeOfStep(0, 0.5)), Eigen::Vector2d::Zero());
-  EXPECT_NE(ToneLever(EdgeOfStep(0.05, 0.95)), Eigen::Vector2d::Zero());
+TEST(ResponseShift, BlackAndWhiteSidesDoNotTellTheirLight) {
+  EXPECT_EQ(ResponseShift(EdgeOfStep(0.5, 1)), Eigen::Vector2d::Zero());
+  EXPECT_EQ(ResponseShift(EdgeOfStep(0, 0.5)), Eigen::Vector2d::Zero());
+  EXPECT_NE(ResponseShift(EdgeOfStep(0.05, 0.95)), Eigen::Vector2d::Zero());
 }
 
-TEST(ToneLever, EdgesOfUnknownSharpnessHaveNone) {
+TEST(ResponseShift, EdgesOfUnknownSharpnessHaveNone) {
   Edge2d edge = EdgeOfStep(0.2, 0.3);
   edge.sharpness = 0;
-  EXPECT_EQ(ToneLever(edge), Eigen::Vector2d::Zero());
+  EXPECT_EQ(ResponseShift(edge), Eigen::Vector2d::Zero());
 }
 
-TEST(UnblurredEdges, ToneMovesThemToTheBrightSide) {
+TEST(UnblurredEdges, ResponseMovesThemToTheBrightSide) {
   Edge2d edge = EdgeOfStep(0.2, 0.3);
-  const ToneCurve tone = {{0.5, 0.3}};
-  const double expected = ToneLever(edge).dot(tone.px);
+  const ResponseCurve response = {{0.5, 0.3}};
+  const double expected = ResponseShift(edge).dot(response.px);
   for (const double angle : {0.0, 2.0}) {
     edge.angle = static_cast<float>(angle);
     const Eigen::Vector2d to_bright(-std::sin(angle), std::cos(angle));
     const Eigen::Vector2d shift =
-        Unblurred(edge, SmallView(), std::nullopt, tone).position -
+        Unblurred(edge, SmallView(), std::nullopt, response).position -
         edge.position;
     EXPECT_LT((shift - expected * to_bright).norm(), 1e-6);
   }
@@ -169,11 +169,11 @@ TEST(UnblurredEdges, ToneMovesThemToTheBrightSide) {
 // The mean distance of edges from a straight step, towards its bright side.
 double MeanOffset(const std::vector<Edge2d>& edges,
                   const Eigen::Vector2d& to_bright,
-                  const ToneCurve& tone) {
+                  const ResponseCurve& response) {
   double sum = 0;
   for (const Edge2d& edge : edges) {
     const ImageEdge unblurred =
-        Unblurred(edge, SmallView(), std::nullopt, tone);
+        Unblurred(edge, SmallView(), std::nullopt, response);
     sum += to_bright.dot(unblurred.position - kCenter);
   }
   return sum / static_cast<double>(edges.size());
@@ -195,10 +195,11 @@ TEST(UnblurredEdges, UndoesWhatAGammaDoesToSteps) {
   // half the mean distance of two points in it: 0.56 standard deviations of a
   // Gaussian, a sixth of a pixel.
   const double blur_px = 1.0 / 6;
-  const ToneCurve tone = {{(kGamma - 1) * blur_px, 0}};
+  const ResponseCurve response = {{(kGamma - 1) * blur_px, 0}};
   const double detected_px = MeanOffset(edges, to_bright, {});
   EXPECT_LT(detected_px, -0.02);
-  EXPECT_LT(std::abs(MeanOffset(edges, to_bright, tone)), -0.15 * detected_px);
+  EXPECT_LT(std::abs(MeanOffset(edges, to_bright, response)),
+            -0.15 * detected_px);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::vector<std::string> FuzzSeeds() {
 }
 
 void FuzzReader(std::string_view bytes) {
-  const ImportOptions options = ImportBesidePhotographs("x_par.txt", bytes);
+  const ImportOptions options = ImportBesideImages("x_par.txt", bytes);
   RequireSentence(ImportMiddlebury(options).status());
 }
 

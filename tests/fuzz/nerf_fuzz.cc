@@ -28,8 +28,7 @@ std::vector<std::string> FuzzSeeds() {
 }
 
 void FuzzReader(std::string_view bytes) {
-  const ImportOptions options =
-      ImportBesidePhotographs("transforms.json", bytes);
+  const ImportOptions options = ImportBesideImages("transforms.json", bytes);
   RequireSentence(ImportNerf(options).status());
 }
 

@@ -13,8 +13,8 @@ namespace curvix {
 
 // An import of a file of that name and those bytes, beside photographs a.png
 // and b.png of 640 x 480 pixels. There is one folder in each program.
-inline ImportOptions ImportBesidePhotographs(const std::string& name,
-                                             std::string_view bytes) {
+inline ImportOptions ImportBesideImages(const std::string& name,
+                                        std::string_view bytes) {
   static const TemporaryFolder folder;
   static const auto photographs = {folder.Write("a.png", PngOfSize(640, 480)),
                                    folder.Write("b.png", PngOfSize(640, 480))};

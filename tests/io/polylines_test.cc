@@ -42,7 +42,7 @@ TEST(JoinPolylines, CycleIsClosedAndStartsWhereItsFirstEdgeStarts) {
 }
 
 TEST(JoinPolylines, SplitsAtJunctions) {
-  // A letter Y: three arms at vertex 2.
+  // A letter Y: three branches at vertex 2.
   const auto curves =
       JoinPolylines(OnAxis(5, {{0, 1}, {1, 2}, {2, 3}, {2, 4}}));
   ASSERT_EQ(curves->curves.size(), 3u);

@@ -202,10 +202,10 @@ TEST(AlignEdges, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(AlignEdges, TakesDegenerateInput) {
   EXPECT_TRUE(AlignEdges({}, {}, Steps(10, 0.1), 2).empty());
-  const std::vector<Edge3d> twins(2);  // in the same place
-  EXPECT_EQ(AlignEdges(twins, Pair(), Steps(10, 0.1), 2)[0].position,
+  const std::vector<Edge3d> duplicates(2);  // in the same place
+  EXPECT_EQ(AlignEdges(duplicates, Pair(), Steps(10, 0.1), 2)[0].position,
             Eigen::Vector3d::Zero());
-  EXPECT_THROW((void)AlignEdges(twins, {}, Steps(10, 0.1), 2),
+  EXPECT_THROW((void)AlignEdges(duplicates, {}, Steps(10, 0.1), 2),
                std::logic_error);
 }
 

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "import_fixtures.h"
 #include "plugin/imports/import_dtu.h"
 #include "plugin/imports/import_middlebury.h"
 #include "plugin/imports/import_nerf.h"
-#include "temporary_folder.h"
+#include "tests/plugin/import_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -114,7 +114,7 @@ TEST_F(HostileImport, DtuArchivesSayWhatIsWrong) {
             StatusCode::kDataLoss);
 }
 
-TEST_F(HostileImport, DtuWithoutPhotographsAsksForThem) {
+TEST_F(HostileImport, DtuWithoutImagesAsksForThem) {
   folder_.Write("cal/pos_001.txt", MatrixText(Eigen::MatrixXd::Ones(3, 4)));
   ImportOptions options;
   options.input_path = folder_.path() / "cal";

@@ -123,7 +123,7 @@ TEST(ImportReal, AbcNefIsItsConvertedModel) {
   }
 }
 
-TEST(ImportReal, TextModelAndItsPhotographsComeTogether) {
+TEST(ImportReal, TextModelAndItsImagesComeTogether) {
   const std::string room = "photos/room";
   if (!fs::exists(DataFolder() / room / "sparse_txt")) {
     GTEST_SKIP() << "no " << room << " in " << DataFolder()

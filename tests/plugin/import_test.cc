@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "base/file_io.h"
-#include "import_fixtures.h"
 #include "plugin/imports/import_colmap.h"
 #include "plugin/imports/import_dtu.h"
 #include "plugin/imports/import_middlebury.h"
 #include "plugin/imports/import_nerf.h"
-#include "temporary_folder.h"
+#include "tests/plugin/import_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -149,7 +149,7 @@ TEST_F(Import, DtuNormalizeMovesTheWorldIntoTheUnitSphere) {
   ExpectCamera(*scene, 310.5, 245.5);
 }
 
-TEST_F(Import, DtuPositionsFindTheirPhotographsByNumber) {
+TEST_F(Import, DtuPositionsFindTheirImagesByNumber) {
   for (int i = 0; i < kNumViews; ++i) {
     const std::string number = "00" + std::to_string(i + 1);
     Photo("scan/rect_" + number + "_3_r5000.png");

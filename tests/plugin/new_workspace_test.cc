@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/file_io.h"
-#include "import_fixtures.h"
-#include "temporary_folder.h"
+#include "tests/plugin/import_fixtures.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

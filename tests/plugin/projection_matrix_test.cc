@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-#include "import_fixtures.h"
+#include "tests/plugin/import_fixtures.h"
 
 namespace curvix {
 namespace {

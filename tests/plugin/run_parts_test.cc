@@ -15,7 +15,7 @@
 #include "plugin/commands/synthesize.h"
 #include "plugin/run/part_files.h"
 #include "plugin/run/run_workspace.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
 #include "evaluation/ground_truth.h"
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {

@@ -78,14 +78,34 @@ TEST(PaperMap, EverySourceFileSaysWhatItIsOfThePaper) {
   }
 }
 
-TEST(PaperMap, NamesOnlyFilesThatExist) {
-  ASSERT_TRUE(ExistsInTree(kMap));
-  const auto names = NamedFiles(ReadSource(kMap));
-  EXPECT_GT(names.size(), 20u);
-  for (const std::string& name : names) {
-    EXPECT_NE(Locate(name), "")
-        << kMap << " names " << name << ", which is gone";
+TEST(Pages, NameOnlyFilesThatExist) {
+  auto pages = FilesBelow({"docs"}, {".md"});
+  pages.push_back("README.md");
+  std::size_t num_names = 0;
+  for (const std::string& page : pages) {
+    const auto names = NamedFiles(ReadSource(page));
+    num_names += names.size();
+    for (const std::string& name : names) {
+      EXPECT_NE(Locate(name), "")
+          << page << " names " << name << ", which is gone";
+    }
   }
+  EXPECT_GT(num_names, 100u);
+}
+
+// A newcomer finds the way in at most six files.
+TEST(Pages, WalksThroughTheCodeAreShort) {
+  const std::string page = ReadSource("docs/architecture.md");
+  const std::size_t walks = page.find("## Two walks through the code");
+  ASSERT_NE(walks, page.npos);
+  const auto lines = Lines(page.substr(walks, page.find("## Folders") - walks));
+  const auto steps = [&](const std::string& number) {
+    return std::count_if(lines.begin(), lines.end(), [&](const auto& line) {
+      return line.rfind(number + ". `", 0) == 0;
+    });
+  };
+  EXPECT_EQ(steps("1"), 2);
+  EXPECT_EQ(steps("7"), 0);
 }
 
 TEST(PaperMap, KnowsEveryHeaderOfTheMethod) {

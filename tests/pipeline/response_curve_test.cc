@@ -19,7 +19,7 @@
 namespace curvix {
 namespace {
 
-using Tone = std::function<double(double light)>;  // both 0..1
+using Response = std::function<double(double light)>;  // both 0..1
 
 SyntheticScene MakeBlock() {
   SyntheticOptions options;
@@ -29,14 +29,14 @@ SyntheticScene MakeBlock() {
 }
 
 // Half as bright as they are, so that nothing is white.
-void WritePictures(const Tone& tone,
+void WritePictures(const Response& response,
                    const std::filesystem::path& folder,
                    SyntheticScene& made) {
   for (std::size_t i = 0; i < made.images.size(); ++i) {
     RgbImage image = made.images[i];
     for (std::uint8_t& value : image.pixels) {
-      value =
-          static_cast<std::uint8_t>(std::lround(255 * tone(0.5 * value / 255)));
+      value = static_cast<std::uint8_t>(
+          std::lround(255 * response(0.5 * value / 255)));
     }
     View& view = made.scene.views[i];
     view.image_path = folder / view.name;
@@ -59,10 +59,10 @@ double DistanceAcross(const CurveSample& sample,
 }
 
 // The median distance of the curves from the true ones.
-double ErrorUnder(const Tone& tone) {
+double ErrorUnder(const Response& response) {
   const TemporaryFolder folder;
   SyntheticScene made = MakeBlock();
-  WritePictures(tone, folder.path(), made);
+  WritePictures(response, folder.path(), made);
   const auto result = ReconstructCurves(made.scene, Options());
   EXPECT_TRUE(result.ok()) << result.status().message();
   std::vector<double> distances;
@@ -75,7 +75,7 @@ double ErrorUnder(const Tone& tone) {
   return Median(std::move(distances));
 }
 
-TEST(ToneCurve, DoesNotMoveCurves) {
+TEST(ResponseCurve, DoesNotMoveCurves) {
   const double error = ErrorUnder([](double light) { return light; });
   const double with_gamma =
       ErrorUnder([](double light) { return std::pow(light, 1 / 2.2); });

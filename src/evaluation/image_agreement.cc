@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it).
-#include "evaluation/photograph_agreement.h"
+#include "evaluation/image_agreement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ ShareTally Look(const Edge2d& place,
 
 void LookForCurves(const std::vector<DrawnCurve>& drawn,
                    const std::vector<Edge2d>& contours,
-                   PhotographTally* tally) {
+                   ImageTally* tally) {
   const Counterparts on_contour(contours, kCurveOnContour);
   for (const DrawnCurve& curve : drawn) {
     for (const DrawnPlace& place : curve) {
@@ -124,7 +124,7 @@ ShareAboveChance ShareTally::Summarize() const {
   return {hits / amount, hits_by_chance / amount};
 }
 
-void PhotographTally::Add(const PhotographTally& other) {
+void ImageTally::Add(const ImageTally& other) {
   precision.Add(other.precision);
   expected_precision.Add(other.expected_precision);
   strong_contours.Add(other.strong_contours);
@@ -133,7 +133,7 @@ void PhotographTally::Add(const PhotographTally& other) {
       pieces_px.end(), other.pieces_px.begin(), other.pieces_px.end());
 }
 
-PhotographAgreement PhotographTally::Summarize() const {
+ImageAgreement ImageTally::Summarize() const {
   return {precision.Summarize(),
           expected_precision.Summarize(),
           strong_contours.Summarize(),
@@ -141,10 +141,10 @@ PhotographAgreement PhotographTally::Summarize() const {
           MedianOr(0, pieces_px)};
 }
 
-PhotographTally CompareWithPhotograph(const std::vector<DrawnCurve>& drawn,
-                                      const std::vector<Edge2d>& contours,
-                                      const std::vector<Edge2d>& long_lines) {
-  PhotographTally tally;
+ImageTally CompareWithImage(const std::vector<DrawnCurve>& drawn,
+                            const std::vector<Edge2d>& contours,
+                            const std::vector<Edge2d>& long_lines) {
+  ImageTally tally;
   LookForCurves(drawn, contours, &tally);
   std::vector<Edge2d> places;
   for (const DrawnCurve& curve : drawn) {

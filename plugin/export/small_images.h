@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Photographs with curves, and small ones of a few views that stand for all.
+// Images with curves, and small ones of a few views that stand for all.
 #pragma once
 
 #include <curvix/curves.h>
@@ -16,17 +16,17 @@ namespace curvix {
 std::vector<int> SpreadViews(const Scene& scene, int count);
 
 // JPEGs of the ideal pinhole images of some views, without distortion, at most
-// `max_size_px` wide and high; black where the photograph shows nothing. Empty
-// for photographs that cannot be read.
+// `max_size_px` wide and high; black where the image shows nothing. Empty
+// for images that cannot be read.
 std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
                                            const std::vector<int>& view_idxs,
                                            int max_size_px,
                                            int num_threads);
 
-// A PNG of a view's photograph, faded, with the curves drawn over it in their
+// A PNG of a view's image, faded, with the curves drawn over it in their
 // colours: where edges of the view support them, and thin and pale where none
 // does, which is where something hides them or they are wrong. kNotFound or
-// kDataLoss if the photograph cannot be read.
+// kDataLoss if the image cannot be read.
 Result<std::string> OverlayPng(const CurveSource& curves,
                                const Scene& scene,
                                int view_idx);

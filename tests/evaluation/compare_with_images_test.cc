@@ -44,10 +44,9 @@ class WallTest : public ::testing::Test {
     return curve;
   }
 
-  PhotographAgreement Compare(const Curve& curve,
-                              const std::vector<int>& view_idxs) const {
-    const auto agreement =
-        CompareWithPhotographs({curve}, scene_, view_idxs, 2);
+  ImageAgreement Compare(const Curve& curve,
+                         const std::vector<int>& view_idxs) const {
+    const auto agreement = CompareWithImages({curve}, scene_, view_idxs, 2);
     EXPECT_TRUE(agreement.ok()) << agreement.status().message();
     return *agreement;
   }
@@ -57,7 +56,7 @@ class WallTest : public ::testing::Test {
 };
 
 TEST_F(WallTest, TheBorderIsWhereTheLineIs) {
-  const PhotographAgreement agreement =
+  const ImageAgreement agreement =
       Compare(Line({0, -3, 0}, {0, 3, 0}), {0, 1, 2});
   EXPECT_EQ(agreement.precision.share, 1);
   EXPECT_GT(agreement.strong_contours.share, 0.7);
@@ -66,18 +65,16 @@ TEST_F(WallTest, TheBorderIsWhereTheLineIs) {
 }
 
 TEST_F(WallTest, OfLinesThatLeaveTheImageThePartInsideCounts) {
-  const PhotographAgreement agreement =
-      Compare(Line({0, 0, 0}, {0, 1000, 0}), {1});
+  const ImageAgreement agreement = Compare(Line({0, 0, 0}, {0, 1000, 0}), {1});
   EXPECT_EQ(agreement.precision.share, 1);
   EXPECT_NEAR(agreement.median_piece_px, 78, 2.5);
-  const PhotographAgreement from_behind =
+  const ImageAgreement from_behind =
       Compare(Line({0, 0, 0}, {0, 0.5, -20}), {1});
   EXPECT_GT(from_behind.median_piece_px, 0);
 }
 
 TEST_F(WallTest, ALineElsewhereIsOnNoContour) {
-  const PhotographAgreement agreement =
-      Compare(Line({1, -3, 0}, {1, 3, 0}), {1});
+  const ImageAgreement agreement = Compare(Line({1, -3, 0}, {1, 3, 0}), {1});
   EXPECT_EQ(agreement.precision.share, 0);
   EXPECT_EQ(agreement.strong_contours.share, 0);
   EXPECT_EQ(agreement.long_lines.share, 0);
@@ -90,9 +87,9 @@ TEST_F(WallTest, SamplesAreExpectedIfTheNextViewsSupportThem) {
       << "view 2 does not support the line";
 }
 
-TEST_F(WallTest, AMissingPhotographIsAnError) {
+TEST_F(WallTest, AMissingImageIsAnError) {
   scene_.views[1].image_path = folder_.path() / "none.png";
-  const auto agreement = CompareWithPhotographs({}, scene_, {0, 1}, 2);
+  const auto agreement = CompareWithImages({}, scene_, {0, 1}, 2);
   ASSERT_FALSE(agreement.ok());
   EXPECT_THAT(agreement.status().message(), HasSubstr("none.png"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Curves against photographs, by their image files.
+// Paper: none (beyond it). Curves against images, by their image files.
 #include <curvix/curves.h>
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "base/parallel.h"
 #include "edge_detection/load_image.h"
 #include "evaluation/holdout.h"
+#include "evaluation/image_agreement.h"
 #include "evaluation/image_contours.h"
-#include "evaluation/photograph_agreement.h"
 #include "geometry/pixel_size.h"
 #include "geometry/posed_views.h"
 
@@ -150,11 +150,11 @@ class Pen {
   std::vector<std::size_t> used_;
 };
 
-Result<PhotographTally> CompareWithView(const std::vector<Curve>& curves,
-                                        const Scene& scene,
-                                        const std::vector<PosedView>& views,
-                                        std::size_t view_idx,
-                                        std::vector<std::size_t> used) {
+Result<ImageTally> CompareWithView(const std::vector<Curve>& curves,
+                                   const Scene& scene,
+                                   const std::vector<PosedView>& views,
+                                   std::size_t view_idx,
+                                   std::vector<std::size_t> used) {
   const View& view = scene.views[view_idx];
   const Camera& camera =
       scene.cameras[static_cast<std::size_t>(view.camera_idx)];
@@ -168,17 +168,15 @@ Result<PhotographTally> CompareWithView(const std::vector<Curve>& curves,
     DrawnCurve in_view = pen.Draw(curve);
     if (!in_view.empty()) drawn.push_back(std::move(in_view));
   }
-  return CompareWithPhotograph(
-      drawn, FindContours(*image), FindLongLines(*image));
+  return CompareWithImage(drawn, FindContours(*image), FindLongLines(*image));
 }
 
 }  // namespace
 
-Result<PhotographAgreement> CompareWithPhotographs(
-    const std::vector<Curve>& curves,
-    const Scene& scene,
-    const std::vector<int>& view_idxs,
-    int num_threads) {
+Result<ImageAgreement> CompareWithImages(const std::vector<Curve>& curves,
+                                         const Scene& scene,
+                                         const std::vector<int>& view_idxs,
+                                         int num_threads) {
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     if (std::find(view_idxs.begin(), view_idxs.end(), static_cast<int>(i)) ==
@@ -187,13 +185,13 @@ Result<PhotographAgreement> CompareWithPhotographs(
     }
   }
   const std::vector<PosedView> views = MakePosedViews(scene);
-  std::vector<std::optional<Result<PhotographTally>>> tallies(view_idxs.size());
+  std::vector<std::optional<Result<ImageTally>>> tallies(view_idxs.size());
   ParallelFor(view_idxs.size(), num_threads, [&](std::size_t i) {
     tallies[i] = CompareWithView(
         curves, scene, views, static_cast<std::size_t>(view_idxs[i]), used);
   });
-  PhotographTally total;
-  for (const std::optional<Result<PhotographTally>>& tally : tallies) {
+  ImageTally total;
+  for (const std::optional<Result<ImageTally>>& tally : tallies) {
     if (!tally->ok()) return tally->status();
     total.Add(**tally);
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/photograph_agreement.h"
+#include "evaluation/image_agreement.h"
 
 #include <gtest/gtest.h>
-
 #include <cstddef>
 #include <vector>
 
@@ -38,15 +37,15 @@ DrawnCurve Drawn(const std::vector<Edge2d>& places, bool is_expected = true) {
   return drawn;
 }
 
-PhotographAgreement Compare(const std::vector<DrawnCurve>& drawn,
-                            const std::vector<Edge2d>& contours,
-                            const std::vector<Edge2d>& long_lines = {}) {
-  return CompareWithPhotograph(drawn, contours, long_lines).Summarize();
+ImageAgreement Compare(const std::vector<DrawnCurve>& drawn,
+                       const std::vector<Edge2d>& contours,
+                       const std::vector<Edge2d>& long_lines = {}) {
+  return CompareWithImage(drawn, contours, long_lines).Summarize();
 }
 
-TEST(CompareWithPhotograph, WhatIsDrawnWhereAContourIsCounts) {
+TEST(CompareWithImage, WhatIsDrawnWhereAContourIsCounts) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
-  const PhotographAgreement exact = Compare({Drawn(contour)}, contour, contour);
+  const ImageAgreement exact = Compare({Drawn(contour)}, contour, contour);
   for (const ShareAboveChance& share : {exact.precision,
                                         exact.expected_precision,
                                         exact.strong_contours,
@@ -58,7 +57,7 @@ TEST(CompareWithPhotograph, WhatIsDrawnWhereAContourIsCounts) {
   EXPECT_EQ(exact.median_piece_px, 100);
 }
 
-TEST(CompareWithPhotograph, HasTolerancesOfItsOwnForEachFigure) {
+TEST(CompareWithImage, HasTolerancesOfItsOwnForEachFigure) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
   const auto beside = [&](double distance_px) {
     return Compare({Drawn(Line(0, 100, 50 + distance_px))}, contour, contour);
@@ -71,7 +70,7 @@ TEST(CompareWithPhotograph, HasTolerancesOfItsOwnForEachFigure) {
   EXPECT_EQ(beside(3.1).long_lines.share, 0);
 }
 
-TEST(CompareWithPhotograph, AsksForTheSameDirectionEitherWay) {
+TEST(CompareWithImage, AsksForTheSameDirectionEitherWay) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
   std::vector<Edge2d> curve = contour;
   for (Edge2d& place : curve) place.angle = 3.14159265f;
@@ -80,17 +79,17 @@ TEST(CompareWithPhotograph, AsksForTheSameDirectionEitherWay) {
   EXPECT_EQ(Compare({Drawn(curve)}, contour).precision.share, 0);
 }
 
-TEST(CompareWithPhotograph, WhatIsEverywhereIsChance) {
+TEST(CompareWithImage, WhatIsEverywhereIsChance) {
   std::vector<std::vector<Edge2d>> lines;
   for (double y = 0; y < 100; y += 2) lines.push_back(Line(0, 100, y));
-  const PhotographAgreement agreement =
+  const ImageAgreement agreement =
       Compare({Drawn(Line(0, 100, 51))}, Join(lines));
   EXPECT_EQ(agreement.precision.share, 1);
   EXPECT_EQ(agreement.precision.chance, 1);
   EXPECT_EQ(agreement.precision.Lift(), 0);
 }
 
-TEST(CompareWithPhotograph, OfContoursTheStrongestFifthIsLookedFor) {
+TEST(CompareWithImage, OfContoursTheStrongestFifthIsLookedFor) {
   const std::vector<Edge2d> strong = Line(0, 100, 20, 30);
   const std::vector<Edge2d> weak =
       Join({Line(0, 200, 50, 10), Line(0, 200, 80, 10)});
@@ -102,22 +101,22 @@ TEST(CompareWithPhotograph, OfContoursTheStrongestFifthIsLookedFor) {
   EXPECT_LT(Compare({Drawn(weak)}, contours).strong_contours.share, 0.01);
 }
 
-TEST(CompareWithPhotograph, ExpectedPlacesAreCountedApart) {
+TEST(CompareWithImage, ExpectedPlacesAreCountedApart) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
-  const PhotographAgreement agreement =
+  const ImageAgreement agreement =
       Compare({Drawn(contour, true), Drawn(Line(0, 300, 70), false)}, contour);
   EXPECT_EQ(agreement.precision.share, 0.25);
   EXPECT_EQ(agreement.expected_precision.share, 1);
 }
 
-TEST(CompareWithPhotograph, StepsCountNotPlaces) {
+TEST(CompareWithImage, StepsCountNotPlaces) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
   DrawnCurve wrong = Drawn(Line(0, 100, 70));
   for (DrawnPlace& place : wrong) place.num_steps = 0.25;
   EXPECT_EQ(Compare({Drawn(contour), wrong}, contour).precision.share, 0.8);
 }
 
-TEST(CompareWithPhotograph, NothingHasNoShares) {
+TEST(CompareWithImage, NothingHasNoShares) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
   EXPECT_EQ(Compare({}, contour, contour).precision.share, 0);
   EXPECT_EQ(Compare({}, contour, contour).long_lines.share, 0);
@@ -126,10 +125,10 @@ TEST(CompareWithPhotograph, NothingHasNoShares) {
   EXPECT_EQ(Compare({Drawn(contour)}, {}).strong_contours.share, 0);
 }
 
-TEST(PhotographTally, AddsUpOverPhotographs) {
+TEST(ImageTally, AddsUpOverImages) {
   const std::vector<Edge2d> contour = Line(0, 100, 50);
-  PhotographTally total = CompareWithPhotograph({Drawn(contour)}, contour, {});
-  total.Add(CompareWithPhotograph({Drawn(Line(0, 300, 70))}, contour, {}));
+  ImageTally total = CompareWithImage({Drawn(contour)}, contour, {});
+  total.Add(CompareWithImage({Drawn(Line(0, 300, 70))}, contour, {}));
   EXPECT_EQ(total.Summarize().precision.share, 0.25);
   EXPECT_EQ(total.Summarize().strong_contours.share, 0.5);
   EXPECT_EQ(total.pieces_px, (std::vector<double>{100, 300}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/export/pictures.h"
+#include "plugin/export/small_images.h"
 
 #include <curvix/curves.h>
 #include <curvix/scene.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/export/pictures.h"
+#include "plugin/export/small_images.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -79,7 +79,7 @@ TEST_F(OverlayTest, ShortGapsOfSupportAreDrawnThrough) {
   EXPECT_NEAR(static_cast<double>(ColouredColumns(0).size()), 60, 6);
 }
 
-TEST_F(OverlayTest, AMissingPhotographIsAnError) {
+TEST_F(OverlayTest, AMissingImageIsAnError) {
   scene_.views[0].image_path = folder_.path() / "none.png";
   EXPECT_FALSE(OverlayPng(CurvesInMemory(curves_), scene_, 0).ok());
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEdgeSigmaPx = 0.15;
 
-const ToneCurve kTone = {{0.5, 0.3}};
+const ResponseCurve kResponse = {{0.5, 0.3}};
 
 struct SeenCurves {
   std::vector<Curve> curves;
@@ -34,8 +34,8 @@ void SetSides(Random& random, Edge2d& edge) {
 }
 
 // Eighty lines in eight views. All edges of a line in a view have the same
-// sides, and lie where `tone` puts them, but for noise.
-SeenCurves See(const Eigen::Vector2d& tone_px, int length_px = 40) {
+// sides, and lie where `response` puts them, but for noise.
+SeenCurves See(const Eigen::Vector2d& response_px, int length_px = 40) {
   Random random(3);
   SeenCurves seen;
   for (int i = 0; i < 8; ++i) {
@@ -62,7 +62,9 @@ SeenCurves See(const Eigen::Vector2d& tone_px, int length_px = 40) {
         edge.strength = sides[v].strength;
         edge.sharpness = sides[v].sharpness;
         edge.angle += sides[v].angle;
-        MoveAcross(0.03 * random.Normal() - ToneLever(edge).dot(tone_px), edge);
+        MoveAcross(
+            0.03 * random.Normal() - ResponseShift(edge).dot(response_px),
+            edge);
       }
     }
   }
@@ -70,59 +72,59 @@ SeenCurves See(const Eigen::Vector2d& tone_px, int length_px = 40) {
 }
 
 Eigen::Vector2d Estimate(const SeenCurves& seen, int num_threads = 1) {
-  return EstimateToneCurve(
+  return EstimateResponseCurve(
              seen.curves, seen.views, seen.edge_maps, kEdgeSigmaPx, num_threads)
       .px;
 }
 
-TEST(EstimateToneCurve, IsFoundFromHowViewsDiffer) {
-  const Eigen::Vector2d found = Estimate(See(kTone.px));
-  EXPECT_LT((found - kTone.px).norm(), 0.1);
+TEST(EstimateResponseCurve, IsFoundFromHowViewsDiffer) {
+  const Eigen::Vector2d found = Estimate(See(kResponse.px));
+  EXPECT_LT((found - kResponse.px).norm(), 0.1);
 }
 
-TEST(EstimateToneCurve, OneOfItsPartsMayBeAll) {
+TEST(EstimateResponseCurve, OneOfItsPartsMayBeAll) {
   const Eigen::Vector2d gamma(0.6, 0), shoulder(0, 0.6);
   EXPECT_LT((Estimate(See(gamma)) - gamma).norm(), 0.1);
   EXPECT_LT((Estimate(See(shoulder)) - shoulder).norm(), 0.1);
 }
 
-TEST(EstimateToneCurve, WithoutToneThereIsNone) {
+TEST(EstimateResponseCurve, WithoutResponseThereIsNone) {
   EXPECT_LT(Estimate(See({0, 0})).norm(), 0.05);
 }
 
-TEST(EstimateToneCurve, BrightnessDoesNotGrowFasterThanLight) {
-  EXPECT_EQ(Estimate(See(-kTone.px)), Eigen::Vector2d::Zero());
+TEST(EstimateResponseCurve, BrightnessDoesNotGrowFasterThanLight) {
+  EXPECT_EQ(Estimate(See(-kResponse.px)), Eigen::Vector2d::Zero());
 }
 
-TEST(EstimateToneCurve, OnePlaceInFourViewsTellsLittle) {
-  SeenCurves seen = See(kTone.px, 8);
+TEST(EstimateResponseCurve, OnePlaceInFourViewsTellsLittle) {
+  SeenCurves seen = See(kResponse.px, 8);
   seen.curves.resize(1);
   for (CurveSample& sample : seen.curves[0].samples) sample.support.resize(4);
-  EXPECT_LT(Estimate(seen).norm(), 0.2 * kTone.px.norm());
+  EXPECT_LT(Estimate(seen).norm(), 0.2 * kResponse.px.norm());
 }
 
-TEST(EstimateToneCurve, WithoutCurvesThereIsNone) {
+TEST(EstimateResponseCurve, WithoutCurvesThereIsNone) {
   EXPECT_EQ(Estimate({}), Eigen::Vector2d::Zero());
 }
 
-TEST(EstimateToneCurve, EdgesOfUnknownLevelTellNothing) {
-  SeenCurves seen = See(kTone.px);
+TEST(EstimateResponseCurve, EdgesOfUnknownLevelTellNothing) {
+  SeenCurves seen = See(kResponse.px);
   for (EdgeMap& map : seen.edge_maps) {
     for (Edge2d& edge : map.edges) edge.level = 0;
   }
   EXPECT_EQ(Estimate(seen), Eigen::Vector2d::Zero());
 }
 
-TEST(EstimateToneCurve, DoesNotDependOnTheUnit) {
-  SeenCurves seen = See(kTone.px);
+TEST(EstimateResponseCurve, DoesNotDependOnTheUnit) {
+  SeenCurves seen = See(kResponse.px);
   const Eigen::Vector2d found = Estimate(seen);
   seen.curves = Scaled(std::move(seen.curves), 1000);
   seen.views = Scaled(std::move(seen.views), 1000);
   EXPECT_LT((Estimate(seen) - found).norm(), 1e-6);
 }
 
-TEST(EstimateToneCurve, ThreadsChangeNothing) {
-  const SeenCurves seen = See(kTone.px);
+TEST(EstimateResponseCurve, ThreadsChangeNothing) {
+  const SeenCurves seen = See(kResponse.px);
   EXPECT_EQ(Estimate(seen, 1), Estimate(seen, 3));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Curves against what one photograph shows.
+// Paper: none (beyond it). Curves against what one image shows.
 #pragma once
 
 #include <curvix/edges.h>
@@ -20,7 +20,7 @@ struct ShareTally {
   ShareAboveChance Summarize() const;
 };
 
-// A stretch of at most 2 pixels of a curve in a photograph: its middle with the
+// A stretch of at most 2 pixels of a curve in an image: its middle with the
 // angle of the curve.
 struct DrawnPlace {
   Edge2d edge;
@@ -33,21 +33,21 @@ struct DrawnPlace {
 
 using DrawnCurve = std::vector<DrawnPlace>;
 
-struct PhotographTally {
+struct ImageTally {
   ShareTally precision;
   ShareTally expected_precision;
   ShareTally strong_contours;
   ShareTally long_lines;
   std::vector<double> pieces_px;  // lengths of the curves
 
-  void Add(const PhotographTally& other);
-  PhotographAgreement Summarize() const;
+  void Add(const ImageTally& other);
+  ImageAgreement Summarize() const;
 };
 
 // `contours` and `long_lines`: FindContours() and FindLongLines() of the
-// photograph.
-PhotographTally CompareWithPhotograph(const std::vector<DrawnCurve>& drawn,
-                                      const std::vector<Edge2d>& contours,
-                                      const std::vector<Edge2d>& long_lines);
+// image.
+ImageTally CompareWithImage(const std::vector<DrawnCurve>& drawn,
+                            const std::vector<Edge2d>& contours,
+                            const std::vector<Edge2d>& long_lines);
 
 }  // namespace curvix
