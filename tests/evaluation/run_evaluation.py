@@ -34,19 +34,18 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 UNIT_MM = '1000'  # one world unit of the scenes with known curves
 
 SCORES = [  # key of `evaluate --json`, heading, decimals
-    ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('whole', 'curve recall', 0),
-    ('pure', 'purity', 0), ('tangent', 'tangent °', 2)]
+    ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('whole', 'recall', 0)]
 LIFTS = ['precision_lift', 'strong_lift', 'lines_lift']
 
 UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('–', 'nothing', []),
-    ('1 to 5', 'every view, tracked support, evidence',
+    ('1 to 5', 'every view, tracked support, log-likelihood',
      ['--Hypotheses.view_selection', 'unused_edges',
       '--Validation.support_test', 'wedges']),
-    ('4', 'evidence of an edge', ['--Validation.min_evidence', '0']),
+    ('4', 'log-likelihood of an edge', ['--Validation.min_evidence', '0']),
     ('6', 'no alignment', ['--Alignment.num_iterations', '1000']),
     ('13', 'thinning', ['--Connectivity.sample_spacing_px', '0']),
-    ('15', 'tracks drawn once', ['--Connectivity.max_repeat_distance_px', '0']),
+    ('15', 'duplicates dropped', ['--Connectivity.max_repeat_distance_px', '0']),
     ('16', 'joins', ['--Connectivity.max_gap_px', '0']),
     ('17', 'corner splits', ['--Connectivity.max_corner_deg', '180']),
     ('18', 'selection of curves', ['--CurveRefinement.max_dilution', '0']),
@@ -56,10 +55,10 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('30', 'touching curves', ['--CurveRefinement.separate_touching', '0']),
     ('31', 'corners of fitted curves',
      ['--CurveRefinement.max_corner_deg', '180']),
-    ('27', 'tone curve', ['--CurveRefinement.undo_tone_curve', '0']),
-    ('29', 'edges side by side', ['--EdgeDetection.separate_edges', '0']),
+    ('27', 'response curve', ['--CurveRefinement.undo_tone_curve', '0']),
+    ('29', 'parallel edges separated', ['--EdgeDetection.separate_edges', '0']),
     ('18 to 21, 26, 27, 30, 31', 'all refinement', ['--CurveRefinement.enabled', '0']),
-    ('25', 'one place for each 2D edge',
+    ('25', 'exclusive support',
      ['--Validation.min_num_own_views', '0'])]
 
 HARDER = [  # what is worse, script and its arguments
@@ -126,14 +125,15 @@ def score_headings():
 
 
 def table(headings, rows):
-    lines = [headings, ['---'] * len(headings), *rows]
-    return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
+    lines = ['| ' + ' | '.join(line) + ' |' for line in [headings, *rows]]
+    lines.insert(1, '|' + '---|' * len(headings))
+    return '\n'.join(lines)
 
 
 def mean(all_scores):
     """Means of each score over those runs that have it."""
     result = {}
-    for key in ['cpu', 'mb', 'curves', 'gt_curves'] + [s[0] for s in SCORES]:
+    for key in ['cpu'] + [score[0] for score in SCORES]:
         values = [s[key] for s in all_scores if s.get(key) is not None]
         result[key] = sum(values) / len(values) if values else None
     return result
@@ -146,13 +146,11 @@ def table_a(program, scenes):
     names = [scene.name for _, scene in scenes] + ['**mean**']
     results.append([mean(column) for column in zip(*results)])
     rows = [[name, *score_cells(default),
-             f'{cell(default.get("curves"), 0)} / '
-             f'{cell(default.get("gt_curves"), 0)}',
              cell(default['cpu'], 0), cell(paper.get('Fv5'), 1),
              cell(paper['cpu'], 0)]
             for name, (default, paper) in zip(names, results)]
-    return table(['scene', *score_headings(), 'curves / true', 'CPU s',
-                  'paper: Fv5', 'CPU s'], rows)
+    return table(['scene', *score_headings(), 'CPU s', 'paper: Fv5', 'CPU s'],
+                 rows)
 
 
 def comparison(headings, cases, scenes, run):
@@ -207,7 +205,7 @@ def table_c(program, scenes, peers):
                      *evaluate_holdout(program, scene, num_views, []),
                      ' / '.join(peer)])
     return table(['scene', 'images', 'curves', 'CPU s', 'MB', 'precision',
-                  'strong contours', 'long lines', 'Line3D++'], rows)
+                  'strong', 'lines', 'Line3D++'], rows)
 
 
 def evaluate_harder(program, scene, script, flags):
