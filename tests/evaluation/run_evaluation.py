@@ -8,8 +8,8 @@ usage: run_evaluation.py [--program build/bin/colmap_curvix] [--data FOLDER]
 
 A  the default and --preset paper, scene by scene
 B  one departure from the paper at a time taken back
-C  scenes without known curves: time and memory, and the curves of a part of
-   the photographs compared with those held out; the same of Line3D++ where
+C  scenes without known curves: time, and the curves of a part of the
+   photographs compared with those held out; the same of Line3D++ where
    FOLDER/peers/line3dpp/<scene>.obj is
 D  the default on harder copies of scenes with known curves
 
@@ -24,7 +24,6 @@ import datetime
 import json
 import os
 import pathlib
-import platform
 import shutil
 import subprocess
 import sys
@@ -82,25 +81,24 @@ def find_scenes(data, words):
 
 
 def run_program(program, scene, output, flags):
-    """Exit code, CPU seconds and peak MB."""
+    """Exit code and CPU seconds."""
     with open(output.parent / 'log.txt', 'w') as log:
         process = subprocess.Popen(
             [program, '--workspace_path', scene, '--output_path', output, '--clean', *flags],
             stdout=log, stderr=log)
         _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    return (process.returncode, usage.ru_utime + usage.ru_stime,
-            usage.ru_maxrss / 1024)
+    return process.returncode, usage.ru_utime + usage.ru_stime
 
 
 def evaluate(program, scene, flags):
     """The scores of one run; {} where the program fails."""
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / 'curvix'
-        code, cpu, memory = run_program(program, scene, output, flags)
+        code, cpu = run_program(program, scene, output, flags)
         print(f'  {scene.name} {" ".join(flags)}: exit code {code}, '
               f'{cpu:.0f} s', file=sys.stderr, flush=True)
-        scores = {'cpu': cpu, 'mb': memory, 'code': code}
+        scores = {'cpu': cpu}
         if code != 0:
             return scores
         scores['report'] = json.loads((output / 'report.json').read_text())
@@ -189,10 +187,10 @@ def evaluate_holdout(program, scene, num_views, flags):
 
 def table_c(program, scenes, peers):
     rows = []
-    for name, scene in scenes:
+    for _, scene in scenes:
         scores = evaluate(program, scene, [])
         if 'report' not in scores:
-            rows.append([name] + ['–'] * 8)
+            rows.append([scene.name] + ['–'] * 7)
             continue
         num_views = scores['report']['input']['num_views']
         lines = peers / 'line3dpp' / f'{scene.name}.obj'
@@ -201,11 +199,11 @@ def table_c(program, scenes, peers):
                 if lines.exists() else ['–'])
         rows.append([scene.name, str(num_views),
                      str(scores['report']['result']['num_curves']),
-                     cell(scores['cpu'], 0), cell(scores['mb'], 0),
+                     cell(scores['cpu'], 0),
                      *evaluate_holdout(program, scene, num_views, []),
                      ' / '.join(peer)])
-    return table(['scene', 'images', 'curves', 'CPU s', 'MB', 'precision',
-                  'strong', 'lines', 'Line3D++'], rows)
+    return table(['scene', 'images', 'curves', 'CPU s', 'precision', 'strong',
+                  'lines', 'Line3D++'], rows)
 
 
 def evaluate_harder(program, scene, script, flags):
@@ -226,12 +224,6 @@ def table_d(program, scenes):
         ['harder by'],
         [((what,), (script, flags)) for what, script, flags in HARDER],
         scenes, lambda *arguments: evaluate_harder(program, *arguments))
-
-
-def origin():
-    """When and on what: the line below each table."""
-    return (f'{datetime.date.today()}, {platform.machine()}, '
-            f'{os.cpu_count()} cores.')
 
 
 def write(path, letter, text):
@@ -264,7 +256,8 @@ def main():
               'D': (table_d, known)}
     for letter in arguments.tables.split(','):
         make, its_scenes = makers[letter]
-        text = make(arguments.program, its_scenes) + '\n\n' + origin()
+        text = (make(arguments.program, its_scenes)
+                + f'\n\nMeasured on {datetime.date.today()}.')
         print(text, flush=True)
         if arguments.write:
             write(arguments.write, letter, text)
