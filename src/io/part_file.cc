@@ -1,5 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Results of parts to and from files.
+// Paper: none (engineering). Results of parts to and from files, which after
+// their head (stage_file.h) hold the number of 2D edges of the part's own
+// views, of 3D edges in its core, and of curves (8 bytes each); the number of
+// bytes of each curve (8 bytes each); per curve: closed, occluding contour (1
+// byte each), number of samples; per sample the fields of a 3D edge
+// (stage_io.cc) and its covariance (6 doubles: the upper triangle, row by row);
+// number of 2D edges behind it, to which its supports refer, as in stage_io.cc
+// but for neighbours.
 #include <cstddef>
 #include <cstdint>
 #include <fstream>

@@ -1,5 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Results of stages to and from files.
+// Paper: none (engineering). Results of stages to and from files, which after
+// their head (stage_file.h) hold
+//   edges.bin: number of views; per view: number of edges, noise, spacing in
+//     pixels (doubles), edges dropped by the mask, as isolated, over the limit
+//     (int32 each); per edge: x, y (doubles), angle, strength, sharpness, level
+//     (floats), indices of the previous and the next edge (int32, -1: none)
+//   sketch.bin: view pairs, edges asked, hypotheses, without support, weaker
+//     rivals, 2D edges used (int64 each); edge sigma in pixels (double); number
+//     of 3D edges; per edge: position, tangent (3 doubles each), sigma,
+//     evidence (doubles), number of supports, per support view and edge (int32
+//     each)
+//   curve_poses.bin: number of views; per view: rotation x, y, z, w and
+//     translation (7 doubles); number of cameras; per camera: model, width,
+//     height (int32 each), number of parameters, these (doubles); accepted (1
+//     byte); length of the reason, its text; counts and doubles in the order of
+//     WriteCurvePoses
 #include "io/stage_io.h"
 
 #include <cstddef>

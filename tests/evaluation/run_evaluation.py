@@ -5,12 +5,12 @@ docs/evaluation.md.
 
 usage: run_evaluation.py [--program build/bin/colmap_curvix] [--data FOLDER]
                          [--tables A,B,C,D] [--scenes WORD,...] [--write FILE]
-                         [--commit HASH]
 
 A  the default and --preset paper, scene by scene
 B  one departure from the paper at a time taken back
-C  scenes without known curves: numbers, time and memory, and how many samples
-   of curves made without every 8th photograph (of few, every 4th) are there
+C  scenes without known curves: time, and the curves of a part of the
+   photographs compared with those held out; the same of Line3D++ where
+   FOLDER/peers/line3dpp/<scene>.obj is
 D  the default on harder copies of scenes with known curves
 
 A scene is a folder below FOLDER ($CURVIX_DATA, else ../shared/data beside the
@@ -24,7 +24,6 @@ import datetime
 import json
 import os
 import pathlib
-import platform
 import shutil
 import subprocess
 import sys
@@ -34,20 +33,18 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 UNIT_MM = '1000'  # one world unit of the scenes with known curves
 
 SCORES = [  # key of `evaluate --json`, heading, decimals
-    ('F5', 'F5', 1), ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('Rv5', 'Rv5', 1),
-    ('acc', 'acc mm', 2), ('compv', 'compv mm', 2),
-    ('tangent', 'tangent °', 2), ('dup', 'dup', 2), ('whole', 'whole', 0),
-    ('pure', 'pure', 0)]
+    ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('whole', 'recall', 0)]
+LIFTS = ['precision_lift', 'strong_lift', 'lines_lift']
 
 UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('–', 'nothing', []),
-    ('1 to 5', 'every view, tracked support, evidence',
+    ('1 to 5', 'every view, tracked support, log-likelihood',
      ['--Hypotheses.view_selection', 'unused_edges',
       '--Validation.support_test', 'wedges']),
-    ('4', 'evidence of an edge', ['--Validation.min_evidence', '0']),
+    ('4', 'log-likelihood of an edge', ['--Validation.min_evidence', '0']),
     ('6', 'no alignment', ['--Alignment.num_iterations', '1000']),
     ('13', 'thinning', ['--Connectivity.sample_spacing_px', '0']),
-    ('15', 'tracks drawn once', ['--Connectivity.max_repeat_distance_px', '0']),
+    ('15', 'duplicates dropped', ['--Connectivity.max_repeat_distance_px', '0']),
     ('16', 'joins', ['--Connectivity.max_gap_px', '0']),
     ('17', 'corner splits', ['--Connectivity.max_corner_deg', '180']),
     ('18', 'selection of curves', ['--CurveRefinement.max_dilution', '0']),
@@ -57,10 +54,10 @@ UNDO = [  # number in docs/paper_map.md, what is taken back, flags
     ('30', 'touching curves', ['--CurveRefinement.separate_touching', '0']),
     ('31', 'corners of fitted curves',
      ['--CurveRefinement.max_corner_deg', '180']),
-    ('27', 'tone curve', ['--CurveRefinement.undo_tone_curve', '0']),
-    ('29', 'edges side by side', ['--EdgeDetection.separate_edges', '0']),
+    ('27', 'response curve', ['--CurveRefinement.undo_tone_curve', '0']),
+    ('29', 'parallel edges separated', ['--EdgeDetection.separate_edges', '0']),
     ('18 to 21, 26, 27, 30, 31', 'all refinement', ['--CurveRefinement.enabled', '0']),
-    ('25', 'one place for each 2D edge',
+    ('25', 'exclusive support',
      ['--Validation.min_num_own_views', '0'])]
 
 HARDER = [  # what is worse, script and its arguments
@@ -84,25 +81,24 @@ def find_scenes(data, words):
 
 
 def run_program(program, scene, output, flags):
-    """Exit code, CPU seconds and peak MB."""
+    """Exit code and CPU seconds."""
     with open(output.parent / 'log.txt', 'w') as log:
         process = subprocess.Popen(
             [program, '--workspace_path', scene, '--output_path', output, '--clean', *flags],
             stdout=log, stderr=log)
         _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    return (process.returncode, usage.ru_utime + usage.ru_stime,
-            usage.ru_maxrss / 1024)
+    return process.returncode, usage.ru_utime + usage.ru_stime
 
 
 def evaluate(program, scene, flags):
     """The scores of one run; {} where the program fails."""
     with tempfile.TemporaryDirectory() as folder:
         output = pathlib.Path(folder) / 'curvix'
-        code, cpu, memory = run_program(program, scene, output, flags)
+        code, cpu = run_program(program, scene, output, flags)
         print(f'  {scene.name} {" ".join(flags)}: exit code {code}, '
               f'{cpu:.0f} s', file=sys.stderr, flush=True)
-        scores = {'cpu': cpu, 'mb': memory, 'code': code}
+        scores = {'cpu': cpu}
         if code != 0:
             return scores
         scores['report'] = json.loads((output / 'report.json').read_text())
@@ -119,62 +115,52 @@ def cell(value, decimals):
 
 
 def score_cells(scores):
-    cells = [cell(scores.get(key), decimals) for key, _, decimals in SCORES]
-    cells.append(f'{cell(scores.get("curves"), 0)} / '
-                 f'{cell(scores.get("gt_curves"), 0)}')
-    return cells + [cell(scores['cpu'], 0), cell(scores['mb'], 0)]
+    return [cell(scores.get(key), decimals) for key, _, decimals in SCORES]
 
 
 def score_headings():
-    return [heading for _, heading, _ in SCORES] + [
-        'curves / true', 'CPU s', 'MB']
+    return [heading for _, heading, _ in SCORES]
 
 
 def table(headings, rows):
-    lines = [headings, ['---'] * len(headings), *rows]
-    return '\n'.join('| ' + ' | '.join(line) + ' |' for line in lines)
+    lines = ['| ' + ' | '.join(line) + ' |' for line in [headings, *rows]]
+    lines.insert(1, '|' + '---|' * len(headings))
+    return '\n'.join(lines)
 
 
 def mean(all_scores):
     """Means of each score over those runs that have it."""
     result = {}
-    for key in ['cpu', 'mb', 'curves', 'gt_curves'] + [s[0] for s in SCORES]:
+    for key in ['cpu'] + [score[0] for score in SCORES]:
         values = [s[key] for s in all_scores if s.get(key) is not None]
         result[key] = sum(values) / len(values) if values else None
     return result
 
 
 def table_a(program, scenes):
-    rows = []
-    presets = [('default', []), ('paper', ['--preset', 'paper'])]
-    results = {name: [] for name, _ in presets}
-    for name, scene in scenes:
-        for preset, flags in presets:
-            scores = evaluate(program, scene, flags)
-            results[preset].append(scores)
-            rows.append([name, preset, *score_cells(scores)])
-    for preset, _ in presets:
-        rows.append(['**mean**', preset, *score_cells(mean(results[preset]))])
-    return table(['scene', 'preset', *score_headings()], rows)
+    presets = [[], ['--preset', 'paper']]
+    results = [[evaluate(program, scene, flags) for flags in presets]
+               for _, scene in scenes]
+    names = [scene.name for _, scene in scenes] + ['**mean**']
+    results.append([mean(column) for column in zip(*results)])
+    rows = [[name, *score_cells(default),
+             cell(default['cpu'], 0), cell(paper.get('Fv5'), 1),
+             cell(paper['cpu'], 0)]
+            for name, (default, paper) in zip(names, results)]
+    return table(['scene', *score_headings(), 'CPU s', 'paper: Fv5', 'CPU s'],
+                 rows)
 
 
 def comparison(headings, cases, scenes, run):
-    """One row for each case: Fv5 of each scene, then means over the scenes.
+    """One row for each case: means over the scenes.
 
     A case is what its row begins with, and arguments of `run`, which takes a
     scene before them and returns its scores.
     """
-    keys = [score for score in SCORES if score[0] not in ('F5', 'Rv5')]
-    rows = []
-    for begin, arguments in cases:
-        results = [run(scene, *arguments) for _, scene in scenes]
-        means = mean(results)
-        rows.append([*begin, *(cell(r.get('Fv5'), 1) for r in results),
-                     *(cell(means[key], decimals) for key, _, decimals in keys),
-                     cell(means['cpu'], 0)])
-    return table([*headings, *(scene.name for _, scene in scenes),
-                  *('mean ' + heading for _, heading, _ in keys), 'CPU s'],
-                 rows)
+    rows = [[*begin, *score_cells(mean([run(scene, *arguments)
+                                        for _, scene in scenes]))]
+            for begin, arguments in cases]
+    return table([*headings, *score_headings()], rows)
 
 
 def table_b(program, scenes):
@@ -184,36 +170,40 @@ def table_b(program, scenes):
         scenes, lambda scene, flags: evaluate(program, scene, flags))
 
 
-def evaluate_holdout(program, scene, num_views):
-    """Precision and chance, anywhere and expected; lifts; all in percent."""
-    every = '8' if num_views and num_views >= 16 else '4'
-    run = subprocess.run([program, 'evaluate', '--json', '--holdout_every',
-                          every, '--workspace_path', scene],
-                         capture_output=True, text=True)
+def holdout_every(num_views):
+    """Every fourth photograph is held out, of many every sixth or eighth."""
+    return '4' if num_views < 16 else '6' if num_views < 32 else '8'
+
+
+def evaluate_holdout(program, scene, num_views, flags):
+    """Lifts of curves in photographs held out, in percent."""
+    run = subprocess.run(
+        [program, 'evaluate', '--json', '--workspace_path', scene,
+         '--holdout_every', holdout_every(num_views), *flags],
+        capture_output=True, text=True)
     scores = json.loads(run.stdout) if run.returncode == 0 else {}
-    return [cell(scores.get(key), 1)
-            for key in ('precision', 'precision_chance', 'expected_precision',
-                        'expected_precision_chance', 'precision_lift',
-                        'strong_lift', 'lines_lift')]
+    return [cell(scores.get(key), 0) for key in LIFTS]
 
 
-def table_c(program, scenes):
+def table_c(program, scenes, peers):
     rows = []
-    for name, scene in scenes:
+    for _, scene in scenes:
         scores = evaluate(program, scene, [])
-        report = scores.get('report', {'input': {}, 'result': {}})
-        num_views = report['input'].get('num_views')
-        result = report['result']
-        counts = [num_views, result.get('num_edges_2d'),
-                  result.get('num_edges_3d'), result.get('num_curves')]
-        rows.append([name, *(cell(c, 0) for c in counts),
-                     cell(result.get('total_length'), 1),
-                     *evaluate_holdout(program, scene, num_views),
-                     cell(scores['cpu'], 0), cell(scores['mb'], 0)])
-    return table(['scene', 'views', '2D edges', '3D edges', 'curves', 'length',
-                  'precision %', 'chance %', 'expected %', 'chance %',
-                  'precision, lift', 'strong, lift', 'lines, lift', 'CPU s',
-                  'MB'], rows)
+        if 'report' not in scores:
+            rows.append([scene.name] + ['–'] * 7)
+            continue
+        num_views = scores['report']['input']['num_views']
+        lines = peers / 'line3dpp' / f'{scene.name}.obj'
+        peer = (evaluate_holdout(program, scene, num_views,
+                                 ['--curves_path', lines])
+                if lines.exists() else ['–'])
+        rows.append([scene.name, str(num_views),
+                     str(scores['report']['result']['num_curves']),
+                     cell(scores['cpu'], 0),
+                     *evaluate_holdout(program, scene, num_views, []),
+                     ' / '.join(peer)])
+    return table(['scene', 'images', 'curves', 'CPU s', 'precision', 'strong',
+                  'lines', 'Line3D++'], rows)
 
 
 def evaluate_harder(program, scene, script, flags):
@@ -236,17 +226,6 @@ def table_d(program, scenes):
         scenes, lambda *arguments: evaluate_harder(program, *arguments))
 
 
-def current_commit():
-    return subprocess.run(['git', '-C', ROOT, 'rev-parse', '--short', 'HEAD'],
-                          capture_output=True, text=True).stdout.strip()
-
-
-def origin(commit):
-    """When, which commit and on what: the line below each table."""
-    return (f'{datetime.date.today()}, commit {commit or "unknown"}, '
-            f'{platform.machine()}, {os.cpu_count()} cores.')
-
-
 def write(path, letter, text):
     begin, end = f'<!-- table {letter} -->', f'<!-- end of table {letter} -->'
     old = path.read_text()
@@ -262,8 +241,6 @@ def main():
                         default=ROOT / 'build/bin/colmap_curvix')
     parser.add_argument('--data', type=pathlib.Path, default=os.environ.get(
         'CURVIX_DATA', ROOT.parent / 'shared/data'))
-    parser.add_argument('--commit', default=current_commit(),
-                        help='from which the program was built')
     parser.add_argument('--tables', default='A,B,C,D')
     parser.add_argument('--scenes', default='')
     parser.add_argument('--write', type=pathlib.Path)
@@ -275,10 +252,12 @@ def main():
     known = [s for s in scenes if (s[1] / 'gt.txt').exists()]
     others = [s for s in scenes if s not in known]
     makers = {'A': (table_a, known), 'B': (table_b, known),
-              'C': (table_c, others), 'D': (table_d, known)}
+              'C': (lambda *a: table_c(*a, arguments.data / 'peers'), others),
+              'D': (table_d, known)}
     for letter in arguments.tables.split(','):
         make, its_scenes = makers[letter]
-        text = make(arguments.program, its_scenes) + '\n\n' + origin(arguments.commit)
+        text = (make(arguments.program, its_scenes)
+                + f'\n\nMeasured on {datetime.date.today()}.')
         print(text, flush=True)
         if arguments.write:
             write(arguments.write, letter, text)
