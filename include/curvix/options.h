@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every parameter of the reconstruction, one struct per stage. The defaults are
 // the best that we know how to do; PaperOptions() is the method of the paper.
-// option_table.h gives each field its flag, range and help text.
+// Each field has a flag of the same name: docs/options.md.
 #pragma once
 
 namespace curvix {
@@ -84,29 +84,22 @@ struct ConsolidationOptions {
   double angle_weight_sigma_px = 2.0;
 };
 
-// What counts as support in a view (Sec. 3, Fig. 3(c)).
-enum class SupportTest {
-  kWedges,    // paper: an edge in the intersection of both epipolar wedges
-  kDistance,  // an edge near the projected edge
-};
-
 // Sec. 3, Fig. 3(c)-(e).
 struct ValidationOptions {
-  SupportTest support_test = SupportTest::kDistance;
-  // Largest normal distance of a supporting edge, with kDistance. Pixels, > 0.
+  // Largest normal distance of a supporting edge, with kEveryView. Pixels, > 0.
   double max_distance_px = 1.0;
   // Delta theta_p: largest angle of a supporting edge. Degrees, > 0.
   double max_angle_deg = 15.0;
-  // M: fewest supporting validation views; >= 1. With kDistance, more than half
-  // of the views on one side will do, hypothesis views included.
+  // M: fewest supporting validation views; >= 1. With kEveryView, more than
+  // half of the views on one side will do, hypothesis views included.
   int min_num_support_views = 4;
-  // With kDistance: least evidence, see docs/paper_map.md; natural logarithm
-  // units, >= 0.
+  // With kEveryView: least evidence, see docs/stages/validation.md; natural
+  // logarithm units, >= 0.
   double min_evidence = 10.0;
   // Hypotheses of one H1 edge with fewer than this share of the best one's
   // support are dropped. 0..1.
   double min_rival_support = 0.6;
-  // With kDistance: fewest supporting edges, those of the hypothesis views
+  // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_own_views = 3;
 };
@@ -167,28 +160,27 @@ struct CurveGrowthOptions {
   // Least evidence of a sample (as of ValidationOptions), as a share of the
   // mean of its curve. 0..1.
   double min_relative_evidence = 0.3;
-  // Longest stretch without support that is gone over. Pixels, 0..1000.
+  // Longest unsupported gap. Pixels, 0..1000.
   double max_gap_px = 10.0;
-  // Least evidence of a curve: the sum over its samples, a pixel apart, over
-  // the square root of how often a view was asked for one, times its contrast
-  // over that of the scene. >= 0.
+  // Smallest significance of a curve: the sum of the log-likelihood ratios of
+  // its samples, a pixel apart, over the square root of the number of queries
+  // of views, times its contrast over that of the scene. >= 0.
   double min_significance = 14.0;
 };
 
-// Beyond the paper: curves as a person would draw them.
+// Beyond the paper: curves selected, smoothed, fitted and joined.
 struct CurveRefinementOptions {
   bool enabled = true;
-  // Curves are left out whose place is known less surely than this many times
-  // that of one 2D edge, across it; fewer times, where their edges scatter more
-  // than those of good curves or are blurred; more times, where the views
-  // cannot tell more. >= 0; 0: none are left out, blurred or not.
+  // Curves are dropped whose dilution of precision exceeds this: sigma of the
+  // curve over that of one 2D edge. The limit is lower for scattered or blurred
+  // edges, higher where the views cannot do better. >= 0; 0: none are dropped,
+  // blurred or not.
   double max_dilution = 2.5;
-  // Curves of which so large a share of the 2D edges is blurred are left out as
-  // borders of shading; with a smaller share, max_dilution falls in proportion.
-  // > 0, <= 1; 1: curves may be as blurred as they like.
+  // Curves of which so large a share of the 2D edges is blurred are dropped as
+  // shading edges; with a smaller share, max_dilution falls in proportion. > 0,
+  // <= 1; 1: curves may be as blurred as they like.
   double max_blurred_share = 0.3;
-  // Curves over max_dilution stay, labelled: rims of smooth bodies, most of
-  // them, and what views show by chance.
+  // Curves over max_dilution stay, labelled: occluding contours, mostly.
   bool keep_occluding_contours = false;
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0
   // smooths nothing.

@@ -17,7 +17,7 @@ namespace curvix {
 
 // What one stage did: how much it took, how much it gave, what it lost and why.
 struct StageReport {
-  std::string name;  // "hypothesise", say
+  std::string name;  // "sketch_edges", say
   double wall_seconds = 0;
   double cpu_seconds = 0;     // of the whole process
   double peak_memory_mb = 0;  // of the process so far

@@ -62,8 +62,13 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
                  .help = "reconstruct the workspace without one of N views "
                          "and look there for its curves, or for those of "
                          "--curves_path; 2 or more"})}}};
+  // Project files of runs name poses and outputs, which have no use here.
   for (FlagSection& section : ReconstructSections(&settings->run)) {
-    for (Flag& flag : section.flags) flag.is_required = false;
+    const bool is_used = section.title != "Poses" && section.title != "Output";
+    for (Flag& flag : section.flags) {
+      flag.is_required = false;
+      flag.is_advanced |= !is_used;
+    }
     sections.push_back(std::move(section));
   }
   return sections;

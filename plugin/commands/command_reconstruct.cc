@@ -73,16 +73,16 @@ FlagSection PathsSection(RunSettings* settings) {
                              "folder with sparse/ and images/, or dense/")),
            PathFlag("input_path",
                     &settings->input_path,
-                    "folder of the model, when it is not sparse/0, sparse or "
-                    "dense/0/sparse"),
+                    "folder of the model; default: that of sparse/<k> with "
+                    "most images, sparse or dense/0/sparse"),
            PathFlag("image_path",
                     &settings->image_path,
-                    "folder of the images, when it is not images/ beside the "
+                    "folder of the images; default: images/ beside the "
                     "model"),
            PathFlag("output_path",
                     &settings->output_path,
-                    "folder of the results, when it is not to be curvix/0 "
-                    "beside sparse/0"),
+                    "folder of the results; default: curvix/0 beside "
+                    "sparse/0"),
            PathFlag("mask_path",
                     &settings->mask_path,
                     "folder of masks as COLMAP's, <image name>.png: edges on "
@@ -97,8 +97,8 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
   sections.front().flags.push_back(
       Switch("clean",
              &settings->clean,
-             "remove stages/ from the folder of the results: start from the "
-             "beginning and keep nothing to go on from"));
+             "ignore and delete stages/ in the folder of the results, and "
+             "write none"));
   for (FlagSection& section : OptionSections(settings->options)) {
     sections.push_back(std::move(section));
   }
@@ -115,7 +115,7 @@ ExitCode RunReconstruct(const Arguments& arguments) {
                .min = kNoPart,
                .max = 1000000,
                .help = "reconstruct this part of a scene that 'partition' has "
-                       "divided, with the poses as they are; -1: no parts"})));
+                       "divided, with the poses as they are; -1: no parts"}));
   const std::optional<ExitCode> code =
       ParseCommand("reconstruct", arguments, std::move(sections));
   if (code) return *code;
@@ -129,8 +129,14 @@ ExitCode RunReconstruct(const Arguments& arguments) {
 
 ExitCode RunMergeCommand(const Arguments& arguments) {
   RunSettings settings;
+  std::vector<FlagSection> sections = ReconstructSections(&settings);
+  // Project files of runs name poses, which have no use here.
+  for (FlagSection& section : sections) {
+    if (section.title != "Poses") continue;
+    for (Flag& flag : section.flags) flag.is_advanced = true;
+  }
   const std::optional<ExitCode> code =
-      ParseCommand("merge", arguments, ReconstructSections(&settings));
+      ParseCommand("merge", arguments, std::move(sections));
   if (code) return *code;
   return RunAndSummarize(settings, [&](ProgressPrinter& progress) {
     return RunMerge(settings, progress);

@@ -17,7 +17,7 @@ ExitCode Version(const Arguments& arguments);
 // In the order of the overview.
 constexpr std::array kCommands = {
     Command{"reconstruct",
-            "Photographs and poses in, curves out: the whole job",
+            "Images and poses in, curves out: the whole job",
             RunReconstruct},
     Command{"partition",
             "Divide a large scene into parts for reconstruct --part",
@@ -32,7 +32,7 @@ constexpr std::array kCommands = {
             "Make a workspace of Middlebury, DTU, NeRF or COLMAP data",
             RunImport},
     Command{"evaluate",
-            "Compare curves with known ones, or with photographs held out",
+            "Compare curves with known ones, or with images held out",
             RunEvaluate},
     Command{"help", "This overview; 'help <command>' explains one", Help},
     Command{"version", "The version of the program", Version},
@@ -41,7 +41,7 @@ constexpr std::array kCommands = {
 constexpr char kExamples[] =
     "Examples\n"
     "  colmap_curvix --workspace_path proj\n"
-    "      reads proj/sparse/0 and proj/images, writes proj/curvix/0\n"
+    "      reads proj/sparse and proj/images, writes proj/curvix/0\n"
     "  colmap_curvix --workspace_path proj --preset paper\n"
     "      the method and the values of the paper throughout\n"
     "  colmap_curvix --workspace_path proj --Validation.max_angle_deg 10\n"

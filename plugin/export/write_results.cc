@@ -169,8 +169,8 @@ FlagSection OutputFlags(OutputSettings* settings) {
           {FormatsFlag(&settings->formats),
            Advanced(TextFlag("svg_image",
                              &settings->svg_image,
-                             "name of the image that curves.svg shows; the "
-                             "first one")),
+                             "name of the image drawn in curves.svg; default: "
+                             "the first")),
            RowFlag({.name = "write_overlays",
                     .field = &settings->num_overlays,
                     .max = 10000,

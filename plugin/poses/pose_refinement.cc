@@ -163,23 +163,20 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
       {ChoiceFlag("refiner",
                   {"colmap", "ceres", "none"},
                   &settings->refiner,
-                  "who refines the poses with the points of the model: "
-                  "the installed COLMAP's bundle adjuster, our own, or "
-                  "nobody (as with --preset paper); poses that are not "
-                  "better are not used"),
+                  "bundle adjustment with the points of the model: by the "
+                  "installed COLMAP, by Ceres, or none (as with --preset "
+                  "paper); used only if held-out errors fall"),
        Advanced(PathFlag("colmap_path",
                          &settings->colmap_path,
                          "the program colmap, when it is neither in "
                          "$COLMAP_EXE_PATH nor in $PATH")),
-       RowFlag(
-           {.name = "refine_intrinsics",
-            .field = &settings->refine_intrinsics,
-            .max = 1,
-            .help =
-                "1: with poses by curves, refine cameras, too, that five views "
-                "or more share: focal lengths, principal points, and "
-                "distortion by as many terms as what is held out "
-                "proves"}),
+       RowFlag({.name = "refine_intrinsics",
+                .field = &settings->refine_intrinsics,
+                .max = 1,
+                .help =
+                    "1: with poses, refine the intrinsics of cameras that five "
+                    "views or more share, and add terms of distortion if "
+                    "held-out errors fall"}),
        Advanced(RowFlag({.name = "refiner_timeout_s",
                          .field = &settings->refiner_timeout_s,
                          .min_is_excluded = true,
@@ -190,9 +187,9 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
                 .field = &settings->refine_poses_with_curves,
                 .max = 1,
                 .help = "1: refine poses and curves together by the edges "
-                        "in the images, with or without points (0 with "
-                        "--preset paper); poses that are not better are "
-                        "not used"})}};
+                        "of the images, with or without points (0 with "
+                        "--preset paper); used only if held-out errors "
+                        "fall"})}};
 }
 
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,

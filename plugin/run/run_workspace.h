@@ -9,8 +9,8 @@
 
 namespace curvix {
 
-// Reads the workspace, refines the poses, reconstructs, and writes curves.ply,
-// curves.pcd, curves.obj, curves.txt, edges.ply, report.json and project.ini
+// Reads the workspace, refines the poses, reconstructs, and writes what
+// settings.output.formats name, edges.ply, report.json, project.ini and stages/
 // into the output folder; if the poses were refined, also the model with the
 // new ones, in sparse/; if COLMAP did that, its words, in bundle_adjuster.log.
 // All of them appear at the end, over those of an earlier run, or none does.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Whole files, written so that a reader never meets half of one.
+// Paper: none (engineering). Whole files, written so that a reader never meets
+// half of one.
 #pragma once
 
 #include <curvix/status.h>

@@ -147,11 +147,8 @@ void AddRows(ConsolidationOptions& o, Section row) {
 }
 
 void AddRows(ValidationOptions& o, Section row) {
-  row.Choice("support_test", &o.support_test, {"wedges", "distance"}, "Sec. 3",
-      "what supports a hypothesis in a view: an edge in both epipolar "
-      "wedges, or one near its projection");
   row("max_distance_px", &o.max_distance_px, AboveUpTo(0, 100), "px", "",
-      "with distance: largest normal distance of a supporting edge");
+      "with every_view: largest normal distance of a supporting edge");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg",
       "Delta theta_p, Sec. 3",
       "largest angle between a supporting edge and the projection");
@@ -159,13 +156,13 @@ void AddRows(ValidationOptions& o, Section row) {
       "M, Sec. 3",
       "fewest validation views that must support a hypothesis");
   row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
-      "with distance: least evidence of the views for a 3D edge, log units");
+      "with every_view: least evidence of the views for a 3D edge, log units");
   row("min_rival_support", &o.min_rival_support, Between(0, 1), "", "",
       "hypotheses of one edge with less than this share of the best one's "
       "support are dropped");
   row("min_num_own_views", &o.min_num_own_views, AtLeast(0), "", "",
-      "with distance: fewest views whose supporting edge shows no stronger 3D "
-      "edge at another place");
+      "with every_view: fewest views whose supporting edge shows no stronger "
+      "3D edge elsewhere");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {
@@ -200,8 +197,8 @@ void AddRows(ConnectivityOptions& o, Section row) {
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other; 0 closes "
       "none");
-  row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0), "px",
-      "",
+  row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0),
+      "px", "",
       "a piece of a curve nearer to a longer one is drawn once; 0 keeps all");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
       "curves are cut where they turn by more in one place; 180 cuts none");
@@ -213,36 +210,34 @@ void AddRows(CurveGrowthOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "grow curves along the contours of the images, instead of Secs. 5 and 6");
   row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
-      "curves end where the evidence falls to less than this share of its mean");
+      "curves end where the evidence falls below this share of its mean");
   row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
-      "longest stretch that the images need not show");
+      "longest unsupported gap");
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
-      "least evidence of a curve, over the square root of what was asked");
+      "smallest significance of a curve (docs/glossary.md)");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
-      "select, smooth and join curves as a person would draw them");
+      "select, smooth, fit and join curves");
   row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
-      "curves known so many times less surely than one 2D edge are left out, "
-      "unless the views cannot tell more; 0: none");
+      "largest dilution of precision of a curve; 0: any");
   row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
-      "curves with so large a share of blurred edges are borders of shading "
-      "and left out; 1: none");
+      "curves with so large a share of blurred edges are shading edges and "
+      "dropped; 1: none");
   row.Switch("keep_occluding_contours", &o.keep_occluding_contours,
-      "keep and label curves over max_dilution: rims of smooth bodies and "
-      "chance");
+      "keep and label curves over max_dilution: occluding contours, mostly");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
       "standard deviation of the weights of the local fits; 0 smooths nothing");
   row.Switch("undo_response_curve", &o.undo_response_curve,
-      "move edges back that a response curve, a gamma say, has moved to their dark "
-      "side; the views tell the curve");
+      "estimate the response curve of the images (a gamma, say) and correct "
+      "the edges for it");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other in a bend");
   row.Switch("separate_touching", &o.separate_touching,
       "tell curves apart that touch, and end them there in a junction");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
-      "fitted curves are cut where they turn by more in one place; 180 cuts none");
+      "fitted curves are cut where they turn by more; 180 cuts none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
       "shortest curve kept, unless it leads from one junction to another");
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). One row per option: the command line, --help, validation, docs/options.md and
-// report.json all come from this table.
+// Paper: none (engineering). One row per option: the command line, --help,
+// validation, docs/options.md and report.json all come from this table.
 #pragma once
 
 #include <curvix/options.h>
@@ -14,7 +14,7 @@ namespace curvix {
 
 struct OptionRow {
   std::string name;  // "Validation.min_num_support_views": the flag without --
-  std::variant<bool*, int*, double*, ViewSelection*, SupportTest*> field;
+  std::variant<bool*, int*, double*, ViewSelection*> field;
   double min = 0;  // smallest value allowed
   double max =
       std::numeric_limits<double>::infinity();  // largest value allowed

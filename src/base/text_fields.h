@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Lines, words and numbers of text files, the same in every locale.
+// Paper: none (engineering). Lines, words and numbers of text files, the same
+// in every locale.
 #pragma once
 
 #include <array>

@@ -46,8 +46,8 @@ std::vector<NeighborLink> HeaviestLinks(const std::vector<Edge3d>& edges,
                                         std::vector<NeighborLink> row,
                                         std::size_t max_size);
 
-// Fig. 6(a): links every two 3D edges that are supported by a common 2D edge; num_shared
-// is how many they have in common.
+// Fig. 6(a): links every two 3D edges that are supported by a common 2D edge;
+// num_shared is how many they have in common.
 //
 // Each edge asks for its `options.max_num_links` heaviest links only, the
 // nearer and then the smaller index first among equals; a link stays if either

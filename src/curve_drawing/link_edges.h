@@ -24,8 +24,8 @@ NeighborhoodGraph LinkEdges(const std::vector<Edge3d>& edges,
                             const NeighborhoodOptions& options,
                             int num_threads);
 
-// Fig. 6(b)-(d): mu + lambda sigma of each distance over all links of `graph`. The same for
-// any number of threads. All zero without links.
+// Fig. 6(b)-(d): mu + lambda sigma of each distance over all links of `graph`.
+// The same for any number of threads. All zero without links.
 EdgeDistances SpreadLimits(const std::vector<Edge3d>& edges,
                            const NeighborhoodGraph& graph,
                            double lambda,
@@ -40,8 +40,8 @@ NeighborhoodGraph PruneBySpread(const std::vector<Edge3d>& edges,
                                 const NeighborhoodOptions& options,
                                 int num_threads);
 
-// Fig. 6(e): `graph` without the links whose edges project more than tau_gamma =
-// options.max_projection_distance_px apart in any view that sees both. A view
+// Fig. 6(e): `graph` without the links whose edges project more than tau_gamma
+// = options.max_projection_distance_px apart in any view that sees both. A view
 // sees an edge if one of its 2D edges supports it: in other views something may
 // hide it, and what they would show says nothing. Edges behind a camera that
 // supports them are at an infinite distance. Links between edges that no view

@@ -12,8 +12,8 @@
 namespace curvix {
 
 // Joins open ends that continue each other at their own curvature: an arc
-// (curve_ends.h) is fitted to the last 15 to 60 px before each end, as far as it
-// fits, and carried on over the gap it must come within 1 px plus a tenth of
+// (curve_ends.h) is fitted to the last 15 to 60 px before each end, as far as
+// it fits, and carried on over the gap it must come within 1 px plus a tenth of
 // the gap of the other end, at less than 15 degrees from its direction; from
 // both sides. Gaps are no longer than what was fitted, nor than
 // options.max_gap_px, except where the images show the curve in the gap: four

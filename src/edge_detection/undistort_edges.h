@@ -28,9 +28,10 @@ std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
                                   const Camera& from,
                                   const Camera& to);
 
-// Masks are COLMAP's: black is what does not count. Drops the edges on black pixels of `mask` and keeps the order of the others;
-// edges outside it stay. Returns how many it dropped. An outline of the mask
-// itself makes no edges, since images are not changed.
+// Masks are COLMAP's: black is what does not count. Drops the edges on black
+// pixels of `mask` and keeps the order of the others; edges outside it stay.
+// Returns how many it dropped. An outline of the mask itself makes no edges,
+// since images are not changed.
 std::int32_t DropMaskedEdges(const GrayImage& mask,
                              std::vector<LocatedEdge>* edges);
 

@@ -18,8 +18,9 @@ inline ImageEdge ToImageEdge(const Edge2d& edge) {
   return {edge.position, {std::cos(angle), std::sin(angle)}};
 }
 
-// Sec. 5, Fig. 6(b)-(d): how far apart two oriented points are. With d from one position to the other, measured against the line of either
-// edge; the larger of both values counts, so the order does not matter.
+// Sec. 5, Fig. 6(b)-(d): how far apart two oriented points are. With d from one
+// position to the other, measured against the line of either edge; the larger
+// of both values counts, so the order does not matter.
 struct EdgeDistances {
   double normal = 0;      // d_n: |d - (d.t)t|, world
   double tangential = 0;  // d_t: |d.t|, world

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The local unit of length of Sec. 6, and curves that
-// are short in it.
+// Paper: none (engineering). The local unit of length of Sec. 6, and curves
+// that are short in it.
 #pragma once
 
 #include <curvix/curves.h>

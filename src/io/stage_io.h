@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Results of finished stages to and from files, bit by bit: a run that goes on
-// from a file gives the same bytes as one that does not, on this machine or on
-// another. docs/output_format.md describes the files.
+// Paper: none (engineering). Results of finished stages to and from files, bit
+// by bit: a run that goes on from a file gives the same bytes as one that does
+// not, on this machine or on another. docs/output_format.md describes the
+// files.
 #pragma once
 
 #include <curvix/edges.h>

@@ -16,7 +16,6 @@ Options PaperOptions() {
   options.consolidation.max_turn_deg = 10.0;
   options.consolidation.max_cluster_distance_px = 1.0;
   options.consolidation.max_cluster_angle_deg = 20.0;
-  options.validation.support_test = SupportTest::kWedges;
   options.validation.max_angle_deg = 15.0;
   options.validation.min_num_support_views = 4;
   options.neighborhood.max_projection_distance_px = 6.0;

@@ -14,11 +14,11 @@
 
 namespace curvix {
 
-// The curves of JoinParts() in parts.h, for posed views. In memory are what
-// several parts may have drawn (tie_curves.h) while it is made, then a
+// The curves of JoinParts() in scene_parts.h, for posed views. In memory are
+// what several parts may have drawn (tie_curves.h) while it is made, then a
 // table of stretches, and one curve while it is shown.
 //
-// Tied stretches (tie_stretches.h) are one curve. Where the next stretch would
+// Tied segments (TieStretches) are one curve. Where the next stretch would
 // step back, its first samples go.
 class JoinedCurves final : public CurveSource {
  public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Scenes larger than one machine: cut into parts that are reconstructed one by
-// one, and put together again.
+// Paper: none (beyond it). Scenes larger than one machine: cut into parts that
+// are reconstructed one by one, and put together again.
 //
 // Space is cut by planes into cores; each part owns one of them and all curves
 // in it. Around its core a part sees `overlap` further, and its views show

@@ -16,8 +16,8 @@ namespace curvix {
 // are linked and connected (paper, Secs. 5 and 6).
 bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options);
 
-// Chooses hypothesis views as options.hypotheses.view_selection says, and
-// judges support as options.validation.support_test says.
+// As in the paper (pairs of views, support in wedges) or by every view with its
+// partners and tracked support: options.hypotheses.view_selection.
 EdgeSketch SketchEdges(const std::vector<PosedView>& views,
                        const std::vector<EdgeMap>& edge_maps,
                        const std::vector<ScenePoint>& points,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Synthetic scenes with exact curves: for tests, for the quick start, and for
-// trying the tool. Nothing here knows how curves are reconstructed.
+// Paper: none (engineering). Synthetic scenes with exact curves: for tests, for
+// the quick start, and for trying the tool. Nothing here knows how curves are
+// reconstructed.
 #pragma once
 
 #include <curvix/curves.h>

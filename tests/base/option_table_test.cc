@@ -167,8 +167,9 @@ TEST(OptionTable, ErrorsNameTheFieldItsValueAndTheRange) {
       AllOf(HasSubstr("Validation.max_angle_deg is -1"),
             HasSubstr("it must be > 0")));
   EXPECT_EQ(
-      SetFromText(Find(rows, "Validation.support_test"), "wedge").message(),
-      "Validation.support_test is wedge; it must be wedges or distance");
+      SetFromText(Find(rows, "Hypotheses.view_selection"), "all").message(),
+      "Hypotheses.view_selection is all; it must be unused_edges or "
+      "every_view");
 
   options.validation.max_angle_deg = std::numeric_limits<double>::quiet_NaN();
   const Status status = Validate(options);

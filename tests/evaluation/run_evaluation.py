@@ -36,28 +36,27 @@ SCORES = [  # key of `evaluate --json`, heading, decimals
     ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('whole', 'recall', 0)]
 LIFTS = ['precision_lift', 'strong_lift', 'lines_lift']
 
-UNDO = [  # number in docs/paper_map.md, what is taken back, flags
-    ('–', 'nothing', []),
-    ('1 to 5', 'every view, tracked support, log-likelihood',
-     ['--Hypotheses.view_selection', 'unused_edges',
-      '--Validation.support_test', 'wedges']),
-    ('4', 'log-likelihood of an edge', ['--Validation.min_evidence', '0']),
-    ('6', 'no alignment', ['--Alignment.num_iterations', '1000']),
-    ('13', 'thinning', ['--Connectivity.sample_spacing_px', '0']),
-    ('15', 'duplicates dropped', ['--Connectivity.max_repeat_distance_px', '0']),
-    ('16', 'joins', ['--Connectivity.max_gap_px', '0']),
-    ('17', 'corner splits', ['--Connectivity.max_corner_deg', '180']),
-    ('18', 'selection of curves', ['--CurveRefinement.max_dilution', '0']),
-    ('19', 'smoothing', ['--CurveRefinement.smoothing_px', '0']),
-    ('20', 'gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
-    ('21', 'junctions', ['--CurveRefinement.junction_reach_px', '0']),
-    ('30', 'touching curves', ['--CurveRefinement.separate_touching', '0']),
-    ('31', 'corners of fitted curves',
+UNDO = [  # what is taken back (docs/paper_map.md, table four), flags
+    ('nothing', []),
+    ('every view, tracked support, log-likelihood',
+     ['--Hypotheses.view_selection', 'unused_edges']),
+    ('log-likelihood of an edge', ['--Validation.min_evidence', '0']),
+    ('no alignment', ['--Alignment.num_iterations', '1000']),
+    ('thinning', ['--Connectivity.sample_spacing_px', '0']),
+    ('duplicates dropped', ['--Connectivity.max_duplicate_distance_px', '0']),
+    ('joins', ['--Connectivity.max_gap_px', '0']),
+    ('corner splits', ['--Connectivity.max_corner_deg', '180']),
+    ('selection of curves', ['--CurveRefinement.max_dilution', '0']),
+    ('smoothing', ['--CurveRefinement.smoothing_px', '0']),
+    ('gaps in bends', ['--CurveRefinement.max_gap_px', '0']),
+    ('junctions', ['--CurveRefinement.junction_reach_px', '0']),
+    ('touching curves', ['--CurveRefinement.separate_touching', '0']),
+    ('corners of fitted curves',
      ['--CurveRefinement.max_corner_deg', '180']),
-    ('27', 'response curve', ['--CurveRefinement.undo_tone_curve', '0']),
-    ('29', 'parallel edges separated', ['--EdgeDetection.separate_edges', '0']),
-    ('18 to 21, 26, 27, 30, 31', 'all refinement', ['--CurveRefinement.enabled', '0']),
-    ('25', 'exclusive support',
+    ('response curve', ['--CurveRefinement.undo_response_curve', '0']),
+    ('parallel edges separated', ['--EdgeDetection.separate_edges', '0']),
+    ('all refinement', ['--CurveRefinement.enabled', '0']),
+    ('exclusive support',
      ['--Validation.min_num_own_views', '0'])]
 
 HARDER = [  # what is worse, script and its arguments
@@ -165,8 +164,8 @@ def comparison(headings, cases, scenes, run):
 
 def table_b(program, scenes):
     return comparison(
-        ['row', 'taken back'],
-        [((number, what), (flags,)) for number, what, flags in UNDO],
+        ['taken back'],
+        [((what,), (flags,)) for what, flags in UNDO],
         scenes, lambda scene, flags: evaluate(program, scene, flags))
 
 

@@ -61,8 +61,8 @@ TEST_F(CommandLine, SetsFlagsOfEveryKind) {
                               "-1",
                               "--CurveRefinement.enabled",
                               "0",
-                              "--Validation.support_test",
-                              "wedges",
+                              "--Hypotheses.view_selection",
+                              "unused_edges",
                               "--Hypotheses.location_tolerance_px",
                               "0.4"});
   ASSERT_TRUE(request.ok()) << request.status().message();
@@ -72,7 +72,7 @@ TEST_F(CommandLine, SetsFlagsOfEveryKind) {
   EXPECT_TRUE(json_);
   EXPECT_EQ(options_.runtime.num_threads, -1);
   EXPECT_FALSE(options_.curve_refinement.enabled);
-  EXPECT_EQ(options_.validation.support_test, SupportTest::kWedges);
+  EXPECT_EQ(options_.hypotheses.view_selection, ViewSelection::kUnusedEdges);
   EXPECT_EQ(options_.hypotheses.location_tolerance_px, 0.4);
 }
 

@@ -63,7 +63,7 @@ TEST(ReportJson, HoldsEveryOptionAsUsed) {
     EXPECT_TRUE(report["options"][section].contains(field)) << row.name;
   }
   EXPECT_EQ(report["options"]["Validation"]["max_angle_deg"], 12.5);
-  EXPECT_EQ(report["options"]["Validation"]["support_test"], "distance");
+  EXPECT_EQ(report["options"]["Hypotheses"]["view_selection"], "every_view");
   EXPECT_EQ(report["program"]["version"], std::string(ProgramVersion()));
 }
 
