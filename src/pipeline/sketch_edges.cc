@@ -6,6 +6,7 @@
 
 #include "pipeline/edge_noise.h"
 #include "pipeline/sketch_internal.h"
+#include "pipeline/view_indices.h"
 
 namespace curvix {
 
@@ -44,8 +45,10 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
   const auto overlaps = FindOverlaps(views, points);
   const auto depths =
       FindDepthRanges(views, points, options.hypotheses.depth_margin);
+  std::vector<ViewIndex> indices;
   SketchInput input{views,
                     edge_maps,
+                    indices,
                     overlaps,
                     depths,
                     options,
@@ -54,6 +57,8 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView:
+      indices = IndexViews(views, edge_maps, options.runtime.num_threads);
+      AddPresence(options.validation, options.runtime.num_threads, indices);
       input.sigma_px = EstimateEdgeSigma(input, step_done);
       input.finds_seeds = CurvesGrow(edge_maps, options);
       return SketchByViews(input, step_done);

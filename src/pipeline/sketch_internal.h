@@ -7,12 +7,15 @@
 #include "hypotheses/depth_range.h"
 #include "hypotheses/view_overlap.h"
 #include "pipeline/sketch_edges.h"
+#include "validation/view_index.h"
 
 namespace curvix {
 
 struct SketchInput {
   const std::vector<PosedView>& views;
   const std::vector<EdgeMap>& edge_maps;
+  // Of each view, with AddPresence(); for SketchByViews.
+  const std::vector<ViewIndex>& indices;
   const std::vector<std::vector<ViewOverlap>>& overlaps;
   const std::vector<DepthRange>& depths;  // of each view
   const Options& options;

@@ -33,7 +33,7 @@ Rule Stage(Names libraries = {}) {
 const std::map<std::string, Rule>& Rules() {
   static const std::map<std::string, Rule> rules = {
       {"include/curvix", {}},
-      {"base", {}},
+      {"base", {{}, {"malloc.h"}}},
       {"model", {{"base"}, {}}},
       {"geometry", {{"base", "model"}, {}}},
       {"edge_detection", Stage({"opencv2"})},
