@@ -33,13 +33,13 @@ one, two = (json.load(open(f"{folder}/out{n}/report.json")) for n in (1, 2))
 run = one["run"]
 views = one["input"]["num_views"]
 stage = {s["name"]: s["cpu_seconds"] for s in run["stages"]}
-rest = sum(s for n, s in stage.items()
-           if n not in ("detect_edges", "sketch_edges", "link_edges"))
+group = stage.get("link_edges", 0) + stage.get("grow_curves", 0)
+rest = run["cpu_seconds"] - stage["detect_edges"] - stage["sketch_edges"] - group
 counts = {s["name"]: s["counts"] for s in one["stages"]}
 print(f"| {name} | {views} | {counts['detect_edges']['edges']} "
       f"| {counts['sketch_edges']['3D edges']} | {run['cpu_seconds']:.1f} "
       f"| {stage['detect_edges']:.1f} | {stage['sketch_edges']:.1f} "
-      f"| {stage['link_edges']:.1f} | {rest:.1f} "
+      f"| {group:.1f} | {rest:.1f} "
       f"| {1000 * run['cpu_seconds'] / views:.0f} "
       f"| {two['run']['wall_seconds'] / run['wall_seconds']:.2f} "
       f"| {run['peak_memory_mb']:.0f} |")
@@ -55,8 +55,8 @@ part() {
   rm -rf "$folder/part"
 }
 
-echo "| scene | views | 2D edges | 3D edges | CPU s | detect | sketch | link" \
-  "| rest | CPU ms / view | wall, 2 threads / 1 | MB |"
+echo "| scene | views | 2D edges | 3D edges | CPU s | detect | sketch" \
+  "| link, grow | rest | CPU ms / view | wall, 2 threads / 1 | MB |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|"
 if (($# == 0)); then
   for views in 50 100 200 400; do part "$views" 240; done
