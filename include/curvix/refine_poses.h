@@ -87,7 +87,7 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
 // be inverted at an edge.
 Result<std::vector<EdgeMap>> EdgesWithCameras(
     const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps,
+    std::vector<EdgeMap> edge_maps,
     const std::vector<Camera>& cameras);
 
 }  // namespace curvix

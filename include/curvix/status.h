@@ -52,6 +52,7 @@ class [[nodiscard]] Result {
   T&& value() && { return std::move(Checked()); }
   const T& value() const& { return const_cast<Result*>(this)->Checked(); }
   T& operator*() & { return Checked(); }
+  T&& operator*() && { return std::move(Checked()); }
   const T& operator*() const& { return value(); }
   T* operator->() { return &Checked(); }
   const T* operator->() const { return &value(); }

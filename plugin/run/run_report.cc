@@ -167,10 +167,16 @@ Json ResultJson(const ResultSummary& result) {
   return json;
 }
 
+// CPU over wall seconds: how many threads were at work, on average.
+double Parallelism(const StageReport& stage) {
+  return stage.wall_seconds > 0 ? stage.cpu_seconds / stage.wall_seconds : 0;
+}
+
 Json CostJson(const StageReport& stage) {
   return {{"name", stage.name},
           {"wall_seconds", Milli(stage.wall_seconds)},
           {"cpu_seconds", Milli(stage.cpu_seconds)},
+          {"parallelism", Milli(Parallelism(stage))},
           {"peak_memory_mb", Milli(stage.peak_memory_mb)}};
 }
 

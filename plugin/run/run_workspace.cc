@@ -77,7 +77,8 @@ Result<RunRecord> Job::Run() {
     Result<Scene> refined =
         RefinePosesWithCurves(*input, *scene, *edge_maps, stages);
     if (!refined.ok()) return refined.status();
-    edge_maps = EdgesWithCameras(*scene, *edge_maps, refined->cameras);
+    edge_maps =
+        EdgesWithCameras(*scene, *std::move(edge_maps), refined->cameras);
     if (!edge_maps.ok()) return edge_maps.status();
     scene = std::move(refined);
   }

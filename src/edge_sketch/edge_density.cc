@@ -94,6 +94,15 @@ std::uint16_t EdgePresence::BinsAround(double angle_rad, double max_angle_rad) {
   return static_cast<std::uint16_t>(bins);
 }
 
+std::uint16_t& EdgePresence::CellAt(int column, int row) {
+  std::uint32_t& tile = tiles_[TileOf(column, row)];
+  if (tile == 0) {
+    tile = static_cast<std::uint32_t>(cells_.size() / kCellsPerTile);
+    cells_.resize(cells_.size() + kCellsPerTile, 0);
+  }
+  return cells_[FirstCell(tile) + CellInTile(column, row)];
+}
+
 EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
                            int width,
                            int height,
@@ -101,9 +110,10 @@ EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
                            double tangential_px,
                            double max_angle_rad)
     : columns_(static_cast<int>(width * kCellsPerPx) + 1),
-      rows_(static_cast<int>(height * kCellsPerPx) + 1) {
-  cells_.assign(
-      static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+      rows_(static_cast<int>(height * kCellsPerPx) + 1),
+      tile_columns_((columns_ - 1) / kTileSide + 1),
+      tiles_(TileOf(columns_ - 1, rows_ - 1) + 1, 0),
+      cells_(kCellsPerTile, 0) {
   constexpr double kCellPx = 1 / kCellsPerPx;
   constexpr double kRoundingPx = 1e-3;
   for (const Edge2d& edge : edges) {
@@ -127,14 +137,12 @@ EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
         const bool is_near =
             std::abs(offset.dot(normal)) <= normal_px + half_cell &&
             std::abs(offset.dot(tangent)) <= tangential_px + half_cell;
-        std::uint16_t& cell = cells_[static_cast<std::size_t>(row) *
-                                         static_cast<std::size_t>(columns_) +
-                                     static_cast<std::size_t>(column)];
         // Cells at the border stand for all beyond it, too.
-        if (is_near || IsAtBorder(column, row)) cell |= bins;
+        if (is_near || IsAtBorder(column, row)) CellAt(column, row) |= bins;
       }
     }
   }
+  cells_.shrink_to_fit();
 }
 
 }  // namespace curvix

@@ -31,9 +31,9 @@ class EdgeDensity {
 };
 
 // One bit for each place (cells of 2 x 2 pixels) and direction (16 bins) where
-// a search would find an edge within its reach. Two bytes per cell, while the
-// edges themselves and their index take many times as much: most questions end
-// in the cache.
+// a search would find an edge within its reach. Two bytes per cell of the tiles
+// (8 x 8 cells) that have any, while the edges themselves and their index take
+// many times as much: most questions end in the cache.
 class EdgePresence {
  public:
   // Knows nothing: everything may be found.
@@ -53,15 +53,18 @@ class EdgePresence {
   bool MayHave(const Eigen::Vector2d& pixel,
                const Eigen::Vector2d& tangent) const {
     if (cells_.empty()) return true;
-    const auto cell = static_cast<std::size_t>(Cell(pixel.y(), rows_)) *
-                          static_cast<std::size_t>(columns_) +
-                      static_cast<std::size_t>(Cell(pixel.x(), columns_));
+    const int column = Cell(pixel.x(), columns_);
+    const int row = Cell(pixel.y(), rows_);
+    const std::size_t cell =
+        FirstCell(tiles_[TileOf(column, row)]) + CellInTile(column, row);
     return (cells_[cell] >> Bin(tangent)) & 1;
   }
 
  private:
   static constexpr double kCellsPerPx = 0.5;
   static constexpr int kNumBins = 16;
+  static constexpr int kTileSide = 8;  // cells
+  static constexpr std::size_t kCellsPerTile = kTileSide * kTileSide;
 
   static int Cell(double place, int count) {
     const double cell = place * kCellsPerPx;
@@ -78,6 +81,21 @@ class EdgePresence {
     return bin < kNumBins ? bin : kNumBins - 1;
   }
   static std::uint16_t BinsAround(double angle_rad, double max_angle_rad);
+
+  std::size_t TileOf(int column, int row) const {
+    return static_cast<std::size_t>(row / kTileSide) *
+               static_cast<std::size_t>(tile_columns_) +
+           static_cast<std::size_t>(column / kTileSide);
+  }
+  static std::size_t CellInTile(int column, int row) {
+    return static_cast<std::size_t>(row % kTileSide * kTileSide +
+                                    column % kTileSide);
+  }
+  static std::size_t FirstCell(std::uint32_t tile) {
+    return tile * kCellsPerTile;
+  }
+  // The cell to write to, in a tile of its own.
+  std::uint16_t& CellAt(int column, int row);
   bool IsAtBorder(int column, int row) const {
     return column == 0 || row == 0 || column == columns_ - 1 ||
            row == rows_ - 1;
@@ -85,7 +103,9 @@ class EdgePresence {
 
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::uint16_t> cells_;
+  int tile_columns_ = 0;
+  std::vector<std::uint32_t> tiles_;  // where in cells_; 0: all bits are 0
+  std::vector<std::uint16_t> cells_;  // tile by tile, first that without bits
 };
 
 }  // namespace curvix

@@ -53,21 +53,7 @@ struct H1View {
 class ViewSketcher {
  public:
   explicit ViewSketcher(const SketchInput& input)
-      : input_(input),
-        indices_(IndexViews(
-            input.views, input.edge_maps, input.options.runtime.num_threads)),
-        sigma_px_(input.sigma_px) {
-    const ValidationOptions& options = input.options.validation;
-    ParallelFor(
-        indices_.size(), input.options.runtime.num_threads, [&](std::size_t i) {
-          indices_[i].presence = EdgePresence(input.edge_maps[i].edges,
-                                              input.views[i].width,
-                                              input.views[i].height,
-                                              options.max_distance_px,
-                                              kMaxSupportSlidePx,
-                                              DegToRad(options.max_angle_deg));
-        });
-  }
+      : input_(input), indices_(input.indices), sigma_px_(input.sigma_px) {}
 
   // View h1 and its partners, ready for pairing.
   H1View Prepare(int h1) const {
@@ -225,7 +211,7 @@ class ViewSketcher {
   }
 
   const SketchInput& input_;
-  std::vector<ViewIndex> indices_;
+  const std::vector<ViewIndex>& indices_;
   double sigma_px_;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "edge_sketch/depth_range.h"
+#include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
 #include "model/posed_view.h"
 
@@ -21,6 +22,8 @@ using StepDone = std::function<bool(int, int)>;
 struct SketchInput {
   const std::vector<PosedView>& views;
   const std::vector<EdgeMap>& edge_maps;
+  // Of each view, with AddPresence(); for SketchByViews.
+  const std::vector<ViewIndex>& indices;
   const std::vector<std::vector<ViewOverlap>>& overlaps;
   const std::vector<DepthRange>& depths;  // of each view
   const Options& options;

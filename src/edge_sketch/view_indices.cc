@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
+#include "edge_sketch/track_support.h"
 
 namespace curvix {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 // Views further apart in direction have no vote on each other.
 constexpr double kNeighborAngleDeg = 25;
 constexpr std::size_t kMaxNumNeighbors = 4;
-constexpr double kGridCellPx = 4;
+constexpr double kGridCellPx = 8;
 
 // The nearest views in direction, nearest first.
 std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps) {
@@ -44,6 +45,20 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                   EdgeDensity(map, view.width, view.height)};
   });
   return indices;
+}
+
+void AddPresence(const ValidationOptions& options,
+                 int num_threads,
+                 std::vector<ViewIndex>& indices) {
+  ParallelFor(indices.size(), num_threads, [&](std::size_t i) {
+    ViewIndex& index = indices[i];
+    index.presence = EdgePresence(index.edges->edges,
+                                  index.view->width,
+                                  index.view->height,
+                                  options.max_distance_px,
+                                  kMaxSupportSlidePx,
+                                  DegToRad(options.max_angle_deg));
+  });
 }
 
 std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(

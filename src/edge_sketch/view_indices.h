@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/edges.h>
+#include <curvix/options.h>
 #include <vector>
 
 #include "edge_sketch/evidence.h"
@@ -16,6 +17,11 @@ namespace curvix {
 std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                                   const std::vector<EdgeMap>& edge_maps,
                                   int num_threads);
+
+// Gives each index the `presence` that searches for support by `options` ask.
+void AddPresence(const ValidationOptions& options,
+                 int num_threads,
+                 std::vector<ViewIndex>& indices);
 
 // Of each view the nearest in direction, nearest first, with the weights of
 // their votes.

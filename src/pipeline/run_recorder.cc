@@ -2,6 +2,7 @@
 // Paper: none (engineering).
 #include "pipeline/run_recorder.h"
 
+#include "base/free_memory.h"
 #include "base/parallel.h"
 
 namespace curvix {
@@ -33,6 +34,7 @@ Counts CountsOf(const CurveSet& curves) {
 }
 
 void RunRecorder::Begin(const std::string& stage) {
+  ReleaseFreeMemory();
   stage_ = stage;
   stopwatch_ = Stopwatch();
   Tell(0, 0);

@@ -26,6 +26,7 @@ class RunRecorder {
  public:
   explicit RunRecorder(const Progress& progress) : progress_(progress) {}
 
+  // Releases what earlier stages have freed.
   void Begin(const std::string& stage);
   void End(Counts counts);
 

@@ -2,10 +2,13 @@
 // Paper: Secs. 3 and 4.
 #include "pipeline/sketch_edges.h"
 
+#include <algorithm>
+
 #include "edge_sketch/depth_range.h"
 #include "edge_sketch/edge_noise.h"
 #include "edge_sketch/sketch_by_views.h"
 #include "edge_sketch/sketch_input.h"
+#include "edge_sketch/view_indices.h"
 #include "edge_sketch/view_overlap.h"
 #include "paper/sketch_by_pairs.h"
 
@@ -23,8 +26,10 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
   const auto overlaps = FindOverlaps(views, points);
   const auto depths =
       FindDepthRanges(views, points, options.hypotheses.depth_margin);
+  std::vector<ViewIndex> indices;
   SketchInput input{views,
                     edge_maps,
+                    indices,
                     overlaps,
                     depths,
                     options,
@@ -33,6 +38,8 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView:
+      indices = IndexViews(views, edge_maps, options.runtime.num_threads);
+      AddPresence(options.validation, options.runtime.num_threads, indices);
       input.sigma_px = EstimateEdgeSigma(input, step_done);
       input.finds_seeds = CurvesGrow(edge_maps, options);
       return SketchByViews(input, step_done);

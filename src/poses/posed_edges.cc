@@ -92,7 +92,7 @@ std::vector<EdgeMap> PosedEdges::CarriedMaps() const {
 }
 
 std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
-                                           const StepDone& step_done) const {
+                                           const StepDone& step_done) {
   std::size_t num_edges = 0;
   for (const EdgeMap& map : edge_maps_) num_edges += map.edges.size();
   const std::size_t num_asked =
@@ -102,11 +102,19 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
   options.validation.max_distance_px =
       std::max(options.validation.max_distance_px, kGateSigmas * sigma_px);
   const bool is_as_input = moved_.cameras == scene_.cameras;
-  const std::vector<EdgeMap> carried =
-      is_as_input ? std::vector<EdgeMap>() : CarriedMaps();
+  const int num_threads = options_.runtime.num_threads;
+  std::vector<EdgeMap> carried;
+  std::vector<ViewIndex> carried_indices;
+  if (!is_as_input) {
+    carried = CarriedMaps();
+    carried_indices = IndexViews(views_, carried, num_threads);
+  }
+  std::vector<ViewIndex>& indices = is_as_input ? indices_ : carried_indices;
+  AddPresence(options.validation, num_threads, indices);
   const EdgeSketch sketch =
       SketchByViews({views_,
                      is_as_input ? edge_maps_ : carried,
+                     indices,
                      overlaps_,
                      depths_,
                      options,

@@ -48,8 +48,7 @@ class PosedEdges {
 
   // Places on curves, from some thousand edges spread over the views. Edges
   // are expected within a few times `sigma_px` of where the poses put them.
-  std::vector<CurvePlace> Sketch(double sigma_px,
-                                 const StepDone& step_done) const;
+  std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
 
   // The views to ask about a place: its supporters and the views next to them.
   std::vector<std::size_t> ViewsToAsk(const CurvePlace& place) const;

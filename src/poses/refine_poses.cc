@@ -326,23 +326,23 @@ class Refiner {
 
 Result<std::vector<EdgeMap>> EdgesWithCameras(
     const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps,
+    std::vector<EdgeMap> edge_maps,
     const std::vector<Camera>& cameras) {
   if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
     return status;
   }
-  std::vector<EdgeMap> carried;
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
+    if (cameras[k] == scene.cameras[k]) continue;
     auto edges = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
     if (!edges) {
       return Status(StatusCode::kInvalidArgument,
                     "the camera of " + scene.views[i].name +
                         " cannot be inverted at an edge");
     }
-    carried.push_back(*std::move(edges));
+    edge_maps[i] = *std::move(edges);
   }
-  return carried;
+  return edge_maps;
 }
 
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,

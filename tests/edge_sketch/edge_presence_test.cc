@@ -65,6 +65,34 @@ TEST(EdgePresence, DeniesFarPlacesAndOtherDirections) {
   EXPECT_FALSE(presence.MayHave({20, 9}, Direction(0.3)));
 }
 
+// Whatever else the image shows, which decides on where bits are kept.
+TEST(EdgePresence, MayHaveWhatAnyOfTheEdgesMayHave) {
+  Random random(7);
+  std::vector<Edge2d> edges;
+  std::vector<EdgePresence> of_one;
+  const auto presence_of = [](const std::vector<Edge2d>& some) {
+    return EdgePresence(some, 200, 90, kNormalPx, kTangentialPx, DegToRad(15));
+  };
+  for (int i = 0; i < 40; ++i) {
+    edges.push_back(At(random.Uniform(-6, 206),
+                       random.Uniform(-6, 96),
+                       random.Uniform(-kPi, kPi)));
+    of_one.push_back(presence_of({edges.back()}));
+  }
+  const EdgePresence of_all = presence_of(edges);
+  int num_found = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Vector2d place(random.Uniform(-9, 209), random.Uniform(-9, 99));
+    const Vector2d tangent = Direction(random.Uniform(-kPi, kPi));
+    bool any = false;
+    for (const EdgePresence& one : of_one) any |= one.MayHave(place, tangent);
+    ASSERT_EQ(of_all.MayHave(place, tangent), any) << place.transpose();
+    num_found += any;
+  }
+  EXPECT_GT(num_found, 100);
+  EXPECT_LT(num_found, 10000);
+}
+
 TEST(EdgePresence, DeniesAllInAnImageWithoutEdges) {
   const EdgePresence presence(
       {}, 40, 30, kNormalPx, kTangentialPx, DegToRad(15));

@@ -78,6 +78,15 @@ TEST(ReportJson, HoldsTheInputTheStagesAndTheResult) {
   EXPECT_EQ(report["result"]["total_length"], 11.0);
   EXPECT_EQ(report["run"]["stages"][0]["wall_seconds"], 3.1);
   EXPECT_EQ(report["run"]["peak_memory_mb"], 130.0);
+  EXPECT_EQ(report["run"]["parallelism"], 1.909);  // 6.3 / 3.3
+  EXPECT_EQ(report["run"]["stages"][1]["parallelism"], 2.0);
+}
+
+TEST(ReportJson, HasNoParallelismOfAStageThatTookNoTime) {
+  RunRecord record = Example();
+  record.stages[0].wall_seconds = 0;
+  const json report = json::parse(ReportJson(record));
+  EXPECT_EQ(report["run"]["stages"][0]["parallelism"], 0.0);
 }
 
 TEST(ReportJson, DiffersBetweenEqualJobsOnlyUnderRun) {

@@ -39,7 +39,7 @@ const std::map<std::string, Rule>& Rules() {
                                 "curve_refinement"};
   static const std::map<std::string, Rule> rules = {
       {"include/curvix", {}},
-      {"base", {{}, {"nanoflann.hpp"}}},
+      {"base", {{}, {"malloc.h", "nanoflann.hpp"}}},
       {"model", {{"base"}, {}}},
       {"geometry", {{"base", "model"}, {}}},
       {"colmap", {{"base"}, {}}},
