@@ -72,9 +72,9 @@ struct CurvePoses {
 // contrary. A view that fits worse keeps
 // its pose if no camera has changed. Finally poses are adjusted to all there
 // is. Poses are taken as they are, without much ado, if the median distance is
-// below 0.06 px and no view's picture fits clearly better shifted. The same
-// result for any number of threads.
-// kInvalidArgument as ReconstructCurves. `progress` is called as stage
+// below 0.06 px, of samples where no view's picture fits clearly better
+// shifted, or of the points in each view. The same result for any number of
+// threads. kInvalidArgument as ReconstructCurves. `progress` is called as stage
 // "refine_poses_with_curves"; kCancelled when it returns false.
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,

@@ -217,7 +217,8 @@ void PoseSearch::Adjust(PoseEvidence* evidence) {
     place.rim = adjusted.rims[i];
     place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
   });
-  prior_px_ = std::clamp(MedianShift(*evidence), kMinPriorPx, kFirstPriorPx);
+  prior_px_ = std::clamp(
+      MedianShift(*evidence, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }
 
 void PoseSearch::Fit(PoseEvidence* evidence) const {
@@ -237,10 +238,12 @@ std::vector<double> PoseSearch::LossesOf(const PoseEvidence& evidence) {
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(
-    const PoseEvidence& evidence) const {
+    const PoseEvidence& evidence, const MovedCameras& before) const {
   std::vector<std::vector<double>> shifts(scene_.views.size());
   VisitSeen(evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
-    if (const auto shift = edges_.ShiftIn(i, x)) shifts[i].push_back(*shift);
+    if (const auto shift = edges_.ShiftIn(i, x, before)) {
+      shifts[i].push_back(*shift);
+    }
   });
   std::vector<std::optional<double>> medians(shifts.size());
   for (std::size_t i = 0; i < shifts.size(); ++i) {
@@ -251,9 +254,10 @@ std::vector<std::optional<double>> PoseSearch::Shifts(
   return medians;
 }
 
-double PoseSearch::MedianShift(const PoseEvidence& evidence) const {
+double PoseSearch::MedianShift(const PoseEvidence& evidence,
+                               const MovedCameras& before) const {
   std::vector<double> medians;
-  for (const std::optional<double>& shift : Shifts(evidence)) {
+  for (const std::optional<double>& shift : Shifts(evidence, before)) {
     if (shift) medians.push_back(*shift);
   }
   return MedianOr(0, std::move(medians));
@@ -266,7 +270,7 @@ Eigen::Vector3d PoseSearch::Fitted(const PointSample& point) const {
 std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
     const PoseEvidence& evidence) {
   const MovedCameras moved = edges_.moved();
-  edges_.Move({std::vector<Rigid3>(scene_.views.size()), scene_.cameras});
+  edges_.Move(edges_.Unmoved());
   const std::size_t num_places = evidence.places.size();
   std::vector<Eigen::Vector3d> positions(num_places + evidence.points.size());
   ParallelFor(positions.size(), num_threads_, [&](std::size_t i) {

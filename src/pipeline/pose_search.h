@@ -63,11 +63,13 @@ class PoseSearch {
   // of the scene, and to where these show it.
   void HoldTheWorld(PoseEvidence* evidence);
 
-  // How far pictures have shifted so far, by view: the median over what the
-  // view shows of `evidence`; nothing in views that show too little of it.
-  std::vector<std::optional<double>> Shifts(const PoseEvidence& evidence) const;
+  // How far pictures have shifted since `before`, by view: the median over what
+  // the view shows of `evidence`; nothing in views that show too little of it.
+  std::vector<std::optional<double>> Shifts(const PoseEvidence& evidence,
+                                            const MovedCameras& before) const;
   // Of the typical view.
-  double MedianShift(const PoseEvidence& evidence) const;
+  double MedianShift(const PoseEvidence& evidence,
+                     const MovedCameras& before) const;
 
   // The position fitted to poses and cameras as they are.
   Eigen::Vector3d Fitted(const PointSample& point) const;

@@ -45,7 +45,7 @@ PosedEdges::PosedEdges(const Scene& scene,
       depths_(FindDepthRanges(
           views_, scene.points, options.hypotheses.depth_margin)),
       neighbors_(NeighborsInDirection(overlaps_)),
-      moved_{std::vector<Rigid3>(views_.size()), scene.cameras} {}
+      moved_(Unmoved()) {}
 
 const Camera& PosedEdges::CameraOf(std::size_t view_idx) const {
   return moved_
@@ -233,9 +233,13 @@ std::optional<Eigen::Vector2d> PosedEdges::PixelByInputCamera(
 }
 
 std::optional<double> PosedEdges::ShiftIn(std::size_t view_idx,
-                                          const Eigen::Vector3d& x) const {
+                                          const Eigen::Vector3d& x,
+                                          const MovedCameras& before) const {
   const View& view = scene_.views[view_idx];
-  const auto from = Project(InputCameraOf(view_idx), view.cam_from_world, x);
+  const auto from =
+      Project(before.cameras[static_cast<std::size_t>(view.camera_idx)],
+              before.new_cam_from_cam[view_idx] * view.cam_from_world,
+              x);
   const auto to = Project(CameraOf(view_idx), PoseOf(view_idx), x);
   if (!from || !to) return std::nullopt;
   return (*to - *from).norm();

@@ -43,6 +43,9 @@ class PosedEdges {
   const std::vector<PosedView>& views() const { return views_; }
   const std::vector<PosedView>& input_views() const { return input_views_; }
   const MovedCameras& moved() const { return moved_; }
+  MovedCameras Unmoved() const {
+    return {std::vector<Rigid3>(views_.size()), scene_.cameras};
+  }
   const Camera& CameraOf(std::size_t view_idx) const;
   // The pose of the scene followed by the view's motion.
   Rigid3 PoseOf(std::size_t view_idx) const;
@@ -81,9 +84,10 @@ class PosedEdges {
   std::optional<Eigen::Vector2d> PixelByInputCamera(
       std::size_t view_idx, const Eigen::Vector3d& x) const;
   // By how many pixels the photograph of a view shows a place elsewhere than by
-  // the scene's own pose and camera; nothing where either does not see it.
+  // `before`; nothing where either does not see it.
   std::optional<double> ShiftIn(std::size_t view_idx,
-                                const Eigen::Vector3d& x) const;
+                                const Eigen::Vector3d& x,
+                                const MovedCameras& before) const;
   // The rim of the place, adjusted to its support.
   Rim Adjusted(const CurvePlace& place, double sigma_px) const;
 

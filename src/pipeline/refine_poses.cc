@@ -21,10 +21,11 @@ namespace curvix {
 namespace {
 
 constexpr int kNumSketches = 2;  // the second with poses that are nearly right
-constexpr double kSmallShiftPx = 0.1;  // asks for no second sketch
+constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
 // Edges of exact poses are half as far off; poses a quarter of a pixel off make
 // it twice as much.
 constexpr double kGoodEnoughPx = 0.06;
+constexpr double kNothingFitsPx = 1;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
 // A lens of fewer views is hardly told from poses and from what they show.
@@ -48,23 +49,24 @@ class Refiner {
           RunRecorder* run)
       : scene_(scene),
         num_threads_(options.runtime.num_threads),
-        search_(scene, edge_maps, options, run->Steps()) {
+        search_(scene, edge_maps, options, run->Steps()),
+        at_sketch_(search_.edges().moved()) {
     if (refine_intrinsics) shared_lenses_ = SharedLenses();
   }
 
   CurvePoses Run() {
     Begin();
+    if (DoPointsFit()) {
+      return AsTheyAre("the points are where the poses put them");
+    }
     const bool has_shifted = search_.ShiftViews(evidence_.places);
-    if (!has_shifted && IsGoodEnough()) {
-      CurvePoses as_they_are = Judge();
-      as_they_are.reason = "the edges are where the poses put them";
-      return as_they_are;
+    if (!has_shifted && DoEdgesFit()) {
+      return AsTheyAre("the edges are where the poses put them");
     }
     if (!evidence_.points.empty()) AdjustToPoints();
     for (int i = 0; i < kNumSketches && !search_.is_stopped(); ++i) {
       search_.AdjustInTurns(&evidence_);
-      if (i + 1 == kNumSketches ||
-          search_.MedianShift(evidence_) < kSmallShiftPx) {
+      if (i + 1 == kNumSketches || !HasMovedSinceSketch()) {
         break;
       }
       SketchAgain();
@@ -95,6 +97,11 @@ class Refiner {
   void SketchAgain() {
     evidence_.places = search_.Sketch();
     TakeHeldOut(cells_, &evidence_.places);
+    at_sketch_ = search_.edges().moved();
+  }
+
+  bool HasMovedSinceSketch() const {
+    return search_.MedianShift(evidence_, at_sketch_) >= kSmallShiftPx;
   }
 
   HeldOutErrors Measure() const {
@@ -102,13 +109,34 @@ class Refiner {
   }
 
   // Saves the time of looking for what cannot be found.
-  bool IsGoodEnough() const {
+  bool DoEdgesFit() const {
     std::vector<double> errors;
     for (const ErrorPair& pair :
          PairErrors(held_out_, before_, before_, search_.edges())) {
       errors.push_back(pair.before);
     }
-    return !errors.empty() && Median(std::move(errors)) < kGoodEnoughPx;
+    return MedianOr(kNothingFitsPx, std::move(errors)) < kGoodEnoughPx;
+  }
+
+  // In each view. Then points would tell against any other poses.
+  bool DoPointsFit() const {
+    std::vector<std::vector<double>> errors(scene_.views.size());
+    for (std::size_t i = 0; i < held_out_.points.size(); ++i) {
+      const auto& seen = held_out_.points[i].observations;
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        errors[static_cast<std::size_t>(seen[k].view_idx)].push_back(
+            before_.points[i][k]);
+      }
+    }
+    return std::all_of(errors.begin(), errors.end(), [](auto& of_view) {
+      return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
+    });
+  }
+
+  CurvePoses AsTheyAre(const char* reason) {
+    CurvePoses result = Judge();
+    result.reason = reason;
+    return result;
   }
 
   // Poses from points alone; then places by these.
@@ -294,7 +322,8 @@ class Refiner {
 
   void PutPoses(const PoseEvidence& evidence, CurvePoses* result) const {
     std::vector<double> shifts;
-    for (const std::optional<double>& shift : search_.Shifts(evidence)) {
+    for (const std::optional<double>& shift :
+         search_.Shifts(evidence, search_.edges().Unmoved())) {
       shifts.push_back(shift.value_or(0));
     }
     const auto largest = std::max_element(shifts.begin(), shifts.end());
@@ -319,6 +348,7 @@ class Refiner {
   std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
   PoseEvidence evidence_;
   PoseEvidence held_out_;
+  MovedCameras at_sketch_;
   SpaceCells cells_{{}};
   HeldOutErrors before_;
 };

@@ -28,7 +28,7 @@ constexpr double kPriorLossScale = 3;
 constexpr double kLensPriorPx = 3;
 // Edges are looked up anew after each solution, so none need be exact.
 constexpr int kMaxNumIterations = 25;
-constexpr double kMinGain = 1e-4;
+constexpr double kMinGain = 1e-3;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 

@@ -145,6 +145,31 @@ TEST(RefinePosesWithCurves, LeavesTruePosesAlone) {
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.02) << refined.reason;
 }
 
+// Poses that points fit exactly: nothing could be better by the points.
+TEST(RefinePosesWithCurves, LeavesPosesAloneThatPointsFit) {
+  Scene scene = Disturbed(Wires().scene, 0.5);
+  Random random(6);
+  for (int k = 0; k < 200; ++k) {
+    ScenePoint& point = scene.points.emplace_back();
+    point.position = 0.5 * random.UnitVector();
+    for (std::size_t i = k % 3; i < scene.views.size(); i += 3) {
+      const View& view = scene.views[i];
+      const auto pixel =
+          Project(scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+                  view.cam_from_world,
+                  point.position);
+      ASSERT_TRUE(pixel);
+      point.view_idxs.push_back(static_cast<std::int32_t>(i));
+      point.pixels.push_back(*pixel);
+    }
+  }
+  const CurvePoses refined = Refine(scene);
+  EXPECT_FALSE(refined.accepted);
+  EXPECT_EQ(refined.reason, "the points are where the poses put them");
+  EXPECT_EQ(refined.cam_from_world[3].translation,
+            scene.views[3].cam_from_world.translation);
+}
+
 TEST(RefinePosesWithCurves, KeepsTheScaleOfTheWorld) {
   const Scene disturbed = Disturbed(Wires().scene, 1);
   const auto back =
