@@ -56,7 +56,9 @@ class PosedEdges {
   std::vector<CurvePlace> Sketch(double sigma_px,
                                  const StepDone& step_done) const;
 
-  // The views to ask about a place: its supporters and the views next to them.
+  // The views to ask about a place, ascending: its supporters and the views
+  // next to them; of thirty supporters or more, thirty that look from all
+  // sides.
   std::vector<std::size_t> ViewsToAsk(const CurvePlace& place) const;
 
   // The nearest edge in each of `views` that is within its gate, by view.
@@ -93,6 +95,10 @@ class PosedEdges {
 
  private:
   const Camera& InputCameraOf(std::size_t view_idx) const;
+  // As many of `views` as a place needs, each as far as can be in direction
+  // from those before; by the poses of the scene.
+  std::vector<std::size_t> SpreadViews(
+      const CurvePlace& place, const std::vector<std::size_t>& views) const;
   ImageEdge InputEdge(const EdgeRef& ref) const;
   // Where a view sees the rim, in the ideal image of the input camera, in which
   // edges are indexed; nothing outside the image.
