@@ -64,8 +64,8 @@ struct CurvePoses {
 // terms (SIMPLE_RADIAL, RADIAL, OPENCV).
 // What is held out to judge by: a fifth of space, and of the points every fifth
 // and those that no view needs. Gains of its parts count as significant if
-// chance, with losses as likely as gains, would give as much once in a thousand
-// times. Cameras change if poses that are adjusted to what is held out fit it
+// chance, with losses as likely as gains, would give as much once in five
+// thousand times: a run judges five times at most. Cameras change if poses that are adjusted to what is held out fit it
 // significantly better with than without. All is accepted if what is held out,
 // fitted to the old poses and to the new, fits significantly better, or no
 // worse if cameras have changed, and neither samples nor points tell the

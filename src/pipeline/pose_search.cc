@@ -176,7 +176,8 @@ void PoseSearch::AdjustInTurns(PoseEvidence* evidence) {
 
 AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                                 double prior_px,
-                                const std::vector<bool>& free_lenses) {
+                                const std::vector<bool>& free_lenses,
+                                double min_gain) {
   std::vector<PoseSample> samples;
   for (const CurvePlace& place : evidence.places) {
     PoseSample& sample = samples.emplace_back();
@@ -192,7 +193,8 @@ AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                       sigmas_px_,
                       point_sigma_px_,
                       prior_px,
-                      free_lenses},
+                      free_lenses,
+                      min_gain},
                      edges_.moved(),
                      num_threads_,
                      [this] { return step_done_(0, 0); });
@@ -205,9 +207,9 @@ double PoseSearch::PriorFor(const PoseEvidence& evidence) const {
   return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
 }
 
-void PoseSearch::Adjust(PoseEvidence* evidence) {
+void PoseSearch::Adjust(PoseEvidence* evidence, double min_gain) {
   const AdjustedPoses adjusted =
-      Solve(*evidence, PriorFor(*evidence), free_lenses_);
+      Solve(*evidence, PriorFor(*evidence), free_lenses_, min_gain);
   edges_.Move(adjusted.moved);
   for (std::size_t i = 0; i < evidence->points.size(); ++i) {
     evidence->points[i].position = adjusted.points[i];
@@ -234,7 +236,7 @@ void PoseSearch::Fit(PoseEvidence* evidence) const {
 std::vector<double> PoseSearch::LossesOf(const PoseEvidence& evidence) {
   PoseEvidence fitted = evidence;
   Fit(&fitted);
-  return Solve(fitted, kFirstPriorPx, {}).costs;
+  return Solve(fitted, kFirstPriorPx, {}, kRoughGain).costs;
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "edge_detection/undistort_edges.h"
 #include "geometry/lens.h"
 #include "pipeline/check_input.h"
+#include "pipeline/edges_with_cameras.h"
 #include "pipeline/held_out.h"
 #include "pipeline/pose_search.h"
 #include "pipeline/run_recorder.h"
@@ -48,6 +49,7 @@ class Refiner {
           bool refine_intrinsics,
           RunRecorder* run)
       : scene_(scene),
+        edge_maps_(edge_maps),
         num_threads_(options.runtime.num_threads),
         search_(scene, edge_maps, options, run->Steps()),
         at_sketch_(search_.edges().moved()) {
@@ -79,6 +81,11 @@ class Refiner {
     search_.HoldTheWorld(&evidence_);
     CurvePoses result = Judge();
     if (result.accepted) Finish(&result);
+    if (const Status status = CheckCameras(); !status.ok()) {
+      result.reason += "; " + status.message();
+      result.accepted = false;
+      PutPoses(evidence_, &result);
+    }
     return result;
   }
 
@@ -91,12 +98,13 @@ class Refiner {
     cells_ = SpaceCells(PositionsOf(evidence_));
     held_out_ = {TakeHeldOut(cells_, &evidence_.places),
                  std::move(points.held_out)};
+    last_held_out_ = held_out_.places;
     before_ = Measure();
   }
 
   void SketchAgain() {
     evidence_.places = search_.Sketch();
-    TakeHeldOut(cells_, &evidence_.places);
+    last_held_out_ = TakeHeldOut(cells_, &evidence_.places);
     at_sketch_ = search_.edges().moved();
   }
 
@@ -167,6 +175,11 @@ class Refiner {
     return cameras;
   }
 
+  // Later steps ask for the edges that the cameras show.
+  Status CheckCameras() const {
+    return CanCarryEdges(scene_, edge_maps_, search_.edges().moved().cameras);
+  }
+
   // Refines shared cameras, first by their own terms, then by more. Poses are
   // adjusted to what is held out with either cameras; the new ones are kept if
   // that fits better. Whether cameras have changed.
@@ -195,6 +208,10 @@ class Refiner {
       search_.Adjust(&evidence_);
       std::vector<double> losses = search_.LossesOf(held_out);
       if (IsProven(held_out, best_losses, losses)) {
+        if (const Status status = CheckCameras(); !status.ok()) {
+          left_out_ = "; left out: " + status.message();
+          break;
+        }
         best_losses = std::move(losses);
         best = {search_.edges().moved(), evidence_, shared_lenses_};
       }
@@ -280,17 +297,18 @@ class Refiner {
     result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
     result->reason = text;
     if (!result->accepted) result->reason = "may be chance: " + result->reason;
+    result->reason += left_out_;
     if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
       result->accepted = false;
       result->reason = "too little is left to judge by";
     }
   }
 
-  // Adjusts to all there is, what was held out included.
+  // Adjusts to all there is, what was held out included: of places, what poses
+  // that are nearly right have found there.
   void Finish(CurvePoses* result) {
-    for (PointSample& point : held_out_.points) {
-      point.position = search_.Fitted(point);
-    }
+    held_out_.places = std::move(last_held_out_);
+    search_.Fit(&held_out_);
     evidence_.places.insert(evidence_.places.end(),
                             held_out_.places.begin(),
                             held_out_.places.end());
@@ -299,7 +317,7 @@ class Refiner {
                             held_out_.points.end());
     for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
       search_.FindEdges(&evidence_.places);
-      search_.Adjust(&evidence_);
+      search_.Adjust(&evidence_, PoseSearch::kFineGain);
     }
     search_.HoldTheWorld(&evidence_);
     PutPoses(evidence_, result);
@@ -343,38 +361,20 @@ class Refiner {
   }
 
   const Scene& scene_;
+  const std::vector<EdgeMap>& edge_maps_;
   const int num_threads_;
   PoseSearch search_;
   std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
   PoseEvidence evidence_;
   PoseEvidence held_out_;
-  MovedCameras at_sketch_;
+  MovedCameras at_sketch_;                 // the last
+  std::vector<CurvePlace> last_held_out_;  // of that sketch
+  std::string left_out_;                   // of camera models, if any
   SpaceCells cells_{{}};
   HeldOutErrors before_;
 };
 
 }  // namespace
-
-Result<std::vector<EdgeMap>> EdgesWithCameras(
-    const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps,
-    const std::vector<Camera>& cameras) {
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
-    return status;
-  }
-  std::vector<EdgeMap> carried;
-  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
-    auto edges = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
-    if (!edges) {
-      return Status(StatusCode::kInvalidArgument,
-                    "the camera of " + scene.views[i].name +
-                        " cannot be inverted at an edge");
-    }
-    carried.push_back(*std::move(edges));
-  }
-  return carried;
-}
 
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
