@@ -109,7 +109,7 @@ ExitCode RunReconstruct(const Arguments& arguments) {
   int part_idx = kNoPart;
   RunSettings settings;
   std::vector<FlagSection> sections = ReconstructSections(&settings);
-  sections.front().flags.push_back(Advanced(
+  sections.front().flags.push_back(
       RowFlag({.name = "part",
                .field = &part_idx,
                .min = kNoPart,

@@ -3,6 +3,7 @@
 #include "plugin/poses/curve_poses.h"
 
 #include <curvix/scene.h>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <utility>
@@ -14,8 +15,32 @@
 namespace curvix {
 namespace {
 
+// The cameras of `before` that differ now, once more with new ids, for the
+// images that no view of `poses` shows: their poses were made for them.
+void KeepCamerasOfOthers(const std::vector<ColmapCamera>& before,
+                         const std::map<std::uint32_t, Rigid3>& poses,
+                         ColmapModel* model) {
+  std::uint32_t last_id = 0;
+  for (const ColmapCamera& camera : before) {
+    last_id = std::max(last_id, camera.camera_id);
+  }
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (model->cameras[i].camera == before[i].camera) continue;
+    bool is_used = false;
+    for (ColmapImage& image : model->images) {
+      if (image.camera_id != before[i].camera_id ||
+          poses.count(image.image_id) > 0) {
+        continue;
+      }
+      image.camera_id = last_id + 1;
+      is_used = true;
+    }
+    if (is_used) model->cameras.push_back({++last_id, before[i].camera});
+  }
+}
+
 // `model` with the poses of the views of `scene` and its cameras, and points
-// that fit them.
+// that fit them. Other images stay as they are.
 ColmapModel WithPoses(ColmapModel model,
                       const Scene& scene,
                       const CurvePoses& refined) {
@@ -23,6 +48,7 @@ ColmapModel WithPoses(ColmapModel model,
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     poses[scene.views[i].image_id] = refined.cam_from_world[i];
   }
+  const std::vector<ColmapCamera> before = model.cameras;
   // A scene has all cameras of its model, in order.
   for (std::size_t i = 0; i < model.cameras.size(); ++i) {
     model.cameras[i].camera = refined.cameras[i];
@@ -31,6 +57,7 @@ ColmapModel WithPoses(ColmapModel model,
     const auto found = poses.find(image.image_id);
     if (found != poses.end()) image.cam_from_world = found->second;
   }
+  KeepCamerasOfOthers(before, poses, &model);
   Bundle bundle = BundleFromModel(model);
   FitPoints(&bundle);
   return ModelWithBundle(std::move(model), bundle);
@@ -89,7 +116,7 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
   std::snprintf(
       shifts, sizeof(shifts), ", shifts up to %.2f px", poses.max_shift_px);
   return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
-         " views, " + Errors(poses.before.mean_px, poses.after.mean_px) +
+         " views, " + Errors(poses.before.median_px, poses.after.median_px) +
          CamerasText(record.cameras) + shifts +
          (poses.accepted ? "" : ", refused");
 }

@@ -27,7 +27,6 @@ constexpr double kPriorLossScale = 3;
 constexpr double kLensPriorPx = 3;
 // Edges are looked up anew after each solution, so none need be exact.
 constexpr int kMaxNumIterations = 25;
-constexpr double kMinGain = 1e-4;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 
@@ -97,6 +96,7 @@ class Search {
  public:
   Search(const PoseProblem& problem, const MovedCameras& start, int num_threads)
       : num_threads_(num_threads),
+        min_gain_(problem.min_gain),
         owners_(OwnersOf(problem)),
         seen_(ObservationsOf(problem)) {
     for (const Rigid3& motion : start.new_cam_from_cam) {
@@ -130,7 +130,7 @@ class Search {
         continue;
       }
       damping /= kDampingFactor;
-      const bool is_settled = cost - next_cost < kMinGain * cost;
+      const bool is_settled = cost - next_cost < min_gain_ * cost;
       state_ = std::move(next);
       cost = next_cost;
       if (is_settled) break;
@@ -298,6 +298,7 @@ class Search {
   }
 
   const int num_threads_;
+  const double min_gain_;
   const EquationOwners owners_;
   const std::vector<PoseObservation> seen_;  // by equation
   std::vector<Lens> lenses_;                 // by camera

@@ -60,6 +60,8 @@ struct PoseProblem {
   double prior_px = 10;
   // By camera: whether its first eight parameters change, too. Empty: of none.
   std::vector<bool> free_lenses = {};
+  // Of the cost: the search ends with a step that gains a smaller share.
+  double min_gain = 1e-4;
 };
 
 struct AdjustedPoses {

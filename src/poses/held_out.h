@@ -76,8 +76,10 @@ SignificanceOfGain CompareErrors(const PoseEvidence& held_out,
                                  const HeldOutErrors& after,
                                  const PosedEdges& edges);
 
-// exp(-z^2 / 2) is a thousandth: more is no chance.
-inline constexpr double kSignificant = 3.717;
+// exp(-z^2 / 2) is 1 / 5000: more is no chance. A run judges five times at
+// most, each of up to four camera models and then the whole, and so takes
+// chance for a gain in one of a thousand runs at most.
+inline constexpr double kSignificant = 4.127;
 
 // Whether the gain is no chance, and neither places nor points tell the
 // contrary.

@@ -175,7 +175,8 @@ void PoseSearch::AdjustInTurns(PoseEvidence* evidence) {
 
 AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                                 double prior_px,
-                                const std::vector<bool>& free_lenses) {
+                                const std::vector<bool>& free_lenses,
+                                double min_gain) {
   std::vector<PoseSample> samples;
   for (const CurvePlace& place : evidence.places) {
     PoseSample& sample = samples.emplace_back();
@@ -191,7 +192,8 @@ AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
                       sigmas_px_,
                       point_sigma_px_,
                       prior_px,
-                      free_lenses},
+                      free_lenses,
+                      min_gain},
                      edges_.moved(),
                      num_threads_,
                      [this] { return step_done_(0, 0); });
@@ -204,9 +206,9 @@ double PoseSearch::PriorFor(const PoseEvidence& evidence) const {
   return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
 }
 
-void PoseSearch::Adjust(PoseEvidence* evidence) {
+void PoseSearch::Adjust(PoseEvidence* evidence, double min_gain) {
   const AdjustedPoses adjusted =
-      Solve(*evidence, PriorFor(*evidence), free_lenses_);
+      Solve(*evidence, PriorFor(*evidence), free_lenses_, min_gain);
   edges_.Move(adjusted.moved);
   for (std::size_t i = 0; i < evidence->points.size(); ++i) {
     evidence->points[i].position = adjusted.points[i];
@@ -216,7 +218,8 @@ void PoseSearch::Adjust(PoseEvidence* evidence) {
     place.rim = adjusted.rims[i];
     place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
   });
-  prior_px_ = std::clamp(MedianShift(*evidence), kMinPriorPx, kFirstPriorPx);
+  prior_px_ = std::clamp(
+      MedianShift(*evidence, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }
 
 void PoseSearch::Fit(PoseEvidence* evidence) const {
@@ -232,14 +235,16 @@ void PoseSearch::Fit(PoseEvidence* evidence) const {
 std::vector<double> PoseSearch::LossesOf(const PoseEvidence& evidence) {
   PoseEvidence fitted = evidence;
   Fit(&fitted);
-  return Solve(fitted, kFirstPriorPx, {}).costs;
+  return Solve(fitted, kFirstPriorPx, {}, kRoughGain).costs;
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(
-    const PoseEvidence& evidence) const {
+    const PoseEvidence& evidence, const MovedCameras& before) const {
   std::vector<std::vector<double>> shifts(scene_.views.size());
   VisitSeen(evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
-    if (const auto shift = edges_.ShiftIn(i, x)) shifts[i].push_back(*shift);
+    if (const auto shift = edges_.ShiftIn(i, x, before)) {
+      shifts[i].push_back(*shift);
+    }
   });
   std::vector<std::optional<double>> medians(shifts.size());
   for (std::size_t i = 0; i < shifts.size(); ++i) {
@@ -250,9 +255,10 @@ std::vector<std::optional<double>> PoseSearch::Shifts(
   return medians;
 }
 
-double PoseSearch::MedianShift(const PoseEvidence& evidence) const {
+double PoseSearch::MedianShift(const PoseEvidence& evidence,
+                               const MovedCameras& before) const {
   std::vector<double> medians;
-  for (const std::optional<double>& shift : Shifts(evidence)) {
+  for (const std::optional<double>& shift : Shifts(evidence, before)) {
     if (shift) medians.push_back(*shift);
   }
   return MedianOr(0, std::move(medians));
@@ -265,7 +271,7 @@ Eigen::Vector3d PoseSearch::Fitted(const PointSample& point) const {
 std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
     const PoseEvidence& evidence) {
   const MovedCameras moved = edges_.moved();
-  edges_.Move({std::vector<Rigid3>(scene_.views.size()), scene_.cameras});
+  edges_.Move(edges_.Unmoved());
   const std::size_t num_places = evidence.places.size();
   std::vector<Eigen::Vector3d> positions(num_places + evidence.points.size());
   ParallelFor(positions.size(), num_threads_, [&](std::size_t i) {

@@ -17,6 +17,10 @@ namespace curvix {
 
 class PoseSearch {
  public:
+  // Enough if edges are found anew afterwards.
+  static constexpr double kRoughGain = 3e-3;
+  static constexpr double kFineGain = 1e-4;
+
   // The arguments must outlive it. `step_done` is called now and then; false:
   // stop.
   PoseSearch(const Scene& scene,
@@ -42,8 +46,9 @@ class PoseSearch {
   // Whether any did.
   bool ShiftViews(const std::vector<CurvePlace>& places);
 
-  // Adjusts poses, cameras that are free, places and points to each other.
-  void Adjust(PoseEvidence* evidence);
+  // Adjusts poses, cameras that are free, places and points to each other,
+  // until a step gains less than a share of the loss.
+  void Adjust(PoseEvidence* evidence, double min_gain = kRoughGain);
 
   // Finds edges and adjusts in turns, until edges come no nearer.
   void AdjustInTurns(PoseEvidence* evidence);
@@ -62,23 +67,25 @@ class PoseSearch {
   // of the scene, and to where these show it.
   void HoldTheWorld(PoseEvidence* evidence);
 
-  // How far pictures have shifted so far, by view: the median over what the
-  // view shows of `evidence`; nothing in views that show too little of it.
-  std::vector<std::optional<double>> Shifts(const PoseEvidence& evidence) const;
+  // How far pictures have shifted since `before`, by view: the median over what
+  // the view shows of `evidence`; nothing in views that show too little of it.
+  std::vector<std::optional<double>> Shifts(const PoseEvidence& evidence,
+                                            const MovedCameras& before) const;
   // Of the typical view.
-  double MedianShift(const PoseEvidence& evidence) const;
-
-  // The position fitted to poses and cameras as they are.
-  Eigen::Vector3d Fitted(const PointSample& point) const;
+  double MedianShift(const PoseEvidence& evidence,
+                     const MovedCameras& before) const;
 
  private:
+  // The position fitted to poses and cameras as they are.
+  Eigen::Vector3d Fitted(const PointSample& point) const;
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;
   void UpdateSigmas(const std::vector<CurvePlace>& places);
   double PriorFor(const PoseEvidence& evidence) const;
   AdjustedPoses Solve(const PoseEvidence& evidence,
                       double prior_px,
-                      const std::vector<bool>& free_lenses);
+                      const std::vector<bool>& free_lenses,
+                      double min_gain);
   std::vector<Eigen::Vector3d> PositionsByInput(const PoseEvidence& evidence);
   void RestoreUnit(PoseEvidence* evidence);
 

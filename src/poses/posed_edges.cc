@@ -5,6 +5,7 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -27,6 +28,8 @@ constexpr std::size_t kNumEdgesToAskPerView = 50;
 constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 constexpr double kMinCosine = 0.9659258;  // 15 degrees
+// More tell little more of a place, and cost views the square of their number.
+constexpr std::size_t kMaxViewsOfPlace = 30;
 // Edges along one contour are one.
 constexpr double kSameContourPx = 0.2;
 
@@ -45,7 +48,7 @@ PosedEdges::PosedEdges(const Scene& scene,
       depths_(FindDepthRanges(
           views_, scene.points, options.hypotheses.depth_margin)),
       neighbors_(NeighborsInDirection(overlaps_)),
-      moved_{std::vector<Rigid3>(views_.size()), scene.cameras} {}
+      moved_(Unmoved()) {}
 
 const Camera& PosedEdges::CameraOf(std::size_t view_idx) const {
   return moved_
@@ -133,17 +136,52 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
 }
 
 std::vector<std::size_t> PosedEdges::ViewsToAsk(const CurvePlace& place) const {
-  std::vector<std::size_t> views;
+  std::vector<std::size_t> views, next_to_them;
   for (const EdgeRef& ref : place.support) {
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);
     views.push_back(view_idx);
     for (const ViewNeighbor& neighbor : neighbors_[view_idx]) {
-      views.push_back(static_cast<std::size_t>(neighbor.view_idx));
+      next_to_them.push_back(static_cast<std::size_t>(neighbor.view_idx));
     }
   }
-  std::sort(views.begin(), views.end());
-  views.erase(std::unique(views.begin(), views.end()), views.end());
-  return views;
+  if (views.size() >= kMaxViewsOfPlace) return SpreadViews(place, views);
+  std::sort(next_to_them.begin(), next_to_them.end());
+  next_to_them.erase(std::unique(next_to_them.begin(), next_to_them.end()),
+                     next_to_them.end());
+  std::vector<std::size_t> all;
+  std::set_union(views.begin(),
+                 views.end(),
+                 next_to_them.begin(),
+                 next_to_them.end(),
+                 std::back_inserter(all));
+  return all;
+}
+
+std::vector<std::size_t> PosedEdges::SpreadViews(
+    const CurvePlace& place, const std::vector<std::size_t>& views) const {
+  std::vector<Eigen::Vector3d> directions;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::size_t i : views) {
+    directions.push_back(
+        (input_views_[i].center - place.rim.axis.position).normalized());
+    sum += directions.back();
+  }
+  // Of each view, how near it is to the nearest that is taken, as a cosine.
+  std::vector<double> nearness(views.size(), -1);
+  std::vector<std::size_t> taken;
+  for (Eigen::Vector3d last = sum.normalized();
+       taken.size() < kMaxViewsOfPlace;) {
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      nearness[k] = std::max(nearness[k], last.dot(directions[k]));
+    }
+    const auto k = static_cast<std::size_t>(
+        std::min_element(nearness.begin(), nearness.end()) - nearness.begin());
+    taken.push_back(views[k]);
+    nearness[k] = 2;
+    last = directions[k];
+  }
+  std::sort(taken.begin(), taken.end());
+  return taken;
 }
 
 std::vector<EdgeRef> PosedEdges::FindEdges(
@@ -241,9 +279,13 @@ std::optional<Eigen::Vector2d> PosedEdges::PixelByInputCamera(
 }
 
 std::optional<double> PosedEdges::ShiftIn(std::size_t view_idx,
-                                          const Eigen::Vector3d& x) const {
+                                          const Eigen::Vector3d& x,
+                                          const MovedCameras& before) const {
   const View& view = scene_.views[view_idx];
-  const auto from = Project(InputCameraOf(view_idx), view.cam_from_world, x);
+  const auto from =
+      Project(before.cameras[static_cast<std::size_t>(view.camera_idx)],
+              before.new_cam_from_cam[view_idx] * view.cam_from_world,
+              x);
   const auto to = Project(CameraOf(view_idx), PoseOf(view_idx), x);
   if (!from || !to) return std::nullopt;
   return (*to - *from).norm();

@@ -41,6 +41,9 @@ class PosedEdges {
   const std::vector<PosedView>& views() const { return views_; }
   const std::vector<PosedView>& input_views() const { return input_views_; }
   const MovedCameras& moved() const { return moved_; }
+  MovedCameras Unmoved() const {
+    return {std::vector<Rigid3>(views_.size()), scene_.cameras};
+  }
   const Camera& CameraOf(std::size_t view_idx) const;
   // The pose of the scene followed by the view's motion.
   Rigid3 PoseOf(std::size_t view_idx) const;
@@ -50,7 +53,9 @@ class PosedEdges {
   // are expected within a few times `sigma_px` of where the poses put them.
   std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
 
-  // The views to ask about a place: its supporters and the views next to them.
+  // The views to ask about a place, ascending: its supporters and the views
+  // next to them; of thirty supporters or more, thirty that look from all
+  // sides.
   std::vector<std::size_t> ViewsToAsk(const CurvePlace& place) const;
 
   // The nearest edge in each of `views` that is within its gate, by view.
@@ -78,14 +83,19 @@ class PosedEdges {
   std::optional<Eigen::Vector2d> PixelByInputCamera(
       std::size_t view_idx, const Eigen::Vector3d& x) const;
   // By how many pixels the photograph of a view shows a place elsewhere than by
-  // the scene's own pose and camera; nothing where either does not see it.
+  // `before`; nothing where either does not see it.
   std::optional<double> ShiftIn(std::size_t view_idx,
-                                const Eigen::Vector3d& x) const;
+                                const Eigen::Vector3d& x,
+                                const MovedCameras& before) const;
   // The rim of the place, adjusted to its support.
   Rim Adjusted(const CurvePlace& place, double sigma_px) const;
 
  private:
   const Camera& InputCameraOf(std::size_t view_idx) const;
+  // As many of `views` as a place needs, each as far as can be in direction
+  // from those before; by the poses of the scene.
+  std::vector<std::size_t> SpreadViews(
+      const CurvePlace& place, const std::vector<std::size_t>& views) const;
   ImageEdge InputEdge(const EdgeRef& ref) const;
   // Where a view sees the rim, in the ideal image of the input camera, in which
   // edges are indexed; nothing outside the image.

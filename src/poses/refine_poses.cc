@@ -4,15 +4,16 @@
 #include <curvix/refine_poses.h>
 #include <algorithm>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "base/median.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
-#include "edge_detection/undistort_edges.h"
 #include "geometry/lens.h"
 #include "model/check_input.h"
 #include "pipeline/run_recorder.h"
+#include "poses/edges_with_cameras.h"
 #include "poses/held_out.h"
 #include "poses/pose_search.h"
 
@@ -20,10 +21,11 @@ namespace curvix {
 namespace {
 
 constexpr int kNumSketches = 2;  // the second with poses that are nearly right
-constexpr double kSmallShiftPx = 0.1;  // asks for no second sketch
+constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
 // Edges of exact poses are half as far off; poses a quarter of a pixel off make
 // it twice as much.
 constexpr double kGoodEnoughPx = 0.06;
+constexpr double kNothingFitsPx = 1;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
 // A lens of fewer views is hardly told from poses and from what they show.
@@ -46,24 +48,26 @@ class Refiner {
           bool refine_intrinsics,
           RunRecorder* run)
       : scene_(scene),
+        edge_maps_(edge_maps),
         num_threads_(options.runtime.num_threads),
-        search_(scene, edge_maps, options, run->Steps()) {
+        search_(scene, edge_maps, options, run->Steps()),
+        at_sketch_(search_.edges().moved()) {
     if (refine_intrinsics) shared_lenses_ = SharedLenses();
   }
 
   CurvePoses Run() {
     Begin();
+    if (DoPointsFit()) {
+      return AsTheyAre("the points are where the poses put them");
+    }
     const bool has_shifted = search_.ShiftViews(evidence_.places);
-    if (!has_shifted && IsGoodEnough()) {
-      CurvePoses as_they_are = Judge();
-      as_they_are.reason = "the edges are where the poses put them";
-      return as_they_are;
+    if (!has_shifted && DoEdgesFit()) {
+      return AsTheyAre("the edges are where the poses put them");
     }
     if (!evidence_.points.empty()) AdjustToPoints();
     for (int i = 0; i < kNumSketches && !search_.is_stopped(); ++i) {
       search_.AdjustInTurns(&evidence_);
-      if (i + 1 == kNumSketches ||
-          search_.MedianShift(evidence_) < kSmallShiftPx) {
+      if (i + 1 == kNumSketches || !HasMovedSinceSketch()) {
         break;
       }
       SketchAgain();
@@ -76,6 +80,11 @@ class Refiner {
     search_.HoldTheWorld(&evidence_);
     CurvePoses result = Judge();
     if (result.accepted) Finish(&result);
+    if (const Status status = CheckCameras(); !status.ok()) {
+      result.reason += "; " + status.message();
+      result.accepted = false;
+      PutPoses(evidence_, &result);
+    }
     return result;
   }
 
@@ -88,12 +97,18 @@ class Refiner {
     cells_ = SpaceCells(PositionsOf(evidence_));
     held_out_ = {TakeHeldOut(cells_, &evidence_.places),
                  std::move(points.held_out)};
+    last_held_out_ = held_out_.places;
     before_ = Measure();
   }
 
   void SketchAgain() {
     evidence_.places = search_.Sketch();
-    TakeHeldOut(cells_, &evidence_.places);
+    last_held_out_ = TakeHeldOut(cells_, &evidence_.places);
+    at_sketch_ = search_.edges().moved();
+  }
+
+  bool HasMovedSinceSketch() const {
+    return search_.MedianShift(evidence_, at_sketch_) >= kSmallShiftPx;
   }
 
   HeldOutErrors Measure() const {
@@ -101,13 +116,34 @@ class Refiner {
   }
 
   // Saves the time of looking for what cannot be found.
-  bool IsGoodEnough() const {
+  bool DoEdgesFit() const {
     std::vector<double> errors;
     for (const ErrorPair& pair :
          PairErrors(held_out_, before_, before_, search_.edges())) {
       errors.push_back(pair.before);
     }
-    return !errors.empty() && Median(std::move(errors)) < kGoodEnoughPx;
+    return MedianOr(kNothingFitsPx, std::move(errors)) < kGoodEnoughPx;
+  }
+
+  // In each view. Then points would tell against any other poses.
+  bool DoPointsFit() const {
+    std::vector<std::vector<double>> errors(scene_.views.size());
+    for (std::size_t i = 0; i < held_out_.points.size(); ++i) {
+      const auto& seen = held_out_.points[i].observations;
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        errors[static_cast<std::size_t>(seen[k].view_idx)].push_back(
+            before_.points[i][k]);
+      }
+    }
+    return std::all_of(errors.begin(), errors.end(), [](auto& of_view) {
+      return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
+    });
+  }
+
+  CurvePoses AsTheyAre(const char* reason) {
+    CurvePoses result = Judge();
+    result.reason = reason;
+    return result;
   }
 
   // Poses from points alone; then places by these.
@@ -138,6 +174,11 @@ class Refiner {
     return cameras;
   }
 
+  // Later steps ask for the edges that the cameras show.
+  Status CheckCameras() const {
+    return CanCarryEdges(scene_, edge_maps_, search_.edges().moved().cameras);
+  }
+
   // Refines shared cameras, first by their own terms, then by more. Poses are
   // adjusted to what is held out with either cameras; the new ones are kept if
   // that fits better. Whether cameras have changed.
@@ -166,6 +207,10 @@ class Refiner {
       search_.Adjust(&evidence_);
       std::vector<double> losses = search_.LossesOf(held_out);
       if (IsProven(held_out, best_losses, losses)) {
+        if (const Status status = CheckCameras(); !status.ok()) {
+          left_out_ = "; left out: " + status.message();
+          break;
+        }
         best_losses = std::move(losses);
         best = {search_.edges().moved(), evidence_, shared_lenses_};
       }
@@ -251,17 +296,18 @@ class Refiner {
     result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
     result->reason = text;
     if (!result->accepted) result->reason = "may be chance: " + result->reason;
+    result->reason += left_out_;
     if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
       result->accepted = false;
       result->reason = "too little is left to judge by";
     }
   }
 
-  // Adjusts to all there is, what was held out included.
+  // Adjusts to all there is, what was held out included: of places, what poses
+  // that are nearly right have found there.
   void Finish(CurvePoses* result) {
-    for (PointSample& point : held_out_.points) {
-      point.position = search_.Fitted(point);
-    }
+    held_out_.places = std::move(last_held_out_);
+    search_.Fit(&held_out_);
     evidence_.places.insert(evidence_.places.end(),
                             held_out_.places.begin(),
                             held_out_.places.end());
@@ -270,7 +316,7 @@ class Refiner {
                             held_out_.points.end());
     for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
       search_.FindEdges(&evidence_.places);
-      search_.Adjust(&evidence_);
+      search_.Adjust(&evidence_, PoseSearch::kFineGain);
     }
     search_.HoldTheWorld(&evidence_);
     PutPoses(evidence_, result);
@@ -293,7 +339,8 @@ class Refiner {
 
   void PutPoses(const PoseEvidence& evidence, CurvePoses* result) const {
     std::vector<double> shifts;
-    for (const std::optional<double>& shift : search_.Shifts(evidence)) {
+    for (const std::optional<double>& shift :
+         search_.Shifts(evidence, search_.edges().Unmoved())) {
       shifts.push_back(shift.value_or(0));
     }
     const auto largest = std::max_element(shifts.begin(), shifts.end());
@@ -313,37 +360,20 @@ class Refiner {
   }
 
   const Scene& scene_;
+  const std::vector<EdgeMap>& edge_maps_;
   const int num_threads_;
   PoseSearch search_;
   std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
   PoseEvidence evidence_;
   PoseEvidence held_out_;
+  MovedCameras at_sketch_;                 // the last
+  std::vector<CurvePlace> last_held_out_;  // of that sketch
+  std::string left_out_;                   // of camera models, if any
   SpaceCells cells_{{}};
   HeldOutErrors before_;
 };
 
 }  // namespace
-
-Result<std::vector<EdgeMap>> EdgesWithCameras(
-    const Scene& scene,
-    std::vector<EdgeMap> edge_maps,
-    const std::vector<Camera>& cameras) {
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
-    return status;
-  }
-  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
-    if (cameras[k] == scene.cameras[k]) continue;
-    auto edges = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
-    if (!edges) {
-      return Status(StatusCode::kInvalidArgument,
-                    "the camera of " + scene.views[i].name +
-                        " cannot be inverted at an edge");
-    }
-    edge_maps[i] = *std::move(edges);
-  }
-  return edge_maps;
-}
 
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,

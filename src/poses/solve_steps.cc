@@ -3,7 +3,6 @@
 #include "poses/solve_steps.h"
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <optional>
 #include <tuple>
@@ -11,6 +10,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "poses/lower_blocks.h"
 
 namespace curvix {
 namespace {
@@ -76,30 +76,6 @@ struct ViewNormal {
 struct CameraNormal {
   Blocks<Matrix8d> with_cameras;
   Vector8d gradient;
-};
-
-// The lower half of a symmetric matrix, by blocks.
-class LowerBlocks {
- public:
-  template <typename Matrix>
-  void Add(int row, int column, const Matrix& block) {
-    for (int c = 0; c < block.cols(); ++c) {
-      for (int r = 0; r < block.rows(); ++r) {
-        triplets_.emplace_back(row + r, column + c, block(r, c));
-      }
-    }
-  }
-  // The solution for `vector`; empty if there is none.
-  Eigen::VectorXd Solve(const Eigen::VectorXd& vector) const {
-    Eigen::SparseMatrix<double> matrix(vector.size(), vector.size());
-    matrix.setFromTriplets(triplets_.begin(), triplets_.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-    if (solver.info() != Eigen::Success) return {};
-    return solver.solve(vector);
-  }
-
- private:
-  std::vector<Eigen::Triplet<double>> triplets_;
 };
 
 class System {
@@ -268,7 +244,14 @@ class System {
       return static_cast<int>(6 * views.size() + 8 * i);
     };
     Eigen::VectorXd gradient(row_of_camera(cameras.size()));
-    LowerBlocks lower;
+    std::vector<int> first_rows;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      first_rows.push_back(row_of_view(i));
+    }
+    for (std::size_t i = 0; i <= cameras.size(); ++i) {
+      first_rows.push_back(row_of_camera(i));
+    }
+    LowerBlocks lower(std::move(first_rows));
     for (std::size_t i = 0; i < views.size(); ++i) {
       gradient.segment<6>(row_of_view(i)) = views[i].gradient;
       for (const auto& [k, block] : views[i].with_views) {

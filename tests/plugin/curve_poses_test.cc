@@ -67,5 +67,36 @@ TEST_F(CurvePosesOfAModel, LeaveOutViewsThatAreMissing) {
             model_.images[5].cam_from_world.translation);
 }
 
+// A shared camera changes; the pose of the image that nobody has seen was made
+// for the old one.
+TEST_F(CurvePosesOfAModel, LeaveTheCameraOfViewsThatAreMissing) {
+  for (ColmapImage& image : model_.images) image.camera_id = 1;
+  model_.cameras.resize(1);
+  const Camera before = model_.cameras[0].camera;
+  scene_ = SceneFromColmapModel(model_, "images", {scene_.views[5].name});
+  CurvePoses poses;
+  poses.accepted = true;
+  for (const View& view : scene_.views) {
+    poses.cam_from_world.push_back(view.cam_from_world);
+  }
+  poses.cameras = {before};
+  poses.cameras[0].params[0] *= 1.01;
+  const auto refined = ModelWithCurvePoses(model_, scene_, poses);
+  ASSERT_TRUE(refined.model);
+  ASSERT_EQ(refined.model->cameras.size(), 2u);
+  EXPECT_EQ(refined.model->cameras[0].camera, poses.cameras[0]);
+  EXPECT_EQ(refined.model->cameras[1].camera_id, 2u);
+  EXPECT_EQ(refined.model->cameras[1].camera, before);
+  for (std::size_t i = 0; i < model_.images.size(); ++i) {
+    EXPECT_EQ(refined.model->images[i].camera_id, i == 5 ? 2u : 1u);
+  }
+
+  // Without such an image there is no such camera.
+  scene_ = SceneFromColmapModel(model_, "images");
+  poses.cam_from_world.push_back(poses.cam_from_world.back());
+  EXPECT_EQ(ModelWithCurvePoses(model_, scene_, poses).model->cameras.size(),
+            1u);
+}
+
 }  // namespace
 }  // namespace curvix

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <curvix/refine_poses.h>
 #include <curvix/scene.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
@@ -144,6 +145,31 @@ TEST(RefinePosesWithCurves, LeavesTruePosesAlone) {
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.02) << refined.reason;
 }
 
+// Poses that points fit exactly: nothing could be better by the points.
+TEST(RefinePosesWithCurves, LeavesPosesAloneThatPointsFit) {
+  Scene scene = Disturbed(Wires().scene, 0.5);
+  Random random(6);
+  for (int k = 0; k < 200; ++k) {
+    ScenePoint& point = scene.points.emplace_back();
+    point.position = 0.5 * random.UnitVector();
+    for (std::size_t i = k % 3; i < scene.views.size(); i += 3) {
+      const View& view = scene.views[i];
+      const auto pixel =
+          Project(scene.cameras[static_cast<std::size_t>(view.camera_idx)],
+                  view.cam_from_world,
+                  point.position);
+      ASSERT_TRUE(pixel);
+      point.view_idxs.push_back(static_cast<std::int32_t>(i));
+      point.pixels.push_back(*pixel);
+    }
+  }
+  const CurvePoses refined = Refine(scene);
+  EXPECT_FALSE(refined.accepted);
+  EXPECT_EQ(refined.reason, "the points are where the poses put them");
+  EXPECT_EQ(refined.cam_from_world[3].translation,
+            scene.views[3].cam_from_world.translation);
+}
+
 TEST(RefinePosesWithCurves, KeepsTheScaleOfTheWorld) {
   const Scene disturbed = Disturbed(Wires().scene, 1);
   const auto back =
@@ -198,16 +224,19 @@ struct WrongLens {
   Scene scene = Wires().scene;
   std::vector<EdgeMap> edge_maps = Wires().edge_maps;
 
-  WrongLens() {
-    const Camera truth = scene.cameras[0];
-    const std::vector<double>& p = truth.params;
-    const Camera wrong{CameraModel::kSimpleRadial,
-                       truth.width,
-                       truth.height,
-                       {p[0], p[p.size() - 2], p[p.size() - 1], 0.15}};
+  explicit WrongLens(double true_k = 0, double wrong_k = 0.15) {
+    const Camera pinhole = scene.cameras[0];
+    const std::vector<double>& p = pinhole.params;
+    const auto with = [&](double k) {
+      return Camera{CameraModel::kSimpleRadial,
+                    pinhole.width,
+                    pinhole.height,
+                    {p[0], p[p.size() - 2], p[p.size() - 1], k}};
+    };
+    const Camera truth = with(true_k), wrong = with(wrong_k);
     for (std::size_t i = 0; i < scene.views.size(); ++i) {
       int& camera_idx = scene.views[i].camera_idx;
-      EXPECT_EQ(scene.cameras[static_cast<std::size_t>(camera_idx)], truth);
+      EXPECT_EQ(scene.cameras[static_cast<std::size_t>(camera_idx)], pinhole);
       camera_idx = 0;
       edge_maps[i] = *CarryEdges(edge_maps[i], truth, wrong);
     }
@@ -221,6 +250,17 @@ TEST(RefinePosesWithCurves, MendsALensThatIsOff) {
   ASSERT_TRUE(refined.accepted) << refined.reason;
   EXPECT_LT(std::abs(refined.cameras[0].params[3]), 0.04);
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.15);
+}
+
+// The true lens sees nothing as far from the middle as one edge is.
+TEST(RefinePosesWithCurves, LeavesOutALensThatCannotShowAnEdge) {
+  WrongLens wrong(-0.6, -0.45);
+  Edge2d& edge = wrong.edge_maps[0].edges[0];
+  edge.position = {1, 1};
+  const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
+  EXPECT_THAT(refined.reason, testing::HasSubstr("cannot be inverted"));
+  EXPECT_TRUE(
+      EdgesWithCameras(wrong.scene, wrong.edge_maps, refined.cameras).ok());
 }
 
 TEST(RefinePosesWithCurves, LeavesTheLensIfAsked) {

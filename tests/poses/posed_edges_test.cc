@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poses/posed_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/support/wire_scene.h"
+
+namespace curvix {
+namespace {
+
+class PosedEdgesTest : public testing::Test {
+ protected:
+  CurvePlace SeenByFirst(int num_views) const {
+    CurvePlace place;
+    for (int i = 0; i < num_views; ++i) place.support.push_back({i, 0});
+    return place;
+  }
+  Eigen::Vector3d DirectionOf(std::size_t view_idx) const {
+    return edges_.input_views()[view_idx].center.normalized();
+  }
+
+  const Options options_;
+  const WireScene wires_ = MakeWireScene(CubeAndCircle(), 50);
+  const PosedEdges edges_{wires_.scene, wires_.edge_maps, options_};
+};
+
+TEST_F(PosedEdgesTest, AsksAllSupportersIfTheyAreFew) {
+  const std::vector<std::size_t> views = edges_.ViewsToAsk(SeenByFirst(8));
+  EXPECT_TRUE(std::is_sorted(views.begin(), views.end()));
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_TRUE(std::binary_search(views.begin(), views.end(), i));
+  }
+  EXPECT_GT(views.size(), 8u);
+}
+
+// None is farther from those that are asked than the nearest two of these are
+// from each other.
+TEST_F(PosedEdgesTest, AsksThirtyOfManyFromAllSides) {
+  const std::vector<std::size_t> views = edges_.ViewsToAsk(SeenByFirst(50));
+  ASSERT_EQ(views.size(), 30u);
+  EXPECT_TRUE(std::is_sorted(views.begin(), views.end()));
+  double least = 2;
+  for (const std::size_t i : views) {
+    for (const std::size_t k : views) {
+      if (i == k) continue;
+      least = std::min(least, (DirectionOf(i) - DirectionOf(k)).norm());
+    }
+  }
+  EXPECT_GT(least, 0);
+  for (std::size_t i = 0; i < 50; ++i) {
+    double distance = 2;
+    for (const std::size_t k : views) {
+      distance = std::min(distance, (DirectionOf(i) - DirectionOf(k)).norm());
+    }
+    EXPECT_LE(distance, least + 1e-9) << "view " << i;
+  }
+}
+
+}  // namespace
+}  // namespace curvix
