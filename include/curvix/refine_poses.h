@@ -61,7 +61,8 @@ struct CurvePoses {
 // scene show it.
 // Cameras change if `refine_intrinsics`, and only those that five views or more
 // share: the first eight parameters of their model, or of a model with more
-// terms (SIMPLE_RADIAL, RADIAL, OPENCV).
+// terms (SIMPLE_RADIAL, RADIAL, OPENCV); none if one of the new cameras cannot
+// be inverted at an edge.
 // What is held out to judge by: a fifth of space, and of the points every fifth
 // and those that no view needs. Gains of its parts count as significant if
 // chance, with losses as likely as gains, would give as much once in five

@@ -4,7 +4,6 @@
 #include <curvix/refine_poses.h>
 #include <algorithm>
 #include <cstdio>
-#include <string>
 #include <utility>
 
 #include "base/median.h"
@@ -20,7 +19,6 @@
 namespace curvix {
 namespace {
 
-constexpr int kNumSketches = 2;  // the second with poses that are nearly right
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
 // Edges of exact poses are half as far off; poses a quarter of a pixel off make
 // it twice as much.
@@ -48,7 +46,6 @@ class Refiner {
           bool refine_intrinsics,
           RunRecorder* run)
       : scene_(scene),
-        edge_maps_(edge_maps),
         num_threads_(options.runtime.num_threads),
         search_(scene, edge_maps, options, run->Steps()),
         at_sketch_(search_.edges().moved()) {
@@ -65,13 +62,11 @@ class Refiner {
       return AsTheyAre("the edges are where the poses put them");
     }
     if (!evidence_.points.empty()) AdjustToPoints();
-    for (int i = 0; i < kNumSketches && !search_.is_stopped(); ++i) {
-      search_.AdjustInTurns(&evidence_);
-      if (i + 1 == kNumSketches || !HasMovedSinceSketch()) {
-        break;
-      }
+    search_.AdjustInTurns(&evidence_);
+    if (evidence_.points.empty() && HasMovedSinceSketch()) {
       SketchAgain();
       search_.ShiftViews(evidence_.places);
+      search_.AdjustInTurns(&evidence_);
     }
     if (TryLenses()) {
       SketchAgain();
@@ -80,11 +75,6 @@ class Refiner {
     search_.HoldTheWorld(&evidence_);
     CurvePoses result = Judge();
     if (result.accepted) Finish(&result);
-    if (const Status status = CheckCameras(); !status.ok()) {
-      result.reason += "; " + status.message();
-      result.accepted = false;
-      PutPoses(evidence_, &result);
-    }
     return result;
   }
 
@@ -174,11 +164,6 @@ class Refiner {
     return cameras;
   }
 
-  // Later steps ask for the edges that the cameras show.
-  Status CheckCameras() const {
-    return CanCarryEdges(scene_, edge_maps_, search_.edges().moved().cameras);
-  }
-
   // Refines shared cameras, first by their own terms, then by more. Poses are
   // adjusted to what is held out with either cameras; the new ones are kept if
   // that fits better. Whether cameras have changed.
@@ -207,10 +192,6 @@ class Refiner {
       search_.Adjust(&evidence_);
       std::vector<double> losses = search_.LossesOf(held_out);
       if (IsProven(held_out, best_losses, losses)) {
-        if (const Status status = CheckCameras(); !status.ok()) {
-          left_out_ = "; left out: " + status.message();
-          break;
-        }
         best_losses = std::move(losses);
         best = {search_.edges().moved(), evidence_, shared_lenses_};
       }
@@ -296,7 +277,6 @@ class Refiner {
     result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
     result->reason = text;
     if (!result->accepted) result->reason = "may be chance: " + result->reason;
-    result->reason += left_out_;
     if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
       result->accepted = false;
       result->reason = "too little is left to judge by";
@@ -316,7 +296,9 @@ class Refiner {
                             held_out_.points.end());
     for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
       search_.FindEdges(&evidence_.places);
-      search_.Adjust(&evidence_, PoseSearch::kFineGain);
+      const bool is_last = i + 1 == kNumFinalRounds;
+      search_.Adjust(&evidence_,
+                     is_last ? PoseSearch::kFineGain : PoseSearch::kRoughGain);
     }
     search_.HoldTheWorld(&evidence_);
     PutPoses(evidence_, result);
@@ -360,7 +342,6 @@ class Refiner {
   }
 
   const Scene& scene_;
-  const std::vector<EdgeMap>& edge_maps_;
   const int num_threads_;
   PoseSearch search_;
   std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
@@ -368,7 +349,6 @@ class Refiner {
   PoseEvidence held_out_;
   MovedCameras at_sketch_;                 // the last
   std::vector<CurvePlace> last_held_out_;  // of that sketch
-  std::string left_out_;                   // of camera models, if any
   SpaceCells cells_{{}};
   HeldOutErrors before_;
 };
@@ -387,8 +367,16 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
   if (Status status = Validate(options); !status.ok()) return status;
   RunRecorder run(progress);
   run.Begin("refine_poses_with_curves");
-  CurvePoses result =
-      Refiner(scene, edge_maps, options, refine_intrinsics, &run).Run();
+  const auto refine = [&](bool with_cameras) {
+    return Refiner(scene, edge_maps, options, with_cameras, &run).Run();
+  };
+  CurvePoses result = refine(refine_intrinsics);
+  // Later steps ask for the edges that the cameras show.
+  if (const Status status = CanCarryEdges(scene, edge_maps, result.cameras);
+      !status.ok()) {
+    result = refine(false);
+    result.reason += "; cameras stay: " + status.message();
+  }
   if (run.cancelled()) return run.CancelledStatus();
   return result;
 }
