@@ -30,7 +30,7 @@ struct CurveSample {
 // by the first, which is not repeated.
 struct Curve {
   bool closed = false;
-  // Probably the rim of a smooth body, which lies elsewhere on it in every
+  // Probably an occluding contour, which lies elsewhere on it in every
   // view, rather than an edge of it; or what views show by chance.
   // CurveRefinementOptions::keep_occluding_contours.
   bool is_occluding_contour = false;

@@ -101,7 +101,7 @@ struct ValidationOptions {
   double min_rival_support = 0.6;
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
-  int min_num_own_views = 3;
+  int min_num_exclusive_views = 3;
 };
 
 // Sec. 5, Fig. 6.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "geometry/directions.h"
 #include "plugin/poses/pose_refiners.h"
 
 namespace curvix {
@@ -27,12 +28,6 @@ Eigen::Quaterniond Rotation(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   if (angle == 0) return Eigen::Quaterniond::Identity();
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
-}
-
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return matrix;
 }
 
 // Rotation(w + dw) ~ Rotation(w) Rotation(J dw) for small dw: this is J.

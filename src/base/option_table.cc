@@ -160,7 +160,7 @@ void AddRows(ValidationOptions& o, Section row) {
   row("min_rival_support", &o.min_rival_support, Between(0, 1), "", "",
       "hypotheses of one edge with less than this share of the best one's "
       "support are dropped");
-  row("min_num_own_views", &o.min_num_own_views, AtLeast(0), "", "",
+  row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
       "with every_view: fewest views whose supporting edge shows no stronger "
       "3D edge elsewhere");
 }

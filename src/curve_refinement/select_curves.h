@@ -69,7 +69,7 @@ struct SelectedCurves {
 //      dilution * max(1, s / r) <= allowed * (1 - blurred / max_blurred_share)
 //    or options.max_blurred_share is 1,
 //  * left out as a border of shading, otherwise.
-// The rim of a smooth body lies elsewhere in every view, so its edges scatter,
+// An occluding contour lies elsewhere in every view, so its edges scatter,
 // and shows from directions in one plane, so it is badly determined; what views
 // show by chance scatters, too. r is what is left of the errors of edges,
 // cameras and poses: the lower quartile of the scatter of the sharpest curves,

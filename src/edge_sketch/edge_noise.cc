@@ -12,22 +12,22 @@
 #include "edge_sketch/sketch_by_views.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/image_edge.h"
-#include "geometry/rim.h"
+#include "geometry/occluding_contour.h"
 
 namespace curvix {
 namespace {
 
-constexpr std::size_t kNumEdgesToAsk = 4000;  // in all views
+constexpr std::size_t kNumQueryEdges = 4000;  // in all views
 // The sketch must see larger distances than it expects.
 constexpr double kPilotSigmas = 2;
 constexpr std::size_t kMinNumSupports = 6;
-constexpr double kNumParameters = 3;  // a place across a rim, its radius
+constexpr double kNumParameters = 3;  // a place across a contour, its radius
 constexpr std::size_t kMinNumDistances = 100;
 constexpr double kSigmasOfMedianDistance = 1.4826;
 
-// Of the supports of `edge` from the rim that agrees best with all of them, as
-// large as they would be from the true one. On an edge the radius is zero, and
-// rims of smooth bodies do not count as noise.
+// Of the supports of `edge` from the contour that agrees best with all of them,
+// as large as they would be from the true one. On an edge the radius is zero,
+// and occluding contours of smooth bodies do not count as noise.
 void AddDistances(const Edge3d& edge,
                   const SketchInput& input,
                   double sigma_px,
@@ -39,12 +39,13 @@ void AddDistances(const Edge3d& edge,
     measurements.push_back(
         MeasurePlane(input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
   }
-  Rim start;
+  OccludingContour start;
   start.axis = {edge.position, edge.tangent};
-  const Rim rim = AdjustRim(start, measurements, sigma_px);
+  const OccludingContour contour =
+      AdjustOccludingContour(start, measurements, sigma_px);
   const double n = static_cast<double>(measurements.size());
   for (const PlaneMeasurement& m : measurements) {
-    const double px = DistanceFrom(m, SeenFrom(rim, m.center).position).px;
+    const double px = DistanceFrom(m, SeenFrom(contour, m.center).position).px;
     distances_px.push_back(std::abs(px) * std::sqrt(n / (n - kNumParameters)));
   }
 }
@@ -57,7 +58,7 @@ double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
   for (const EdgeMap& map : input.edge_maps) num_edges += map.edges.size();
   SketchInput pilot = input;
   pilot.sigma_px = kPilotSigmas * least_px;
-  pilot.h1_step = std::max<std::size_t>(1, num_edges / kNumEdgesToAsk);
+  pilot.h1_step = std::max<std::size_t>(1, num_edges / kNumQueryEdges);
   const EdgeSketch sketch =
       SketchByViews(pilot, [&](int, int total) { return step_done(0, total); });
   std::vector<double> distances_px;

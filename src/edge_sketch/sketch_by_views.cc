@@ -10,9 +10,9 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "edge_sketch/asking_edges.h"
-#include "edge_sketch/contested_edges.h"
+#include "edge_sketch/exclusive_support.h"
 #include "edge_sketch/hypothesise.h"
+#include "edge_sketch/query_edges.h"
 #include "edge_sketch/select_validators.h"
 #include "edge_sketch/select_views.h"
 #include "edge_sketch/split_along_contours.h"
@@ -40,7 +40,7 @@ struct H1Result {
 // A partner of an H1 view, and the views to ask about their hypotheses.
 struct Partner {
   HypothesisViews pair;
-  ViewsToAsk to_ask;
+  QueryViews to_ask;
 };
 
 // All partners of an H1 view.
@@ -281,11 +281,11 @@ std::optional<int> NextView(const SketchInput& input,
 // What the unused edges of view h1 that ask lead to, in their order: some along
 // each contour, then, unless images are crowded, those next to one that led to
 // a 3D edge.
-std::vector<H1Result> AskInTurns(const SketchInput& input,
-                                 const ViewSketcher& sketcher,
-                                 int h1,
-                                 const H1View& view,
-                                 const UsedEdges& used) {
+std::vector<H1Result> QueryInTurns(const SketchInput& input,
+                                   const ViewSketcher& sketcher,
+                                   int h1,
+                                   const H1View& view,
+                                   const UsedEdges& used) {
   const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(h1)];
   std::vector<std::optional<H1Result>> results(map.edges.size());
   const auto ask = [&](const std::vector<std::int32_t>& edge_idxs) {
@@ -302,7 +302,7 @@ std::vector<H1Result> AskInTurns(const SketchInput& input,
     return result && !result->tracked.empty();
   };
   TwoTurns turns = SplitAlongContours(
-      EdgesToAsk(input, h1, used), map.neighbors, LinksBetweenAsking(input));
+      QueryEdges(input, h1, used), map.neighbors, LinksBetweenQueries(input));
   ask(turns.first);
   if (AreCrowded(input.edge_maps)) turns.second.clear();
   std::erase_if(turns.second, [&](std::int32_t edge_idx) {
@@ -323,7 +323,7 @@ void Add(H1Result result,
          UsedEdges& used,
          EdgeSketch& sketch) {
   const std::vector<EdgeMap>& edge_maps = input.edge_maps;
-  const int num_links = LinksBetweenAsking(input) - 1;
+  const int num_links = LinksBetweenQueries(input) - 1;
   ++sketch.counts.h1_edges;
   sketch.counts.hypotheses += result.hypotheses;
   sketch.counts.unsupported += result.unsupported;
@@ -350,16 +350,17 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     done[static_cast<std::size_t>(*h1)] = true;
     const H1View view = sketcher.Prepare(*h1);
     sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
-    for (H1Result& result : AskInTurns(input, sketcher, *h1, view, used)) {
+    for (H1Result& result : QueryInTurns(input, sketcher, *h1, view, used)) {
       Add(std::move(result), input, used, sketch);
     }
   }
   sketch.counts.used_edges = used.total();
   const std::size_t num_confirmed = sketch.edges.size();
-  sketch.edges = DropContested(std::move(sketch.edges),
-                               input.views,
-                               input.edge_maps,
-                               input.options.validation.min_num_own_views);
+  sketch.edges = DropWithoutExclusiveSupport(
+      std::move(sketch.edges),
+      input.views,
+      input.edge_maps,
+      input.options.validation.min_num_exclusive_views);
   sketch.counts.rivals +=
       static_cast<std::int64_t>(num_confirmed - sketch.edges.size());
   return sketch;

@@ -81,7 +81,7 @@ std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
        search.min_cosine});
 }
 
-std::size_t FewestToGoOn(const ViewsToAsk& to_ask) {
+std::size_t FewestToGoOn(const QueryViews& to_ask) {
   return std::min(kFewestToGoOn, to_ask.fewest_supports);
 }
 
@@ -203,7 +203,7 @@ std::size_t FewestSupports(const ValidationOptions& options,
 
 bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
-                    const ViewsToAsk& to_ask) {
+                    const QueryViews& to_ask) {
   const std::vector<std::int32_t>& asked = to_ask.first;
   const std::size_t fewest = FewestToGoOn(to_ask);
   std::size_t num_found = 0;
@@ -219,7 +219,7 @@ std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
     const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const ViewsToAsk& to_ask,
+    const QueryViews& to_ask,
     double sigma_px,
     const ValidationOptions& options) {
   const Search search = MakeSearch(sigma_px, options);

@@ -24,7 +24,7 @@ struct TrackedEdge {
 };
 
 // Which views to ask about hypotheses of one pair of hypothesis views.
-struct ViewsToAsk {
+struct QueryViews {
   // The views next to the hypothesis views, then these themselves, which hardly
   // ever tell a wrong hypothesis from a right one.
   std::vector<std::int32_t> first;
@@ -50,7 +50,7 @@ std::size_t FewestSupports(const ValidationOptions& options,
 // is made.
 bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
-                    const ViewsToAsk& to_ask);
+                    const QueryViews& to_ask);
 
 // Looks for the support of `start`. Two rays fix a 3D edge to a few tenths of a
 // pixel in their own views and to several pixels in a view at a right angle; so
@@ -66,7 +66,7 @@ std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,
     const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const ViewsToAsk& to_ask,
+    const QueryViews& to_ask,
     double sigma_px,
     const ValidationOptions& options);
 

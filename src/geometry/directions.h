@@ -19,6 +19,13 @@ inline AcrossAxes AxesAcross(const Eigen::Vector3d& tangent) {
   return axes;
 }
 
+// CrossMatrix(v) * w is v x w.
+inline Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
 // In [0, pi], of vectors of any length; exact for small angles, too.
 inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -7,17 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/directions.h"
+
 namespace curvix {
-namespace {
-
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
-}  // namespace
-
 std::optional<EpipolarPencil> EpipolarPencil::Make(const PosedView& view1,
                                                    const PosedView& view2) {
   const Eigen::Vector3d baseline = view2.center - view1.center;

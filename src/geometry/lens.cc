@@ -44,7 +44,7 @@ Camera WithParams(const Camera& camera,
 
 }  // namespace
 
-ImageEdge EdgeInPhotograph(const ImageEdge& ideal, const Camera& camera) {
+ImageEdge EdgeInImage(const ImageEdge& ideal, const Camera& camera) {
   if (IsPinhole(camera)) return ideal;
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   const Eigen::Array2d focal = calibration.diagonal().head<2>();
@@ -56,17 +56,17 @@ ImageEdge EdgeInPhotograph(const ImageEdge& ideal, const Camera& camera) {
               .normalized()};
 }
 
-std::optional<ImageEdge> EdgeInIdealImage(const ImageEdge& in_photograph,
+std::optional<ImageEdge> EdgeInIdealImage(const ImageEdge& in_image,
                                           const Camera& camera) {
-  if (IsPinhole(camera)) return in_photograph;
-  const auto uv = IdealFromImage(camera, in_photograph.position);
+  if (IsPinhole(camera)) return in_image;
+  const auto uv = IdealFromImage(camera, in_image.position);
   if (!uv) return std::nullopt;
   const Eigen::Matrix2d image_from_ideal = ImageFromIdealJacobian(camera, *uv);
   if (!(image_from_ideal.determinant() > 0)) return std::nullopt;
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   return ImageEdge{(calibration * uv->homogeneous()).head<2>(),
                    (calibration.topLeftCorner<2, 2>() *
-                    image_from_ideal.inverse() * in_photograph.tangent)
+                    image_from_ideal.inverse() * in_image.tangent)
                        .normalized()};
 }
 
@@ -74,7 +74,7 @@ std::optional<ImageEdge> CarryEdge(const ImageEdge& edge,
                                    const Camera& from,
                                    const Camera& to) {
   if (from == to) return edge;
-  return EdgeInIdealImage(EdgeInPhotograph(edge, from), to);
+  return EdgeInIdealImage(EdgeInImage(edge, from), to);
 }
 
 Lens::Lens(const Camera& start) : start_(start) {

@@ -12,11 +12,11 @@
 namespace curvix {
 
 // An edge of the camera's ideal pinhole in its photographs.
-ImageEdge EdgeInPhotograph(const ImageEdge& ideal, const Camera& camera);
+ImageEdge EdgeInImage(const ImageEdge& ideal, const Camera& camera);
 
 // An edge of the camera's photographs in its ideal pinhole; nothing where the
 // camera cannot be inverted or mirrors the image.
-std::optional<ImageEdge> EdgeInIdealImage(const ImageEdge& in_photograph,
+std::optional<ImageEdge> EdgeInIdealImage(const ImageEdge& in_image,
                                           const Camera& camera);
 
 // An edge of the ideal pinhole of `from` in that of `to`, in the same

@@ -21,7 +21,7 @@ struct Validated {
   std::vector<std::int32_t> members;
 };
 
-struct H1Result {
+struct PairResult {
   std::vector<Validated> validated;
   std::int64_t hypotheses = 0;
   std::int64_t rivals = 0;
@@ -51,8 +51,8 @@ class PairSketcher {
                 });
   }
 
-  H1Result Sketch(const Edge2d& edge1) const {
-    H1Result result;
+  PairResult Sketch(const Edge2d& edge1) const {
+    PairResult result;
     std::size_t most = 0;
     const Hypotheses found = hypothesis_views_.Hypothesise(edge1);
     for (const Hypothesis& hypothesis : found.hypotheses) {
@@ -117,12 +117,12 @@ Edge3d ToEdge3d(const Validated& validated, const EdgeRef& h1, int h2) {
   return edge;
 }
 
-void Collect(const std::vector<H1Result>& results,
+void Collect(const std::vector<PairResult>& results,
              const ViewPair& pair,
              EdgeSketch& sketch,
              UsedEdges& used) {
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const H1Result& result = results[i];
+    const PairResult& result = results[i];
     const EdgeRef h1{pair.h1, static_cast<std::int32_t>(i)};
     ++sketch.counts.h1_edges;
     sketch.counts.hypotheses += result.hypotheses;
@@ -177,7 +177,7 @@ EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
     if (!hypothesis_views) continue;
     const PairSketcher sketcher(input, *pair, *hypothesis_views);
     const std::vector<Edge2d>& edges = input.edge_maps[h1].edges;
-    std::vector<H1Result> results(edges.size());
+    std::vector<PairResult> results(edges.size());
     ParallelFor(edges.size(),
                 input.options.runtime.num_threads,
                 [&](std::size_t i) { results[i] = sketcher.Sketch(edges[i]); });

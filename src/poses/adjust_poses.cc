@@ -30,20 +30,20 @@ constexpr int kMaxNumIterations = 25;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 
-// A small motion of a camera in its own frame: rotation vector, translation.
-using Motion = Vector6d;
+// A small increment of a camera in its own frame: rotation vector, translation.
+using PoseIncrement = Vector6d;
 
-Motion ToMotion(const Rigid3& rigid) {
+PoseIncrement ToIncrement(const Rigid3& rigid) {
   const Eigen::AngleAxisd turn(rigid.rotation);
-  Motion motion;
-  motion << turn.angle() * turn.axis(), rigid.translation;
-  return motion;
+  PoseIncrement increment;
+  increment << turn.angle() * turn.axis(), rigid.translation;
+  return increment;
 }
 
-Rigid3 FromMotion(const Motion& motion) {
-  const Eigen::Vector3d turn = motion.head<3>();
+Rigid3 FromIncrement(const PoseIncrement& increment) {
+  const Eigen::Vector3d turn = increment.head<3>();
   Rigid3 rigid;
-  rigid.translation = motion.tail<3>();
+  rigid.translation = increment.tail<3>();
   const double angle = turn.norm();
   if (angle > 0) rigid.rotation = Eigen::AngleAxisd(angle, turn / angle);
   return rigid;
@@ -78,18 +78,18 @@ constexpr Loss kPriorLoss{kPriorLossScale * kPriorLossScale};
 
 // Where the search stands.
 struct State {
-  std::vector<Motion> motions;     // by view
-  std::vector<LensChange> lenses;  // by camera
+  std::vector<PoseIncrement> increments;  // by view
+  std::vector<LensChange> lenses;         // by camera
   // By sample: of the axis across itself, and of the radius. Then by point.
   std::vector<Eigen::Vector3d> offsets;
 };
 
-std::vector<Rigid3> RigidMotions(const State& state) {
-  std::vector<Rigid3> motions;
-  for (const Motion& motion : state.motions) {
-    motions.push_back(FromMotion(motion));
+std::vector<Rigid3> RigidIncrements(const State& state) {
+  std::vector<Rigid3> increments;
+  for (const PoseIncrement& increment : state.increments) {
+    increments.push_back(FromIncrement(increment));
   }
-  return motions;
+  return increments;
 }
 
 class Search {
@@ -99,8 +99,8 @@ class Search {
         min_gain_(problem.min_gain),
         owners_(OwnersOf(problem)),
         seen_(ObservationsOf(problem)) {
-    for (const Rigid3& motion : start.new_cam_from_cam) {
-      state_.motions.push_back(ToMotion(motion));
+    for (const Rigid3& increment : start.new_cam_from_cam) {
+      state_.increments.push_back(ToIncrement(increment));
     }
     for (const Camera& camera : start.cameras) lenses_.emplace_back(camera);
     state_.lenses.assign(lenses_.size(), LensChange::Zero());
@@ -168,7 +168,7 @@ class Search {
     return cameras;
   }
 
-  // What a motion is multiplied by to give six residuals, each 1 where it
+  // What a increment is multiplied by to give six residuals, each 1 where it
   // shifts the image by prior_px. None for a view without samples.
   Vector6d PriorFactors(const PoseProblem& problem,
                         std::size_t view_idx) const {
@@ -193,14 +193,14 @@ class Search {
 
   // By observation; infinite if a sample is behind a camera.
   std::vector<double> Costs(const State& state) const {
-    const std::vector<Rigid3> motions = RigidMotions(state);
+    const std::vector<Rigid3> increments = RigidIncrements(state);
     const std::vector<CameraState> cameras = CameraStates(state, false);
     std::vector<double> costs(seen_.size());
     ParallelFor(costs.size(), num_threads_, [&](std::size_t e) {
       const auto [view_idx, sample_idx] = owners_.of_equation[e];
       const PoseObservation& seen = seen_[e];
       const Eigen::Vector3d x =
-          motions[view_idx] *
+          increments[view_idx] *
           (seen.position + seen.moves * state.offsets[sample_idx]);
       const double residual = seen.direction.dot(
           ImageFromIdeal(cameras[seen.camera_idx].camera(), x.hnormalized()) -
@@ -214,9 +214,9 @@ class Search {
   double Cost(const State& state) const {
     double sum = 0;
     for (const double cost : Costs(state)) sum += cost;
-    for (std::size_t i = 0; i < state.motions.size(); ++i) {
+    for (std::size_t i = 0; i < state.increments.size(); ++i) {
       sum += kPriorLoss(
-          prior_factors_[i].cwiseProduct(state.motions[i]).squaredNorm());
+          prior_factors_[i].cwiseProduct(state.increments[i]).squaredNorm());
     }
     for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
       sum += lens_factors_[i].cwiseProduct(state.lenses[i]).squaredNorm();
@@ -226,7 +226,7 @@ class Search {
 
   State Next(double damping) const {
     std::vector<StepEquation> equations(seen_.size());
-    std::vector<StepPrior> priors(state_.motions.size());
+    std::vector<StepPrior> priors(state_.increments.size());
     const std::vector<CameraState> cameras = CameraStates(state_, true);
     ParallelFor(priors.size(), num_threads_, [&](std::size_t i) {
       Linearise(i, cameras, equations);
@@ -240,8 +240,8 @@ class Search {
     const Steps steps = SolveSteps(
         owners_, equations, priors, lens_priors, damping, num_threads_);
     State next = state_;
-    for (std::size_t i = 0; i < next.motions.size(); ++i) {
-      next.motions[i] += steps.motions[i];
+    for (std::size_t i = 0; i < next.increments.size(); ++i) {
+      next.increments[i] += steps.increments[i];
     }
     for (std::size_t i = 0; i < steps.lenses.size(); ++i) {
       next.lenses[i] += steps.lenses[i];
@@ -256,10 +256,10 @@ class Search {
   void Linearise(std::size_t view_idx,
                  const std::vector<CameraState>& cameras,
                  std::vector<StepEquation>& equations) const {
-    const Motion& motion = state_.motions[view_idx];
-    const Rigid3 rigid = FromMotion(motion);
+    const PoseIncrement& increment = state_.increments[view_idx];
+    const Rigid3 rigid = FromIncrement(increment);
     const Eigen::Matrix3d rotation = rigid.rotation.toRotationMatrix();
-    const Eigen::Matrix3d left_jacobian = LeftJacobian(motion.head<3>());
+    const Eigen::Matrix3d left_jacobian = LeftJacobian(increment.head<3>());
     for (const std::size_t e : owners_.by_view[view_idx]) {
       const PoseObservation& seen = seen_[e];
       const CameraState& camera = cameras[seen.camera_idx];
@@ -280,8 +280,7 @@ class Search {
                                  -by_ideal.dot(ideal) / x.z());
       StepEquation& equation = equations[e];
       equation.residual = root * residual;
-      equation.by_motion << left_jacobian.transpose() * turned.cross(by_x),
-          by_x;
+      equation.by_pose << left_jacobian.transpose() * turned.cross(by_x), by_x;
       equation.by_offset =
           seen.moves.transpose() * (rotation.transpose() * by_x);
       if (IsFree(seen.camera_idx)) {
@@ -292,7 +291,8 @@ class Search {
 
   StepPrior LinearPrior(std::size_t view_idx) const {
     const Vector6d& factors = prior_factors_[view_idx];
-    const Vector6d residuals = factors.cwiseProduct(state_.motions[view_idx]);
+    const Vector6d residuals =
+        factors.cwiseProduct(state_.increments[view_idx]);
     const double root = kPriorLoss.RootOfWeight(residuals.squaredNorm());
     return {root * factors, root * residuals};
   }
@@ -318,15 +318,16 @@ AdjustedPoses AdjustPoses(const PoseProblem& problem,
   AdjustedPoses adjusted;
   adjusted.moved = start;
   if (search.Run(keep_going)) {
-    adjusted.moved = {RigidMotions(search.state()), search.Cameras()};
+    adjusted.moved = {RigidIncrements(search.state()), search.Cameras()};
   }
   adjusted.costs = search.CostsBySample();
   std::size_t next = 0;
   for (const PoseSample& sample : problem.samples) {
-    Rim& rim = adjusted.rims.emplace_back(sample.rim);
+    OccludingContour& contour = adjusted.contours.emplace_back(sample.contour);
     const Eigen::Vector3d& offset = search.state().offsets[next++];
-    rim.axis.position += AxesAcross(rim.axis.tangent) * offset.head<2>();
-    rim.radius += offset.z();
+    contour.axis.position +=
+        AxesAcross(contour.axis.tangent) * offset.head<2>();
+    contour.radius += offset.z();
   }
   for (const PointSample& point : problem.points) {
     adjusted.points.push_back(point.position + search.state().offsets[next++]);

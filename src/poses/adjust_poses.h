@@ -3,21 +3,21 @@
 // together.
 //
 // An edge in an image says nothing about the place along it. So a sample moves
-// only across its tangent, and its radius changes (geometry/rim.h); each of its
-// edges gives one equation between these three unknowns, the six of the view's
-// pose and those of its camera. A point has three unknowns, too, and each view
-// that sees it gives two equations.
+// only across its tangent, and its radius changes
+// (geometry/occluding_contour.h); each of its edges gives one equation between
+// these three unknowns, the six of the view's pose and those of its camera. A
+// point has three unknowns, too, and each view that sees it gives two
+// equations.
 #pragma once
 
 #include <curvix/scene.h>
-
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "geometry/edge_geometry.h"
-#include "geometry/rim.h"
+#include "geometry/occluding_contour.h"
 
 namespace curvix {
 
@@ -27,7 +27,7 @@ struct PoseSample {
     std::int32_t view_idx = 0;
     ImageEdge edge;  // in pixels of the photograph
   };
-  Rim rim;
+  OccludingContour contour;
   std::vector<Observation> observations;  // at most one per view
 };
 
@@ -67,8 +67,8 @@ struct PoseProblem {
 struct AdjustedPoses {
   // Views and cameras without observations are as they were at the start.
   MovedCameras moved;
-  std::vector<Rim> rims;                // of the samples
-  std::vector<Eigen::Vector3d> points;  // positions
+  std::vector<OccludingContour> contours;  // of the samples
+  std::vector<Eigen::Vector3d> points;     // positions
   // The loss of each sample, then of each point, over its observations.
   std::vector<double> costs;
 };

@@ -23,23 +23,23 @@ using Error = std::optional<double>;
 // The errors of a place fitted to the poses of `edges`, in its views to ask.
 std::vector<Error> ErrorsOfPlace(const CurvePlace& start,
                                  const PosedEdges& edges) {
-  const std::vector<std::size_t> views = edges.ViewsToAsk(start);
+  const std::vector<std::size_t> views = edges.QueryViews(start);
   CurvePlace place = start;
   struct Pass {
     double gate_px, sigma_px;
   };
   for (const Pass& pass : {Pass{2, 0.5}, Pass{1, 0.25}, Pass{1, 0.15}}) {
     const std::vector<double> gates(edges.views().size(), pass.gate_px);
-    place.support = edges.FindEdges(place.rim, views, gates);
-    place.rim = edges.Adjusted(place, pass.sigma_px);
+    place.support = edges.FindEdges(place.contour, views, gates);
+    place.contour = edges.Adjusted(place, pass.sigma_px);
   }
   const std::vector<double> gates(edges.views().size(), kMaxErrorPx);
   std::vector<Error> errors(views.size());
-  for (const EdgeRef& ref : edges.FindEdges(place.rim, views, gates)) {
+  for (const EdgeRef& ref : edges.FindEdges(place.contour, views, gates)) {
     const auto found = std::lower_bound(
         views.begin(), views.end(), static_cast<std::size_t>(ref.view_idx));
     errors[static_cast<std::size_t>(found - views.begin())] =
-        std::min(kMaxErrorPx, edges.Distance(place.rim, ref));
+        std::min(kMaxErrorPx, edges.Distance(place.contour, ref));
   }
   return errors;
 }
@@ -88,7 +88,7 @@ double GainsByCell::Significance() const {
   return squares > 0 ? Sum() / std::sqrt(squares) : 0;
 }
 
-HeldOutErrors MeasureHeldOut(const PoseEvidence& held_out,
+HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
                              int num_threads,
                              const PosedEdges& edges) {
   HeldOutErrors errors;
@@ -103,13 +103,13 @@ HeldOutErrors MeasureHeldOut(const PoseEvidence& held_out,
   return errors;
 }
 
-std::vector<ErrorPair> PairErrors(const PoseEvidence& held_out,
+std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
                                   const HeldOutErrors& before,
                                   const HeldOutErrors& after,
                                   const PosedEdges& edges) {
   std::vector<ErrorPair> pairs;
   for (std::size_t i = 0; i < held_out.places.size(); ++i) {
-    const std::vector<std::size_t> views = edges.ViewsToAsk(held_out.places[i]);
+    const std::vector<std::size_t> views = edges.QueryViews(held_out.places[i]);
     for (std::size_t k = 0; k < views.size(); ++k) {
       const Error& from = before.places[i][k];
       const Error& to = after.places[i][k];
@@ -121,7 +121,7 @@ std::vector<ErrorPair> PairErrors(const PoseEvidence& held_out,
   return pairs;
 }
 
-SignificanceOfGain CompareErrors(const PoseEvidence& held_out,
+SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
                                  const SpaceCells& cells,
                                  const HeldOutErrors& before,
                                  const HeldOutErrors& after,

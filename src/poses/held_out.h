@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "poses/pose_evidence.h"
+#include "poses/pose_observation_set.h"
 #include "poses/posed_edges.h"
 
 namespace curvix {
@@ -22,7 +22,7 @@ struct HeldOutErrors {
   std::vector<std::vector<double>> points;
 };
 
-HeldOutErrors MeasureHeldOut(const PoseEvidence& held_out,
+HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
                              int num_threads,
                              const PosedEdges& edges);
 
@@ -35,7 +35,7 @@ struct ErrorPair {
   double after = 0;
 };
 
-std::vector<ErrorPair> PairErrors(const PoseEvidence& held_out,
+std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
                                   const HeldOutErrors& before,
                                   const HeldOutErrors& after,
                                   const PosedEdges& edges);
@@ -70,7 +70,7 @@ struct SignificanceOfGain {
 SignificanceOfGain Together(const GainsByCell& places,
                             const GainsByCell& points);
 
-SignificanceOfGain CompareErrors(const PoseEvidence& held_out,
+SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
                                  const SpaceCells& cells,
                                  const HeldOutErrors& before,
                                  const HeldOutErrors& after,

@@ -19,14 +19,14 @@ Eigen::Vector3d CenterOf(const Rigid3& cam_from_world) {
 }
 
 PoseObservation ObservationOfEdge(const View& view,
-                                  const Rim& rim,
+                                  const OccludingContour& contour,
                                   const ImageEdge& edge,
                                   double sigma_px) {
   const Rigid3& pose = view.cam_from_world;
   const Eigen::Vector3d center = CenterOf(pose);
   Eigen::Matrix3d moves;
-  moves << AxesAcross(rim.axis.tangent), SideSeenFrom(rim, center);
-  return {pose * SeenFrom(rim, center).position,
+  moves << AxesAcross(contour.axis.tangent), SideSeenFrom(contour, center);
+  return {pose * SeenFrom(contour, center).position,
           pose.rotation.toRotationMatrix() * moves,
           Eigen::Vector2d(-edge.tangent.y(), edge.tangent.x()) / sigma_px,
           edge.position,
@@ -80,8 +80,8 @@ std::vector<PoseObservation> ObservationsOf(const PoseProblem& problem) {
     for (const PoseSample::Observation& seen : sample.observations) {
       const double sigma_px =
           problem.sigmas_px[static_cast<std::size_t>(seen.view_idx)];
-      all.push_back(
-          ObservationOfEdge(view_of(seen), sample.rim, seen.edge, sigma_px));
+      all.push_back(ObservationOfEdge(
+          view_of(seen), sample.contour, seen.edge, sigma_px));
     }
   }
   for (const PointSample& point : problem.points) {

@@ -10,7 +10,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "poses/find_shift.h"
-#include "poses/hold_world.h"
+#include "poses/gauge.h"
 #include "poses/residual_spread.h"
 
 namespace curvix {
@@ -112,9 +112,9 @@ bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
     const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
     const Eigen::Vector3d turn(
         -shift.y() / calibration(1, 1), shift.x() / calibration(0, 0), 0);
-    Rigid3 motion;
-    motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-    moved.new_cam_from_cam[i] = motion * moved.new_cam_from_cam[i];
+    Rigid3 increment;
+    increment.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    moved.new_cam_from_cam[i] = increment * moved.new_cam_from_cam[i];
   });
   edges_.Move(moved);
   sigmas_px_.assign(num_views, kFirstSigmaPx);
@@ -129,7 +129,7 @@ void PoseSearch::FindEdges(std::vector<CurvePlace>* places) const {
   ParallelFor(places->size(), num_threads_, [&](std::size_t i) {
     CurvePlace& place = (*places)[i];
     place.support =
-        edges_.FindEdges(place.rim, edges_.ViewsToAsk(place), gates_px);
+        edges_.FindEdges(place.contour, edges_.QueryViews(place), gates_px);
   });
   std::erase_if(*places, [](const CurvePlace& place) {
     return place.support.size() < kMinSupportsOfPlace;
@@ -142,7 +142,7 @@ std::vector<std::vector<double>> PoseSearch::DistancesByView(
   for (const CurvePlace& place : places) {
     for (const EdgeRef& ref : place.support) {
       distances[static_cast<std::size_t>(ref.view_idx)].push_back(
-          edges_.Distance(place.rim, ref));
+          edges_.Distance(place.contour, ref));
     }
   }
   return distances;
@@ -161,7 +161,7 @@ void PoseSearch::UpdateSigmas(const std::vector<CurvePlace>& places) {
   });
 }
 
-void PoseSearch::AdjustInTurns(PoseEvidence* evidence) {
+void PoseSearch::AdjustInTurns(PoseObservationSet* evidence) {
   double error_px = kMaxSigmaPx;
   for (int turn = 0; turn < kMaxNumTurns && !is_stopped_; ++turn) {
     FindEdges(&evidence->places);
@@ -173,17 +173,16 @@ void PoseSearch::AdjustInTurns(PoseEvidence* evidence) {
   }
 }
 
-AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
+AdjustedPoses PoseSearch::Solve(const PoseObservationSet& evidence,
                                 double prior_px,
                                 const std::vector<bool>& free_lenses,
                                 double min_gain) {
   std::vector<PoseSample> samples;
   for (const CurvePlace& place : evidence.places) {
     PoseSample& sample = samples.emplace_back();
-    sample.rim = place.rim;
+    sample.contour = place.contour;
     for (const EdgeRef& ref : place.support) {
-      sample.observations.push_back(
-          {ref.view_idx, edges_.EdgeInPhotograph(ref)});
+      sample.observations.push_back({ref.view_idx, edges_.EdgeInImage(ref)});
     }
   }
   return AdjustPoses({scene_,
@@ -201,12 +200,12 @@ AdjustedPoses PoseSearch::Solve(const PoseEvidence& evidence,
 
 // Points hold poses better than a narrow prior, which would keep the drift of
 // all.
-double PoseSearch::PriorFor(const PoseEvidence& evidence) const {
+double PoseSearch::PriorFor(const PoseObservationSet& evidence) const {
   if (!free_lenses_.empty()) return kPriorOfFreeLensesPx;
   return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
 }
 
-void PoseSearch::Adjust(PoseEvidence* evidence, double min_gain) {
+void PoseSearch::Adjust(PoseObservationSet* evidence, double min_gain) {
   const AdjustedPoses adjusted =
       Solve(*evidence, PriorFor(*evidence), free_lenses_, min_gain);
   edges_.Move(adjusted.moved);
@@ -215,31 +214,31 @@ void PoseSearch::Adjust(PoseEvidence* evidence, double min_gain) {
   }
   ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
     CurvePlace& place = evidence->places[i];
-    place.rim = adjusted.rims[i];
-    place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
+    place.contour = adjusted.contours[i];
+    place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
   });
   prior_px_ = std::clamp(
       MedianShift(*evidence, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }
 
-void PoseSearch::Fit(PoseEvidence* evidence) const {
+void PoseSearch::Fit(PoseObservationSet* evidence) const {
   ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
     CurvePlace& place = evidence->places[i];
-    place.rim = edges_.Adjusted(place, kPlaceSigmaPx);
+    place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
   });
   ParallelFor(evidence->points.size(), num_threads_, [&](std::size_t i) {
     evidence->points[i].position = Fitted(evidence->points[i]);
   });
 }
 
-std::vector<double> PoseSearch::LossesOf(const PoseEvidence& evidence) {
-  PoseEvidence fitted = evidence;
+std::vector<double> PoseSearch::LossesOf(const PoseObservationSet& evidence) {
+  PoseObservationSet fitted = evidence;
   Fit(&fitted);
   return Solve(fitted, kFirstPriorPx, {}, kRoughGain).costs;
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(
-    const PoseEvidence& evidence, const MovedCameras& before) const {
+    const PoseObservationSet& evidence, const MovedCameras& before) const {
   std::vector<std::vector<double>> shifts(scene_.views.size());
   VisitSeen(evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
     if (const auto shift = edges_.ShiftIn(i, x, before)) {
@@ -255,7 +254,7 @@ std::vector<std::optional<double>> PoseSearch::Shifts(
   return medians;
 }
 
-double PoseSearch::MedianShift(const PoseEvidence& evidence,
+double PoseSearch::MedianShift(const PoseObservationSet& evidence,
                                const MovedCameras& before) const {
   std::vector<double> medians;
   for (const std::optional<double>& shift : Shifts(evidence, before)) {
@@ -269,7 +268,7 @@ Eigen::Vector3d PoseSearch::Fitted(const PointSample& point) const {
 }
 
 std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
-    const PoseEvidence& evidence) {
+    const PoseObservationSet& evidence) {
   const MovedCameras moved = edges_.moved();
   edges_.Move(edges_.Unmoved());
   const std::size_t num_places = evidence.places.size();
@@ -286,7 +285,7 @@ std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
 
 // Cameras would tell the unit worse: with another focal length they stand
 // elsewhere.
-void PoseSearch::RestoreUnit(PoseEvidence* evidence) {
+void PoseSearch::RestoreScale(PoseObservationSet* evidence) {
   const double unit =
       MedianRatio(PositionsByInput(*evidence), PositionsOf(*evidence));
   MovedCameras moved = edges_.moved();
@@ -297,21 +296,21 @@ void PoseSearch::RestoreUnit(PoseEvidence* evidence) {
   }
   edges_.Move(moved);
   for (CurvePlace& place : evidence->places) {
-    place.rim.axis.position *= unit;
-    place.rim.radius *= unit;
+    place.contour.axis.position *= unit;
+    place.contour.radius *= unit;
   }
   for (PointSample& point : evidence->points) point.position *= unit;
 }
 
-void PoseSearch::HoldTheWorld(PoseEvidence* evidence) {
-  RestoreUnit(evidence);
+void PoseSearch::HoldTheWorld(PoseObservationSet* evidence) {
+  RestoreScale(evidence);
   std::vector<SeenPlace> seen;
   VisitSeen(*evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
     if (const auto pixel = edges_.PixelByInputCamera(i, x)) {
       seen.push_back({i, x, *pixel});
     }
   });
-  const Rigid3 new_from_old = HoldWorld(edges_.input_views(), seen).Inverse();
+  const Rigid3 new_from_old = FixGauge(edges_.input_views(), seen).Inverse();
   MovedCameras moved = edges_.moved();
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     const Rigid3& pose = scene_.views[i].cam_from_world;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "poses/pose_evidence.h"
+#include "poses/pose_observation_set.h"
 #include "poses/posed_edges.h"
 
 namespace curvix {
@@ -48,31 +48,31 @@ class PoseSearch {
 
   // Adjusts poses, cameras that are free, places and points to each other,
   // until a step gains less than a share of the loss.
-  void Adjust(PoseEvidence* evidence, double min_gain = kRoughGain);
+  void Adjust(PoseObservationSet* evidence, double min_gain = kRoughGain);
 
   // Finds edges and adjusts in turns, until edges come no nearer.
-  void AdjustInTurns(PoseEvidence* evidence);
+  void AdjustInTurns(PoseObservationSet* evidence);
 
   // Finds the edges of the places anew; drops places with few.
   void FindEdges(std::vector<CurvePlace>* places) const;
 
   // Fits places and points to poses and cameras as they are.
-  void Fit(PoseEvidence* evidence) const;
+  void Fit(PoseObservationSet* evidence) const;
 
   // The loss of each place, then of each point, once poses are adjusted to
   // `evidence` alone and cameras stay. Nothing moves.
-  std::vector<double> LossesOf(const PoseEvidence& evidence);
+  std::vector<double> LossesOf(const PoseObservationSet& evidence);
 
   // Brings the world back to the unit that places and points have by the poses
   // of the scene, and to where these show it.
-  void HoldTheWorld(PoseEvidence* evidence);
+  void HoldTheWorld(PoseObservationSet* evidence);
 
   // How far pictures have shifted since `before`, by view: the median over what
   // the view shows of `evidence`; nothing in views that show too little of it.
-  std::vector<std::optional<double>> Shifts(const PoseEvidence& evidence,
+  std::vector<std::optional<double>> Shifts(const PoseObservationSet& evidence,
                                             const MovedCameras& before) const;
   // Of the typical view.
-  double MedianShift(const PoseEvidence& evidence,
+  double MedianShift(const PoseObservationSet& evidence,
                      const MovedCameras& before) const;
 
  private:
@@ -81,13 +81,14 @@ class PoseSearch {
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;
   void UpdateSigmas(const std::vector<CurvePlace>& places);
-  double PriorFor(const PoseEvidence& evidence) const;
-  AdjustedPoses Solve(const PoseEvidence& evidence,
+  double PriorFor(const PoseObservationSet& evidence) const;
+  AdjustedPoses Solve(const PoseObservationSet& evidence,
                       double prior_px,
                       const std::vector<bool>& free_lenses,
                       double min_gain);
-  std::vector<Eigen::Vector3d> PositionsByInput(const PoseEvidence& evidence);
-  void RestoreUnit(PoseEvidence* evidence);
+  std::vector<Eigen::Vector3d> PositionsByInput(
+      const PoseObservationSet& evidence);
+  void RestoreScale(PoseObservationSet* evidence);
 
   const Scene& scene_;
   const int num_threads_;

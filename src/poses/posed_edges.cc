@@ -23,8 +23,8 @@ namespace {
 
 // Edges that ask for hypotheses, in all views: some half of them lead to a
 // place, and a view sees some half of the places.
-constexpr std::size_t kNumEdgesToAsk = 2500;
-constexpr std::size_t kNumEdgesToAskPerView = 50;
+constexpr std::size_t kNumQueryEdges = 2500;
+constexpr std::size_t kNumQueryEdgesPerView = 50;
 constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 constexpr double kMinCosine = 0.9659258;  // 15 degrees
@@ -77,10 +77,10 @@ const Camera& PosedEdges::InputCameraOf(std::size_t view_idx) const {
       .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
 }
 
-std::optional<ImageEdge> PosedEdges::Seen(const Rim& rim,
+std::optional<ImageEdge> PosedEdges::Seen(const OccludingContour& contour,
                                           std::size_t view_idx) const {
   const PosedView& view = views_[view_idx];
-  const auto seen = ProjectEdge(view, SeenFrom(rim, view.center));
+  const auto seen = ProjectEdge(view, SeenFrom(contour, view.center));
   if (!seen || !view.Contains(seen->position)) return std::nullopt;
   return CarryEdge(*seen, CameraOf(view_idx), InputCameraOf(view_idx));
 }
@@ -99,7 +99,7 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
   std::size_t num_edges = 0;
   for (const EdgeMap& map : edge_maps_) num_edges += map.edges.size();
   const std::size_t num_asked =
-      std::max(kNumEdgesToAsk, kNumEdgesToAskPerView * views_.size());
+      std::max(kNumQueryEdges, kNumQueryEdgesPerView * views_.size());
   Options options = options_;
   options.hypotheses.location_tolerance_px = 2 * sigma_px;
   options.validation.max_distance_px =
@@ -128,14 +128,14 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
   for (const Edge3d& edge : sketch.edges) {
     if (edge.support.size() < kMinSupportsOfPlace) continue;
     CurvePlace& place = places.emplace_back();
-    place.rim.axis = {edge.position, edge.tangent};
+    place.contour.axis = {edge.position, edge.tangent};
     place.support = edge.support;
-    place.rim = Adjusted(place, sigma_px);
+    place.contour = Adjusted(place, sigma_px);
   }
   return places;
 }
 
-std::vector<std::size_t> PosedEdges::ViewsToAsk(const CurvePlace& place) const {
+std::vector<std::size_t> PosedEdges::QueryViews(const CurvePlace& place) const {
   std::vector<std::size_t> views, next_to_them;
   for (const EdgeRef& ref : place.support) {
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);
@@ -163,7 +163,7 @@ std::vector<std::size_t> PosedEdges::SpreadViews(
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const std::size_t i : views) {
     directions.push_back(
-        (input_views_[i].center - place.rim.axis.position).normalized());
+        (input_views_[i].center - place.contour.axis.position).normalized());
     sum += directions.back();
   }
   // Of each view, how near it is to the nearest that is taken, as a cosine.
@@ -185,12 +185,12 @@ std::vector<std::size_t> PosedEdges::SpreadViews(
 }
 
 std::vector<EdgeRef> PosedEdges::FindEdges(
-    const Rim& rim,
+    const OccludingContour& contour,
     const std::vector<std::size_t>& views,
     const std::vector<double>& gates_px) const {
   std::vector<EdgeRef> found;
   for (const std::size_t i : views) {
-    const auto projected = Seen(rim, i);
+    const auto projected = Seen(contour, i);
     if (!projected) continue;
     const Gate gate{gates_px[i], kMaxTangentialPx, kMinCosine};
     const auto nearest = NearestEdge(indices_[i], *projected, gate);
@@ -203,7 +203,7 @@ std::vector<std::vector<const CurvePlace*>> PosedEdges::PlacesByView(
     const std::vector<CurvePlace>& places) const {
   std::vector<std::vector<const CurvePlace*>> by_view(views_.size());
   for (const CurvePlace& place : places) {
-    for (const std::size_t i : ViewsToAsk(place)) by_view[i].push_back(&place);
+    for (const std::size_t i : QueryViews(place)) by_view[i].push_back(&place);
   }
   return by_view;
 }
@@ -214,7 +214,7 @@ std::vector<EdgesAround> PosedEdges::LookAround(
     double reach_px) const {
   std::vector<EdgesAround> result;
   for (const CurvePlace* place : places) {
-    const auto projected = Seen(place->rim, view_idx);
+    const auto projected = Seen(place->contour, view_idx);
     if (!projected) continue;
     const Eigen::Vector2d& tangent = projected->tangent;
     EdgesAround around;
@@ -246,13 +246,14 @@ ImageEdge PosedEdges::InputEdge(const EdgeRef& ref) const {
                          .edges[static_cast<std::size_t>(ref.edge_idx)]);
 }
 
-ImageEdge PosedEdges::EdgeInPhotograph(const EdgeRef& ref) const {
+ImageEdge PosedEdges::EdgeInImage(const EdgeRef& ref) const {
   const auto i = static_cast<std::size_t>(ref.view_idx);
-  return curvix::EdgeInPhotograph(InputEdge(ref), InputCameraOf(i));
+  return curvix::EdgeInImage(InputEdge(ref), InputCameraOf(i));
 }
 
-double PosedEdges::Distance(const Rim& rim, const EdgeRef& ref) const {
-  const auto seen = Seen(rim, static_cast<std::size_t>(ref.view_idx));
+double PosedEdges::Distance(const OccludingContour& contour,
+                            const EdgeRef& ref) const {
+  const auto seen = Seen(contour, static_cast<std::size_t>(ref.view_idx));
   if (!seen) return std::numeric_limits<double>::infinity();
   const ImageEdge edge = InputEdge(ref);
   const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
@@ -291,15 +292,16 @@ std::optional<double> PosedEdges::ShiftIn(std::size_t view_idx,
   return (*to - *from).norm();
 }
 
-Rim PosedEdges::Adjusted(const CurvePlace& place, double sigma_px) const {
-  if (place.support.size() < 2) return place.rim;
+OccludingContour PosedEdges::Adjusted(const CurvePlace& place,
+                                      double sigma_px) const {
+  if (place.support.size() < 2) return place.contour;
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : place.support) {
     const auto i = static_cast<std::size_t>(ref.view_idx);
     const auto edge = CarryEdge(InputEdge(ref), InputCameraOf(i), CameraOf(i));
     if (edge) measurements.push_back(MeasurePlane(views_[i], *edge));
   }
-  return AdjustRim(place.rim, measurements, sigma_px);
+  return AdjustOccludingContour(place.contour, measurements, sigma_px);
 }
 
 }  // namespace curvix

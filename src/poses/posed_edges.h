@@ -12,7 +12,7 @@
 
 #include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_indices.h"
-#include "geometry/rim.h"
+#include "geometry/occluding_contour.h"
 #include "poses/adjust_poses.h"
 #include "poses/find_shift.h"
 
@@ -23,7 +23,7 @@ inline constexpr std::size_t kMinSupportsOfPlace = 6;
 
 // A place on a curve and the 2D edges that show it.
 struct CurvePlace {
-  Rim rim;
+  OccludingContour contour;
   std::vector<EdgeRef> support;  // at most one per view, ascending
 };
 
@@ -36,8 +36,8 @@ class PosedEdges {
   PosedEdges(const PosedEdges&) = delete;
   PosedEdges& operator=(const PosedEdges&) = delete;
 
-  // With the poses of the scene, each followed by its motion, and the cameras
-  // that are set.
+  // With the poses of the scene, each followed by its increment, and the
+  // cameras that are set.
   const std::vector<PosedView>& views() const { return views_; }
   const std::vector<PosedView>& input_views() const { return input_views_; }
   const MovedCameras& moved() const { return moved_; }
@@ -45,7 +45,7 @@ class PosedEdges {
     return {std::vector<Rigid3>(views_.size()), scene_.cameras};
   }
   const Camera& CameraOf(std::size_t view_idx) const;
-  // The pose of the scene followed by the view's motion.
+  // The pose of the scene followed by the view's increment.
   Rigid3 PoseOf(std::size_t view_idx) const;
   void Move(const MovedCameras& moved);
 
@@ -56,10 +56,10 @@ class PosedEdges {
   // The views to ask about a place, ascending: its supporters and the views
   // next to them; of thirty supporters or more, thirty that look from all
   // sides.
-  std::vector<std::size_t> ViewsToAsk(const CurvePlace& place) const;
+  std::vector<std::size_t> QueryViews(const CurvePlace& place) const;
 
   // The nearest edge in each of `views` that is within its gate, by view.
-  std::vector<EdgeRef> FindEdges(const Rim& rim,
+  std::vector<EdgeRef> FindEdges(const OccludingContour& contour,
                                  const std::vector<std::size_t>& views,
                                  const std::vector<double>& gates_px) const;
 
@@ -73,9 +73,9 @@ class PosedEdges {
       double reach_px) const;
 
   // In pixels of the photograph.
-  ImageEdge EdgeInPhotograph(const EdgeRef& ref) const;
-  // Pixels; of the projection of `rim` from the line of the edge.
-  double Distance(const Rim& rim, const EdgeRef& ref) const;
+  ImageEdge EdgeInImage(const EdgeRef& ref) const;
+  // Pixels; of the projection of `contour` from the line of the edge.
+  double Distance(const OccludingContour& contour, const EdgeRef& ref) const;
   // Where views see the point, with their poses and cameras as they are.
   std::vector<PointInImage> Observed(const PointSample& point) const;
   // The pixel of the photograph in which a view sees `x`, in the ideal pinhole
@@ -87,8 +87,8 @@ class PosedEdges {
   std::optional<double> ShiftIn(std::size_t view_idx,
                                 const Eigen::Vector3d& x,
                                 const MovedCameras& before) const;
-  // The rim of the place, adjusted to its support.
-  Rim Adjusted(const CurvePlace& place, double sigma_px) const;
+  // The contour of the place, adjusted to its support.
+  OccludingContour Adjusted(const CurvePlace& place, double sigma_px) const;
 
  private:
   const Camera& InputCameraOf(std::size_t view_idx) const;
@@ -97,9 +97,10 @@ class PosedEdges {
   std::vector<std::size_t> SpreadViews(
       const CurvePlace& place, const std::vector<std::size_t>& views) const;
   ImageEdge InputEdge(const EdgeRef& ref) const;
-  // Where a view sees the rim, in the ideal image of the input camera, in which
-  // edges are indexed; nothing outside the image.
-  std::optional<ImageEdge> Seen(const Rim& rim, std::size_t view_idx) const;
+  // Where a view sees the contour, in the ideal image of the input camera, in
+  // which edges are indexed; nothing outside the image.
+  std::optional<ImageEdge> Seen(const OccludingContour& contour,
+                                std::size_t view_idx) const;
   // The edges in the ideal images of the cameras as they are; none of a view
   // whose camera cannot be inverted.
   std::vector<EdgeMap> CarriedMaps() const;

@@ -173,13 +173,13 @@ class Refiner {
     }
     struct Lenses {
       MovedCameras moved;
-      PoseEvidence evidence;
+      PoseObservationSet evidence;
       std::vector<bool> free_lenses;
     };
     const Lenses without{
         search_.edges().moved(), evidence_, search_.free_lenses()};
     // The same edges for all, as losses of more edges are more.
-    PoseEvidence held_out = held_out_;
+    PoseObservationSet held_out = held_out_;
     search_.Fit(&held_out);
     search_.FindEdges(&held_out.places);
     std::vector<double> best_losses = search_.LossesOf(held_out);
@@ -206,7 +206,7 @@ class Refiner {
   }
 
   // Whether the losses of what is held out fall, and not by chance.
-  bool IsProven(const PoseEvidence& held_out,
+  bool IsProven(const PoseObservationSet& held_out,
                 const std::vector<double>& before,
                 const std::vector<double>& after) const {
     const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out);
@@ -308,18 +308,18 @@ class Refiner {
     const MovedCameras& moved = search_.edges().moved();
     std::size_t count = 0;
     for (std::size_t i = 0; i < scene_.views.size(); ++i) {
-      const Rigid3& motion = moved.new_cam_from_cam[i];
+      const Rigid3& increment = moved.new_cam_from_cam[i];
       const auto k = static_cast<std::size_t>(scene_.views[i].camera_idx);
       const bool stays =
-          motion.translation.isZero(0) &&
-          motion.rotation.coeffs() == Rigid3().rotation.coeffs() &&
+          increment.translation.isZero(0) &&
+          increment.rotation.coeffs() == Rigid3().rotation.coeffs() &&
           moved.cameras[k] == scene_.cameras[k];
       if (!stays) ++count;
     }
     return count;
   }
 
-  void PutPoses(const PoseEvidence& evidence, CurvePoses* result) const {
+  void PutPoses(const PoseObservationSet& evidence, CurvePoses* result) const {
     std::vector<double> shifts;
     for (const std::optional<double>& shift :
          search_.Shifts(evidence, search_.edges().Unmoved())) {
@@ -345,8 +345,8 @@ class Refiner {
   const int num_threads_;
   PoseSearch search_;
   std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
-  PoseEvidence evidence_;
-  PoseEvidence held_out_;
+  PoseObservationSet evidence_;
+  PoseObservationSet held_out_;
   MovedCameras at_sketch_;                 // the last
   std::vector<CurvePlace> last_held_out_;  // of that sketch
   SpaceCells cells_{{}};

@@ -158,7 +158,7 @@ class System {
   Matrix6d OwnBlock(std::size_t view_idx) const {
     Matrix6d block = priors_[view_idx].factors.cwiseAbs2().asDiagonal();
     for (const std::size_t e : owners_.by_view[view_idx]) {
-      block += equations_[e].by_motion * equations_[e].by_motion.transpose();
+      block += equations_[e].by_pose * equations_[e].by_pose.transpose();
     }
     Damp(damping_, block);
     return block;
@@ -177,17 +177,17 @@ class System {
       const SampleNormal& sample = samples_[sample_idx];
       const Eigen::Vector3d pull = sample.inverse * own.by_offset;
       normal.gradient +=
-          (own.residual - pull.dot(sample.gradient)) * own.by_motion;
+          (own.residual - pull.dot(sample.gradient)) * own.by_pose;
       VisitSample(sample_idx, [&](const StepEquation& other, std::size_t i) {
         if (i > view_idx) return;
-        const Vector6d pulled = pull.dot(other.by_offset) * own.by_motion;
-        views[i].noalias() -= pulled * other.by_motion.transpose();
+        const Vector6d pulled = pull.dot(other.by_offset) * own.by_pose;
+        views[i].noalias() -= pulled * other.by_pose.transpose();
       });
       if (!HasLenses()) continue;
       cameras[owners_.camera_of_view[view_idx]] +=
-          own.by_lens * own.by_motion.transpose();
+          own.by_lens * own.by_pose.transpose();
       for (const auto& [camera_idx, by_lens] : sample.by_camera) {
-        cameras[camera_idx] -= (by_lens * pull) * own.by_motion.transpose();
+        cameras[camera_idx] -= (by_lens * pull) * own.by_pose.transpose();
       }
     }
     normal.with_views = views.blocks();
@@ -268,12 +268,12 @@ class System {
       }
     }
     Steps steps;
-    steps.motions.assign(views.size(), Vector6d::Zero());
+    steps.increments.assign(views.size(), Vector6d::Zero());
     steps.lenses.assign(cameras.size(), Vector8d::Zero());
     const Eigen::VectorXd solution = lower.Solve(-gradient);
     if (solution.size() == 0) return steps;
     for (std::size_t i = 0; i < views.size(); ++i) {
-      steps.motions[i] = solution.segment<6>(row_of_view(i));
+      steps.increments[i] = solution.segment<6>(row_of_view(i));
     }
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       steps.lenses[i] = solution.segment<8>(row_of_camera(i));
@@ -285,7 +285,7 @@ class System {
   Eigen::Vector3d OffsetOf(std::size_t sample_idx, const Steps& steps) const {
     Eigen::Vector3d gradient = samples_[sample_idx].gradient;
     VisitSample(sample_idx, [&](const StepEquation& equation, std::size_t i) {
-      double step = equation.by_motion.dot(steps.motions[i]);
+      double step = equation.by_pose.dot(steps.increments[i]);
       if (HasLenses()) {
         step += equation.by_lens.dot(steps.lenses[owners_.camera_of_view[i]]);
       }

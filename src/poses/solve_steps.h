@@ -13,16 +13,16 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 // Of the parameters of a camera; zero for those that it does not have.
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 
-// residual + by_motion . step of the view + by_lens . step of its camera +
+// residual + by_pose . step of the view + by_lens . step of its camera +
 // by_offset . step of the sample = 0, already times the root of its weight.
 struct StepEquation {
   double residual = 0;
-  Vector6d by_motion = Vector6d::Zero();
+  Vector6d by_pose = Vector6d::Zero();
   Eigen::Vector3d by_offset = Eigen::Vector3d::Zero();
   Vector8d by_lens = Vector8d::Zero();  // not read if cameras stay
 };
 
-// Equations of the motion of a view, or of the lens of a camera, alone:
+// Equations of the increment of a view, or of the lens of a camera, alone:
 // factors * step = -residuals, element by element.
 template <typename Vector>
 struct PriorEquations {
@@ -48,17 +48,17 @@ struct EquationOwners {
 };
 
 struct Steps {
-  std::vector<Vector6d> motions;         // by view
+  std::vector<Vector6d> increments;      // by view
   std::vector<Vector8d> lenses;          // by camera; none if cameras stay
   std::vector<Eigen::Vector3d> offsets;  // by sample
 };
 
 // The steps of least squares, once the diagonal of the normal equations has
 // grown by its `damping`-fold (> 0), as Marquardt does, and that of each third
-// unknown of a sample by 1e-9 of the sample's trace before. If the motions have
-// none, they are zero, and the offsets those of the samples alone. Cameras stay
-// if there are no `lens_priors`, of which there is one a camera. The same for
-// any number of threads.
+// unknown of a sample by 1e-9 of the sample's trace before. If the increments
+// have none, they are zero, and the offsets those of the samples alone. Cameras
+// stay if there are no `lens_priors`, of which there is one a camera. The same
+// for any number of threads.
 Steps SolveSteps(const EquationOwners& owners,
                  const std::vector<StepEquation>& equations,
                  const std::vector<StepPrior>& priors,

@@ -57,7 +57,7 @@ UNDO = [  # what is taken back (docs/paper_map.md, table four), flags
     ('parallel edges separated', ['--EdgeDetection.separate_edges', '0']),
     ('all refinement', ['--CurveRefinement.enabled', '0']),
     ('exclusive support',
-     ['--Validation.min_num_own_views', '0'])]
+     ['--Validation.min_num_exclusive_views', '0'])]
 
 HARDER = [  # what is worse, script and its arguments
     ('nothing', None, []),

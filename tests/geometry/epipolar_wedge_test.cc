@@ -57,11 +57,11 @@ TEST(WedgeOf, HoldsTheEpipolarAnglesOfTheDiscAndNoMore) {
     double widest = 0;
     for (int k = 0; k < 64; ++k) {
       const double a = 2 * kPi * k / 64;
-      const Vector2d rim =
+      const Vector2d contour =
           edge.position + radius_px * Vector2d(std::cos(a), std::sin(a));
       widest = std::max(
           widest,
-          Difference(pencil->AngleOf(kView2, rim)->angle, wedge->center));
+          Difference(pencil->AngleOf(kView2, contour)->angle, wedge->center));
     }
     // The half-width is that of a disc of small angle; the rest is of second
     // order in it.

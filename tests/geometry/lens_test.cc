@@ -25,13 +25,13 @@ TEST(CarryEdge, ComesBack) {
   EXPECT_LT((back->tangent - edge.tangent).norm(), 1e-8);
 }
 
-TEST(EdgeInPhotograph, HasTheTangentOfTheDistortedLine) {
+TEST(EdgeInImage, HasTheTangentOfTheDistortedLine) {
   const ImageEdge edge{{150, 700}, Eigen::Vector2d(0.6, -0.8)};
   const double h = 1e-4;
   const ImageEdge next{edge.position + h * edge.tangent, edge.tangent};
-  const ImageEdge seen = EdgeInPhotograph(edge, kOpenCV);
+  const ImageEdge seen = EdgeInImage(edge, kOpenCV);
   const Eigen::Vector2d step =
-      EdgeInPhotograph(next, kOpenCV).position - seen.position;
+      EdgeInImage(next, kOpenCV).position - seen.position;
   EXPECT_LT((step.normalized() - seen.tangent).norm(), 1e-5);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rims of smooth bodies look like edges in every image and are none.
+// The occluding contours of smooth bodies look like edges in every image and
+// are none.
 #include <curvix/reconstruct.h>
 #include <curvix/refine_poses.h>
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ std::vector<TestCurve> Outline(const Eigen::Vector3d& center,
   return lines;
 }
 
-// A cylinder whose rims and outlines show in all views.
+// A cylinder whose occluding contours and outlines show in all views.
 WireScene Cylinder(double radius, int num_views) {
   WireScene made = MakeWireScene({CircleCurve({0, 0, kHalfHeight}, radius),
                                   CircleCurve({0, 0, -kHalfHeight}, radius)},

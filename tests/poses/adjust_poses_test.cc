@@ -19,12 +19,12 @@ std::vector<PoseSample> ExactSamples(const std::vector<PosedView>& views) {
   for (const TestCurve& curve : CubeCurves()) {
     for (double s = 0.1; s < curve.length; s += 0.3) {
       PoseSample& sample = samples.emplace_back();
-      sample.rim.axis = {curve.position(s), curve.tangent(s)};
-      sample.rim.outward = sample.rim.axis.tangent.unitOrthogonal();
+      sample.contour.axis = {curve.position(s), curve.tangent(s)};
+      sample.contour.outward = sample.contour.axis.tangent.unitOrthogonal();
       for (std::size_t i = 0; i < views.size(); ++i) {
         sample.observations.push_back(
             {static_cast<std::int32_t>(i),
-             *ProjectEdge(views[i], sample.rim.axis)});
+             *ProjectEdge(views[i], sample.contour.axis)});
       }
     }
   }
@@ -60,9 +60,9 @@ AdjustedPoses Adjust(const Scene& scene,
                      keep_going);
 }
 
-PosedView Moved(PosedView view, const Rigid3& motion) {
-  view.rotation = motion.rotation.toRotationMatrix() * view.rotation;
-  view.translation = motion * view.translation;
+PosedView Moved(PosedView view, const Rigid3& increment) {
+  view.rotation = increment.rotation.toRotationMatrix() * view.rotation;
+  view.translation = increment * view.translation;
   view.center = -view.rotation.transpose() * view.translation;
   return view;
 }
@@ -76,18 +76,19 @@ TEST(AdjustPoses, LeavesExactPosesAndPlacesAlone) {
   }
   for (std::size_t i = 0; i < samples.size(); ++i) {
     EXPECT_LT(
-        (adjusted.rims[i].axis.position - samples[i].rim.axis.position).norm(),
+        (adjusted.contours[i].axis.position - samples[i].contour.axis.position)
+            .norm(),
         1e-6);
   }
 }
 
-// Upright cylinders, of which the rim is seen elsewhere from each camera.
+// Upright cylinders, of which the contour is seen elsewhere from each camera.
 TEST(AdjustPoses, IsNotMovedByRims) {
   const std::vector<PosedView> views = RingOfViews(24);
   const std::size_t num_seeing = 6;
   std::vector<PoseSample> samples;
   for (int i = 0; i < 20; ++i) {
-    Rim body;
+    OccludingContour body;
     body.axis = {{0.1 * i - 1, 0.3 * (i % 4), 0.05 * i},
                  Eigen::Vector3d::UnitZ()};
     body.radius = 0.2 + 0.02 * i;
@@ -99,14 +100,14 @@ TEST(AdjustPoses, IsNotMovedByRims) {
           {static_cast<std::int32_t>(v), *ProjectEdge(views[v], seen)});
     }
     // Taken for an edge where one view sees it.
-    sample.rim = body;
-    sample.rim.axis = SeenFrom(body, views[2].center);
-    sample.rim.radius = 0;
+    sample.contour = body;
+    sample.contour.axis = SeenFrom(body, views[2].center);
+    sample.contour.radius = 0;
   }
   const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 10);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     EXPECT_NEAR(
-        adjusted.rims[i].radius, 0.2 + 0.02 * static_cast<double>(i), 0.02);
+        adjusted.contours[i].radius, 0.2 + 0.02 * static_cast<double>(i), 0.02);
   }
   for (std::size_t v = 0; v < num_seeing; ++v) {
     EXPECT_LT(adjusted.moved.new_cam_from_cam[v].translation.norm(), 0.003)
@@ -117,16 +118,16 @@ TEST(AdjustPoses, IsNotMovedByRims) {
 TEST(AdjustPoses, BringsAMovedCameraBack) {
   std::vector<PosedView> views = RingOfViews(8);
   const std::vector<PoseSample> samples = ExactSamples(views);
-  Rigid3 motion;
-  motion.rotation = Eigen::AngleAxisd(0.003, Eigen::Vector3d::UnitY());
-  motion.translation = {0.01, -0.005, 0.02};
-  views[3] = Moved(views[3], motion);
+  Rigid3 increment;
+  increment.rotation = Eigen::AngleAxisd(0.003, Eigen::Vector3d::UnitY());
+  increment.translation = {0.01, -0.005, 0.02};
+  views[3] = Moved(views[3], increment);
   const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 3);
   // All cameras share the way back, which the places do not tell from one.
   const PosedView back = Moved(views[3], adjusted.moved.new_cam_from_cam[3]);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto seen =
-        ProjectEdge(back, SeenFrom(adjusted.rims[i], back.center));
+        ProjectEdge(back, SeenFrom(adjusted.contours[i], back.center));
     const ImageEdge& edge = samples[i].observations[3].edge;
     const Eigen::Vector2d offset = seen->position - edge.position;
     EXPECT_LT(
@@ -142,15 +143,15 @@ TEST(AdjustPoses, LeavesPosesAloneWithoutSamples) {
   ASSERT_EQ(adjusted.moved.new_cam_from_cam.size(), views.size());
   EXPECT_EQ(adjusted.moved.new_cam_from_cam[1].translation,
             start[1].translation);
-  EXPECT_TRUE(adjusted.rims.empty());
+  EXPECT_TRUE(adjusted.contours.empty());
 }
 
 TEST(AdjustPoses, StopsWhenAsked) {
   std::vector<PosedView> views = RingOfViews(8);
   const std::vector<PoseSample> samples = ExactSamples(views);
-  Rigid3 motion;
-  motion.translation = {0.01, 0, 0};
-  views[3] = Moved(views[3], motion);
+  Rigid3 increment;
+  increment.translation = {0.01, 0, 0};
+  views[3] = Moved(views[3], increment);
   const AdjustedPoses adjusted =
       Adjust(SceneOf(views), samples, 3, [] { return false; });
   EXPECT_EQ(adjusted.moved.new_cam_from_cam[3].translation,
@@ -162,11 +163,11 @@ TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
   std::vector<PoseSample> samples = ExactSamples(views);
   const Eigen::Vector3d behind =
       views[3].center - views[3].rotation.row(2).transpose();
-  samples[5].rim.axis.position = behind;
+  samples[5].contour.axis.position = behind;
   const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 3);
   EXPECT_EQ(adjusted.moved.new_cam_from_cam[3].translation,
             Eigen::Vector3d::Zero());
-  EXPECT_EQ(adjusted.rims[5].axis.position, behind);
+  EXPECT_EQ(adjusted.contours[5].axis.position, behind);
 }
 
 // Random points before a ring of views that share a camera, and their pixels.

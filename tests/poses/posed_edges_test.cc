@@ -28,7 +28,7 @@ class PosedEdgesTest : public testing::Test {
 };
 
 TEST_F(PosedEdgesTest, AsksAllSupportersIfTheyAreFew) {
-  const std::vector<std::size_t> views = edges_.ViewsToAsk(SeenByFirst(8));
+  const std::vector<std::size_t> views = edges_.QueryViews(SeenByFirst(8));
   EXPECT_TRUE(std::is_sorted(views.begin(), views.end()));
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_TRUE(std::binary_search(views.begin(), views.end(), i));
@@ -39,7 +39,7 @@ TEST_F(PosedEdgesTest, AsksAllSupportersIfTheyAreFew) {
 // None is farther from those that are asked than the nearest two of these are
 // from each other.
 TEST_F(PosedEdgesTest, AsksThirtyOfManyFromAllSides) {
-  const std::vector<std::size_t> views = edges_.ViewsToAsk(SeenByFirst(50));
+  const std::vector<std::size_t> views = edges_.QueryViews(SeenByFirst(50));
   ASSERT_EQ(views.size(), 30u);
   EXPECT_TRUE(std::is_sorted(views.begin(), views.end()));
   double least = 2;

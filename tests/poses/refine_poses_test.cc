@@ -29,14 +29,14 @@ Scene Disturbed(Scene scene, double px) {
     const double focal_px =
         scene.cameras[static_cast<std::size_t>(view.camera_idx)].params[0];
     const double sigma = px / 2 / focal_px;
-    Rigid3 motion;
+    Rigid3 increment;
     const Eigen::Vector3d turn = sigma * random.NormalVector();
     if (px > 0) {
-      motion.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+      increment.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
     }
-    motion.translation =
+    increment.translation =
         sigma * view.cam_from_world.translation.norm() * random.NormalVector();
-    view.cam_from_world = motion * view.cam_from_world;
+    view.cam_from_world = increment * view.cam_from_world;
   }
   return scene;
 }

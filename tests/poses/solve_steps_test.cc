@@ -62,14 +62,14 @@ TestProblem MakeProblem(bool with_lenses = false) {
       {owners, camera_of_view, kNumSamples}, equations, priors, lens_priors};
 }
 
-// Of all unknowns at once: motions, lenses, offsets.
+// Of all unknowns at once: increments, lenses, offsets.
 Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
   const auto num_equations =
       static_cast<Eigen::Index>(problem.equations.size());
   const auto num_cameras =
       static_cast<Eigen::Index>(problem.lens_priors.size());
-  const auto num_motions = static_cast<Eigen::Index>(6 * kNumViews);
-  const Eigen::Index num_poses = num_motions + 8 * num_cameras;
+  const auto num_increments = static_cast<Eigen::Index>(6 * kNumViews);
+  const Eigen::Index num_poses = num_increments + 8 * num_cameras;
   const auto num_unknowns =
       num_poses + static_cast<Eigen::Index>(3 * kNumSamples);
   Eigen::MatrixXd jacobian =
@@ -80,11 +80,11 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
     const auto& equation = problem.equations[static_cast<std::size_t>(e)];
     residuals(e) = equation.residual;
     jacobian.row(e).segment<6>(static_cast<Eigen::Index>(6 * owner.view_idx)) =
-        equation.by_motion;
+        equation.by_pose;
     if (num_cameras > 0) {
       const std::size_t camera_idx =
           problem.owners.camera_of_view[owner.view_idx];
-      jacobian.row(e).segment<8>(num_motions +
+      jacobian.row(e).segment<8>(num_increments +
                                  static_cast<Eigen::Index>(8 * camera_idx)) =
           equation.by_lens;
     }
@@ -100,7 +100,7 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
   }
   for (Eigen::Index i = 0; i < num_cameras; ++i) {
     const LensPrior& prior = problem.lens_priors[static_cast<std::size_t>(i)];
-    const Eigen::Index begin = num_motions + 8 * i;
+    const Eigen::Index begin = num_increments + 8 * i;
     residuals.segment<8>(num_equations + begin) = prior.residuals;
     jacobian.block<8, 8>(num_equations + begin, begin) =
         prior.factors.asDiagonal();
@@ -113,7 +113,8 @@ Eigen::VectorXd SolveAtOnce(const TestProblem& problem) {
   }
   normal.diagonal() += kDamping * normal.diagonal();
   // Nothing tells of the last view.
-  for (Eigen::Index i = num_motions - 6; i < num_motions; ++i) normal(i, i) = 1;
+  for (Eigen::Index i = num_increments - 6; i < num_increments; ++i)
+    normal(i, i) = 1;
   return normal.ldlt().solve(-(jacobian.transpose() * residuals));
 }
 
@@ -136,7 +137,7 @@ void ExpectStepsOfAllAtOnce(const TestProblem& problem) {
       at += vector.size();
     }
   };
-  append(steps.motions);
+  append(steps.increments);
   append(steps.lenses);
   append(steps.offsets);
   ASSERT_EQ(at, all.size());
@@ -154,15 +155,15 @@ TEST(SolveSteps, AgreesWithItIfLensesChangeToo) {
 TEST(SolveSteps, LeavesAViewThatSeesNothingWhereItIs) {
   const TestProblem problem = MakeProblem();
   const Steps steps = Solve(problem, 1);
-  EXPECT_TRUE(steps.motions.back().isZero(0));
-  EXPECT_FALSE(steps.motions.front().isZero(1e-3));
+  EXPECT_TRUE(steps.increments.back().isZero(0));
+  EXPECT_FALSE(steps.increments.front().isZero(1e-3));
 }
 
 TEST(SolveSteps, IsTheSameForAnyNumberOfThreads) {
   const TestProblem problem = MakeProblem(true);
   const Steps one = Solve(problem, 1);
   const Steps three = Solve(problem, 3);
-  EXPECT_EQ(one.motions, three.motions);
+  EXPECT_EQ(one.increments, three.increments);
   EXPECT_EQ(one.lenses, three.lenses);
   EXPECT_EQ(one.offsets, three.offsets);
 }
@@ -170,8 +171,8 @@ TEST(SolveSteps, IsTheSameForAnyNumberOfThreads) {
 TEST(SolveSteps, HasNoStepsWithoutEquations) {
   const Steps steps =
       SolveSteps({{}, {0, 0}, 1}, {}, {{}, {}}, {}, kDamping, 1);
-  ASSERT_EQ(steps.motions.size(), 2U);
-  EXPECT_TRUE(steps.motions[1].isZero(0));
+  ASSERT_EQ(steps.increments.size(), 2U);
+  EXPECT_TRUE(steps.increments[1].isZero(0));
   ASSERT_EQ(steps.offsets.size(), 1U);
   EXPECT_TRUE(steps.offsets[0].isZero(0));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it).
-#include "poses/hold_world.h"
+#include "poses/gauge.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/median.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {
@@ -18,12 +19,6 @@ constexpr double kMinLossScalePx = 0.05;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
-
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& w) {
-  Eigen::Matrix3d matrix;
-  matrix << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return matrix;
-}
 
 struct NormalEquations {
   Matrix6d matrix = Matrix6d::Zero();
@@ -43,11 +38,11 @@ std::optional<double> DistanceSeen(const PosedView& view,
 // outvoted.
 double LossScale(const std::vector<PosedView>& views,
                  const std::vector<SeenPlace>& places,
-                 const Rigid3& motion) {
+                 const Rigid3& transform) {
   std::vector<double> distances;
   for (const SeenPlace& place : places) {
     const auto distance = DistanceSeen(
-        views[place.view_idx], motion * place.position, place.pixel);
+        views[place.view_idx], transform * place.position, place.pixel);
     if (distance) distances.push_back(*distance);
   }
   return std::max(kMinLossScalePx, MedianOr(0, std::move(distances)));
@@ -67,46 +62,46 @@ void Add(const PosedView& view,
   by_x << 1, 0, -x.x() / x.z(), 0, 1, -x.y() / x.z();
   by_x = view.calibration.topLeftCorner<2, 2>() * by_x / x.z();
   const Eigen::Matrix<double, 2, 3> by_position = by_x * view.rotation;
-  Matrix26d by_motion;
-  by_motion.leftCols<3>() = -by_position * CrossMatrix(position - center);
-  by_motion.rightCols<3>() = by_position;
+  Matrix26d by_pose;
+  by_pose.leftCols<3>() = -by_position * CrossMatrix(position - center);
+  by_pose.rightCols<3>() = by_position;
   const double weight =
       1 / (1 + residual.squaredNorm() / (loss_scale_px * loss_scale_px));
-  sum->matrix += weight * by_motion.transpose() * by_motion;
-  sum->vector += weight * by_motion.transpose() * residual;
+  sum->matrix += weight * by_pose.transpose() * by_pose;
+  sum->vector += weight * by_pose.transpose() * residual;
 }
 
 }  // namespace
 
-Rigid3 HoldWorld(const std::vector<PosedView>& views,
-                 const std::vector<SeenPlace>& places) {
-  Rigid3 motion;
-  if (places.empty()) return motion;
+Rigid3 FixGauge(const std::vector<PosedView>& views,
+                const std::vector<SeenPlace>& places) {
+  Rigid3 transform;
+  if (places.empty()) return transform;
   for (int i = 0; i < kNumIterations; ++i) {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    for (const SeenPlace& place : places) center += motion * place.position;
+    for (const SeenPlace& place : places) center += transform * place.position;
     center /= static_cast<double>(places.size());
-    const double loss_scale_px = LossScale(views, places, motion);
+    const double loss_scale_px = LossScale(views, places, transform);
     NormalEquations sum;
     for (const SeenPlace& place : places) {
       Add(views[place.view_idx],
-          motion * place.position,
+          transform * place.position,
           center,
           place.pixel,
           loss_scale_px,
           &sum);
     }
     const Vector6d step = -sum.matrix.ldlt().solve(sum.vector);
-    if (!step.allFinite()) return motion;
+    if (!step.allFinite()) return transform;
     const Eigen::Vector3d turn = step.head<3>();
     Rigid3 update;
     if (turn.norm() > 0) {
       update.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
     }
     update.translation = center + step.tail<3>() - update.rotation * center;
-    motion = update * motion;
+    transform = update * transform;
   }
-  return motion;
+  return transform;
 }
 
 }  // namespace curvix

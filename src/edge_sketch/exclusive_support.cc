@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it).
-#include "edge_sketch/contested_edges.h"
+#include "edge_sketch/exclusive_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,14 +94,15 @@ std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
 
 }  // namespace
 
-std::vector<Edge3d> DropContested(std::vector<Edge3d> edges,
-                                  const std::vector<PosedView>& views,
-                                  const std::vector<EdgeMap>& edge_maps,
-                                  int min_num_own_views) {
+std::vector<Edge3d> DropWithoutExclusiveSupport(
+    std::vector<Edge3d> edges,
+    const std::vector<PosedView>& views,
+    const std::vector<EdgeMap>& edge_maps,
+    int min_num_exclusive_views) {
   Claims claims(edges, views, edge_maps);
   std::vector<bool> keeps(edges.size(), false);
   for (const std::size_t i : ByFallingEvidence(edges)) {
-    keeps[i] = claims.NumOwnSupports(i) >= min_num_own_views;
+    keeps[i] = claims.NumOwnSupports(i) >= min_num_exclusive_views;
     if (keeps[i]) claims.Claim(i);
   }
   std::vector<Edge3d> kept;

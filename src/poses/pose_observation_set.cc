@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it).
-#include "poses/pose_evidence.h"
+#include "poses/pose_observation_set.h"
 
 #include <curvix/scene.h>
 #include <algorithm>
@@ -39,7 +39,7 @@ std::optional<PointSample> SampleOf(const ScenePoint& point,
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> PositionsOf(const PoseEvidence& evidence) {
+std::vector<Eigen::Vector3d> PositionsOf(const PoseObservationSet& evidence) {
   std::vector<Eigen::Vector3d> positions;
   for (const auto& place : evidence.places) {
     positions.push_back(PositionOf(place));

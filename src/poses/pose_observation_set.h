@@ -15,25 +15,25 @@
 
 namespace curvix {
 
-struct PoseEvidence {
+struct PoseObservationSet {
   std::vector<CurvePlace> places;
   std::vector<PointSample> points;
 };
 
 // World.
 inline Eigen::Vector3d PositionOf(const CurvePlace& place) {
-  return MiddleOf(place.rim);
+  return MiddleOf(place.contour);
 }
 inline Eigen::Vector3d PositionOf(const PointSample& point) {
   return point.position;
 }
 
 // Of the places, then of the points.
-std::vector<Eigen::Vector3d> PositionsOf(const PoseEvidence& evidence);
+std::vector<Eigen::Vector3d> PositionsOf(const PoseObservationSet& evidence);
 
 // Calls f(view_idx, position) for all places and points and their views.
 template <typename F>
-void VisitSeen(const PoseEvidence& evidence, const F& f) {
+void VisitSeen(const PoseObservationSet& evidence, const F& f) {
   const auto visit = [&f](const auto& seen, const Eigen::Vector3d& position) {
     for (const auto& at : seen) {
       f(static_cast<std::size_t>(at.view_idx), position);

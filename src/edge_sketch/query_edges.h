@@ -18,12 +18,12 @@ std::vector<bool> AreOnStrongContours(const EdgeMap& map,
 
 // One in input.h1_step of the edges of a view, those that are not used yet; of
 // seeds only those on strong contours. Ascending.
-std::vector<std::int32_t> EdgesToAsk(const SketchInput& input,
+std::vector<std::int32_t> QueryEdges(const SketchInput& input,
                                      int view_idx,
                                      const UsedEdges& used);
 
 // Links along a contour from one edge that asks to the next: every other one
 // asks, of crowded images one in four, and one in eight for seeds.
-int LinksBetweenAsking(const SketchInput& input);
+int LinksBetweenQueries(const SketchInput& input);
 
 }  // namespace curvix

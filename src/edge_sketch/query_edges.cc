@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it).
-#include "edge_sketch/asking_edges.h"
+#include "edge_sketch/query_edges.h"
 
 #include <cstddef>
 
@@ -39,7 +39,7 @@ std::vector<bool> AreOnStrongContours(const EdgeMap& map,
   return are_strong;
 }
 
-std::vector<std::int32_t> EdgesToAsk(const SketchInput& input,
+std::vector<std::int32_t> QueryEdges(const SketchInput& input,
                                      int view_idx,
                                      const UsedEdges& used) {
   const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(view_idx)];
@@ -59,7 +59,7 @@ std::vector<std::int32_t> EdgesToAsk(const SketchInput& input,
   return edge_idxs;
 }
 
-int LinksBetweenAsking(const SketchInput& input) {
+int LinksBetweenQueries(const SketchInput& input) {
   if (input.finds_seeds) return 8;
   return AreCrowded(input.edge_maps) ? 4 : 2;
 }

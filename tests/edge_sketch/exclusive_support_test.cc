@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/contested_edges.h"
+#include "edge_sketch/exclusive_support.h"
 
 #include <gtest/gtest.h>
 #include <vector>
@@ -10,9 +10,9 @@ namespace curvix {
 namespace {
 
 // Edges along a line, each supported in all of eight views.
-class DropContestedTest : public ::testing::Test {
+class ExclusiveSupportTest : public ::testing::Test {
  protected:
-  DropContestedTest() {
+  ExclusiveSupportTest() {
     SyntheticEdgeOptions options;
     options.num_views = 8;
     options.support_share = 1;
@@ -34,18 +34,19 @@ class DropContestedTest : public ::testing::Test {
 
   const Edge3d& Middle() const { return edges_.edges[edges_.edges.size() / 2]; }
 
-  std::size_t NumLeftWith(const Edge3d& rival, int min_num_own_views) const {
+  std::size_t NumLeftWith(const Edge3d& rival,
+                          int min_num_exclusive_views) const {
     std::vector<Edge3d> edges = edges_.edges;
     edges.insert(edges.begin(), rival);
-    return DropContested(
-               edges, edges_.views, edges_.edge_maps, min_num_own_views)
+    return DropWithoutExclusiveSupport(
+               edges, edges_.views, edges_.edge_maps, min_num_exclusive_views)
         .size();
   }
 
   SyntheticEdges edges_;
 };
 
-TEST_F(DropContestedTest, LeavesOutWhatOnlyEdgesOfOthersSupport) {
+TEST_F(ExclusiveSupportTest, LeavesOutWhatOnlyEdgesOfOthersSupport) {
   const std::size_t num_edges = edges_.edges.size();
   const Eigen::Vector3d elsewhere =
       Middle().position + Eigen::Vector3d(0, 0, 1);
@@ -54,13 +55,13 @@ TEST_F(DropContestedTest, LeavesOutWhatOnlyEdgesOfOthersSupport) {
   EXPECT_EQ(NumLeftWith(Rival(elsewhere, 8), 0), num_edges + 1);
 }
 
-TEST_F(DropContestedTest, KeepsSeveralEdgesAtOnePlace) {
+TEST_F(ExclusiveSupportTest, KeepsSeveralEdgesAtOnePlace) {
   const Eigen::Vector3d near = Middle().position + Eigen::Vector3d(0, 0, 2e-3);
   EXPECT_EQ(NumLeftWith(Rival(near, 8), 3), edges_.edges.size() + 1);
 }
 
 // 0.1 is more than ten pixels.
-TEST_F(DropContestedTest, CountsTheEdgesOfItsOwn) {
+TEST_F(ExclusiveSupportTest, CountsTheEdgesOfItsOwn) {
   const Eigen::Vector3d elsewhere =
       Middle().position + Eigen::Vector3d(0, 0, 0.1);
   for (std::size_t num_own = 0; num_own < 5; ++num_own) {
@@ -73,19 +74,19 @@ TEST_F(DropContestedTest, CountsTheEdgesOfItsOwn) {
       map.neighbors.emplace_back();
     }
     edges.edges.push_back(rival);
-    const std::vector<Edge3d> left =
-        DropContested(edges.edges, edges.views, edges.edge_maps, 3);
+    const std::vector<Edge3d> left = DropWithoutExclusiveSupport(
+        edges.edges, edges.views, edges.edge_maps, 3);
     EXPECT_EQ(left.size(), edges_.edges.size() + (num_own >= 3 ? 1 : 0));
   }
 }
 
-TEST_F(DropContestedTest, TheStrongerOneKeepsTheEdges) {
+TEST_F(ExclusiveSupportTest, TheStrongerOneKeepsTheEdges) {
   Edge3d rival = Rival(Middle().position + Eigen::Vector3d(0, 0, 1), 8);
   rival.evidence = 100;
   std::vector<Edge3d> edges = edges_.edges;
   edges.push_back(rival);
   const std::vector<Edge3d> left =
-      DropContested(edges, edges_.views, edges_.edge_maps, 3);
+      DropWithoutExclusiveSupport(edges, edges_.views, edges_.edge_maps, 3);
   ASSERT_LT(left.size(), edges.size());
   EXPECT_EQ(left.back().position, rival.position);
   for (const Edge3d& edge : left) {
@@ -94,20 +95,21 @@ TEST_F(DropContestedTest, TheStrongerOneKeepsTheEdges) {
 }
 
 // What is left out claims nothing: without it, the same is left.
-TEST_F(DropContestedTest, LeavesTheSameTheSecondTime) {
+TEST_F(ExclusiveSupportTest, LeavesTheSameTheSecondTime) {
   std::vector<Edge3d> edges = edges_.edges;
   for (const double z : {0.5, 1.0, -0.5}) {
     edges.push_back(Rival(Middle().position + Eigen::Vector3d(0, 0, z), 8));
   }
   const std::vector<Edge3d> once =
-      DropContested(edges, edges_.views, edges_.edge_maps, 3);
+      DropWithoutExclusiveSupport(edges, edges_.views, edges_.edge_maps, 3);
   EXPECT_EQ(once.size(), edges_.edges.size());
-  EXPECT_EQ(DropContested(once, edges_.views, edges_.edge_maps, 3).size(),
+  EXPECT_EQ(DropWithoutExclusiveSupport(once, edges_.views, edges_.edge_maps, 3)
+                .size(),
             once.size());
 }
 
-TEST(DropContested, HasNothingToDoWithNothing) {
-  EXPECT_TRUE(DropContested({}, {}, {}, 3).empty());
+TEST(DropWithoutExclusiveSupport, HasNothingToDoWithNothing) {
+  EXPECT_TRUE(DropWithoutExclusiveSupport({}, {}, {}, 3).empty());
 }
 
 }  // namespace

@@ -16,11 +16,12 @@ namespace curvix {
 // either side along their contours, unless they are claimed already. A support
 // is a 3D edge's own if nobody claimed it before, or one that lies at the same
 // place: half a pixel and four standard deviations or less across the tangent.
-// What has fewer than `min_num_own_views` own supports is left out and claims
-// nothing. The others keep all of their support and their order.
-std::vector<Edge3d> DropContested(std::vector<Edge3d> edges,
-                                  const std::vector<PosedView>& views,
-                                  const std::vector<EdgeMap>& edge_maps,
-                                  int min_num_own_views);
+// What has fewer than `min_num_exclusive_views` own supports is left out and
+// claims nothing. The others keep all of their support and their order.
+std::vector<Edge3d> DropWithoutExclusiveSupport(
+    std::vector<Edge3d> edges,
+    const std::vector<PosedView>& views,
+    const std::vector<EdgeMap>& edge_maps,
+    int min_num_exclusive_views);
 
 }  // namespace curvix

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it).
-#include "geometry/rim.h"
+#include "geometry/occluding_contour.h"
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -35,21 +35,21 @@ Eigen::Vector3d Outward(const SpaceEdge& axis,
 }
 
 // The radius if the axis may move across itself, too.
-double FitRadius(const Rim& rim,
+double FitRadius(const OccludingContour& contour,
                  const std::vector<PlaneMeasurement>& measurements,
                  double sigma_px) {
-  const AcrossAxes across = AxesAcross(rim.axis.tangent);
+  const AcrossAxes across = AxesAcross(contour.axis.tangent);
   const auto count = static_cast<Eigen::Index>(measurements.size());
   Eigen::MatrixX3d rows(count, 3);
   Eigen::VectorXd distances(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const PlaneMeasurement& m = measurements[static_cast<std::size_t>(i)];
-    const SeenDistance seen = DistanceFrom(m, rim.axis.position);
+    const SeenDistance seen = DistanceFrom(m, contour.axis.position);
     rows.row(i) << seen.gradient.transpose() * across,
-        seen.gradient.dot(SideSeenFrom(rim, m.center));
+        seen.gradient.dot(SideSeenFrom(contour, m.center));
     distances(i) = seen.px;
   }
-  Eigen::Vector3d solution(0, 0, rim.radius);
+  Eigen::Vector3d solution(0, 0, contour.radius);
   for (int iteration = 0; iteration < kNumIterations; ++iteration) {
     const Eigen::VectorXd weights =
         (distances + rows * solution).unaryExpr([sigma_px](double residual) {
@@ -67,34 +67,40 @@ double FitRadius(const Rim& rim,
 
 }  // namespace
 
-Eigen::Vector3d MiddleOf(const Rim& rim) {
-  return rim.axis.position + rim.radius * rim.outward;
+Eigen::Vector3d MiddleOf(const OccludingContour& contour) {
+  return contour.axis.position + contour.radius * contour.outward;
 }
 
-Eigen::Vector3d SideSeenFrom(const Rim& rim, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d side = AcrossAxisAndRay(rim.axis, center);
-  return side.dot(rim.outward) < 0 ? -side : side;
+Eigen::Vector3d SideSeenFrom(const OccludingContour& contour,
+                             const Eigen::Vector3d& center) {
+  const Eigen::Vector3d side = AcrossAxisAndRay(contour.axis, center);
+  return side.dot(contour.outward) < 0 ? -side : side;
 }
 
-SpaceEdge SeenFrom(const Rim& rim, const Eigen::Vector3d& center) {
-  return {rim.axis.position + rim.radius * SideSeenFrom(rim, center),
-          rim.axis.tangent};
+SpaceEdge SeenFrom(const OccludingContour& contour,
+                   const Eigen::Vector3d& center) {
+  return {
+      contour.axis.position + contour.radius * SideSeenFrom(contour, center),
+      contour.axis.tangent};
 }
 
-Rim AdjustRim(const Rim& start,
-              const std::vector<PlaneMeasurement>& measurements,
-              double sigma_px) {
-  Rim rim = start;
-  rim.outward = Outward(rim.axis, measurements);
-  if (rim.outward.dot(start.outward) < 0) rim.outward = -rim.outward;
-  rim.radius = FitRadius(rim, measurements, sigma_px);
-  // A camera sees the rim where one that stands beside it would see the axis.
+OccludingContour AdjustOccludingContour(
+    const OccludingContour& start,
+    const std::vector<PlaneMeasurement>& measurements,
+    double sigma_px) {
+  OccludingContour contour = start;
+  contour.outward = Outward(contour.axis, measurements);
+  if (contour.outward.dot(start.outward) < 0)
+    contour.outward = -contour.outward;
+  contour.radius = FitRadius(contour, measurements, sigma_px);
+  // A camera sees the contour where one that stands beside it would see the
+  // axis.
   std::vector<PlaneMeasurement> of_axis = measurements;
   for (PlaneMeasurement& m : of_axis) {
-    m.center -= rim.radius * SideSeenFrom(rim, m.center);
+    m.center -= contour.radius * SideSeenFrom(contour, m.center);
   }
-  rim.axis = AdjustEdge(rim.axis, of_axis, sigma_px).edge;
-  return rim;
+  contour.axis = AdjustEdge(contour.axis, of_axis, sigma_px).edge;
+  return contour;
 }
 
 }  // namespace curvix

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Keeps the world where the input poses show it.
+// Paper: none (beyond it). The gauge: the world frame and unit of the input
+// poses.
 #pragma once
 
 #include <curvix/scene.h>
-
 #include <Eigen/Core>
 #include <cstddef>
 #include <vector>
@@ -19,12 +19,12 @@ struct SeenPlace {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-// old_world_from_new_world: the rigid motion after which `views`, with their
-// old poses, see the places nearest to where the new poses see them. Cameras
-// alone would tell it badly: that of a small turn and a small shift has hardly
-// an effect on the picture, but moves the camera. Gauss-Newton with Cauchy's
+// old_world_from_new_world: the rigid transform after which `views`, with their
+// old poses, see the places nearest to where the new poses see them. Camera
+// centres would determine it poorly: a small rotation and a small translation
+// of a camera hardly change its image together. Gauss-Newton with Cauchy's
 // weights, of the median distance so far; the identity without places.
-Rigid3 HoldWorld(const std::vector<PosedView>& views,
-                 const std::vector<SeenPlace>& places);
+Rigid3 FixGauge(const std::vector<PosedView>& views,
+                const std::vector<SeenPlace>& places);
 
 }  // namespace curvix

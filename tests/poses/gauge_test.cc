@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "poses/hold_world.h"
+#include "poses/gauge.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace curvix {
 namespace {
 
-TEST(HoldWorld, FindsHowTheWorldMoved) {
+TEST(FixGauge, FindsHowTheWorldMoved) {
   const std::vector<PosedView> views = RingOfViews(6);
   Rigid3 moved;
   moved.rotation =
@@ -23,14 +23,14 @@ TEST(HoldWorld, FindsHowTheWorldMoved) {
     const PosedView& view = views[view_idx];
     places.push_back({view_idx, moved * x, view.Pixel(view.InCamera(x))});
   }
-  const Rigid3 left = HoldWorld(views, places) * moved;
+  const Rigid3 left = FixGauge(views, places) * moved;
   EXPECT_LT(left.translation.norm(), 1e-9);
   EXPECT_LT(left.rotation.angularDistance(Eigen::Quaterniond::Identity()),
             1e-7);
 }
 
-TEST(HoldWorld, LeavesItWithoutPlaces) {
-  EXPECT_EQ(HoldWorld({}, {}).translation, Eigen::Vector3d::Zero());
+TEST(FixGauge, LeavesItWithoutPlaces) {
+  EXPECT_EQ(FixGauge({}, {}).translation, Eigen::Vector3d::Zero());
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Places on edges or on occluding contours of smooth
+// bodies.
+//
+// Around its contour, a smooth body is nearly a cylinder, and each view sees
+// that line of it which its ray touches; the radius is taken to be small
+// against the distance. An edge is a cylinder of radius zero. So one radius
+// more explains what views see, and nobody needs to know which it is.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/adjust_edge.h"
+#include "geometry/edge_geometry.h"
+
+namespace curvix {
+
+struct OccludingContour {
+  SpaceEdge axis;
+  double radius = 0;  // world units; negative on the side against `outward`
+  // On which side views see the body end; unit, across the axis. Of an edge, it
+  // is any.
+  Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+};
+
+// A place of the contour amid those that views see.
+Eigen::Vector3d MiddleOf(const OccludingContour& contour);
+
+// From the axis to the place of the contour that a camera at `center` sees, for
+// a radius of 1: a unit vector across the axis and the ray; zero where the ray
+// runs along the axis.
+Eigen::Vector3d SideSeenFrom(const OccludingContour& contour,
+                             const Eigen::Vector3d& center);
+
+SpaceEdge SeenFrom(const OccludingContour& contour,
+                   const Eigen::Vector3d& center);
+
+// Fits axis and radius to what at least two views measure, as AdjustEdge()
+// does, from `start`. A very weak prior pulls towards radius 0 if the rays tell
+// nothing of it.
+OccludingContour AdjustOccludingContour(
+    const OccludingContour& start,
+    const std::vector<PlaneMeasurement>& measurements,
+    double sigma_px);
+
+}  // namespace curvix
