@@ -66,11 +66,11 @@ struct CurvePoses {
 // What is held out to judge by: a fifth of space, and of the points every fifth
 // and those that no view needs. Gains of its parts count as significant if
 // chance, with losses as likely as gains, would give as much once in five
-// thousand times: a run judges five times at most. Cameras change if poses that are adjusted to what is held out fit it
-// significantly better with than without. All is accepted if what is held out,
-// fitted to the old poses and to the new, fits significantly better, or no
-// worse if cameras have changed, and neither samples nor points tell the
-// contrary. A view that fits worse keeps
+// thousand times: a run judges five times at most. Cameras change if poses that
+// are adjusted to what is held out fit it significantly better with than
+// without. All is accepted if what is held out, fitted to the old poses and to
+// the new, fits significantly better, or no worse if cameras have changed, and
+// neither samples nor points tell the contrary. A view that fits worse keeps
 // its pose if no camera has changed. Finally poses are adjusted to all there
 // is. Poses are taken as they are, without much ado, if the median distance is
 // below 0.06 px, of samples where no view's picture fits clearly better
