@@ -29,7 +29,7 @@ constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 constexpr double kMinCosine = 0.9659258;  // 15 degrees
 // More tell little more of a place, and cost views the square of their number.
-constexpr std::size_t kMaxViewsOfPlace = 30;
+constexpr std::size_t kMaxViewsOfPlace = 40;
 // Edges along one contour are one.
 constexpr double kSameContourPx = 0.2;
 
@@ -144,41 +144,50 @@ std::vector<std::size_t> PosedEdges::QueryViews(const CurvePlace& place) const {
       next_to_them.push_back(static_cast<std::size_t>(neighbor.view_idx));
     }
   }
-  if (views.size() >= kMaxViewsOfPlace) return SpreadViews(place, views);
+  if (views.size() >= kMaxViewsOfPlace) return SpreadViews(place, {}, views);
   std::sort(next_to_them.begin(), next_to_them.end());
   next_to_them.erase(std::unique(next_to_them.begin(), next_to_them.end()),
                      next_to_them.end());
-  std::vector<std::size_t> all;
-  std::set_union(views.begin(),
-                 views.end(),
-                 next_to_them.begin(),
-                 next_to_them.end(),
-                 std::back_inserter(all));
-  return all;
+  std::vector<std::size_t> others;
+  std::set_difference(next_to_them.begin(),
+                      next_to_them.end(),
+                      views.begin(),
+                      views.end(),
+                      std::back_inserter(others));
+  return SpreadViews(place, views, others);
 }
 
 std::vector<std::size_t> PosedEdges::SpreadViews(
-    const CurvePlace& place, const std::vector<std::size_t>& views) const {
+    const CurvePlace& place,
+    std::vector<std::size_t> taken,
+    const std::vector<std::size_t>& others) const {
+  const auto direction_of = [&](std::size_t view_idx) -> Eigen::Vector3d {
+    return (input_views_[view_idx].center - place.contour.axis.position)
+        .normalized();
+  };
   std::vector<Eigen::Vector3d> directions;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const std::size_t i : views) {
-    directions.push_back(
-        (input_views_[i].center - place.contour.axis.position).normalized());
+  for (const std::size_t i : others) {
+    directions.push_back(direction_of(i));
     sum += directions.back();
   }
   // Of each view, how near it is to the nearest that is taken, as a cosine.
-  std::vector<double> nearness(views.size(), -1);
-  std::vector<std::size_t> taken;
-  for (Eigen::Vector3d last = sum.normalized();
-       taken.size() < kMaxViewsOfPlace;) {
-    for (std::size_t k = 0; k < views.size(); ++k) {
-      nearness[k] = std::max(nearness[k], last.dot(directions[k]));
+  std::vector<double> nearness(others.size(), -1);
+  const auto take = [&](const Eigen::Vector3d& direction) {
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      nearness[k] = std::max(nearness[k], direction.dot(directions[k]));
     }
+  };
+  for (const std::size_t i : taken) take(direction_of(i));
+  if (taken.empty()) take(sum.normalized());
+  constexpr double kTaken = 2;
+  for (std::size_t n = 0; n < others.size(); ++n) {
+    if (taken.size() >= kMaxViewsOfPlace) break;
     const auto k = static_cast<std::size_t>(
         std::min_element(nearness.begin(), nearness.end()) - nearness.begin());
-    taken.push_back(views[k]);
-    nearness[k] = 2;
-    last = directions[k];
+    taken.push_back(others[k]);
+    nearness[k] = kTaken;
+    take(directions[k]);
   }
   std::sort(taken.begin(), taken.end());
   return taken;

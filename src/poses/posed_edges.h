@@ -53,9 +53,9 @@ class PosedEdges {
   // are expected within a few times `sigma_px` of where the poses put them.
   std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
 
-  // The views to ask about a place, ascending: its supporters and the views
-  // next to them; of thirty supporters or more, thirty that look from all
-  // sides.
+  // The query views of a place, forty at most, ascending: its supporters, or
+  // forty of them that look from all sides, and of the views next to them
+  // those that look from other sides.
   std::vector<std::size_t> QueryViews(const CurvePlace& place) const;
 
   // The nearest edge in each of `views` that is within its gate, by view.
@@ -92,10 +92,12 @@ class PosedEdges {
 
  private:
   const Camera& InputCameraOf(std::size_t view_idx) const;
-  // As many of `views` as a place needs, each as far as can be in direction
-  // from those before; by the poses of the scene.
+  // `taken`, and of the `others` as many as a place needs, each as far as can
+  // be in direction from those before; by the poses of the scene. Ascending.
   std::vector<std::size_t> SpreadViews(
-      const CurvePlace& place, const std::vector<std::size_t>& views) const;
+      const CurvePlace& place,
+      std::vector<std::size_t> taken,
+      const std::vector<std::size_t>& others) const;
   ImageEdge InputEdge(const EdgeRef& ref) const;
   // Where a view sees the contour, in the ideal image of the input camera, in
   // which edges are indexed; nothing outside the image.

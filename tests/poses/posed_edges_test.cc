@@ -36,11 +36,19 @@ TEST_F(PosedEdgesTest, AsksAllSupportersIfTheyAreFew) {
   EXPECT_GT(views.size(), 8u);
 }
 
+TEST_F(PosedEdgesTest, AsksFortyAtMost) {
+  const std::vector<std::size_t> views = edges_.QueryViews(SeenByFirst(35));
+  EXPECT_EQ(views.size(), 40u);
+  for (std::size_t i = 0; i < 35; ++i) {
+    EXPECT_TRUE(std::binary_search(views.begin(), views.end(), i));
+  }
+}
+
 // None is farther from those that are asked than the nearest two of these are
 // from each other.
-TEST_F(PosedEdgesTest, AsksThirtyOfManyFromAllSides) {
+TEST_F(PosedEdgesTest, AsksFortyOfManyFromAllSides) {
   const std::vector<std::size_t> views = edges_.QueryViews(SeenByFirst(50));
-  ASSERT_EQ(views.size(), 30u);
+  ASSERT_EQ(views.size(), 40u);
   EXPECT_TRUE(std::is_sorted(views.begin(), views.end()));
   double least = 2;
   for (const std::size_t i : views) {
