@@ -63,20 +63,23 @@ struct CurvePoses {
 // share: the first eight parameters of their model, or of a model with more
 // terms (SIMPLE_RADIAL, RADIAL, OPENCV); none if one of the new cameras cannot
 // be inverted at an edge.
-// What is held out to judge by: a fifth of space, and of the points every fifth
-// and those that no view needs. Gains of its parts count as significant if
-// chance, with losses as likely as gains, would give as much once in five
-// thousand times: a run judges five times at most. Cameras change if poses that
-// are adjusted to what is held out fit it significantly better with than
-// without. All is accepted if what is held out, fitted to the old poses and to
-// the new, fits significantly better, or no worse if cameras have changed, and
-// neither samples nor points tell the contrary. A view that fits worse keeps
-// its pose if no camera has changed. Finally poses are adjusted to all there
-// is. Poses are taken as they are, without much ado, if the median distance is
-// below 0.06 px, of samples where no view's image fits clearly better
-// shifted, or of the points in each view. The same result for any number of
-// threads. kInvalidArgument as ReconstructCurves. `progress` is called as stage
-// "refine_poses_with_curves"; kCancelled when it returns false.
+//
+// Held out are a fifth of space, and of the points every fifth and those that
+// no view needs. A gain there is significant if its probability under equal
+// chances of gain and loss is below 1 in 5000; a run judges five times at most.
+//  * New cameras are taken if poses adjusted to the held-out data fit it
+//    significantly better with them.
+//  * All is accepted if the held-out data fits significantly better, or no
+//    worse with new cameras, and neither samples nor points are significantly
+//    worse. If no camera has changed, a view that fits worse keeps its pose.
+//  * Then poses are adjusted to all data.
+// Poses are left alone at once if the median distance is below 0.06 px: of
+// samples, where no view's image fits clearly better shifted, or of the points
+// in each view. docs/stages/poses.md says more.
+//
+// The same result for any number of threads. kInvalidArgument as
+// ReconstructCurves. `progress` is called as stage "refine_poses_with_curves";
+// kCancelled when it returns false.
 Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,

@@ -21,8 +21,8 @@ struct ThinnedEdges {
 // max_normal_distance_px across it and max_angle_deg off its direction.
 //
 // First edges are chosen greedily: the edge with most support within these
-// limits, its own included, comes first (ties: smaller index), so the middle of
-// parallel tracks goes before its rim. It is moved across its tangent to the
+// limits, its own included, comes first (ties: smaller index), so the central
+// one of parallel tracks is preferred. It is moved across its tangent to the
 // mean of its group and turned to its mean direction, members weighted by their
 // inverse variance, or by their number of supports where that is not known. Its
 // sigma is the least and its evidence the greatest of the group: members share

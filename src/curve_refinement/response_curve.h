@@ -63,12 +63,13 @@ ImageEdge Unblurred(const Edge2d& edge,
 // The response curve with which the views agree best about the curves. A curve
 // that some views see against the sky and others against a wall has an edge of
 // another contrast and level in each, so a response curve moves it by another
-// amount in each, or to the other side; only what the samples, each by itself,
-// cannot follow tells of it. Least squares with Cauchy's weights
+// amount in each, or to the other side. Only the part of the residuals that
+// moving the sample cannot absorb determines the response. Least squares with
+// Cauchy's weights
 // (`edge_sigma_px`) over samples some ten pixels apart, in turn with their
 // places; neither parameter is below 0, since no camera's brightness grows
-// faster than light; as if a little had been seen of a curve without response,
-// so that few curves change nothing.
+// faster than light; a weak prior pulls to the identity, so that few curves
+// change nothing.
 ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
                                     const std::vector<PosedView>& views,
                                     const std::vector<EdgeMap>& edge_maps,

@@ -16,7 +16,7 @@ namespace curvix {
 // A real edge of the scene is a step in the image, as sharp as the image can
 // show it, and keeps its place as the view moves. Of what else shows as an
 // edge, a border of shading, where a blend meets a face, is blurred, and the
-// rim of a smooth body lies elsewhere on it in every view. Along a whole curve
+// occluding contour lies elsewhere on it in every view. Along a whole curve
 // noise averages out, and both show.
 struct CurveTraits {
   // How many times less surely than one 2D edge, across it, the place of the

@@ -40,11 +40,11 @@ std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
                                   const std::vector<PosedView>& views,
                                   const ImageSupport& images);
 
-// What two curves share where they touch has been drawn once: the one ends on
-// either side of it, and the other may come in as the one and go on as the
-// other. Wherever two ends meet beside a passing curve (FindMeetings), both
-// curves are carried on through what they share, exchanged if need be: the last
-// 3 px before the ends are cut off, and gaps are filled (fill_gap.h).
+// Where two curves touch, the shared segment is traced once: one curve breaks,
+// or the two are swapped behind it. Wherever two ends meet beside a passing
+// curve (FindMeetings), both curves are carried on through what they share,
+// exchanged if need be: the last 3 px before the ends are cut off, and gaps are
+// filled (fill_gap.h).
 std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
                                     const std::vector<PosedView>& views,
                                     const ImageSupport& images);

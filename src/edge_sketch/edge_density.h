@@ -32,8 +32,8 @@ class EdgeDensity {
 
 // One bit for each place (cells of 2 x 2 pixels) and direction (16 bins) where
 // a search would find an edge within its reach. Two bytes per cell of the tiles
-// (8 x 8 cells) that have any, while the edges themselves and their index take
-// many times as much: most questions end in the cache.
+// (8 x 8 cells) that have any: a cheap early rejection before the search for
+// the nearest edge.
 class EdgePresence {
  public:
   // Knows nothing: everything may be found.

@@ -8,8 +8,7 @@
 
 namespace curvix {
 
-// A judge more than this adds hardly anything, and hypotheses of one view would
-// cost the more, the more views there are.
+// More query views cost time and change little.
 inline constexpr int kMaxNumValidators = 64;
 
 // All views, if there are at most `max_num` (>= 1). Else view h1 and of those

@@ -16,11 +16,10 @@ struct EdgesAround {
   std::vector<double> distances_px;
 };
 
-// The shift of the picture, up to `reach_px` in x and in y, that brings most
-// samples onto an edge. Each sample says how well its nearest edge fits, so
-// edges that are not the sample's outvote nobody: they do not agree with each
-// other on a shift. Zero unless another shift is clearly better. Pixels; ties:
-// smaller y, then smaller x.
+// The shift of the image, up to `reach_px` in x and in y, that brings most
+// samples onto an edge. Wrong matches are harmless: they agree on no common
+// shift. Zero unless another shift is clearly better. Pixels; ties: smaller y,
+// then smaller x.
 Eigen::Vector2d FindShift(const std::vector<EdgesAround>& samples,
                           double reach_px);
 
