@@ -15,9 +15,9 @@ namespace curvix {
 
 // A real edge of the scene is a step in the image, as sharp as the image can
 // show it, and keeps its place as the view moves. Of what else shows as an
-// edge, a border of shading, where a blend meets a face, is blurred, and the
-// occluding contour lies elsewhere on it in every view. Along a whole curve
-// noise averages out, and both show.
+// edge, a shading edge, where a blend meets a face, is blurred, and an
+// occluding contour lies elsewhere on its body in every view. Along a whole
+// curve noise averages out, and both show.
 struct CurveTraits {
   // How many times less surely than one 2D edge, across it, the place of the
   // curve is known: the median over the samples of sigma in pixels
@@ -68,7 +68,7 @@ struct SelectedCurves {
 //  * an edge of the scene, if also
 //      dilution * max(1, s / r) <= allowed * (1 - blurred / max_blurred_share)
 //    or options.max_blurred_share is 1,
-//  * left out as a border of shading, otherwise.
+//  * dropped as a shading edge, otherwise.
 // An occluding contour lies elsewhere in every view, so its edges scatter,
 // and shows from directions in one plane, so it is badly determined; what views
 // show by chance scatters, too. r is what is left of the errors of edges,
