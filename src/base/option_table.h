@@ -36,7 +36,7 @@ std::vector<OptionRow> OptionTable(Options& options);
 std::string ValueText(const OptionRow& row);
 Status SetFromText(const OptionRow& row, const std::string& text);
 
-// What a row allows: "> 0", ">= 0 and <= 1", "0 or 1", "wedges or distance".
+// What a row allows: "> 0", ">= 0 and <= 1", "0 or 1", "a or b or c".
 std::string RangeText(const OptionRow& row);
 
 // kInvalidArgument, naming the field, its value and the range, if any is
