@@ -8,11 +8,27 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace curvix {
+
+// What shows as a curve in the images.
+enum class CurveKind : std::uint8_t {
+  kUnknown,           // the images do not tell
+  kCrease,            // two surfaces meet
+  kBoundary,          // a surface ends before something further away
+  kMarking,           // one surface on both sides: paint, mortar, a shadow
+  kOccludingContour,  // a round body turns away
+};
+
+// "unknown", "crease", "boundary", "marking", "occluding_contour", and back.
+// nullopt: none of these.
+std::string_view KindName(CurveKind kind);
+std::optional<CurveKind> KindFromName(std::string_view name);
 
 struct CurveSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
@@ -24,6 +40,9 @@ struct CurveSample {
   // Of the position, across the curve; its trace is 2 sigma^2. World units
   // squared; 0: not estimated.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  // The most probable kind of curve here, and its probability; kUnknown: 0.
+  CurveKind kind = CurveKind::kUnknown;
+  float kind_probability = 0;
 };
 
 // A polyline of at least two samples. If `closed`, the last sample is followed
