@@ -25,10 +25,30 @@ enum class CurveKind : std::uint8_t {
   kOccludingContour,  // a round body turns away
 };
 
+constexpr int kNumCurveKinds = 5;
+
 // "unknown", "crease", "boundary", "marking", "occluding_contour", and back.
 // nullopt: none of these.
 std::string_view KindName(CurveKind kind);
 std::optional<CurveKind> KindFromName(std::string_view name);
+
+// Some of the kinds; all of them by default.
+class CurveKindSet {
+ public:
+  bool Has(CurveKind kind) const { return (bits_ & Bit(kind)) != 0; }
+  void Add(CurveKind kind) { bits_ |= Bit(kind); }
+  static CurveKindSet None() {
+    CurveKindSet none;
+    none.bits_ = 0;
+    return none;
+  }
+
+ private:
+  static unsigned Bit(CurveKind kind) {
+    return 1U << static_cast<unsigned>(kind);
+  }
+  unsigned bits_ = ~0U;
+};
 
 struct CurveSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
@@ -92,6 +112,9 @@ inline double Length(const Curve& curve) {
   }
   return length;
 }
+
+// The kind that most of the samples are of; ties: the first in CurveKind.
+CurveKind MainKind(const Curve& curve);
 
 // The pixel of the view's image, distortion included, at which `point` is seen.
 // nullopt: behind the camera, more than 80 degrees off its axis, where the

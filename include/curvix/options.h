@@ -4,6 +4,8 @@
 // Each field has a flag of the same name: docs/options.md.
 #pragma once
 
+#include <curvix/curves.h>
+
 namespace curvix {
 
 // Sec. 3, ref. [15].
@@ -204,6 +206,11 @@ struct CurveRefinementOptions {
   double max_junction_gap_px = 1.5;
 };
 
+// Beyond the paper: whether curves are creases, boundaries or markings.
+struct CurveKindOptions {
+  bool enabled = true;
+};
+
 // Beyond the paper: which curves to keep. The defaults keep all; on textured
 // photographs, higher values leave structure and take texture away.
 struct CurveFilterOptions {
@@ -218,6 +225,9 @@ struct CurveFilterOptions {
   // Mean cosine of the angle between tangents 10 pixels apart: 1 for a line,
   // 1 - 50 / r^2 for a circle of r pixels; 0..1.
   double min_straightness = 0;
+  // Kinds of curves: others are cut out. Where the images do not tell the kind,
+  // curves stay.
+  CurveKindSet kinds = {};
 };
 
 // Beyond the paper: curves as lines, arcs, ellipses and splines (fitting.h).
@@ -243,6 +253,7 @@ struct Options {
   ConnectivityOptions connectivity;
   CurveGrowthOptions curve_growth;
   CurveRefinementOptions curve_refinement;
+  CurveKindOptions curve_kinds;
   CurveFilterOptions curve_filter;
   CurveFittingOptions curve_fitting;
   RuntimeOptions runtime;

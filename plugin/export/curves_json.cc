@@ -78,13 +78,32 @@ Json SampleJson(const CurveRecord& record, const CurveSample& sample) {
           {"tangent", VectorJson(sample.tangent)},
           {"sigma", sample.sigma},
           {"covariance", Triangle(sample.covariance)},
+          {"kind_probability", sample.kind_probability},
           {"support", SupportJson(record, sample)}};
+}
+
+// The runs of samples of one kind.
+Json KindsJson(const Curve& curve) {
+  Json kinds = Json::array();
+  for (std::size_t i = 0; i < curve.samples.size(); ++i) {
+    const CurveSample& sample = curve.samples[i];
+    if (i == 0 || sample.kind != curve.samples[i - 1].kind) {
+      kinds.push_back({{"kind", KindName(sample.kind)},
+                       {"first_sample", i},
+                       {"num_samples", 0}});
+    }
+    Json& num_samples = kinds.back()["num_samples"];
+    num_samples = num_samples.get<std::size_t>() + 1;
+  }
+  return kinds;
 }
 
 Json CurveJson(const CurveRecord& record, std::size_t id, const Curve& curve) {
   Json json = {{"id", id},
                {"closed", curve.closed},
                {"length", Length(curve)},
+               {"kind", KindName(MainKind(curve))},
+               {"kinds", KindsJson(curve)},
                {"fits", Json::array()},
                {"samples", Json::array()}};
   for (const CurveFit& fit : record.fitted.curves[id].fits) {

@@ -246,6 +246,11 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "largest distance of a continued end from its corner");
 }
 
+void AddRows(CurveKindOptions& o, Section row) {
+  row.Switch("enabled", &o.enabled,
+      "tell creases, boundaries and markings apart");
+}
+
 void AddRows(CurveFilterOptions& o, Section row) {
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
       "shortest curve, in the views that see it largest");
@@ -258,6 +263,9 @@ void AddRows(CurveFilterOptions& o, Section row) {
   row("min_straightness", &o.min_straightness, Between(0, 1), "", "",
       "mean cosine between tangents 10 px apart: 1 for lines, 0.995 for a "
       "circle of radius 100 px");
+  row.Choice("kinds", &o.kinds,
+      {"crease", "boundary", "marking", "occluding_contour"}, "",
+      "kinds of curves to keep, with commas between; others are cut out");
 }
 
 void AddRows(CurveFittingOptions& o, Section row) {
@@ -285,6 +293,7 @@ std::vector<OptionRow> OptionTable(Options& options) {
   AddRows(options.connectivity, Section("Connectivity.", rows));
   AddRows(options.curve_growth, Section("CurveGrowth.", rows));
   AddRows(options.curve_refinement, Section("CurveRefinement.", rows));
+  AddRows(options.curve_kinds, Section("CurveKinds.", rows));
   AddRows(options.curve_filter, Section("CurveFilter.", rows));
   AddRows(options.curve_fitting, Section("CurveFitting.", rows));
   AddRows(options.runtime, Section("", rows));

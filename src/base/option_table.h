@@ -14,13 +14,13 @@ namespace curvix {
 
 struct OptionRow {
   std::string name;  // "Validation.min_num_support_views": the flag without --
-  std::variant<bool*, int*, double*, ViewSelection*> field;
+  std::variant<bool*, int*, double*, ViewSelection*, CurveKindSet*> field;
   double min = 0;  // smallest value allowed
   double max =
       std::numeric_limits<double>::infinity();  // largest value allowed
   bool min_is_excluded = false;                 // "> min" instead of ">= min"
-  std::vector<std::string> choices = {};        // of an enum, by value
-  std::string unit = {};                        // "px", "deg", or ""
+  std::vector<std::string> choices = {};  // of an enum, by value, or a set
+  std::string unit = {};                  // "px", "deg", or ""
   std::string symbol = {};  // of the paper: "Delta gamma, Sec. 3", or ""
   std::string help;         // one line
 };
@@ -32,7 +32,8 @@ std::vector<OptionRow> OptionTable(Options& options);
 // The value of a row as text, and text into the row's field.
 // kInvalidArgument: "Validation.max_angle_deg is -1; it must be > 0".
 // A double is printed with the fewest digits that read back as it, a bool as 1
-// or 0 (also read: true, false, yes, no, on, off).
+// or 0 (also read: true, false, yes, no, on, off), a set
+// as "crease,boundary".
 std::string ValueText(const OptionRow& row);
 Status SetFromText(const OptionRow& row, const std::string& text);
 

@@ -47,10 +47,25 @@ std::optional<int> ParseChoice(const OptionRow& row, const std::string& text) {
   return std::nullopt;
 }
 
-// The value as a number: of an enum, its index.
+// The value as a number: of an enum, its index; of a set, none.
+struct Number {
+  double operator()(const CurveKindSet*) const { return 0; }
+  template <typename T>
+  double operator()(const T* field) const {
+    return static_cast<double>(*field);
+  }
+};
 double NumberOf(const OptionRow& row) {
-  return std::visit(
-      [](const auto* field) { return static_cast<double>(*field); }, row.field);
+  return std::visit(Number(), row.field);
+}
+
+std::string SetText(const OptionRow& row, const CurveKindSet& kinds) {
+  std::string text;
+  for (const std::string& name : row.choices) {
+    if (!kinds.Has(KindFromName(name).value())) continue;
+    text += (text.empty() ? "" : ",") + name;
+  }
+  return text;
 }
 
 Status OutOfRange(const OptionRow& row, const std::string& text) {
@@ -76,6 +91,23 @@ struct FieldReader {
   }
   bool operator()(int* field) const { return ReadNumber(field); }
   bool operator()(double* field) const { return ReadNumber(field); }
+  bool operator()(CurveKindSet* field) const {
+    // Where the kind is unknown, it is not another one.
+    CurveKindSet kinds = CurveKindSet::None();
+    kinds.Add(CurveKind::kUnknown);
+    std::string_view rest = text;
+    while (true) {
+      const std::size_t comma = rest.find(',');
+      const std::string name(rest.substr(0, comma));
+      const auto kind = KindFromName(name);
+      if (!kind || !ParseChoice(row, name)) return false;
+      kinds.Add(*kind);
+      if (comma == std::string_view::npos) break;
+      rest.remove_prefix(comma + 1);
+    }
+    *field = kinds;
+    return true;
+  }
   template <typename Enum>
   bool operator()(Enum* field) const {
     const std::optional<int> value = ParseChoice(row, text);
@@ -99,6 +131,9 @@ std::string ValueText(const OptionRow& row) {
   if (const auto* field = std::get_if<int*>(&row.field)) {
     return std::to_string(**field);
   }
+  if (const auto* field = std::get_if<CurveKindSet*>(&row.field)) {
+    return SetText(row, **field);
+  }
   if (row.choices.empty()) return NumberText(NumberOf(row));
   const auto index = static_cast<std::size_t>(NumberOf(row));
   CURVIX_CHECK(index < row.choices.size(), row.name << " has no name");
@@ -107,6 +142,9 @@ std::string ValueText(const OptionRow& row) {
 
 std::string RangeText(const OptionRow& row) {
   if (std::holds_alternative<bool*>(row.field)) return "0 or 1";
+  if (std::holds_alternative<CurveKindSet*>(row.field)) {
+    return "one or more of " + SetText(row, CurveKindSet());
+  }
   if (!row.choices.empty()) {
     std::string text = row.choices.front();
     for (std::size_t i = 1; i < row.choices.size(); ++i) {

@@ -9,6 +9,7 @@
 
 #include "base/median.h"
 #include "geometry/pixel_size.h"
+#include "model/sample_runs.h"
 
 namespace curvix {
 namespace {
@@ -81,10 +82,26 @@ CurveQualities Measure(const Curve& curve,
   return qualities;
 }
 
+std::vector<Curve> KeepKinds(std::vector<Curve> curves,
+                             const CurveKindSet& kinds) {
+  std::vector<Curve> pieces;
+  for (Curve& curve : curves) {
+    std::vector<bool> kept;
+    for (const CurveSample& sample : curve.samples) {
+      kept.push_back(kinds.Has(sample.kind));
+    }
+    for (Curve& piece : KeepRuns(std::move(curve), std::move(kept))) {
+      pieces.push_back(std::move(piece));
+    }
+  }
+  return pieces;
+}
+
 std::vector<Curve> FilterCurves(std::vector<Curve> curves,
                                 const std::vector<PosedView>& views,
                                 const std::vector<EdgeMap>& edge_maps,
                                 const CurveFilterOptions& options) {
+  curves = KeepKinds(std::move(curves), options.kinds);
   std::erase_if(curves, [&](const Curve& curve) {
     return !Passes(Measure(curve, views, edge_maps), options);
   });

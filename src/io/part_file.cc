@@ -19,7 +19,7 @@
 namespace curvix {
 namespace {
 
-constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48;
+constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48 + 5;
 
 Eigen::Matrix3d TakeSymmetric(ByteReader& in) {
   Eigen::Matrix3d matrix;
@@ -63,6 +63,8 @@ void Put(const TracedCurve& traced, ByteWriter& out) {
   for (const CurveSample& sample : curve.samples) {
     PutEdge(sample, out);
     for (const double entry : Triangle(sample.covariance)) out.Put(entry);
+    out.Put(static_cast<std::uint8_t>(sample.kind));
+    out.Put(sample.kind_probability);
   }
   out.PutCount(traced.edges.size());
   for (const Edge2d& edge : traced.edges) Put(edge, out);
@@ -76,6 +78,9 @@ TracedCurve TakeTracedCurve(ByteReader& in) {
   for (CurveSample& sample : traced.curve.samples) {
     sample = TakeEdge<CurveSample>(in);
     sample.covariance = TakeSymmetric(in);
+    sample.kind = static_cast<CurveKind>(
+        std::min<int>(in.Take<std::uint8_t>(), kNumCurveKinds - 1));
+    sample.kind_probability = in.Take<float>();
   }
   traced.edges.resize(in.TakeCount(kEdge2dBytes));
   for (Edge2d& edge : traced.edges) edge = TakeEdge2d(in);

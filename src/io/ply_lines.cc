@@ -54,7 +54,7 @@ bool HasClosingEdge(const Curve& curve) {
 
 std::string LinesHeader(std::size_t num_vertices,
                         std::size_t num_edges,
-                        bool is_labelled) {
+                        bool has_kinds) {
   std::string header(kPlyStart);
   header += std::to_string(num_vertices);
   header += kPlyGeometry;
@@ -62,7 +62,9 @@ std::string LinesHeader(std::size_t num_vertices,
       "property float curve_id\n"
       "property float confidence\n"
       "property float support\n";
-  if (is_labelled) header += "property uchar occluding\n";
+  if (has_kinds) {
+    header += "property uchar kind\nproperty float kind_probability\n";
+  }
   header += "element edge ";
   header += std::to_string(num_edges);
   header +=
@@ -75,7 +77,7 @@ std::string LinesHeader(std::size_t num_vertices,
 
 void AppendVertices(const Curve& curve,
                     std::size_t id,
-                    bool is_labelled,
+                    bool has_kinds,
                     std::string& out) {
   const Rgb color = CurveColor(id);
   for (const CurveSample& sample : curve.samples) {
@@ -85,9 +87,9 @@ void AppendVertices(const Curve& curve,
     AppendLittleEndian(static_cast<float>(id), out);
     AppendLittleEndian(Confidence(sample.support.size()), out);
     AppendLittleEndian(static_cast<float>(sample.support.size()), out);
-    if (is_labelled) {
-      AppendLittleEndian(
-          static_cast<std::uint8_t>(curve.is_occluding_contour ? 1 : 0), out);
+    if (has_kinds) {
+      AppendLittleEndian(static_cast<std::uint8_t>(sample.kind), out);
+      AppendLittleEndian(sample.kind_probability, out);
     }
   }
 }
@@ -120,19 +122,24 @@ std::string EdgesHeader(std::size_t num_edges) {
 Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
   std::size_t num_vertices = 0;
   std::size_t num_edges = 0;
-  bool is_labelled = false;  // only if the user asked for it
+  bool has_kinds = false;
   curves.ForEach([&](std::size_t, const Curve& curve) {
     num_vertices += curve.samples.size();
     num_edges += curve.samples.empty() ? 0 : curve.samples.size() - 1;
     num_edges += HasClosingEdge(curve) ? 1 : 0;
-    is_labelled = is_labelled || curve.is_occluding_contour;
+    has_kinds =
+        has_kinds || std::any_of(curve.samples.begin(),
+                                 curve.samples.end(),
+                                 [](const CurveSample& sample) {
+                                   return sample.kind != CurveKind::kUnknown;
+                                 });
   });
   if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
 
-  sink(LinesHeader(num_vertices, num_edges, is_labelled));
+  sink(LinesHeader(num_vertices, num_edges, has_kinds));
   curves.ForEach([&](std::size_t id, const Curve& curve) {
     std::string out;
-    AppendVertices(curve, id, is_labelled, out);
+    AppendVertices(curve, id, has_kinds, out);
     sink(out);
   });
   std::size_t first = 0;

@@ -15,9 +15,9 @@
 namespace curvix {
 
 // Binary little endian. Vertex: float x y z tx ty tz, uchar red green blue (one
-// colour per curve), float curve_id confidence support, and if any curve is
-// labelled as an occluding contour, uchar occluding (0 or 1). Edge: int vertex1
-// vertex2. Only float and uchar in vertices: COLMAP aborts on anything else.
+// colour per curve), float curve_id confidence support, and if the kind
+// of any sample is known, uchar kind (CurveKind), float kind_probability. Edge:
+// int vertex1 vertex2. Only float and uchar in vertices: COLMAP aborts on anything else.
 // Each curve has its own consecutive vertices, in order, and its edges follow
 // in order too, the closing edge last. More than 2^31 - 1 vertices are
 // kUnsupported.

@@ -29,6 +29,12 @@ Status NoColumns(const std::string& what) {
               "cloud or a mesh holds no curves"};
 }
 
+// Unknown for numbers of no kind.
+CurveKind KindFromNumber(double number) {
+  return number > 0 && number < kNumCurveKinds ? static_cast<CurveKind>(number)
+                                               : CurveKind::kUnknown;
+}
+
 Status TakeVertices(const PlyElement& element,
                     PlyFormat format,
                     std::string_view& body,
@@ -37,13 +43,22 @@ Status TakeVertices(const PlyElement& element,
   const bool has_tangents = columns.has_value();
   if (!has_tangents) columns = FindScalars(element, {"x", "y", "z"});
   if (!columns) return NoColumns("scalar properties x, y, z of a vertex");
+  const std::size_t num_coordinates = columns->size();
+  const auto kinds = FindScalars(element, {"kind", "kind_probability"});
+  if (kinds) columns->insert(columns->end(), kinds->begin(), kinds->end());
   const auto rows = TakePlyRows(element, format, *columns, body);
   if (!rows.ok()) return rows.status();
   const std::size_t stride = columns->size();
   for (std::size_t i = 0; i < rows->size(); i += stride) {
     graph.positions.emplace_back(Eigen::Vector3d::Map(rows->data() + i));
-    if (!has_tangents) continue;
-    graph.tangents.emplace_back(Eigen::Vector3d::Map(rows->data() + i + 3));
+    if (has_tangents) {
+      graph.tangents.emplace_back(Eigen::Vector3d::Map(rows->data() + i + 3));
+    }
+    if (kinds) {
+      const double* const kind = rows->data() + i + num_coordinates;
+      graph.kinds.emplace_back(KindFromNumber(kind[0]),
+                               static_cast<float>(kind[1]));
+    }
   }
   return {};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace curvix {
@@ -136,6 +137,9 @@ Curve MakeCurve(const LineGraph& graph, const Path& path) {
   curve.samples.resize(path.vertices.size());
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     curve.samples[i].position = graph.positions[path.vertices[i]];
+    if (graph.kinds.empty()) continue;
+    std::tie(curve.samples[i].kind, curve.samples[i].kind_probability) =
+        graph.kinds[path.vertices[i]];
   }
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     Eigen::Vector3d tangent = Eigen::Vector3d::Zero();

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace curvix {
@@ -15,6 +16,8 @@ namespace curvix {
 struct LineGraph {
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Vector3d> tangents;  // one per vertex, or none at all
+  // Kinds and their probabilities; one per vertex, or none at all.
+  std::vector<std::pair<CurveKind, float>> kinds;
   std::vector<std::array<std::int64_t, 2>> edges;  // from, to: vertex numbers
 };
 

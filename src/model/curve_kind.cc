@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none.
+// Paper: none (beyond it).
 #include <curvix/curves.h>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
 namespace curvix {
 namespace {
 
-constexpr std::array<std::string_view, 5> kKindNames = {
+constexpr std::array<std::string_view, kNumCurveKinds> kKindNames = {
     "unknown", "crease", "boundary", "marking", "occluding_contour"};
 
 }  // namespace
@@ -21,6 +22,15 @@ std::optional<CurveKind> KindFromName(std::string_view name) {
     if (kKindNames[i] == name) return static_cast<CurveKind>(i);
   }
   return std::nullopt;
+}
+
+CurveKind MainKind(const Curve& curve) {
+  std::array<std::size_t, kNumCurveKinds> num_samples = {};
+  for (const CurveSample& sample : curve.samples) {
+    ++num_samples[static_cast<std::size_t>(sample.kind)];
+  }
+  const auto most = std::max_element(num_samples.begin(), num_samples.end());
+  return static_cast<CurveKind>(most - num_samples.begin());
 }
 
 }  // namespace curvix

@@ -30,6 +30,7 @@ Options PaperOptions() {
   options.connectivity.min_length_px = 10;
   options.curve_growth.enabled = false;
   options.curve_refinement.enabled = false;
+  options.curve_kinds.enabled = false;
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "model/sample_runs.h"
 #include "parts/regions.h"
 
 namespace curvix {
@@ -22,9 +23,8 @@ std::vector<Curve> CutCurves(const std::vector<Curve>& curves,
     std::vector<bool> kept(curve.samples.size());
     std::transform(
         curve.samples.begin(), curve.samples.end(), kept.begin(), is_near);
-    OpenAtGap(curve, kept);
-    for (const Run& run : RunsOf(kept)) {
-      if (run.end - run.begin >= 2) pieces.push_back(TakeOut(curve, run));
+    for (Curve& piece : KeepRuns(std::move(curve), std::move(kept))) {
+      pieces.push_back(std::move(piece));
     }
   }
   return pieces;

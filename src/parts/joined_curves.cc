@@ -11,6 +11,7 @@
 
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
+#include "model/sample_runs.h"
 #include "parts/cut_curves.h"
 #include "parts/regions.h"
 

@@ -27,21 +27,4 @@ std::vector<std::vector<Border>> CoresOf(const ScenePartition& partition);
 double DistanceBeyond(const std::vector<Border>& core,
                       const Eigen::Vector3d& position);
 
-// Samples begin, ..., end - 1.
-struct Run {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-// The longest runs of true.
-std::vector<Run> RunsOf(const std::vector<bool>& kept);
-
-// A closed curve of which not all samples are kept becomes an open one that
-// begins with one that is not; `kept` turns with it.
-void OpenAtGap(Curve& curve, std::vector<bool>& kept);
-
-// The samples of a run, which leave the curve empty behind. The whole curve
-// stays what it is; a part of it is open and has no junctions.
-Curve TakeOut(Curve& curve, const Run& run);
-
 }  // namespace curvix

@@ -13,6 +13,7 @@
 #include "base/angles.h"
 #include "base/point_tree.h"
 #include "geometry/pixel_size.h"
+#include "model/sample_runs.h"
 #include "parts/regions.h"
 
 namespace curvix {

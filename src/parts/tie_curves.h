@@ -11,6 +11,7 @@
 
 #include "model/curve_chains.h"
 #include "model/posed_view.h"
+#include "model/sample_runs.h"
 #include "parts/regions.h"
 #include "parts/scene_parts.h"
 

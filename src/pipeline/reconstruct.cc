@@ -8,6 +8,7 @@
 #include "curve_drawing/group_edges.h"
 #include "curve_drawing/grow_curves.h"
 #include "curve_drawing/link_edges.h"
+#include "curve_kinds/classify_curves.h"
 #include "curve_refinement/filter_curves.h"
 #include "curve_refinement/refine_curves.h"
 #include "edge_detection/detect_view_edges.h"
@@ -97,6 +98,12 @@ Reconstruction Connect(const Scene& scene,
                                       options.curve_refinement,
                                       num_threads);
   run.End(CountsOf(result.curves));
+
+  if (options.curve_kinds.enabled) {
+    run.Begin("classify_curves");
+    ClassifyCurves(scene, views, num_threads, &result.curves.curves);
+    run.End(KindCounts(result.curves));
+  }
 
   // What the user wants to see of them.
   const std::size_t num_refined = result.curves.curves.size();

@@ -33,6 +33,19 @@ Counts CountsOf(const CurveSet& curves) {
   return counts;
 }
 
+Counts KindCounts(const CurveSet& curves) {
+  Counts counts;
+  for (int kind = 0; kind < kNumCurveKinds; ++kind) {
+    counts.emplace_back(KindName(static_cast<CurveKind>(kind)), 0);
+  }
+  for (const Curve& curve : curves.curves) {
+    for (const CurveSample& sample : curve.samples) {
+      ++counts[static_cast<std::size_t>(sample.kind)].second;
+    }
+  }
+  return counts;
+}
+
 void RunRecorder::Begin(const std::string& stage) {
   ReleaseFreeMemory();
   stage_ = stage;

@@ -19,6 +19,9 @@ using Counts = std::vector<std::pair<std::string, std::int64_t>>;
 
 Counts CountsOf(const CurveSet& curves);
 
+// How many samples are of each kind.
+Counts KindCounts(const CurveSet& curves);
+
 // Records one stage after the other. Once the progress callback returns false
 // the run is cancelled, and the stages still to come find that out by
 // themselves.

@@ -60,10 +60,10 @@ const void* Address(const OptionRow& row) {
 
 TEST(OptionTable, HasOneRowForEveryField) {
   Options options;
-  const auto& [a, b, c, d, e, f, g, h, i, j, k, l] =
+  const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] =
       options;  // every struct of Options
   const auto rows = OptionTable(options);
-  EXPECT_EQ(rows.size(), NumFieldsOf(a, b, c, d, e, f, g, h, i, j, k, l))
+  EXPECT_EQ(rows.size(), NumFieldsOf(a, b, c, d, e, f, g, h, i, j, k, l, m))
       << "options.h and option_table.cc do not list the same fields";
 
   std::set<const void*> fields;
@@ -120,6 +120,22 @@ TEST(OptionTable, PrintsTheShortestNumberThatReadsBack) {
   EXPECT_EQ(ValueText(row), "0.30000000000000004");
   ASSERT_TRUE(SetFromText(row, "0.3").ok());
   EXPECT_EQ(ValueText(row), "0.3");
+}
+
+TEST(OptionTable, ReadsAndPrintsSets) {
+  Options options;
+  const auto rows = OptionTable(options);
+  const OptionRow& row = Find(rows, "CurveFilter.kinds");
+  EXPECT_EQ(ValueText(row), "crease,boundary,marking,occluding_contour");
+  ASSERT_TRUE(SetFromText(row, "marking,crease").ok());
+  EXPECT_EQ(ValueText(row), "crease,marking");
+  EXPECT_TRUE(options.curve_filter.kinds.Has(CurveKind::kMarking));
+  EXPECT_FALSE(options.curve_filter.kinds.Has(CurveKind::kBoundary));
+  EXPECT_TRUE(options.curve_filter.kinds.Has(CurveKind::kUnknown));
+  for (const char* wrong : {"", ",", "crease,", "creases", "unknown"}) {
+    EXPECT_THAT(SetFromText(row, wrong).message(), HasSubstr("one or more of"));
+    EXPECT_EQ(ValueText(row), "crease,marking");
+  }
 }
 
 TEST(OptionTable, PrintsIntegersInFull) {

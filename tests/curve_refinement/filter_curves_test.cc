@@ -72,6 +72,36 @@ TEST(FilterCurves, EachFilterLetsPassWhatJustMeetsIt) {
   }
 }
 
+TEST(FilterCurves, CutsOtherKindsOutAndKeepsWhatIsUnknown) {
+  Curve curve = Line(InPlane(0, 0), InPlane(60, 0));
+  const std::size_t size = curve.samples.size();
+  ASSERT_GT(size, 40u);
+  for (std::size_t i = 0; i < size; ++i) {
+    curve.samples[i].kind = i < 10   ? CurveKind::kCrease
+                            : i < 20 ? CurveKind::kMarking
+                                     : CurveKind::kUnknown;
+  }
+  CurveFilterOptions options;
+  options.kinds = CurveKindSet::None();
+  options.kinds.Add(CurveKind::kCrease);
+  options.kinds.Add(CurveKind::kUnknown);
+  const std::vector<Curve> kept =
+      FilterCurves({curve}, FrontalViews(), OneEdge(), options);
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0].samples.size(), 10u);
+  EXPECT_EQ(kept[1].samples.size(), size - 20);
+  EXPECT_EQ(kept[1].samples[0].position, curve.samples[20].position);
+
+  // A closed curve begins behind what is cut out.
+  curve.closed = true;
+  const std::vector<Curve> opened =
+      FilterCurves({curve}, FrontalViews(), OneEdge(), options);
+  ASSERT_EQ(opened.size(), 1u);
+  EXPECT_FALSE(opened[0].closed);
+  EXPECT_EQ(opened[0].samples.size(), size - 10);
+  EXPECT_EQ(opened[0].samples[0].position, curve.samples[20].position);
+}
+
 TEST(FilterCurves, DoesNotDependOnTheUnit) {
   const Curve curve = Arc(50, 0, 2);
   const CurveQualities a = QualitiesOf(curve);

@@ -78,22 +78,28 @@ TEST(PlyLines, RowsFollowTheHeaderInOrder) {
   EXPECT_EQ(LoadBytes<std::int32_t>(closing + 4, std::endian::little), 9);
 }
 
-TEST(PlyLines, LabelsOccludingContoursWhereThereAreAny) {
+TEST(PlyLines, KindsAreWrittenWhereAnyIsKnownAndComeBack) {
   CurveSet curves = MakeTestCurves();
-  const std::size_t unlabelled = EncodedCurves(EncodePlyLines, curves).size();
-  curves.curves[1].is_occluding_contour = true;
+  const std::size_t unknown = EncodedCurves(EncodePlyLines, curves).size();
+  CurveSample& sample = curves.curves[1].samples[2];
+  sample.kind = CurveKind::kMarking;
+  sample.kind_probability = 0.75F;
   const std::string bytes = EncodedCurves(EncodePlyLines, curves);
-  const std::string property = "property uchar occluding\n";
-  EXPECT_EQ(bytes.size(), unlabelled + property.size() + 23);
+  const std::string properties =
+      "property uchar kind\nproperty float kind_probability\n";
+  EXPECT_EQ(bytes.size(), unknown + properties.size() + 23 * 5);
   EXPECT_THAT(bytes,
-              HasSubstr("property float support\n" + property + "element"));
-  const std::string end = "end_header\n";
-  const char* body = bytes.data() + bytes.find(end) + end.size();
-  constexpr std::ptrdiff_t kVertexBytes = 9 * 4 + 4;
-  for (int i = 0; i < 23; ++i) {  // the second curve has vertices 9 to 20
-    EXPECT_EQ(body[i * kVertexBytes + 39], i >= 9 && i <= 20 ? 1 : 0);
+              HasSubstr("property float support\n" + properties + "element"));
+  const auto read = DecodePlyLines(bytes);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  for (std::size_t c = 0; c < curves.curves.size(); ++c) {
+    for (std::size_t i = 0; i < curves.curves[c].samples.size(); ++i) {
+      const CurveSample& back = read->curves[c].samples[i];
+      EXPECT_EQ(back.kind, curves.curves[c].samples[i].kind);
+      EXPECT_EQ(back.kind_probability,
+                curves.curves[c].samples[i].kind_probability);
+    }
   }
-  EXPECT_TRUE(DecodePlyLines(bytes).ok());
 }
 
 TEST(PlyLines, CurvesComeBackInOrderClosedAndOpen) {

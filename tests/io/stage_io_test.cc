@@ -175,6 +175,8 @@ PartResult SomePart() {
   sample.sigma = 0.1;
   sample.covariance << 1, 0.2, -0.3, 0.2, 5, 1e-300, -0.3, 1e-300, 7;
   sample.support = {{2, 0}, {2, 3}};
+  sample.kind = CurveKind::kBoundary;
+  sample.kind_probability = 0.7F;
   part.curves[1].curve.samples = {CurveSample(), sample};
   part.curves[1].edges = SomeEdgeMaps()[2].edges;
   return part;
@@ -198,6 +200,8 @@ TEST_F(StageIo, GivesAPartBackBitByBit) {
   EXPECT_TRUE(second->curve.is_occluding_contour);
   ASSERT_EQ(second->curve.samples.size(), 2u);
   const CurveSample& sample = part.curves[1].curve.samples[1];
+  EXPECT_EQ(second->curve.samples[1].kind, sample.kind);
+  EXPECT_EQ(second->curve.samples[1].kind_probability, sample.kind_probability);
   EXPECT_EQ(second->curve.samples[1].position, sample.position);
   EXPECT_EQ(second->curve.samples[1].sigma, sample.sigma);
   EXPECT_EQ(second->curve.samples[1].covariance, sample.covariance);

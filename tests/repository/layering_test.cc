@@ -36,7 +36,8 @@ const std::map<std::string, Rule>& Rules() {
                                 "edge_sketch",
                                 "paper",
                                 "curve_drawing",
-                                "curve_refinement"};
+                                "curve_refinement",
+                                "curve_kinds"};
   static const std::map<std::string, Rule> rules = {
       {"include/curvix", {}},
       {"base", {{}, {"malloc.h", "nanoflann.hpp"}}},
@@ -48,6 +49,7 @@ const std::map<std::string, Rule>& Rules() {
       {"paper", Stage({}, {"edge_sketch"})},
       {"curve_drawing", Stage({}, {"edge_sketch"})},
       {"curve_refinement", Stage({"ceres"})},
+      {"curve_kinds", Stage({"opencv2"}, {"edge_detection"})},
       {"poses", Stage({}, {"edge_detection", "edge_sketch", "pipeline"})},
       {"parts", Stage({}, {"edge_sketch"})},
       {"fitting", Stage()},

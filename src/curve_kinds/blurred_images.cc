@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_kinds/blurred_images.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include "base/parallel.h"
+#include "edge_detection/load_image.h"
+
+namespace curvix {
+namespace {
+
+// Against noise and aliasing.
+constexpr double kBlurPx = 0.7;
+
+std::int64_t Bytes(const Scene& scene, int shrink) {
+  std::int64_t bytes = 0;
+  for (const View& view : scene.views) {
+    const Camera& camera =
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    bytes += static_cast<std::int64_t>(camera.width / shrink) *
+             (camera.height / shrink);
+  }
+  return bytes;
+}
+
+BlurredImage Blur(GrayImage gray, int shrink) {
+  cv::Mat image(gray.height, gray.width, CV_32F, gray.pixels.data());
+  cv::Mat small = image;
+  if (shrink > 1) {
+    // Whole blocks only, so that the scale is exact.
+    const cv::Rect whole(
+        0, 0, gray.width / shrink * shrink, gray.height / shrink * shrink);
+    cv::resize(image(whole),
+               small,
+               cv::Size(gray.width / shrink, gray.height / shrink),
+               0,
+               0,
+               cv::INTER_AREA);
+  }
+  cv::Mat blurred, bytes;
+  cv::GaussianBlur(small, blurred, cv::Size(), kBlurPx);
+  blurred.convertTo(bytes, CV_8U);
+  return {bytes.cols,
+          bytes.rows,
+          1.0 / shrink,
+          std::vector<std::uint8_t>(bytes.begin<std::uint8_t>(),
+                                    bytes.end<std::uint8_t>())};
+}
+
+}  // namespace
+
+std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
+                                            std::int64_t max_bytes,
+                                            int num_threads) {
+  int shrink = 1;
+  while (Bytes(scene, shrink) > max_bytes) shrink *= 2;
+  std::vector<BlurredImage> images(scene.views.size());
+  ParallelFor(images.size(), num_threads, [&](std::size_t i) {
+    const View& view = scene.views[i];
+    if (view.image_path.empty()) return;
+    const Camera& camera =
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    auto gray =
+        LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
+    if (gray.ok()) images[i] = Blur(*std::move(gray), shrink);
+  });
+  return images;
+}
+
+}  // namespace curvix

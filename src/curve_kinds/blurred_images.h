@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). The images, kept small, to look up grey levels.
+#pragma once
+
+#include <curvix/scene.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace curvix {
+
+// An image, slightly blurred and perhaps of reduced size, in 8 bits.
+struct BlurredImage {
+  int width = 0;
+  int height = 0;
+  double scale = 1;  // pixels here per pixel of the file, in (0, 1]
+  std::vector<std::uint8_t> pixels;  // row by row
+
+  // Whether grey levels within `reach` pixels of the file around `pixel`, one
+  // of the file, are known.
+  bool Covers(const Eigen::Vector2d& pixel, double reach) const {
+    const Eigen::Vector2d at = pixel * scale;
+    const double margin = reach * scale + 1;
+    return at.x() >= margin && at.y() >= margin && at.x() < width - margin &&
+           at.y() < height - margin;
+  }
+
+  // Grey level, 0..255, bilinear, at (x, y) in pixels here, of which the first
+  // has its centre at (0, 0); at least 0 and less than width - 1, height - 1.
+  float At(float x, float y) const {
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float right = x - static_cast<float>(column);
+    const float below = y - static_cast<float>(row);
+    const std::uint8_t* const p = &pixels[static_cast<std::size_t>(row) *
+                                              static_cast<std::size_t>(width) +
+                                          static_cast<std::size_t>(column)];
+    const float above_value = p[0] + right * static_cast<float>(p[1] - p[0]);
+    const float below_value =
+        p[width] + right * static_cast<float>(p[width + 1] - p[width]);
+    return above_value + below * (below_value - above_value);
+  }
+};
+
+// One per view, in order; empty where the image cannot be read. If all of them
+// would take more than max_bytes, they are halved until they do not.
+std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
+                                            std::int64_t max_bytes,
+                                            int num_threads);
+
+}  // namespace curvix

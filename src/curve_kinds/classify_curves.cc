@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_kinds/classify_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+#include "base/parallel.h"
+#include "base/point_tree.h"
+#include "curve_kinds/blurred_images.h"
+#include "curve_kinds/nearby_curves.h"
+#include "curve_kinds/strips.h"
+#include "geometry/pixel_size.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector3d;
+
+// Of all images together.
+constexpr std::int64_t kMaxImageBytes = std::int64_t{1} << 30;
+
+// Places along a curve, in pixels, and how many to either side are taken
+// together.
+constexpr double kStepPx = 8;
+constexpr int kReach = 4;
+
+// Curves as near as this are looked at, too.
+constexpr double kNearbyPx = 40;
+
+// Directions of two surfaces that differ from opposite ones by at most this
+// many steps are of one surface, by at least so many of a crease.
+constexpr int kMaxMarkingSteps = 1;
+constexpr int kMinCreaseSteps = 3;
+
+// Before images are looked at, as where there is no texture: curves are mostly
+// edges of surfaces.
+constexpr double kPriorCrease = 0.6;
+constexpr double kPriorBoundary = 0.1;
+constexpr double kPriorMarking = 0.3;
+
+struct KindProbability {
+  CurveKind kind = CurveKind::kUnknown;
+  double probability = 0;
+};
+
+// A vector across `tangent` that is as `normal` as can be.
+Vector3d Across(const Vector3d& tangent, const Vector3d& normal) {
+  const Vector3d across = normal - normal.dot(tangent) * tangent;
+  if (across.norm() > 0.1) return across.normalized();
+  int axis = 0;
+  tangent.cwiseAbs().minCoeff(&axis);
+  return tangent.cross(Vector3d::Unit(axis)).normalized();
+}
+
+// The samples, some kStepPx apart, at which strips are compared; the middle
+// one of a short curve.
+std::vector<std::size_t> ChooseSamples(const Curve& curve, double pixel) {
+  std::vector<double> along = {0};
+  for (std::size_t i = 1; i < curve.samples.size(); ++i) {
+    along.push_back(
+        along.back() +
+        (curve.samples[i].position - curve.samples[i - 1].position).norm());
+  }
+  const auto num = static_cast<std::size_t>(
+      std::max(1.0, std::floor(along.back() / (kStepPx * pixel))));
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < num; ++i) {
+    const double at = along.back() * (static_cast<double>(i) + 0.5) /
+                      static_cast<double>(num);
+    const auto sample = static_cast<std::size_t>(
+        std::lower_bound(along.begin(), along.end() - 1, at) - along.begin());
+    if (chosen.empty() || chosen.back() != sample) chosen.push_back(sample);
+  }
+  return chosen;
+}
+
+// The sum over the neighbours within kReach. Those that do not see a direction
+// count as the mean of those that do, unless they are most.
+SurfaceEvidence SumAround(const std::vector<SurfaceEvidence>& evidence,
+                          std::size_t at) {
+  const std::size_t first = at < kReach ? 0 : at - kReach;
+  const std::size_t last = std::min(evidence.size() - 1, at + kReach);
+  const auto num = static_cast<float>(last + 1 - first);
+  SurfaceEvidence sum;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t d = 0; d < kNumDirections; ++d) {
+      float seen = 0;
+      for (std::size_t i = first; i <= last; ++i) {
+        const float log_bayes = evidence[i].log_bayes[side][d];
+        if (!std::isfinite(log_bayes)) continue;
+        sum.log_bayes[side][d] += log_bayes;
+        ++seen;
+      }
+      sum.log_bayes[side][d] *= num / seen;
+      if (2 * seen < num) {
+        sum.log_bayes[side][d] = -std::numeric_limits<float>::infinity();
+      }
+    }
+  }
+  return sum;
+}
+
+// The mean of Bayes factors, of which logarithms are given, over the directions
+// that views face.
+class MeanFactor {
+ public:
+  void Add(double log_factor) {
+    if (std::isfinite(log_factor)) logs_.push_back(log_factor);
+  }
+  // Minus infinity without any.
+  double Log() const {
+    if (logs_.empty()) return -std::numeric_limits<double>::infinity();
+    const double largest = *std::max_element(logs_.begin(), logs_.end());
+    double sum = 0;
+    for (double log : logs_) sum += std::exp(log - largest);
+    return largest + std::log(sum / static_cast<double>(logs_.size()));
+  }
+
+ private:
+  std::vector<double> logs_;
+};
+
+KindProbability Judge(const SurfaceEvidence& evidence) {
+  const auto& [left, right] = evidence.log_bayes;
+  MeanFactor marking, crease, boundary;
+  for (int a = 0; a < kNumDirections; ++a) {
+    const double on_left =
+        static_cast<double>(left[static_cast<std::size_t>(a)]);
+    boundary.Add(on_left);
+    boundary.Add(static_cast<double>(right[static_cast<std::size_t>(a)]));
+    for (int b = 0; b < kNumDirections; ++b) {
+      const double both =
+          on_left + static_cast<double>(right[static_cast<std::size_t>(b)]);
+      const int apart = std::abs(a - b);
+      const int bend = std::abs(std::min(apart, kNumDirections - apart) -
+                                kNumDirections / 2);
+      if (bend <= kMaxMarkingSteps) marking.Add(both);
+      if (bend >= kMinCreaseSteps) crease.Add(both);
+    }
+  }
+  const std::array<std::pair<CurveKind, double>, 3> scores = {
+      {{CurveKind::kCrease, std::log(kPriorCrease) + crease.Log()},
+       {CurveKind::kBoundary, std::log(kPriorBoundary) + boundary.Log()},
+       {CurveKind::kMarking, std::log(kPriorMarking) + marking.Log()}}};
+  const auto best = std::max_element(
+      scores.begin(), scores.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      });
+  if (!std::isfinite(best->second)) return {};
+  double sum = 0;
+  for (const auto& score : scores) sum += std::exp(score.second - best->second);
+  return {best->first, 1 / sum};
+}
+
+// Where strips are compared, on all curves.
+struct Places {
+  std::vector<double> pixels;                     // per curve, world units
+  std::vector<std::vector<std::size_t>> samples;  // per curve
+  // Of all curves, one after the other: curve and position.
+  std::vector<std::size_t> curves;
+  std::vector<Vector3d> positions;
+};
+
+Places ChoosePlaces(const std::vector<Curve>& curves,
+                    const std::vector<PosedView>& views) {
+  Places places;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const CurveSample& first = curves[i].samples.front();
+    places.pixels.push_back(PixelSize(first.position, first.support, views));
+    places.samples.emplace_back();
+    if (!(places.pixels.back() > 0)) continue;
+    places.samples.back() = ChooseSamples(curves[i], places.pixels.back());
+    for (std::size_t sample : places.samples.back()) {
+      places.curves.push_back(i);
+      places.positions.push_back(curves[i].samples[sample].position);
+    }
+  }
+  return places;
+}
+
+class Classifier {
+ public:
+  Classifier(const Scene& scene,
+             const std::vector<PosedView>& views,
+             const std::vector<BlurredImage>& images,
+             const std::vector<Curve>& curves)
+      : views_(views),
+        images_(images),
+        places_(ChoosePlaces(curves, views)),
+        tree_(places_.positions) {
+    for (const View& view : scene.views) {
+      cameras_.push_back(
+          &scene.cameras[static_cast<std::size_t>(view.camera_idx)]);
+    }
+  }
+
+  void Classify(std::size_t curve_idx, Curve* curve) const;
+
+ private:
+  std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
+                                             const Curve& curve) const;
+  // On other curves.
+  std::vector<Vector3d> PointsNearby(std::size_t curve_idx,
+                                     const Vector3d& position) const;
+
+  const std::vector<PosedView>& views_;
+  const std::vector<BlurredImage>& images_;
+  std::vector<const Camera*> cameras_;
+  Places places_;
+  PointTree tree_;
+};
+
+std::vector<Vector3d> Classifier::PointsNearby(std::size_t curve_idx,
+                                               const Vector3d& position) const {
+  std::vector<Vector3d> points;
+  for (std::size_t i :
+       tree_.Within(position, kNearbyPx * places_.pixels[curve_idx])) {
+    if (places_.curves[i] != curve_idx) points.push_back(places_.positions[i]);
+  }
+  return points;
+}
+
+std::vector<SurfaceEvidence> Classifier::EvidenceAlong(
+    std::size_t curve_idx, const Curve& curve) const {
+  std::vector<SurfaceEvidence> evidence;
+  Vector3d normal = Vector3d::Zero();
+  for (std::size_t i : places_.samples[curve_idx]) {
+    const CurveSample& sample = curve.samples[i];
+    // A frame that turns no more than the curve does.
+    normal = Across(sample.tangent, normal);
+    const CurvePlace place = {
+        sample.position, sample.tangent, normal, sample.support};
+    evidence.push_back(CompareStrips(place, views_, cameras_, images_));
+    AddNearbyPoints(place,
+                    places_.pixels[curve_idx],
+                    views_,
+                    PointsNearby(curve_idx, sample.position),
+                    &evidence.back());
+  }
+  return evidence;
+}
+
+void Classifier::Classify(std::size_t curve_idx, Curve* curve) const {
+  const std::vector<std::size_t>& chosen = places_.samples[curve_idx];
+  if (chosen.empty()) return;
+  const std::vector<SurfaceEvidence> evidence =
+      EvidenceAlong(curve_idx, *curve);
+  std::size_t nearest = 0;
+  KindProbability kind = Judge(SumAround(evidence, nearest));
+  for (std::size_t i = 0; i < curve->samples.size(); ++i) {
+    while (nearest + 1 < chosen.size() &&
+           2 * i > chosen[nearest] + chosen[nearest + 1]) {
+      kind = Judge(SumAround(evidence, ++nearest));
+    }
+    curve->samples[i].kind = kind.kind;
+    curve->samples[i].kind_probability = static_cast<float>(kind.probability);
+  }
+}
+
+}  // namespace
+
+void ClassifyCurves(const Scene& scene,
+                    const std::vector<PosedView>& views,
+                    int num_threads,
+                    std::vector<Curve>* curves) {
+  const std::vector<BlurredImage> images =
+      LoadBlurredImages(scene, kMaxImageBytes, num_threads);
+  if (std::all_of(images.begin(), images.end(), [](const BlurredImage& image) {
+        return image.pixels.empty();
+      })) {
+    return;
+  }
+  const Classifier classifier(scene, views, images, *curves);
+  ParallelFor(curves->size(), num_threads, [&](std::size_t i) {
+    Curve& curve = (*curves)[i];
+    if (curve.is_occluding_contour) {
+      for (CurveSample& sample : curve.samples) {
+        sample.kind = CurveKind::kOccludingContour;
+        sample.kind_probability = 1;
+      }
+    } else {
+      classifier.Classify(i, &curve);
+    }
+  });
+}
+
+}  // namespace curvix

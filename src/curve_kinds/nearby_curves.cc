@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_kinds/nearby_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+
+// Nearer points may be of the same edge.
+constexpr double kMinDistancePx = 3;
+// The share of points that lie on neither surface.
+constexpr double kElsewhere = 0.3;
+// Standard deviation of the direction of a point on a surface: 15 degrees, or
+// that of so many pixels.
+constexpr double kDirectionSigma = kPi / 12;
+constexpr double kPointSigmaPx = 0.7;
+// Points nearby are not independent: they count as at most so many.
+constexpr double kMaxPoints = 6;
+
+struct Direction {
+  double angle = 0;  // about the tangent, from the normal, radians
+  double sigma = 0;
+};
+
+// Whether most cameras see the direction on side 0.
+bool IsOnFirstSide(double angle, const std::vector<double>& azimuths) {
+  const auto num =
+      std::count_if(azimuths.begin(), azimuths.end(), [&](double azimuth) {
+        return std::sin(angle - azimuth) > 0;
+      });
+  return 2 * num > static_cast<std::ptrdiff_t>(azimuths.size());
+}
+
+// The density of the direction of a point on a surface that leads in direction
+// `angle`, over that of any direction on this side.
+double Ratio(const Direction& point, double angle) {
+  const double apart = std::remainder(point.angle - angle, 2 * kPi);
+  const double z = apart / point.sigma;
+  return kPi / (point.sigma * std::sqrt(2 * kPi)) * std::exp(-z * z / 2);
+}
+
+}  // namespace
+
+void AddNearbyPoints(const CurvePlace& place,
+                     double pixel,
+                     const std::vector<PosedView>& views,
+                     const std::vector<Vector3d>& points,
+                     SurfaceEvidence* evidence) {
+  const Vector3d binormal = place.tangent.cross(place.normal);
+  const auto angle_of = [&](const Vector3d& offset) {
+    return std::atan2(offset.dot(binormal), offset.dot(place.normal));
+  };
+  std::vector<double> azimuths;
+  for (const EdgeRef& ref : place.support) {
+    azimuths.push_back(angle_of(
+        views[static_cast<std::size_t>(ref.view_idx)].center - place.position));
+  }
+  std::array<std::vector<Direction>, 2> sides;
+  for (const Vector3d& point : points) {
+    const Vector3d offset = point - place.position;
+    const double distance_px =
+        (offset - offset.dot(place.tangent) * place.tangent).norm() / pixel;
+    if (distance_px < kMinDistancePx) continue;
+    const double angle = angle_of(offset);
+    sides[IsOnFirstSide(angle, azimuths) ? 0 : 1].push_back(
+        {angle, std::hypot(kDirectionSigma, kPointSigmaPx / distance_px)});
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (sides[side].empty()) continue;
+    const auto num = static_cast<double>(sides[side].size());
+    const double weight = std::min(1.0, kMaxPoints / num);
+    for (int d = 0; d < kNumDirections; ++d) {
+      const double angle = d * 2 * kPi / kNumDirections;
+      double sum = 0;
+      for (const Direction& point : sides[side]) {
+        sum += std::log(kElsewhere + (1 - kElsewhere) * Ratio(point, angle));
+      }
+      evidence->log_bayes[side][static_cast<std::size_t>(d)] +=
+          static_cast<float>(weight * sum);
+    }
+  }
+}
+
+}  // namespace curvix

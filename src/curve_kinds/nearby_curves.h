@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). Where the curves near a place on a curve lie: on
+// the surfaces that meet there.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "curve_kinds/strips.h"
+#include "model/posed_view.h"
+
+namespace curvix {
+
+// Adds what points nearby say: a point in the direction of a surface speaks
+// for it, one in another direction against it. `points` are on other curves,
+// `pixel` is the length of a pixel at the place, world units.
+void AddNearbyPoints(const CurvePlace& place,
+                     double pixel,
+                     const std::vector<PosedView>& views,
+                     const std::vector<Eigen::Vector3d>& points,
+                     SurfaceEvidence* evidence);
+
+}  // namespace curvix

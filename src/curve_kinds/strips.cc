@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it).
+#include "curve_kinds/strips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/median.h"
+#include "geometry/edge_geometry.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// A strip reaches from 1.5 px, beyond the blur of the edge itself, to 11.5 px
+// from the curve, and 4 px along it to either side.
+constexpr int kNumAcross = 11;
+constexpr int kNumAlong = 5;
+constexpr double kFirstAcrossPx = 1.5;
+constexpr double kAlongStepPx = 2;
+constexpr int kNumPixels = kNumAcross * kNumAlong;
+constexpr double kReachPx = 14;
+
+constexpr std::size_t kMaxViews = 10;
+constexpr int kMinViews = 3;
+// The share of the views that must agree; others may be hidden.
+constexpr double kAgreeingShare = 0.7;
+// Strips that a view sees under a smaller angle are not compared.
+constexpr double kMinSine = 0.3;
+
+// The variance, in squared grey levels, by which strips of one surface differ:
+// noise, and a share of the variance of the strip for what resampling and
+// reflections do to it. And the share of strips of different things.
+constexpr double kNoiseVariance = 2;
+constexpr double kSameShare = 0.04;
+constexpr double kOtherShare = 0.4;
+// Neighbouring pixels are correlated: a strip beyond the first counts as so
+// many independent ones.
+constexpr double kIndependentPixels = 2;
+// No single place decides.
+constexpr float kMinLogBayes = -12;
+
+using Strip = Eigen::Matrix<float, kNumPixels, 1>;
+
+// How one view sees the surroundings of a place: the pixel of the place and
+// what a step of one pixel of the place in space does to it.
+struct LocalView {
+  const BlurredImage* image = nullptr;
+  double azimuth = 0;  // of the camera about the tangent, radians
+  double pixel_size = 0;
+  Vector2d pixel;  // of the image, from its first pixel's centre
+  Vector2d along, normal, binormal;
+};
+
+std::optional<LocalView> Locate(const CurvePlace& place,
+                                const PosedView& view,
+                                const Camera& camera,
+                                const BlurredImage& image) {
+  if (image.pixels.empty()) return std::nullopt;
+  const Vector3d x = view.InCamera(place.position);
+  if (!(x.z() > 0)) return std::nullopt;
+  const Vector2d uv = x.head<2>() / x.z();
+  const Vector2d pixel = ImageFromIdeal(camera, uv);
+  if (!pixel.allFinite() || !image.Covers(pixel, kReachPx)) return std::nullopt;
+  Eigen::Matrix<double, 2, 3> projection;
+  projection << 1, 0, -uv.x(), 0, 1, -uv.y();
+  const Eigen::Matrix<double, 2, 3> jacobian =
+      image.scale / x.z() * ImageFromIdealJacobian(camera, uv) * projection *
+      view.rotation;
+  const Vector3d binormal = place.tangent.cross(place.normal);
+  const Vector3d ray = view.center - place.position;
+  return LocalView{&image,
+                   std::atan2(ray.dot(binormal), ray.dot(place.normal)),
+                   x.z() / view.calibration(0, 0),
+                   pixel * image.scale - Vector2d(0.5, 0.5),
+                   jacobian * place.tangent,
+                   jacobian * place.normal,
+                   jacobian * binormal};
+}
+
+// At most kMaxViews of the views, spread over their azimuths, without those
+// that see the place at half the resolution of most or less.
+std::vector<LocalView> ChooseViews(std::vector<LocalView> seen) {
+  std::vector<double> sizes;
+  for (const LocalView& view : seen) sizes.push_back(view.pixel_size);
+  const double usual = MedianOr(0, std::move(sizes));
+  std::erase_if(
+      seen, [&](const LocalView& view) { return view.pixel_size > 2 * usual; });
+  std::stable_sort(
+      seen.begin(), seen.end(), [](const LocalView& a, const LocalView& b) {
+        return a.azimuth < b.azimuth;
+      });
+  if (seen.size() <= kMaxViews) return seen;
+  std::vector<LocalView> chosen;
+  for (std::size_t i = 0; i < kMaxViews; ++i) {
+    chosen.push_back(seen[i * (seen.size() - 1) / (kMaxViews - 1)]);
+  }
+  return chosen;
+}
+
+// The grey levels of a strip less their mean. `across` is the image of a step
+// of one pixel away from the curve, `along` of one along it.
+bool Sample(const LocalView& view,
+            const Vector2d& across,
+            const Vector2d& along,
+            Strip* strip) {
+  const Vector2d far = (kFirstAcrossPx + kNumAcross - 1) * across;
+  const Vector2d side = (kNumAlong / 2 * kAlongStepPx) * along;
+  for (const Vector2d& corner : {Vector2d(far - side), Vector2d(far + side)}) {
+    const Vector2d at = view.pixel + corner;
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < view.image->width - 1 &&
+          at.y() < view.image->height - 1)) {
+      return false;
+    }
+  }
+  int i = 0;
+  for (int a = 0; a < kNumAcross; ++a) {
+    Vector2d at = view.pixel + (kFirstAcrossPx + a) * across - side;
+    for (int b = 0; b < kNumAlong; ++b, at += kAlongStepPx * along) {
+      (*strip)[i++] = view.image->At(static_cast<float>(at.x()),
+                                     static_cast<float>(at.y()));
+    }
+  }
+  strip->array() -= strip->mean();
+  return true;
+}
+
+// The strips of some views, one per column, of which those are compared that
+// agree best.
+class StripSet {
+ public:
+  void Clear() { num_ = 0; }
+  Strip* Next() { return &strips_[static_cast<std::size_t>(num_)]; }
+  void Keep() { ++num_; }
+
+  float LogBayes() const;
+
+ private:
+  std::array<Strip, kMaxViews> strips_;
+  int num_ = 0;
+};
+
+float StripSet::LogBayes() const {
+  if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
+  using Table = Eigen::Matrix<float, kMaxViews, kMaxViews>;
+  Table gram;
+  for (int i = 0; i < num_; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      gram(i, j) = gram(j, i) = strips_[static_cast<std::size_t>(i)].dot(
+          strips_[static_cast<std::size_t>(j)]);
+    }
+  }
+  // Squared distances between strips, summed over the others that are left.
+  const auto distance = [&](int i, int j) {
+    return gram(i, i) + gram(j, j) - 2 * gram(i, j);
+  };
+  std::array<int, kMaxViews> left;
+  int num_left = num_;
+  for (int i = 0; i < num_; ++i) left[static_cast<std::size_t>(i)] = i;
+  const int num_agreeing =
+      std::max(kMinViews, static_cast<int>(std::ceil(kAgreeingShare * num_)));
+  double total = 0;
+  while (true) {
+    int worst = 0;
+    double worst_sum = -1;
+    total = 0;
+    for (int a = 0; a < num_left; ++a) {
+      double sum = 0;
+      for (int b = 0; b < num_left; ++b) {
+        sum += static_cast<double>(distance(left[static_cast<std::size_t>(a)],
+                                            left[static_cast<std::size_t>(b)]));
+      }
+      total += sum;
+      if (sum > worst_sum) {
+        worst_sum = sum;
+        worst = a;
+      }
+    }
+    if (num_left <= num_agreeing) break;
+    std::copy(left.begin() + worst + 1,
+              left.begin() + num_left,
+              left.begin() + worst);
+    --num_left;
+  }
+  double variance = 0;
+  for (int a = 0; a < num_left; ++a) {
+    const int i = left[static_cast<std::size_t>(a)];
+    variance += static_cast<double>(gram(i, i));
+  }
+  variance /= num_left * kNumPixels;
+  // `total` counts every pair twice.
+  const double residual =
+      total / (2.0 * num_left * (num_left - 1) * kNumPixels);
+  const double same = kNoiseVariance + kSameShare * variance;
+  const double other = kNoiseVariance + kOtherShare * variance;
+  const double log_bayes =
+      -kIndependentPixels * (num_left - 1) / 2 *
+      (residual / same + std::log(same) - residual / other - std::log(other));
+  return std::max(static_cast<float>(log_bayes), kMinLogBayes);
+}
+
+}  // namespace
+
+SurfaceEvidence CompareStrips(const CurvePlace& place,
+                              const std::vector<PosedView>& views,
+                              const std::vector<const Camera*>& cameras,
+                              const std::vector<BlurredImage>& images) {
+  std::vector<LocalView> seen;
+  for (const EdgeRef& ref : place.support) {
+    const auto v = static_cast<std::size_t>(ref.view_idx);
+    const auto local = Locate(place, views[v], *cameras[v], images[v]);
+    if (local) seen.push_back(*local);
+  }
+  seen = ChooseViews(std::move(seen));
+  SurfaceEvidence evidence;
+  if (seen.size() < kMinViews) return evidence;
+  std::vector<double> sizes;
+  for (const LocalView& view : seen) sizes.push_back(view.pixel_size);
+  const double step = Median(std::move(sizes)) / seen.front().image->scale;
+  std::array<StripSet, 2> sides;
+  for (int d = 0; d < kNumDirections; ++d) {
+    const double angle = d * 2 * std::numbers::pi / kNumDirections;
+    for (StripSet& side : sides) side.Clear();
+    for (const LocalView& view : seen) {
+      const double sine = std::sin(angle - view.azimuth);
+      if (std::abs(sine) < kMinSine) continue;
+      StripSet& side = sides[sine > 0 ? 0 : 1];
+      const Vector2d across = step * (std::cos(angle) * view.normal +
+                                      std::sin(angle) * view.binormal);
+      if (Sample(view, across, step * view.along, side.Next())) side.Keep();
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      evidence.log_bayes[side][static_cast<std::size_t>(d)] =
+          sides[side].LogBayes();
+    }
+  }
+  return evidence;
+}
+
+}  // namespace curvix

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One straight edge along the world's z axis between surfaces of known
+// directions, painted with waves and seen from around.
+#include "curve_kinds/classify_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "geometry/posed_views.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_views.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+
+// A half-plane that begins at a line parallel to z.
+struct Surface {
+  double angle_deg = 0;  // of its direction about z, from +x
+  double phase = 0;      // of its paint
+  Vector3d start = Vector3d::Zero();
+};
+
+// Waves in several directions, of 8 to 30 pixels.
+double Paint(double across, double along, double phase) {
+  return 128 + 40 * std::sin(87 * across + 43 * along + phase) +
+         40 * std::sin(151 * across - 113 * along + 2 * phase) +
+         30 * std::sin(261 * across + 115 * along + 3 * phase);
+}
+
+// The distance along `ray` from `center`, and the paint there; infinite where
+// the surface is missed.
+std::pair<double, double> Hit(const Surface& surface,
+                              const Vector3d& center,
+                              const Vector3d& ray) {
+  const double angle = surface.angle_deg * kPi / 180;
+  const Vector3d across(std::cos(angle), std::sin(angle), 0);
+  const Vector3d normal(-std::sin(angle), std::cos(angle), 0);
+  const double depth = normal.dot(surface.start - center) / normal.dot(ray);
+  const Vector3d at = center + depth * ray - surface.start;
+  if (!(depth > 0) || at.dot(across) < 0) {
+    return {std::numeric_limits<double>::infinity(), 0};
+  }
+  return {depth, Paint(at.dot(across), at.z(), surface.phase)};
+}
+
+class ClassifyCurvesTest : public ::testing::Test {
+ protected:
+  // The kind in the middle of the edge, seen by eight views within 35 degrees
+  // of -y.
+  CurveSample Classified(const std::vector<Surface>& surfaces,
+                         double contrast = 1) {
+    std::vector<PosedView> posed;
+    for (int i = 0; i < 8; ++i) {
+      const double azimuth = (-90 + 10 * (i - 3.5)) * kPi / 180;
+      posed.push_back(LookAt(
+          {2 * std::cos(azimuth), 2 * std::sin(azimuth), 0.2 * (i % 3) - 0.1},
+          Vector3d::Zero()));
+    }
+    Scene scene = ToScene(posed);
+    for (std::size_t i = 0; i < posed.size(); ++i) {
+      cv::Mat image(800, 800, CV_8U);
+      for (int y = 0; y < image.rows; ++y) {
+        for (int x = 0; x < image.cols; ++x) {
+          std::pair<double, double> nearest = {
+              std::numeric_limits<double>::infinity(), 128};
+          for (const Surface& surface : surfaces) {
+            nearest = std::min(nearest,
+                               Hit(surface,
+                                   posed[i].center,
+                                   posed[i].Ray({x + 0.5, y + 0.5})));
+          }
+          image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(
+              std::lround(128 + contrast * (nearest.second - 128)));
+        }
+      }
+      scene.views[i].image_path =
+          folder_.path() / (scene.views[i].name + ".png");
+      EXPECT_TRUE(cv::imwrite(scene.views[i].image_path.string(), image));
+    }
+    return MiddleOf(scene);
+  }
+
+  static CurveSample MiddleOf(const Scene& scene) {
+    Curve curve;
+    for (int i = -30; i <= 30; ++i) {
+      CurveSample& sample = curve.samples.emplace_back();
+      sample.position = {0, 0, 0.004 * i};
+      sample.tangent = Vector3d::UnitZ();
+      for (std::size_t v = 0; v < scene.views.size(); ++v) {
+        sample.support.push_back({static_cast<int>(v), 0});
+      }
+    }
+    std::vector<Curve> curves = {curve};
+    ClassifyCurves(scene, MakePosedViews(scene), 1, &curves);
+    return curves[0].samples[30];
+  }
+
+ private:
+  const TemporaryFolder folder_;
+};
+
+TEST_F(ClassifyCurvesTest, OneSurfaceOnBothSidesIsMarked) {
+  const CurveSample sample = Classified({{0, 1}, {180, 2}});
+  EXPECT_EQ(sample.kind, CurveKind::kMarking);
+  EXPECT_GT(sample.kind_probability, 0.95F);
+}
+
+TEST_F(ClassifyCurvesTest, ObliqueSurfaceIsMarked) {
+  EXPECT_EQ(Classified({{25, 1}, {205, 2}}).kind, CurveKind::kMarking);
+}
+
+TEST_F(ClassifyCurvesTest, SurfacesThatMeetMakeACrease) {
+  // Outwards, towards the cameras, and inwards.
+  for (const double bend_deg : {50.0, -50.0}) {
+    const CurveSample sample = Classified({{bend_deg, 1}, {180 - bend_deg, 2}});
+    EXPECT_EQ(sample.kind, CurveKind::kCrease) << bend_deg;
+    EXPECT_GT(sample.kind_probability, 0.95F) << bend_deg;
+  }
+}
+
+TEST_F(ClassifyCurvesTest, SurfaceThatEndsBeforeAnotherIsABoundary) {
+  // A wall one unit behind the edge.
+  const CurveSample sample = Classified({{0, 1}, {0, 2, {-9, 1, 0}}});
+  EXPECT_EQ(sample.kind, CurveKind::kBoundary);
+  EXPECT_GT(sample.kind_probability, 0.95F);
+}
+
+TEST_F(ClassifyCurvesTest, WithoutTextureItIsProbablyACrease) {
+  const CurveSample sample = Classified({{50, 1}, {130, 2}}, 0);
+  EXPECT_EQ(sample.kind, CurveKind::kCrease);
+  EXPECT_LT(sample.kind_probability, 0.9F);
+}
+
+TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {
+  const CurveSample sample =
+      MiddleOf(ToScene({LookAt({0, -2, 0}, Vector3d::Zero()),
+                        LookAt({1, -2, 0}, Vector3d::Zero()),
+                        LookAt({-1, -2, 0}, Vector3d::Zero())}));
+  EXPECT_EQ(sample.kind, CurveKind::kUnknown);
+  EXPECT_EQ(sample.kind_probability, 0);
+}
+
+}  // namespace
+}  // namespace curvix
