@@ -41,6 +41,12 @@ int ToInt(double value) {
   return static_cast<int>(std::clamp(value, -2e9, 2e9));
 }
 
+bool HasKnownKind(const std::vector<double>& row) {
+  constexpr auto kLast = static_cast<int>(CurveKind::kOccludingContour);
+  return row.size() < 10 ||
+         (row[9] >= 0 && row[9] <= kLast && row[9] == std::floor(row[9]));
+}
+
 TrueSample MakeSample(const std::vector<double>& row) {
   TrueSample sample;
   sample.position = Eigen::Vector3d::Map(row.data());
@@ -52,6 +58,7 @@ TrueSample MakeSample(const std::vector<double>& row) {
     sample.num_views_seen = ToInt(row[7]);
     sample.num_views_edge = ToInt(row[row.size() >= 9 ? 8 : 7]);
   }
+  if (row.size() >= 10) sample.kind = static_cast<CurveKind>(ToInt(row[9]));
   return sample;
 }
 
@@ -59,7 +66,8 @@ Status Broken(std::size_t line_number) {
   return {StatusCode::kDataLoss,
           "line " + std::to_string(line_number) +
               " is not \"x y z [tx ty tz [curve_id [views_seen "
-              "[views_edge]]]]\" with as many numbers as the rows before it"};
+              "[views_edge [kind]]]]]\", the kind from 0 to 4, with as many "
+              "numbers as the rows before it"};
 }
 
 }  // namespace
@@ -74,7 +82,9 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
     if (!row) return Broken(number);
     if (row->empty()) continue;
     if (num_columns == 0) num_columns = row->size();
-    if (row->size() != num_columns || num_columns < 3) return Broken(number);
+    if (row->size() != num_columns || num_columns < 3 || !HasKnownKind(*row)) {
+      return Broken(number);
+    }
     truth.samples.push_back(MakeSample(*row));
   }
   if (truth.samples.empty()) {
@@ -83,6 +93,10 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
   truth.has_tangents = num_columns >= 6;
   truth.has_curve_ids = num_columns >= 7;
   truth.has_views = num_columns >= 8;
+  truth.has_kinds = std::any_of(
+      truth.samples.begin(), truth.samples.end(), [](const TrueSample& sample) {
+        return sample.kind != CurveKind::kUnknown;
+      });
   return truth;
 }
 

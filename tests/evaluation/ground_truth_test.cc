@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace curvix {
 namespace {
@@ -37,6 +38,27 @@ TEST(ParseGroundTruth, ViewsThatSeeStandInForViewsWithAnEdge) {
   const auto truth = ParseGroundTruth("1 2 3 1 0 0 0 9");
   EXPECT_TRUE(truth->has_views);
   EXPECT_EQ(truth->samples[0].num_views_edge, 9);
+}
+
+TEST(ParseGroundTruth, TheTenthColumnIsTheKind) {
+  const auto truth = ParseGroundTruth(
+      "0 0 0 1 0 0 4 7 5 3\n0 0 0 1 0 0 4 7 5 0\n0 0 0 1 0 0 4 7 5 2\n");
+  ASSERT_TRUE(truth.ok()) << truth.status().message();
+  EXPECT_TRUE(truth->has_kinds);
+  EXPECT_EQ(truth->samples[0].kind, CurveKind::kMarking);
+  EXPECT_EQ(truth->samples[1].kind, CurveKind::kUnknown);
+  EXPECT_EQ(truth->samples[2].kind, CurveKind::kBoundary);
+  EXPECT_FALSE(ParseGroundTruth("0 0 0 1 0 0 4 7 5 0")->has_kinds);
+  EXPECT_FALSE(ParseGroundTruth("0 0 0 1 0 0 4 7 5")->has_kinds);
+}
+
+TEST(ParseGroundTruth, KindsThatDoNotExistAreReported) {
+  for (const char* kind : {"5", "-1", "1.5"}) {
+    const auto truth =
+        ParseGroundTruth(std::string("0 0 0 1 0 0 4 7 5 ") + kind);
+    EXPECT_EQ(truth.status().code(), StatusCode::kDataLoss) << kind;
+    EXPECT_THAT(truth.status().message(), HasSubstr("line 1")) << kind;
+  }
 }
 
 TEST(ParseGroundTruth, BrokenRowsAreReportedWithTheirLine) {
