@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 
 namespace curvix {
 namespace {
@@ -93,20 +95,68 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
   truth.has_tangents = num_columns >= 6;
   truth.has_curve_ids = num_columns >= 7;
   truth.has_views = num_columns >= 8;
-  truth.has_kinds = std::any_of(
-      truth.samples.begin(), truth.samples.end(), [](const TrueSample& sample) {
-        return sample.kind != CurveKind::kUnknown;
-      });
+  truth.has_kinds = num_columns >= 10;
   return truth;
 }
+
+Status ParseCurveKinds(std::string_view text, GroundTruth& truth) {
+  std::map<int, CurveKind> kinds;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = TakeLine(text);
+    line = line.substr(0, line.find('#'));
+    const std::string_view id = TakeWord(line);
+    if (id.empty()) continue;
+    const std::optional<int> curve_id = ParseNumber<int>(id);
+    const std::string_view kind = TakeWord(line);
+    if (!curve_id || kind.empty()) {
+      return {StatusCode::kDataLoss,
+              "line " + std::to_string(number) + " is not \"curve_id kind\""};
+    }
+    kinds[*curve_id] = KindFromName(kind).value_or(CurveKind::kUnknown);
+  }
+  if (!truth.has_curve_ids) {
+    return {StatusCode::kDataLoss, "the ground truth has no curve ids"};
+  }
+  for (TrueSample& sample : truth.samples) {
+    const auto kind = kinds.find(sample.curve_id);
+    if (kind != kinds.end()) sample.kind = kind->second;
+  }
+  truth.has_kinds = true;
+  return {};
+}
+
+namespace {
+
+// Of a/gt.txt: a/gt_class.txt.
+std::filesystem::path ClassPath(std::filesystem::path path) {
+  const std::filesystem::path extension = path.extension();
+  path.replace_extension();
+  path += "_class";
+  path += extension;
+  return path;
+}
+
+Status InFile(const std::filesystem::path& path, const Status& status) {
+  return {status.code(), path.string() + ": " + status.message() + "."};
+}
+
+}  // namespace
 
 Result<GroundTruth> ReadGroundTruth(const std::filesystem::path& path) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
   Result<GroundTruth> truth = ParseGroundTruth(*text);
-  if (truth.ok()) return truth;
-  return Status(truth.status().code(),
-                path.string() + ": " + truth.status().message() + ".");
+  if (!truth.ok()) return InFile(path, truth.status());
+  const std::filesystem::path class_path = ClassPath(path);
+  std::error_code error;
+  if (truth->has_kinds || !std::filesystem::exists(class_path, error)) {
+    return truth;
+  }
+  const Result<std::string> classes = ReadFile(class_path);
+  if (!classes.ok()) return classes.status();
+  const Status status = ParseCurveKinds(*classes, *truth);
+  if (!status.ok()) return InFile(class_path, status);
+  return truth;
 }
 
 }  // namespace curvix

@@ -18,7 +18,7 @@ struct GroundTruth {
   bool has_tangents = true;
   bool has_curve_ids = true;
   bool has_views = true;   // num_views_seen and num_views_edge
-  bool has_kinds = false;  // a sample at least with a kind
+  bool has_kinds = false;  // the file gives them, be they unknown
 };
 
 // Reads rows
@@ -28,6 +28,16 @@ struct GroundTruth {
 // its CurveKind: 1 crease, 2 boundary, 3 marking, 4 occluding contour, 0
 // unknown. kDataLoss for anything else, or if there is no row.
 Result<GroundTruth> ParseGroundTruth(std::string_view text);
+
+// Gives the samples of `truth` the kinds of their curves, from rows
+//   curve_id kind ...
+// where the kind is a KindName; other words, as those of coarser classes, and
+// curves without a row are of unknown kind. '#' starts a comment. kDataLoss for
+// anything else, or if the truth has no curve ids.
+Status ParseCurveKinds(std::string_view text, GroundTruth& truth);
+
+// Reads both: `path`, and for a/gt.txt without kinds also a/gt_class.txt, if it
+// exists.
 Result<GroundTruth> ReadGroundTruth(const std::filesystem::path& path);
 
 }  // namespace curvix

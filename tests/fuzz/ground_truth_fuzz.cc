@@ -15,6 +15,10 @@ std::vector<std::string> FuzzSeeds() {
 void FuzzReader(std::string_view bytes) {
   const Result<GroundTruth> truth = ParseGroundTruth(bytes);
   RequireSentence(truth.status());
+  if (truth.ok()) {
+    GroundTruth classed = *truth;
+    RequireSentence(ParseCurveKinds(bytes, classed));
+  }
   Require(!truth.ok() || !truth->samples.empty(), "no truth without samples");
 }
 
