@@ -18,6 +18,13 @@ std::string Fixed(double value) {
   return std::string(text.data(), static_cast<std::size_t>(size));
 }
 
+// Whole millimetres, of large and small scenes.
+std::string Millimetres(double value) {
+  std::array<char, 64> text;
+  const int size = std::snprintf(text.data(), text.size(), " %9.0f", value);
+  return std::string(text.data(), static_cast<std::size_t>(size));
+}
+
 std::string Fixed(const std::optional<double>& value) {
   return value ? Fixed(*value) : "        -";
 }
@@ -59,20 +66,21 @@ void PrintLengths(std::string title,
                   std::ostream& out) {
   title.resize(24, ' ');
   out << title;
-  for (const double length : lengths_mm) out << Fixed(length);
+  for (const double length : lengths_mm) out << Millimetres(length);
 }
 
 // Lengths in millimetres: rows by the true kind, columns by the kind said.
 void PrintKinds(const KindAgreement& kinds, std::ostream& out) {
-  out << "true kind                  length  visible   recall\n";
+  out << "true kind, mm              length   visible   recall\n";
   for (const TrueKind& kind : kinds.kinds) {
     std::string name(KindName(kind.kind));
     name.resize(24, ' ');
-    out << name << Fixed(kind.length_mm) << Fixed(kind.visible_length_mm)
-        << Fixed(kind.visible_recall_5) << " %\n";
+    out << name << Millimetres(kind.length_mm)
+        << Millimetres(kind.visible_length_mm) << Fixed(kind.visible_recall_5)
+        << " %\n";
   }
-  out << "said to be, mm            unknown   crease boundary  marking  contour"
-         "    right\n";
+  out << "said to be, mm             unknown    crease  boundary   marking   "
+         "contour    right\n";
   for (const TrueKind& kind : kinds.kinds) {
     PrintLengths(std::string(KindName(kind.kind)), kind.predicted_mm, out);
     out << Fixed(kind.right) << " %\n";

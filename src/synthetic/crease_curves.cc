@@ -200,7 +200,36 @@ std::vector<TrueCurve> Candidates(const Solid& solid) {
   return candidates;
 }
 
-// The rim of a sheet: free, or on a face of the solid.
+// Whether the segment `part` lies on the segment `curve`.
+bool Covers(const TrueCurve& curve, const TrueCurve& part, double tolerance) {
+  if (curve.radius > 0) return false;
+  const auto is_on_curve = [&](const Vector3d& x) {
+    const double s =
+        std::clamp((x - curve.origin).dot(curve.along), 0.0, curve.length);
+    return (x - curve.Position(s)).norm() < tolerance;
+  };
+  return is_on_curve(part.origin) && is_on_curve(part.Position(part.length));
+}
+
+// Whether a sheet other than `sheet` passes through x.
+bool TouchesAnotherSheet(const Solid& solid,
+                         const SolidPrimitive& sheet,
+                         const Vector3d& x) {
+  const double tolerance = 1e-6 * solid.detail();
+  return std::any_of(
+      solid.primitives().begin(),
+      solid.primitives().end(),
+      [&](const SolidPrimitive& other) {
+        if (other.shape != PrimitiveShape::kSheet || &other == &sheet) {
+          return false;
+        }
+        const Rigid3& pose = other.world_from_own;
+        const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
+        return ((own.cwiseAbs() - other.size).array() < tolerance).all();
+      });
+}
+
+// The rim of a sheet: free, or on a face of the solid or another sheet.
 void AppendRim(const Solid& solid,
                const SolidPrimitive& sheet,
                std::vector<TrueCurve>& curves) {
@@ -214,12 +243,20 @@ void AppendRim(const Solid& solid,
       const TrueCurve whole =
           Segment(corner(side), corner((side + 1) % 4), kind);
       const auto has_kind = [&](double s) {
-        const int num = CountFilled(solid, whole.Position(s), whole.Tangent(s));
-        return num < kNumProbes && (num > 0) == (kind == CurveKind::kCrease);
+        const Vector3d x = whole.Position(s);
+        const int num_filled = CountFilled(solid, x, whole.along);
+        const bool touches =
+            num_filled > 0 || TouchesAnotherSheet(solid, sheet, x);
+        return num_filled < kNumProbes &&
+               touches == (kind == CurveKind::kCrease);
       };
       for (const TrueCurve& part :
            PartsWhere(whole, detail / 200, 1e-2 * detail, has_kind)) {
-        curves.push_back(part);
+        const bool is_new = std::none_of(
+            curves.begin(), curves.end(), [&](const TrueCurve& other) {
+              return other.kind == kind && Covers(other, part, 1e-6 * detail);
+            });
+        if (is_new) curves.push_back(part);
       }
     }
   }

@@ -16,8 +16,8 @@ namespace curvix {
 // with sphere; other pairs are not looked at. Edges shorter than a hundredth of
 // the solid's radius are left out.
 //
-// Sheets have edges at their rims alone: creases where they stand on a face,
-// boundaries elsewhere.
+// Sheets have edges at their rims alone: creases where they stand on a face or
+// touch another sheet, boundaries elsewhere.
 std::vector<TrueCurve> CreaseCurves(const Solid& solid);
 
 }  // namespace curvix

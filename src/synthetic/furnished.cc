@@ -41,7 +41,7 @@ SolidPrimitive AboveSlope(const Vector3d& at,
   return Without(box);
 }
 
-// A recess in the front wall with a cross of bars, and a ledge below.
+// A recess in the front wall with a cross of bars, a ledge and shutters.
 void AddWindow(double x, std::vector<SolidPrimitive>& parts) {
   const double bottom = 0.2;
   const double top = 0.38;
@@ -52,6 +52,10 @@ void AddWindow(double x, std::vector<SolidPrimitive>& parts) {
   parts.push_back(Box({x - 0.01, 0.025, 0.28}, {right + 0.01, 0.06, 0.3}));
   parts.push_back(Box({x - 0.03, -0.04, bottom - 0.035},
                       {right + 0.03, 0.03, bottom - 0.002}));
+  // Open shutters.
+  const Vector3d up(0, 0, top - bottom);
+  parts.push_back(Sheet({x - 0.01, 0, bottom}, {-0.05, -0.09, 0}, up));
+  parts.push_back(Sheet({right + 0.01, 0, bottom}, {0.05, -0.09, 0}, up));
 }
 
 // A body of which all edges are rounded: planes, cylinders and spheres that
@@ -142,7 +146,9 @@ std::vector<SolidPrimitive> Table() {
       Turned(20, Painted(kPrint, Box({0.12, 0.4, -0.01}, {0.4, 0.6, 0.4}))),
       Turned(-12, Painted(kBrick, Box({0.68, 0.5, -0.01}, {0.94, 0.72, 0.2}))),
       Painted(kPrint, Sheet({0.36, 0.12, 0}, {0.2, 0.07, 0}, {0, 0, 0.2})),
-      Sheet({0.62, 0.72, 0}, {0.0, -0.14, 0}, {-0.08, 0, 0.2}),
+      Sheet({0.44, 0.76, 0}, {0.18, 0, 0}, {0, -0.05, 0.2}),  // a folded card
+      Sheet({0.44, 0.66, 0}, {0.18, 0, 0}, {0, 0.05, 0.2}),
+      Sheet({0.86, 0.32, 0}, {0.1, 0.1, 0}, {0, 0, 0.16}),
       Sphere({0.18, 0.2, 0.07}, 0.09),
       Cylinder({0.78, 0.18, -0.01}, {0, 0, 0.17}, 0.085),
       Without(Cylinder({0.78, 0.18, 0.02}, {0, 0, 0.2}, 0.07), kHoleAlbedo)};

@@ -166,15 +166,15 @@ TEST(EvaluateKinds, ArePrintedAsATableAndAsJson) {
   PrintEvaluation(*evaluation, EvaluationFormat::kTable, table);
   EXPECT_THAT(
       table.str(),
-      HasSubstr("true kind                  length  visible   recall\n"
-                "crease                   1000.000 1000.000  100.000 %\n"));
+      HasSubstr("true kind, mm              length   visible   recall\n"
+                "crease                        1000      1000  100.000 %\n"));
   EXPECT_THAT(
       table.str(),
       HasSubstr(
-          "said to be, mm            unknown   crease boundary  marking  "
+          "said to be, mm             unknown    crease  boundary   marking   "
           "contour    right\n"
-          "crease                      0.000  750.000    0.000  250.000    "
-          "0.000   75.000 %\n"));
+          "crease                           0       750         0       250   "
+          "      0   75.000 %\n"));
   EXPECT_THAT(table.str(), HasSubstr("of the right kind          75.000 %\n"));
   PrintEvaluation(*evaluation, EvaluationFormat::kJson, text);
   const auto json = nlohmann::json::parse(text.str()).at("kinds");

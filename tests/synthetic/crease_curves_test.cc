@@ -142,6 +142,21 @@ TEST(CreaseCurvesTest, OfASheetThatStandsAreOneCreaseAndThreeBoundaries) {
   EXPECT_THAT(SortedLengths(creases), Pointwise(DoubleNear(1e-8), expected));
 }
 
+TEST(CreaseCurvesTest, OfAFoldedCardHaveOneCreaseAtTheFold) {
+  const Solid solid({Cube(0.5, {0, 0, 0}),
+                     Sheet({-0.2, -0.1, 0.5}, {0.4, 0, 0}, {0, 0.1, 0.3}),
+                     Sheet({-0.2, 0.1, 0.5}, {0.4, 0, 0}, {0, -0.1, 0.3})});
+  double boundaries = 0;
+  std::vector<TrueCurve> level;  // creases above the cube
+  for (const TrueCurve& curve : CreaseCurves(solid)) {
+    const bool is_crease = curve.kind == CurveKind::kCrease;
+    if (!is_crease) boundaries += curve.length;
+    if (is_crease && curve.origin.z() > 0.6) level.push_back(curve);
+  }
+  EXPECT_THAT(SortedLengths(level), ElementsAre(DoubleNear(0.4, 1e-6)));
+  EXPECT_NEAR(boundaries, 4 * std::hypot(0.1, 0.3), 1e-4);
+}
+
 TEST(CreaseCurvesTest, OfASheetInABodyEndOnItsSurface) {
   SolidPrimitive sheet = Sheet({-0.1, 0, 0.3}, {0.3, 0, 0}, {0, 0, 0.5});
   double free_length = 0;
