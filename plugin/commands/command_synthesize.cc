@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <curvix/scene.h>
+#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -12,6 +13,7 @@ namespace {
 struct Settings {
   std::filesystem::path workspace_path;
   std::string solid = "part";
+  std::string pattern = "none";
   std::string camera_model = "PINHOLE";
   int seed = 1;
   SyntheticOptions options;
@@ -19,9 +21,30 @@ struct Settings {
 
 // In the order of SyntheticSolid.
 const std::vector<std::string>& Solids() {
-  static const std::vector<std::string> names = {
-      "block", "cylinder", "cone", "sphere", "part", "facade"};
+  static const std::vector<std::string> names = {"block",
+                                                 "cylinder",
+                                                 "cone",
+                                                 "sphere",
+                                                 "part",
+                                                 "facade",
+                                                 "house",
+                                                 "table",
+                                                 "knobs"};
   return names;
+}
+
+// In the order of SurfacePattern.
+const std::vector<std::string>& Patterns() {
+  static const std::vector<std::string> names = {
+      "none", "brick", "wood", "print", "mixed"};
+  return names;
+}
+
+// The place of `name` in `names`, which hold it.
+template <typename Choice>
+Choice Chosen(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Choice>(std::find(names.begin(), names.end(), name) -
+                             names.begin());
 }
 
 std::vector<std::string> CameraModels() {
@@ -95,6 +118,16 @@ std::vector<FlagSection> Sections(Settings* settings) {
                               &settings->workspace_path,
                               "folder to write: images/, sparse/0/, gt.txt")),
             ChoiceFlag("solid", Solids(), &settings->solid, "what is shown"),
+            ChoiceFlag("pattern",
+                       Patterns(),
+                       &settings->pattern,
+                       "painted on it; mixed: on each piece what suits it"),
+            RowFlag({.name = "shadows",
+                     .field = &o.shadows,
+                     .help = "1: the sun casts shadows"}),
+            RowFlag({.name = "reflections",
+                     .field = &o.reflections,
+                     .help = "1: lamps are mirrored in the surfaces"}),
             RowFlag({.name = "scale",
                      .field = &o.scale,
                      .min_is_excluded = true,
@@ -119,11 +152,9 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   const std::optional<ExitCode> code =
       ParseCommand("synthesize", arguments, Sections(&settings));
   if (code) return *code;
-  for (std::size_t i = 0; i < Solids().size(); ++i) {
-    if (Solids()[i] == settings.solid) {
-      settings.options.solid = static_cast<SyntheticSolid>(i);
-    }
-  }
+  settings.options.solid = Chosen<SyntheticSolid>(Solids(), settings.solid);
+  settings.options.pattern =
+      Chosen<SurfacePattern>(Patterns(), settings.pattern);
   settings.options.camera_model = *ModelFromName(settings.camera_model);
   settings.options.seed = static_cast<std::uint64_t>(settings.seed);
   const Status status = Synthesize(settings.options, settings.workspace_path);

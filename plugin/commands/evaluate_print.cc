@@ -18,6 +18,13 @@ std::string Fixed(double value) {
   return std::string(text.data(), static_cast<std::size_t>(size));
 }
 
+// Whole millimetres, of large and small scenes.
+std::string Millimetres(double value) {
+  std::array<char, 64> text;
+  const int size = std::snprintf(text.data(), text.size(), " %9.0f", value);
+  return std::string(text.data(), static_cast<std::size_t>(size));
+}
+
 std::string Fixed(const std::optional<double>& value) {
   return value ? Fixed(*value) : "        -";
 }
@@ -49,6 +56,40 @@ void PrintAgreement(const Evaluation& e, std::ostream& out) {
       << Fixed(std::nullopt) << Fixed(std::nullopt) << " %\n";
 }
 
+// "unknown", "crease", "boundary", ...
+std::string NameOf(std::size_t kind) {
+  return std::string(KindName(static_cast<CurveKind>(kind)));
+}
+
+void PrintLengths(std::string title,
+                  const LengthPerKind& lengths_mm,
+                  std::ostream& out) {
+  title.resize(24, ' ');
+  out << title;
+  for (const double length : lengths_mm) out << Millimetres(length);
+}
+
+// Lengths in millimetres: rows by the true kind, columns by the kind said.
+void PrintKinds(const KindAgreement& kinds, std::ostream& out) {
+  out << "true kind, mm              length   visible   recall\n";
+  for (const TrueKind& kind : kinds.kinds) {
+    std::string name(KindName(kind.kind));
+    name.resize(24, ' ');
+    out << name << Millimetres(kind.length_mm)
+        << Millimetres(kind.visible_length_mm) << Fixed(kind.visible_recall_5)
+        << " %\n";
+  }
+  out << "said to be, mm             unknown    crease  boundary   marking   "
+         "contour    right\n";
+  for (const TrueKind& kind : kinds.kinds) {
+    PrintLengths(std::string(KindName(kind.kind)), kind.predicted_mm, out);
+    out << Fixed(kind.right) << " %\n";
+  }
+  PrintLengths("none within 5 mm", kinds.elsewhere_mm, out);
+  out << "\n";
+  PrintRow("of the right kind", kinds.right, "%", out);
+}
+
 void PrintTable(const Evaluation& e, std::ostream& out) {
   PrintAgreement(e, out);
   PrintRow("accuracy", e.accuracy_mm, "mm", out);
@@ -63,11 +104,33 @@ void PrintTable(const Evaluation& e, std::ostream& out) {
       << " true\n"
       << "samples compared        " << e.num_predicted << " found, "
       << e.num_true << " true\n";
+  if (e.kinds) PrintKinds(*e.kinds, out);
 }
 
 nlohmann::ordered_json ToJson(const std::optional<double>& value) {
   if (!value) return nullptr;
   return *value;
+}
+
+nlohmann::ordered_json ToJson(const LengthPerKind& lengths_mm) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < kNumKinds; ++i) json[NameOf(i)] = lengths_mm[i];
+  return json;
+}
+
+nlohmann::ordered_json ToJson(const KindAgreement& kinds) {
+  nlohmann::ordered_json json;
+  json["right"] = ToJson(kinds.right);
+  for (const TrueKind& kind : kinds.kinds) {
+    json[std::string(KindName(kind.kind))] = {
+        {"length", kind.length_mm},
+        {"length_visible", kind.visible_length_mm},
+        {"Rv5", ToJson(kind.visible_recall_5)},
+        {"right", ToJson(kind.right)},
+        {"said", ToJson(kind.predicted_mm)}};
+  }
+  json["elsewhere"] = ToJson(kinds.elsewhere_mm);
+  return json;
 }
 
 void PrintJson(const Evaluation& e, std::ostream& out) {
@@ -94,6 +157,8 @@ void PrintJson(const Evaluation& e, std::ostream& out) {
   json["curves"] = e.num_curves;
   json["gt_curves"] = nullptr;
   if (e.num_true_curves) json["gt_curves"] = *e.num_true_curves;
+  json["kinds"] = nullptr;
+  if (e.kinds) json["kinds"] = ToJson(*e.kinds);
   out << json.dump() << '\n';
 }
 

@@ -97,7 +97,8 @@ std::string TruthText(const std::vector<TrueSample>& samples) {
     }
     text += std::to_string(sample.curve_id) + ' ' +
             std::to_string(sample.num_views_seen) + ' ' +
-            std::to_string(sample.num_views_edge) + '\n';
+            std::to_string(sample.num_views_edge) + ' ' +
+            std::to_string(static_cast<int>(sample.kind)) + '\n';
   }
   return text;
 }

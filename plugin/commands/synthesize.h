@@ -15,6 +15,7 @@ namespace curvix {
 //                             sparse points that were asked for
 //   gt.txt                    the exact curves, one sample a row:
 //                             x y z tx ty tz curve_id views_seen views_edge
+//                             kind, the number of its CurveKind
 // kInvalidArgument, before anything is rendered or written, if an option is out
 // of range, if images/ or sparse/ holds anything already, or if gt.txt exists.
 Status Synthesize(const SyntheticOptions& options,

@@ -11,29 +11,17 @@
 #include <vector>
 
 #include "base/median.h"
-#include "evaluation/resample_curves.h"
 #include "base/point_tree.h"
+#include "evaluation/comparison.h"
+#include "evaluation/resample_curves.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kNearMm = 5;         // what counts as the same place
 constexpr double kMinLengthMm = 10;   // shorter true curves are not counted
 constexpr double kMaxGapMm = 1.5;     // between the ends of touching curves
 constexpr double kMinCoverage = 0.9;  // of a curve that is drawn as a whole
 constexpr double kMaxNumSteps = 1e8;
-
-// Both sets and how they lie to each other.
-struct Comparison {
-  std::vector<CurveStep> predicted;
-  std::vector<TrueSample> truth;
-  std::vector<bool> visible;           // per true sample
-  std::vector<double> predicted_mm;    // distances predicted -> true
-  std::vector<double> true_mm;         // distances true -> predicted
-  std::vector<std::size_t> true_idxs;  // the nearest, per predicted sample
-  double near = 0;                     // kNearMm in world units
-  double unit_mm = 0;
-};
 
 Status Check(const CurveSet& curves,
              const GroundTruth& truth,
@@ -260,6 +248,9 @@ Result<Evaluation> EvaluateCurves(const CurveSet& curves,
   MeasureVisible(c, result);
   if (truth.has_tangents) result.tangent_deg = MedianTangentAngle(c);
   if (truth.has_curve_ids) MeasureCurves(c, options.step, result);
+  if (const auto spacing = TrueSpacing(c.truth); truth.has_kinds && spacing) {
+    result.kinds = MeasureKinds(c, options.step, *spacing);
+  }
   result.num_curves = CountCurves(c.predicted);
   return result;
 }

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "evaluation/ground_truth.h"
+#include "evaluation/kind_agreement.h"
 
 namespace curvix {
 
@@ -71,6 +72,7 @@ struct Evaluation {
   std::size_t num_curves = 0;  // predicted, with at least one sample
   // True curves so joined, with at least 10 mm of visible length.
   std::optional<std::size_t> num_true_curves;
+  std::optional<KindAgreement> kinds;  // the truth has curve ids and kinds
 };
 
 // kInvalidArgument if an option is out of range, there is no truth, or the
@@ -84,7 +86,9 @@ enum class EvaluationFormat { kTable, kJson };
 
 // Prints a table for people, or one JSON object with the keys acc, comp, compv,
 // P5, R5, F5, IoU5 (10, 20 alike), Rv5, Rv10, Fv5, tangent, dup, whole, pure,
-// curves, gt_curves, predicted, gt; what is absent is null.
+// curves, gt_curves, predicted, gt; what is absent is null. `kinds`, where the
+// truth has them: `right`, percent; `elsewhere`, mm by the kind said; and for
+// each true kind length, length_visible, Rv5, right and `said`, mm by kind.
 void PrintEvaluation(const Evaluation& evaluation,
                      EvaluationFormat format,
                      std::ostream& out);

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 
 namespace curvix {
 namespace {
@@ -41,6 +43,12 @@ int ToInt(double value) {
   return static_cast<int>(std::clamp(value, -2e9, 2e9));
 }
 
+bool HasKnownKind(const std::vector<double>& row) {
+  constexpr auto kLast = static_cast<int>(CurveKind::kOccludingContour);
+  return row.size() < 10 ||
+         (row[9] >= 0 && row[9] <= kLast && row[9] == std::floor(row[9]));
+}
+
 TrueSample MakeSample(const std::vector<double>& row) {
   TrueSample sample;
   sample.position = Eigen::Vector3d::Map(row.data());
@@ -52,6 +60,7 @@ TrueSample MakeSample(const std::vector<double>& row) {
     sample.num_views_seen = ToInt(row[7]);
     sample.num_views_edge = ToInt(row[row.size() >= 9 ? 8 : 7]);
   }
+  if (row.size() >= 10) sample.kind = static_cast<CurveKind>(ToInt(row[9]));
   return sample;
 }
 
@@ -59,7 +68,8 @@ Status Broken(std::size_t line_number) {
   return {StatusCode::kDataLoss,
           "line " + std::to_string(line_number) +
               " is not \"x y z [tx ty tz [curve_id [views_seen "
-              "[views_edge]]]]\" with as many numbers as the rows before it"};
+              "[views_edge [kind]]]]]\", the kind from 0 to 4, with as many "
+              "numbers as the rows before it"};
 }
 
 }  // namespace
@@ -74,7 +84,9 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
     if (!row) return Broken(number);
     if (row->empty()) continue;
     if (num_columns == 0) num_columns = row->size();
-    if (row->size() != num_columns || num_columns < 3) return Broken(number);
+    if (row->size() != num_columns || num_columns < 3 || !HasKnownKind(*row)) {
+      return Broken(number);
+    }
     truth.samples.push_back(MakeSample(*row));
   }
   if (truth.samples.empty()) {
@@ -83,16 +95,68 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
   truth.has_tangents = num_columns >= 6;
   truth.has_curve_ids = num_columns >= 7;
   truth.has_views = num_columns >= 8;
+  truth.has_kinds = num_columns >= 10;
   return truth;
 }
+
+Status ParseCurveKinds(std::string_view text, GroundTruth& truth) {
+  std::map<int, CurveKind> kinds;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = TakeLine(text);
+    line = line.substr(0, line.find('#'));
+    const std::string_view id = TakeWord(line);
+    if (id.empty()) continue;
+    const std::optional<int> curve_id = ParseNumber<int>(id);
+    const std::string_view kind = TakeWord(line);
+    if (!curve_id || kind.empty()) {
+      return {StatusCode::kDataLoss,
+              "line " + std::to_string(number) + " is not \"curve_id kind\""};
+    }
+    kinds[*curve_id] = KindFromName(kind).value_or(CurveKind::kUnknown);
+  }
+  if (!truth.has_curve_ids) {
+    return {StatusCode::kDataLoss, "the ground truth has no curve ids"};
+  }
+  for (TrueSample& sample : truth.samples) {
+    const auto kind = kinds.find(sample.curve_id);
+    if (kind != kinds.end()) sample.kind = kind->second;
+  }
+  truth.has_kinds = true;
+  return {};
+}
+
+namespace {
+
+// Of a/gt.txt: a/gt_class.txt.
+std::filesystem::path ClassPath(std::filesystem::path path) {
+  const std::filesystem::path extension = path.extension();
+  path.replace_extension();
+  path += "_class";
+  path += extension;
+  return path;
+}
+
+Status InFile(const std::filesystem::path& path, const Status& status) {
+  return {status.code(), path.string() + ": " + status.message() + "."};
+}
+
+}  // namespace
 
 Result<GroundTruth> ReadGroundTruth(const std::filesystem::path& path) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
   Result<GroundTruth> truth = ParseGroundTruth(*text);
-  if (truth.ok()) return truth;
-  return Status(truth.status().code(),
-                path.string() + ": " + truth.status().message() + ".");
+  if (!truth.ok()) return InFile(path, truth.status());
+  const std::filesystem::path class_path = ClassPath(path);
+  std::error_code error;
+  if (truth->has_kinds || !std::filesystem::exists(class_path, error)) {
+    return truth;
+  }
+  const Result<std::string> classes = ReadFile(class_path);
+  if (!classes.ok()) return classes.status();
+  const Status status = ParseCurveKinds(*classes, *truth);
+  if (!status.ok()) return InFile(class_path, status);
+  return truth;
 }
 
 }  // namespace curvix

@@ -31,14 +31,16 @@ std::vector<CurveStep> Resample(const CurveSet& curves, double step) {
         n < 2 ? 0 : (curves.curves[c].closed ? n : n - 1);
     for (std::size_t i = 0; i < num_segments; ++i) {
       const Eigen::Vector3d& from = samples[i].position;
-      const Eigen::Vector3d along = samples[(i + 1) % n].position - from;
+      const CurveSample& next = samples[(i + 1) % n];
+      const Eigen::Vector3d along = next.position - from;
       const double length = along.norm();
       // Steps lie at (k + 1/2) step for k = steps.size().
       for (;;) {
         const double s = (static_cast<double>(steps.size()) + 0.5) * step;
         if (!(length > 0) || s >= start + length) break;
         const double t = (s - start) / length;
-        steps.push_back({from + t * along, along / length, c});
+        const CurveKind kind = t < 0.5 ? samples[i].kind : next.kind;
+        steps.push_back({from + t * along, along / length, c, kind});
       }
       start += length;
     }

@@ -15,6 +15,7 @@ struct CurveStep {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // of its segment, unit
   std::size_t curve_idx = 0;
+  CurveKind kind = CurveKind::kUnknown;  // of the nearer sample
 };
 
 // The number of samples that Resample takes.

@@ -41,31 +41,24 @@ Face MakeFace(const SolidPrimitive& primitive, int face_idx) {
   return face;
 }
 
-std::optional<CreaseCurve> Circle(const Vector3d& centre,
+std::optional<TrueCurve> CircleOf(const Vector3d& centre,
                                   const Vector3d& normal,
                                   double radius,
                                   double tolerance) {
   if (!(radius > tolerance)) return std::nullopt;
-  CreaseCurve circle;
-  circle.origin = centre;
-  circle.along = normal.unitOrthogonal();
-  circle.across = normal.cross(circle.along);
-  circle.radius = radius;
-  circle.length = 2 * kPi * radius;
-  circle.is_closed = true;
-  return circle;
+  return Circle(centre, normal, radius, CurveKind::kCrease);
 }
 
 // The whole line, as far as it runs within `box`.
-std::optional<CreaseCurve> PlanePlane(const Face& a,
-                                      const Face& b,
-                                      const Eigen::AlignedBox3d& box) {
+std::optional<TrueCurve> PlanePlane(const Face& a,
+                                    const Face& b,
+                                    const Eigen::AlignedBox3d& box) {
   const Vector3d along = a.axis.cross(b.axis);
   if (along.norm() < 1e-6) return std::nullopt;
   const double cosine = a.axis.dot(b.axis);
   const double to_a = a.axis.dot(a.point);
   const double to_b = b.axis.dot(b.point);
-  CreaseCurve line;
+  TrueCurve line;
   line.along = along.normalized();
   const Vector3d nearest =
       ((to_a - to_b * cosine) * a.axis + (to_b - to_a * cosine) * b.axis) /
@@ -89,41 +82,44 @@ std::optional<CreaseCurve> PlanePlane(const Face& a,
   return line;
 }
 
-std::optional<CreaseCurve> PlaneRound(const Face& plane,
-                                      const Face& round,
-                                      double tolerance) {
+std::optional<TrueCurve> PlaneRound(const Face& plane,
+                                    const Face& round,
+                                    double tolerance) {
   const Vector3d& size = round.primitive->size;
   const double height = plane.axis.dot(plane.point - round.point);
   if (round.primitive->shape == PrimitiveShape::kSphere) {
     const double squared = size.x() * size.x() - height * height;
-    return Circle(round.point + height * plane.axis,
-                  plane.axis,
-                  std::sqrt(std::max(0.0, squared)),
-                  tolerance);
+    return CircleOf(round.point + height * plane.axis,
+                    plane.axis,
+                    std::sqrt(std::max(0.0, squared)),
+                    tolerance);
   }
   const double cosine = plane.axis.dot(round.axis);
   if (std::abs(cosine) < 1 - 1e-9) return std::nullopt;
   const double z = height * cosine;
-  return Circle(round.point + z * round.axis,
-                plane.axis,
-                size.x() + (size.y() - size.x()) * z / size.z(),
-                tolerance);
+  return CircleOf(round.point + z * round.axis,
+                  plane.axis,
+                  size.x() + (size.y() - size.x()) * z / size.z(),
+                  tolerance);
 }
 
-std::optional<CreaseCurve> Candidate(const Face& a,
-                                     const Face& b,
-                                     const Eigen::AlignedBox3d& box,
-                                     double tolerance) {
+std::optional<TrueCurve> Candidate(const Face& a,
+                                   const Face& b,
+                                   const Eigen::AlignedBox3d& box,
+                                   double tolerance) {
   if (a.is_plane && b.is_plane) return PlanePlane(a, b, box);
   if (a.is_plane) return PlaneRound(a, b, tolerance);
   if (b.is_plane) return PlaneRound(b, a, tolerance);
   return std::nullopt;
 }
 
-// Whether the solid, cut across `tangent` close to x, fills neither none, half
-// nor all of a small disc.
-bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
-  constexpr int kNumProbes = 32;
+constexpr int kNumProbes = 32;
+
+// How much of a small disc around x, across `tangent`, the solid fills: 0 to
+// kNumProbes.
+int CountFilled(const Solid& solid,
+                const Vector3d& x,
+                const Vector3d& tangent) {
   const double probe_radius = 1e-5 * solid.detail();
   const Vector3d u = tangent.unitOrthogonal();
   const Vector3d v = tangent.cross(u);
@@ -133,82 +129,32 @@ bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
     num_inside += solid.Contains(
         x + probe_radius * (std::cos(angle) * u + std::sin(angle) * v));
   }
+  return num_inside;
+}
+
+// Whether the solid fills neither none, half nor all of the disc.
+bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
+  const int num_inside = CountFilled(solid, x, tangent);
   return num_inside > 0 && num_inside < kNumProbes &&
          std::abs(num_inside - kNumProbes / 2) > 1;
 }
 
-// The stretches of [0, length] on which `is_crease` holds.
-template <typename Predicate>
-std::vector<std::pair<double, double>> Stretches(double length,
-                                                 double step,
-                                                 const Predicate& is_crease) {
-  const auto boundary = [&](double in, double out) {
-    for (int i = 0; i < 60; ++i) {
-      const double middle = (in + out) / 2;
-      (is_crease(middle) ? in : out) = middle;
-    }
-    return in;
-  };
-  std::vector<std::pair<double, double>> stretches;
-  const int num_steps = std::max(8, static_cast<int>(length / step));
-  bool was_crease = is_crease(0);
-  if (was_crease) stretches.push_back({0, length});
-  for (int i = 1; i <= num_steps; ++i) {
-    const double s = length * i / num_steps;
-    const double previous = length * (i - 1) / num_steps;
-    const bool crease = is_crease(s);
-    if (crease && !was_crease) {
-      stretches.push_back({boundary(s, previous), length});
-    }
-    if (!crease && was_crease) stretches.back().second = boundary(previous, s);
-    was_crease = crease;
-  }
-  return stretches;
-}
-
-CreaseCurve Part(const CreaseCurve& whole, double begin, double end) {
-  CreaseCurve part = whole;
-  part.length = end - begin;
-  part.is_closed = false;
-  if (whole.radius == 0) {
-    part.origin = whole.Position(begin);
-  } else {
-    part.along = (whole.Position(begin) - whole.origin).normalized();
-    part.across = whole.Tangent(begin);
-  }
-  return part;
-}
-
 // The parts of `whole` that are creases.
 void AppendCreases(const Solid& solid,
-                   const CreaseCurve& whole,
-                   std::vector<CreaseCurve>& curves) {
+                   const TrueCurve& whole,
+                   std::vector<TrueCurve>& curves) {
   const auto is_crease = [&](double s) {
     return IsCrease(solid, whole.Position(s), whole.Tangent(s));
   };
-  auto stretches = Stretches(whole.length, solid.detail() / 200, is_crease);
-  if (stretches.empty()) return;
-  if (whole.is_closed) {
-    if (stretches.front() == std::pair(0.0, whole.length)) {
-      curves.push_back(whole);
-      return;
-    }
-    if (stretches.front().first == 0 &&
-        stretches.back().second == whole.length) {
-      stretches.back().second += stretches.front().second;
-      stretches.erase(stretches.begin());
-    }
-  }
-  for (const auto& [begin, end] : stretches) {
-    if (end - begin < 1e-2 * solid.detail()) continue;
-    curves.push_back(Part(whole, begin, end));
+  const double detail = solid.detail();
+  for (const TrueCurve& part :
+       PartsWhere(whole, detail / 200, 1e-2 * detail, is_crease)) {
+    curves.push_back(part);
   }
 }
 
 // Whether x is on the whole line or circle that `curve` belongs to.
-bool IsOnCarrier(const Vector3d& x,
-                 const CreaseCurve& curve,
-                 double tolerance) {
+bool IsOnCarrier(const Vector3d& x, const TrueCurve& curve, double tolerance) {
   const Vector3d d = x - curve.origin;
   if (curve.radius == 0) return d.cross(curve.along).norm() < tolerance;
   const Vector3d radial =
@@ -217,7 +163,7 @@ bool IsOnCarrier(const Vector3d& x,
          std::abs(radial.norm() - curve.radius) < tolerance;
 }
 
-bool IsSame(const CreaseCurve& a, const CreaseCurve& b, double tolerance) {
+bool IsSame(const TrueCurve& a, const TrueCurve& b, double tolerance) {
   if ((a.radius == 0) != (b.radius == 0)) return false;
   return IsOnCarrier(a.Position(0), b, tolerance) &&
          IsOnCarrier(a.Position(a.length / 3), b, tolerance) &&
@@ -225,9 +171,10 @@ bool IsSame(const CreaseCurve& a, const CreaseCurve& b, double tolerance) {
 }
 
 // The different lines and circles in which faces of the solid may meet.
-std::vector<CreaseCurve> Candidates(const Solid& solid) {
+std::vector<TrueCurve> Candidates(const Solid& solid) {
   std::vector<Face> faces;
   for (const SolidPrimitive& primitive : solid.primitives()) {
+    if (primitive.shape == PrimitiveShape::kSheet) continue;
     for (int face = 0; face < NumFaces(primitive.shape); ++face) {
       faces.push_back(MakeFace(primitive, face));
     }
@@ -237,10 +184,10 @@ std::vector<CreaseCurve> Candidates(const Solid& solid) {
   const Eigen::AlignedBox3d box(solid.box().min() - margin,
                                 solid.box().max() + margin);
   const double tolerance = 1e-6 * solid.detail();
-  std::vector<CreaseCurve> candidates;
-  const auto is_new = [&](const CreaseCurve& curve) {
+  std::vector<TrueCurve> candidates;
+  const auto is_new = [&](const TrueCurve& curve) {
     return std::none_of(
-        candidates.begin(), candidates.end(), [&](const CreaseCurve& other) {
+        candidates.begin(), candidates.end(), [&](const TrueCurve& other) {
           return IsSame(curve, other, tolerance);
         });
   };
@@ -253,24 +200,78 @@ std::vector<CreaseCurve> Candidates(const Solid& solid) {
   return candidates;
 }
 
+// Whether the segment `part` lies on the segment `curve`.
+bool Covers(const TrueCurve& curve, const TrueCurve& part, double tolerance) {
+  if (curve.radius > 0) return false;
+  const auto is_on_curve = [&](const Vector3d& x) {
+    const double s =
+        std::clamp((x - curve.origin).dot(curve.along), 0.0, curve.length);
+    return (x - curve.Position(s)).norm() < tolerance;
+  };
+  return is_on_curve(part.origin) && is_on_curve(part.Position(part.length));
+}
+
+// Whether a sheet other than `sheet` passes through x.
+bool TouchesAnotherSheet(const Solid& solid,
+                         const SolidPrimitive& sheet,
+                         const Vector3d& x) {
+  const double tolerance = 1e-6 * solid.detail();
+  return std::any_of(
+      solid.primitives().begin(),
+      solid.primitives().end(),
+      [&](const SolidPrimitive& other) {
+        if (other.shape != PrimitiveShape::kSheet || &other == &sheet) {
+          return false;
+        }
+        const Rigid3& pose = other.world_from_own;
+        const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
+        return ((own.cwiseAbs() - other.size).array() < tolerance).all();
+      });
+}
+
+// The rim of a sheet: free, or on a face of the solid or another sheet.
+void AppendRim(const Solid& solid,
+               const SolidPrimitive& sheet,
+               std::vector<TrueCurve>& curves) {
+  const double detail = solid.detail();
+  const auto corner = [&](int i) {
+    const Vector3d sign(i == 1 || i == 2 ? 1 : -1, i < 2 ? -1 : 1, 0);
+    return sheet.world_from_own * sheet.size.cwiseProduct(sign);
+  };
+  for (int side = 0; side < 4; ++side) {
+    for (const CurveKind kind : {CurveKind::kBoundary, CurveKind::kCrease}) {
+      const TrueCurve whole =
+          Segment(corner(side), corner((side + 1) % 4), kind);
+      const auto has_kind = [&](double s) {
+        const Vector3d x = whole.Position(s);
+        const int num_filled = CountFilled(solid, x, whole.along);
+        const bool touches =
+            num_filled > 0 || TouchesAnotherSheet(solid, sheet, x);
+        return num_filled < kNumProbes &&
+               touches == (kind == CurveKind::kCrease);
+      };
+      for (const TrueCurve& part :
+           PartsWhere(whole, detail / 200, 1e-2 * detail, has_kind)) {
+        const bool is_new = std::none_of(
+            curves.begin(), curves.end(), [&](const TrueCurve& other) {
+              return other.kind == kind && Covers(other, part, 1e-6 * detail);
+            });
+        if (is_new) curves.push_back(part);
+      }
+    }
+  }
+}
+
 }  // namespace
 
-Vector3d CreaseCurve::Position(double s) const {
-  if (radius == 0) return origin + s * along;
-  const double angle = s / radius;
-  return origin + radius * (std::cos(angle) * along + std::sin(angle) * across);
-}
-
-Vector3d CreaseCurve::Tangent(double s) const {
-  if (radius == 0) return along;
-  const double angle = s / radius;
-  return std::cos(angle) * across - std::sin(angle) * along;
-}
-
-std::vector<CreaseCurve> CreaseCurves(const Solid& solid) {
-  std::vector<CreaseCurve> curves;
-  for (const CreaseCurve& whole : Candidates(solid)) {
+std::vector<TrueCurve> CreaseCurves(const Solid& solid) {
+  std::vector<TrueCurve> curves;
+  for (const TrueCurve& whole : Candidates(solid)) {
     AppendCreases(solid, whole, curves);
+  }
+  for (const SolidPrimitive& primitive : solid.primitives()) {
+    if (primitive.shape != PrimitiveShape::kSheet) continue;
+    AppendRim(solid, primitive, curves);
   }
   return curves;
 }

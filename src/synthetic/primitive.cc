@@ -78,6 +78,7 @@ double Support(const SolidPrimitive& primitive, const Vector3d& direction) {
   const double base = primitive.world_from_own.translation.dot(direction);
   switch (primitive.shape) {
     case PrimitiveShape::kBox:
+    case PrimitiveShape::kSheet:
       return base + d.cwiseAbs().dot(size);
     case PrimitiveShape::kFrustum: {
       const double width = d.head<2>().norm();
@@ -94,6 +95,7 @@ double Support(const SolidPrimitive& primitive, const Vector3d& direction) {
 
 int NumFaces(PrimitiveShape shape) {
   if (shape == PrimitiveShape::kBox) return 6;
+  if (shape == PrimitiveShape::kSheet) return 2;
   return shape == PrimitiveShape::kFrustum ? 3 : 1;
 }
 
@@ -112,6 +114,8 @@ double OwnFaceValue(const SolidPrimitive& primitive,
     }
     case PrimitiveShape::kSphere:
       return x.norm() - size.x();
+    case PrimitiveShape::kSheet:
+      return face == 0 ? x.z() : -x.z();
   }
   return 0;
 }
@@ -143,6 +147,8 @@ Vector3d OwnNormal(const SolidPrimitive& primitive,
     }
     case PrimitiveShape::kSphere:
       return x.normalized();
+    case PrimitiveShape::kSheet:
+      return face == 0 ? Vector3d::UnitZ() : Vector3d(-Vector3d::UnitZ());
   }
   return Vector3d::UnitZ();
 }
@@ -178,8 +184,22 @@ RayInterval Intersect(const SolidPrimitive& primitive, const Ray& own_ray) {
                   0,
                   interval);
       break;
+    case PrimitiveShape::kSheet:
+      interval.exit = interval.enter;
+      break;
   }
   return interval;
+}
+
+std::optional<double> SheetHit(const SolidPrimitive& sheet,
+                               const Ray& own_ray) {
+  const Vector3d& o = own_ray.origin;
+  const Vector3d& d = own_ray.direction;
+  const double t = -o.z() / d.z();
+  if (!(t > 0) || !std::isfinite(t)) return std::nullopt;
+  const Eigen::Array2d at = (o + t * d).head<2>().array().abs();
+  if ((at > sheet.size.head<2>().array()).any()) return std::nullopt;
+  return t;
 }
 
 double FarthestDistance(const SolidPrimitive& primitive) {
@@ -188,6 +208,7 @@ double FarthestDistance(const SolidPrimitive& primitive) {
   double farthest = 0;
   switch (primitive.shape) {
     case PrimitiveShape::kBox:
+    case PrimitiveShape::kSheet:
       for (int corner = 0; corner < 8; ++corner) {
         const Vector3d sign(
             corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace curvix {
@@ -15,13 +16,25 @@ enum class PrimitiveShape {
   kBox,      // |x| <= size.x, |y| <= size.y, |z| <= size.z
   kFrustum,  // 0 <= z <= size.z, radius from size.x (z = 0) to size.y (top)
   kSphere,   // radius size.x
+  kSheet,    // |x| <= size.x, |y| <= size.y, z = 0: two sides, no inside
 };
 
-// A convex body in its own frame, added to or taken out of the solid.
+// What is painted on the flat faces of a body, and round the sides of frustums.
+enum class SurfacePattern {
+  kNone,
+  kBrick,  // bricks in mortar
+  kWood,   // grain; flat faces only
+  kPrint,  // a label with letters
+  kMixed,  // as a scene to be made: all of them, each where it belongs
+};
+
+// A convex body in its own frame, added to or taken out of the solid. A sheet
+// is added; it is where it is whatever bodies are there.
 struct SolidPrimitive {
   PrimitiveShape shape = PrimitiveShape::kBox;
   bool is_added = true;
-  double albedo = 1;      // factor on the grey values of its faces
+  double albedo = 1;  // factor on the grey values of its faces
+  SurfacePattern pattern = SurfacePattern::kNone;
   Eigen::Vector3d size;   // world units, see PrimitiveShape
   Rigid3 world_from_own;  // its pose
 };
@@ -32,7 +45,7 @@ struct Ray {
 };
 
 // Faces of a shape. Box: -x, +x, -y, +y, -z, +z. Frustum: side, bottom, top.
-// Sphere: one.
+// Sphere: one. Sheet: the side that +z comes out of, and the other.
 int NumFaces(PrimitiveShape shape);
 
 // Negative inside, zero on the face, positive outside; world units near the
@@ -61,8 +74,12 @@ struct RayInterval {
   bool IsEmpty() const { return !(enter < exit); }
 };
 
-// For a ray in the primitive's frame; empty where it misses.
+// For a ray in the primitive's frame; empty where it misses. A sheet has no
+// inside: SheetHit.
 RayInterval Intersect(const SolidPrimitive& primitive, const Ray& own_ray);
+
+// Where a ray in the frame of a sheet crosses it, t > 0.
+std::optional<double> SheetHit(const SolidPrimitive& sheet, const Ray& own_ray);
 
 // The largest distance of the primitive from the world's origin.
 double FarthestDistance(const SolidPrimitive& primitive);

@@ -15,33 +15,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kBackground = 242;  // grey level
-
-// Grey levels of faces that look along +x, +y, +z and along -x, -y, -z.
-const Eigen::Array3d kForward(140, 78, 208);
-const Eigen::Array3d kBackward(106, 174, 56);
-
-// An ambient cube: smooth in the normal, so that shading makes no edges, and
-// different for all faces of a box.
-double Shade(const Vector3d& normal) {
-  const Eigen::Array3d facing =
-      (normal.array() > 0).select(kForward, kBackward);
-  return (normal.array().square() * facing).sum();
-}
-
-// What one infinitely thin ray sees. Brightness is smooth where `id` is
-// constant.
-struct Sample {
-  std::uint64_t id = 0;  // 0: background
-  double grey = kBackground;
-};
+constexpr Look kBackground = {242, 0};
 
 // A square of the image and what its corners show, in the order of
 // kCornerOffsets.
 struct Cell {
   Vector2d origin;  // top left, pixels
   double size;      // pixels
-  std::array<Sample, 4> corners;
+  std::array<Look, 4> corners;
 };
 
 const std::array<Vector2d, 4>& CornerOffsets() {
@@ -52,13 +33,13 @@ const std::array<Vector2d, 4>& CornerOffsets() {
 
 double MeanGrey(const Cell& cell) {
   double sum = 0;
-  for (const Sample& corner : cell.corners) sum += corner.grey;
+  for (const Look& corner : cell.corners) sum += corner.grey;
   return sum / 4;
 }
 
 bool IsUniform(const Cell& cell) {
   return std::all_of(
-      cell.corners.begin(), cell.corners.end(), [&](const Sample& corner) {
+      cell.corners.begin(), cell.corners.end(), [&](const Look& corner) {
         return corner.id == cell.corners[0].id;
       });
 }
@@ -66,16 +47,16 @@ bool IsUniform(const Cell& cell) {
 class Renderer {
  public:
   Renderer(const Solid& solid,
-           const SurfaceTexture& texture,
+           const Surfaces& surfaces,
            const Camera& camera,
            const Rigid3& cam_from_world)
       : solid_(solid),
-        texture_(texture),
+        surfaces_(surfaces),
         camera_(camera),
         world_from_cam_(cam_from_world.rotation.conjugate().toRotationMatrix()),
         centre_(cam_from_world.Inverse().translation) {}
 
-  Sample At(const Vector2d& pixel) const;
+  Look At(const Vector2d& pixel) const;
 
   // Mean grey value over the cell.
   double Integrate(const Cell& cell, int depth) const;
@@ -87,28 +68,21 @@ class Renderer {
                   std::uint64_t from_id) const;
 
   const Solid& solid_;
-  const SurfaceTexture& texture_;
+  const Surfaces& surfaces_;
   const Camera& camera_;
   Eigen::Matrix3d world_from_cam_;
   Vector3d centre_;
 };
 
-Sample Renderer::At(const Vector2d& pixel) const {
+Look Renderer::At(const Vector2d& pixel) const {
   const std::optional<Vector2d> uv = IdealFromImage(camera_, pixel);
-  if (!uv) return {};
+  if (!uv) return kBackground;
   const Ray ray{centre_, world_from_cam_ * uv->homogeneous()};
   const double nearest =
       ray.direction.cross(ray.origin).norm() / ray.direction.norm();
-  if (nearest > solid_.radius()) return {};
+  if (nearest > solid_.radius()) return kBackground;
   const std::optional<Hit> hit = solid_.Trace(ray);
-  if (!hit) return {};
-  const auto texture = texture_.At(ray.origin + hit->t * ray.direction);
-  const auto primitive = static_cast<std::size_t>(hit->primitive_idx);
-  const double albedo = solid_.primitives()[primitive].albedo;
-  const std::uint64_t face =
-      8 * primitive + static_cast<unsigned>(hit->face_idx);
-  return {Mix(texture.patch_id, face + 1),
-          albedo * Shade(hit->normal) + texture.grey};
+  return hit ? surfaces_.At(ray, *hit) : kBackground;
 }
 
 // The share of the way at which the sample stops showing `from_id`.
@@ -174,13 +148,13 @@ double Renderer::Integrate(const Cell& cell, int depth) const {
   const auto sample = [&](double x, double y) {
     return At(cell.origin + half * Vector2d(x, y));
   };
-  const Sample top = sample(1, 0);
-  const Sample right = sample(2, 1);
-  const Sample bottom = sample(1, 2);
-  const Sample left = sample(0, 1);
-  const Sample middle = sample(1, 1);
+  const Look top = sample(1, 0);
+  const Look right = sample(2, 1);
+  const Look bottom = sample(1, 2);
+  const Look left = sample(0, 1);
+  const Look middle = sample(1, 1);
   const auto& [c0, c1, c2, c3] = cell.corners;
-  const auto quarter = [&](int x, int y, std::array<Sample, 4> corners) {
+  const auto quarter = [&](int x, int y, std::array<Look, 4> corners) {
     const Cell part{cell.origin + half * Vector2d(x, y), half, corners};
     return Integrate(part, depth + 1) / 4;
   };
@@ -190,7 +164,7 @@ double Renderer::Integrate(const Cell& cell, int depth) const {
          quarter(0, 1, {left, middle, bottom, c3});
 }
 
-// Samples at all pixel corners, row-major, (width + 1) x (height + 1).
+// Looks at all pixel corners, row-major, (width + 1) x (height + 1).
 class CornerGrid {
  public:
   CornerGrid(const Renderer& renderer, int width, int height)
@@ -223,14 +197,14 @@ class CornerGrid {
   }
 
  private:
-  const Sample& At(int x, int y) const {
+  const Look& At(int x, int y) const {
     return samples_[static_cast<std::size_t>(y) *
                         static_cast<std::size_t>(width_ + 1) +
                     static_cast<std::size_t>(x)];
   }
   int width_;
   int height_;
-  std::vector<Sample> samples_;
+  std::vector<Look> samples_;
 };
 
 }  // namespace
@@ -252,10 +226,10 @@ double RenderedImage::At(const Vector2d& pixel) const {
 }
 
 RenderedImage Render(const Solid& solid,
-                     const SurfaceTexture& texture,
+                     const Surfaces& surfaces,
                      const Camera& camera,
                      const Rigid3& cam_from_world) {
-  const Renderer renderer(solid, texture, camera, cam_from_world);
+  const Renderer renderer(solid, surfaces, camera, cam_from_world);
   const CornerGrid corners(renderer, camera.width, camera.height);
   RenderedImage image{camera.width, camera.height, {}};
   image.grey.reserve(static_cast<std::size_t>(camera.width) *

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "synthetic/solid.h"
-#include "synthetic/surface_texture.h"
+#include "synthetic/surfaces.h"
 
 namespace curvix {
 
@@ -26,11 +26,8 @@ struct RenderedImage {
 // measured to about 1/100 of its area; a camera with distortion bends the
 // image itself, not a resampled one. Directions that the camera model cannot
 // invert show the background.
-//
-// Faces are lit by fixed lights that cast no shadows, so that all brightness
-// edges are edges of the solid, of its outline, or of the texture.
 RenderedImage Render(const Solid& solid,
-                     const SurfaceTexture& texture,
+                     const Surfaces& surfaces,
                      const Camera& camera,
                      const Rigid3& cam_from_world);
 

@@ -3,10 +3,13 @@
 #include "synthetic/solid.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
 #include "base/check.h"
+#include "synthetic/furnished.h"
+#include "synthetic/parts.h"
 #include "synthetic/street.h"
 
 namespace curvix {
@@ -22,6 +25,9 @@ Solid::Solid(std::vector<SolidPrimitive> primitives)
         {primitive.world_from_own.rotation.conjugate().toRotationMatrix(),
          primitive.world_from_own.translation,
          reach * reach});
+    if (primitive.shape == PrimitiveShape::kSheet) {
+      sheet_idxs_.push_back(placed_.size() - 1);
+    }
     if (primitive.is_added) {
       radius_ = std::max(radius_, FarthestDistance(primitive));
     }
@@ -37,6 +43,7 @@ bool Solid::Contains(const Vector3d& world) const {
   for (std::size_t i = 0; i < primitives_.size(); ++i) {
     const SolidPrimitive& primitive = primitives_[i];
     if (primitive.is_added == is_inside) continue;  // would change nothing
+    if (primitive.shape == PrimitiveShape::kSheet) continue;
     const Vector3d offset = world - placed_[i].origin;
     if (offset.squaredNorm() > placed_[i].squared_reach) continue;
     const Vector3d own = placed_[i].own_from_world_rotation * offset;
@@ -60,13 +67,17 @@ std::vector<Solid::Span> Solid::Spans(const Ray& ray) const {
         placed_[i].squared_reach * squared_length) {
       continue;
     }
-    const Eigen::Matrix3d& rotation = placed_[i].own_from_world_rotation;
-    const Ray own{rotation * offset, rotation * ray.direction};
-    const RayInterval inside = Intersect(primitives_[i], own);
+    const RayInterval inside = Intersect(primitives_[i], InFrameOf(i, ray));
     if (inside.IsEmpty() || inside.exit <= 0) continue;
     spans.push_back({inside, static_cast<int>(i)});
   }
   return spans;
+}
+
+Ray Solid::InFrameOf(std::size_t primitive_idx, const Ray& ray) const {
+  const Placed& placed = placed_[primitive_idx];
+  const Eigen::Matrix3d& rotation = placed.own_from_world_rotation;
+  return {rotation * (ray.origin - placed.origin), rotation * ray.direction};
 }
 
 bool Solid::IsInsideAfter(const std::vector<Span>& spans, double t) const {
@@ -89,6 +100,19 @@ Vector3d Solid::Normal(const Hit& hit, const Vector3d& world) const {
   return primitives_[i].is_added ? normal : Vector3d(-normal);
 }
 
+void Solid::TraceSheets(const Ray& ray,
+                        const std::vector<Span>& spans,
+                        Hit& hit) const {
+  for (const std::size_t i : sheet_idxs_) {
+    const Ray own = InFrameOf(i, ray);
+    const std::optional<double> t = SheetHit(primitives_[i], own);
+    if (!t || *t >= hit.t || IsInsideAfter(spans, *t)) continue;
+    hit.t = *t;
+    hit.primitive_idx = static_cast<int>(i);
+    hit.face_idx = own.direction.z() < 0 ? 0 : 1;
+  }
+}
+
 std::optional<Hit> Solid::Trace(const Ray& ray) const {
   const std::vector<Span> spans = Spans(ray);
   // The solid can begin only where a body is entered or a hole is left.
@@ -103,6 +127,7 @@ std::optional<Hit> Solid::Trace(const Ray& ray) const {
     hit.primitive_idx = span.primitive_idx;
     hit.face_idx = is_added ? span.enter_face : span.exit_face;
   }
+  TraceSheets(ray, spans, hit);
   if (hit.t == std::numeric_limits<double>::infinity()) return std::nullopt;
   hit.normal = Normal(hit, ray.origin + hit.t * ray.direction);
   return hit;
@@ -110,97 +135,32 @@ std::optional<Hit> Solid::Trace(const Ray& ray) const {
 
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// What is taken away reaches beyond what it is taken from, so that no two faces
-// coincide by rounding.
-constexpr double kBeyond = 0.05;
-constexpr double kHoleAlbedo = 0.8;  // as if less light came in
-
-SolidPrimitive Box(const Vector3d& low, const Vector3d& high) {
-  SolidPrimitive box;
-  box.shape = PrimitiveShape::kBox;
-  box.size = (high - low) / 2;
-  box.world_from_own.translation = (low + high) / 2;
-  return box;
+// Pieces without a pattern of their own take turns.
+void PaintMixed(std::vector<SolidPrimitive>& primitives) {
+  constexpr std::array kTurns = {
+      SurfacePattern::kBrick, SurfacePattern::kWood, SurfacePattern::kPrint};
+  std::size_t turn = 0;
+  for (SolidPrimitive& primitive : primitives) {
+    if (primitive.is_added) primitive.pattern = kTurns[turn++ % kTurns.size()];
+  }
 }
 
-// From the centre of the base along `axis`.
-SolidPrimitive Frustum(const Vector3d& base,
-                       const Vector3d& axis,
-                       double base_radius,
-                       double top_radius) {
-  SolidPrimitive frustum;
-  frustum.shape = PrimitiveShape::kFrustum;
-  frustum.size = {base_radius, top_radius, axis.norm()};
-  frustum.world_from_own = {
-      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis), base};
-  return frustum;
-}
-
-SolidPrimitive Cylinder(const Vector3d& base,
-                        const Vector3d& axis,
-                        double radius) {
-  return Frustum(base, axis, radius, radius);
-}
-
-SolidPrimitive Sphere(const Vector3d& centre, double radius) {
-  SolidPrimitive sphere;
-  sphere.shape = PrimitiveShape::kSphere;
-  sphere.size = Vector3d::Constant(radius);
-  sphere.world_from_own.translation = centre;
-  return sphere;
-}
-
-SolidPrimitive Without(SolidPrimitive primitive, double albedo = 1) {
-  primitive.is_added = false;
-  primitive.albedo = albedo;
-  return primitive;
-}
-
-// A hole through a wall between `from` and `to`.
-SolidPrimitive Hole(const Vector3d& from, const Vector3d& to, double radius) {
-  const Vector3d beyond = kBeyond * (to - from).normalized();
-  return Without(Cylinder(from - beyond, to - from + 2 * beyond, radius),
-                 kHoleAlbedo);
-}
-
-std::vector<SolidPrimitive> Block() {
-  return {Box({0, 0, 0}, {1, 0.7, 0.55}),
-          Without(Box({0.55, -kBeyond, 0.25}, {1 + kBeyond, 0.8, 0.8}))};
-}
-
-std::vector<SolidPrimitive> UprightCylinder() {
-  return {Box({-0.5, -0.5, 0}, {0.5, 0.5, 0.14}),
-          Cylinder({0, 0, 0.07}, {0, 0, 0.63}, 0.28)};
-}
-
-std::vector<SolidPrimitive> Cone() {
-  return {Box({-0.5, -0.4, 0}, {0.5, 0.4, 0.14}),
-          Frustum({0, 0, 0.14}, {0, 0, 0.55}, 0.33, 0.14)};
-}
-
-std::vector<SolidPrimitive> CutSphere() {
-  const Vector3d up = Vector3d(-0.35, -0.3, 0.9).normalized();
-  SolidPrimitive cut = Box({-1, -1, 0}, {1, 1, 1});
-  cut.world_from_own.rotation =
-      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up);
-  cut.world_from_own.translation = (0.22 + 0.5) * up;
-  return {Sphere({0, 0, 0}, 0.5), Without(cut)};
-}
-
-// A bracket: base and wall, a hole through the wall, and on the base a boss
-// with a bore, a cone and a round dimple.
-std::vector<SolidPrimitive> Part() {
-  const double top = 0.14;  // of the base
-  return {Box({0, 0, 0}, {1, 0.7, top}),
-          Box({0, 0, 0}, {0.14, 0.7, 0.6}),
-          Cylinder({0.4, 0.24, top / 2}, {0, 0, 0.22}, 0.15),
-          Frustum({0.76, 0.48, top}, {0, 0, 0.24}, 0.14, 0.07),
-          Hole({0, 0.35, 0.38}, {0.14, 0.35, 0.38}, 0.13),
-          Hole({0.4, 0.24, 0}, {0.4, 0.24, 0.29}, 0.08),
-          Without(Sphere({0.78, 0.18, top + 0.06}, 0.12), kHoleAlbedo)};
+void Paint(SurfacePattern pattern, std::vector<SolidPrimitive>& primitives) {
+  const bool has_own =
+      std::any_of(primitives.begin(), primitives.end(), [](const auto& p) {
+        return p.pattern != SurfacePattern::kNone;
+      });
+  if (pattern == SurfacePattern::kMixed) {
+    if (!has_own) PaintMixed(primitives);
+    return;
+  }
+  for (SolidPrimitive& primitive : primitives) {
+    if (primitive.is_added || pattern == SurfacePattern::kNone) {
+      primitive.pattern = pattern;
+    }
+  }
 }
 
 std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
@@ -215,6 +175,12 @@ std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
       return CutSphere();
     case SyntheticSolid::kFacade:
       return Facade(num_views);
+    case SyntheticSolid::kHouse:
+      return House();
+    case SyntheticSolid::kTable:
+      return Table();
+    case SyntheticSolid::kKnobs:
+      return Knobs();
     case SyntheticSolid::kPart:
       break;
   }
@@ -223,8 +189,12 @@ std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
 
 }  // namespace
 
-Solid MakeSolid(SyntheticSolid solid, double scale, int num_views) {
-  const std::vector<SolidPrimitive> primitives = Primitives(solid, num_views);
+Solid MakeSolid(SyntheticSolid solid,
+                double scale,
+                int num_views,
+                SurfacePattern pattern) {
+  std::vector<SolidPrimitive> primitives = Primitives(solid, num_views);
+  Paint(pattern, primitives);
   const Vector3d sides = BoundingBox(primitives).sizes();
   const double scaled =
       solid == SyntheticSolid::kFacade ? sides.z() : sides.maxCoeff();

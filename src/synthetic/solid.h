@@ -38,8 +38,8 @@ class Solid {
 
   bool Contains(const Eigen::Vector3d& world) const;
 
-  // The first entry at t > 0 of a ray that starts outside. Ties: the primitive
-  // listed first.
+  // The first entry, or the first sheet, at t > 0 of a ray that starts outside.
+  // Ties: the primitive listed first; bodies before sheets.
   std::optional<Hit> Trace(const Ray& ray) const;
 
  private:
@@ -52,11 +52,16 @@ class Solid {
     int primitive_idx = 0;
   };
   std::vector<Span> Spans(const Ray& ray) const;
+  Ray InFrameOf(std::size_t primitive_idx, const Ray& ray) const;
+  void TraceSheets(const Ray& ray,
+                   const std::vector<Span>& spans,
+                   Hit& hit) const;
   bool IsInsideAfter(const std::vector<Span>& spans, double t) const;
   Eigen::Vector3d Normal(const Hit& hit, const Eigen::Vector3d& world) const;
 
   std::vector<SolidPrimitive> primitives_;
   std::vector<Placed> placed_;
+  std::vector<std::size_t> sheet_idxs_;
   Eigen::AlignedBox3d box_;
   double radius_ = 0;
   double detail_ = 0;
@@ -64,9 +69,13 @@ class Solid {
 
 // `solid` centred on the origin, z up, longest side `scale` world units; a
 // facade has that height, and the length that `num_views` images need.
+// `pattern` is painted on every added body; kMixed: on each what suits it.
 //
 // For CreaseCurves to know every edge, round faces meet planar ones only, and
 // planes meet frustums at right angles to the axis.
-Solid MakeSolid(SyntheticSolid solid, double scale, int num_views = 3);
+Solid MakeSolid(SyntheticSolid solid,
+                double scale,
+                int num_views = 3,
+                SurfacePattern pattern = SurfacePattern::kNone);
 
 }  // namespace curvix

@@ -59,8 +59,9 @@ SurfaceTexture::Value SurfaceTexture::At(const Vector3d& world) const {
     const double share =
         (x - patch.centre).squaredNorm() / (patch.radius * patch.radius);
     if (share >= 1) continue;
-    sum += patch.strength * (patch.is_crisp ? 1 : (1 - share) * (1 - share));
-    if (patch.is_crisp) value.patch_id ^= id;
+    const bool is_crisp = patch.is_crisp && rims_ == Rims::kSome;
+    sum += patch.strength * (is_crisp ? 1 : (1 - share) * (1 - share));
+    if (is_crisp) value.patch_id ^= id;
   }
   value.grey = contrast_ / 2 * std::clamp(sum, -1.0, 1.0);
   return value;

@@ -7,14 +7,20 @@
 
 namespace curvix {
 
-// Round patches, some with a crisp rim and some that fade, at random places: a
-// surface that passes through them shows what feature detectors look for.
+// Round patches at random places: a surface that passes through them shows what
+// feature detectors look for. All fade to their rims, or half of them end there
+// with a crisp rim.
 class SurfaceTexture {
  public:
+  enum class Rims { kNone, kSome };
+
   // contrast: grey levels between the brightest and the darkest patch.
   // cell_size: mean distance of patches, world units.
-  SurfaceTexture(double contrast, double cell_size, std::uint64_t seed)
-      : contrast_(contrast), cell_size_(cell_size), seed_(seed) {}
+  SurfaceTexture(double contrast,
+                 double cell_size,
+                 std::uint64_t seed,
+                 Rims rims)
+      : contrast_(contrast), cell_size_(cell_size), seed_(seed), rims_(rims) {}
 
   struct Value {
     double grey = 0;             // to be added, within +-contrast / 2
@@ -26,6 +32,7 @@ class SurfaceTexture {
   double contrast_;
   double cell_size_;
   std::uint64_t seed_;
+  Rims rims_;
 };
 
 }  // namespace curvix

@@ -10,9 +10,12 @@
 #include "base/parallel.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
+#include "synthetic/crease_curves.h"
+#include "synthetic/marking_curves.h"
 #include "synthetic/render.h"
 #include "synthetic/solid.h"
 #include "synthetic/street.h"
+#include "synthetic/surfaces.h"
 #include "synthetic/synthetic_truth.h"
 
 namespace curvix {
@@ -88,6 +91,23 @@ std::vector<Rigid3> Poses(const SyntheticOptions& options, const Solid& solid) {
              : MakePoses(options.num_views, solid.radius(), seed);
 }
 
+// All that is known, with a kind each.
+std::vector<TrueSample> SampleTruth(const Solid& solid,
+                                    const Surfaces& surfaces,
+                                    double step) {
+  const std::vector<TrueCurve> creases = CreaseCurves(solid);
+  std::vector<TrueCurve> curves = creases;
+  for (const TrueCurve& marking : MarkingCurves(solid, surfaces)) {
+    curves.push_back(marking);
+  }
+  std::vector<TrueSample> samples = SampleCurves(curves, step);
+  for (const TrueSample& sample : SampleShadowEdges(
+           solid, surfaces, creases, step, static_cast<int>(curves.size()))) {
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
 }  // namespace
 
 Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
@@ -95,15 +115,19 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
   Result<Camera> camera = MakeCamera(options);
   if (!camera.ok()) return camera.status();
 
-  const Solid solid =
-      MakeSolid(options.solid, options.scale, options.num_views);
-  const SurfaceTexture texture(
-      options.texture, options.scale / 18, Mix(options.seed, kTexture));
+  const Solid solid = MakeSolid(
+      options.solid, options.scale, options.num_views, options.pattern);
+  const Surfaces surfaces(solid,
+                          {options.scale,
+                           options.texture,
+                           options.shadows,
+                           options.reflections,
+                           Mix(options.seed, kTexture)});
   const std::vector<Rigid3> poses = Poses(options, solid);
 
   SyntheticScene scene;
   scene.scene.cameras = {*camera};
-  scene.truth = SampleCurves(CreaseCurves(solid), options.scale / 500);
+  scene.truth = SampleTruth(solid, surfaces, options.scale / 500);
   scene.points = FindTruePoints(solid,
                                 *camera,
                                 poses,
@@ -115,7 +139,7 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
   scene.images.resize(poses.size());
   std::vector<std::vector<SampleInView>> looks(poses.size());
   ParallelFor(poses.size(), options.num_threads, [&](std::size_t i) {
-    const RenderedImage image = Render(solid, texture, *camera, poses[i]);
+    const RenderedImage image = Render(solid, surfaces, *camera, poses[i]);
     looks[i] = LookAtSamples(scene.truth, solid, *camera, poses[i], image);
     scene.images[i] =
         WithNoise(image, options.noise, Mix(Mix(options.seed, kNoise), i));

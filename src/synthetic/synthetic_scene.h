@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "synthetic/primitive.h"
+
 namespace curvix {
 
 enum class SyntheticSolid {
@@ -19,6 +21,9 @@ enum class SyntheticSolid {
   kSphere,    // a sphere cut by a plane: one circle, and an occluding contour
   kPart,      // a bracket with a hole, a boss and a cone: all of the above
   kFacade,    // the front of a row of houses, as long as the views need
+  kHouse,     // a house with windows, ledges, an awning and a sign
+  kTable,     // boxes, cards, a ball, a cup and a bottle on a table
+  kKnobs,     // rounded blocks with knobs and a bottle
 };
 
 struct SyntheticOptions {
@@ -29,6 +34,10 @@ struct SyntheticOptions {
   double noise = 0;    // standard deviation, grey levels, 0 to 255
   double texture = 0;  // contrast of surface texture, grey levels, 0 to 255:
                        // spots, whose outlines are not part of the truth
+  // Painted on the surfaces; its outlines are part of the truth.
+  SurfacePattern pattern = SurfacePattern::kNone;
+  bool shadows = false;      // the sun casts shadows, with hard edges
+  bool reflections = false;  // bright lamps are mirrored in the surfaces
   CameraModel camera_model = CameraModel::kPinhole;
   // The first radial coefficient, -0.5 to 0.5; FOV's omega and EUCM's alpha, 0
   // to 0.9; 0 for models that have none.
@@ -50,7 +59,7 @@ struct RgbImage {
   std::vector<std::uint8_t> pixels;
 };
 
-// One exact sample of a sharp edge.
+// One exact sample of a sharp edge, or of a marking.
 struct TrueSample {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
@@ -58,6 +67,7 @@ struct TrueSample {
   int num_views_seen = 0;  // views in which nothing hides it
   int num_views_edge = 0;  // of these, with a difference of 8 grey levels
                            // across (1.5 px to both sides, without noise)
+  CurveKind kind = CurveKind::kUnknown;
 };
 
 // A point of the surface, where exact cameras see it.

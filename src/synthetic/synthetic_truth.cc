@@ -78,18 +78,22 @@ std::optional<Vector3d> SurfaceAt(const Vector2d& pixel,
 
 }  // namespace
 
-std::vector<TrueSample> SampleCurves(const std::vector<CreaseCurve>& curves,
+std::vector<TrueSample> SampleCurves(const std::vector<TrueCurve>& curves,
                                      double step) {
   std::vector<TrueSample> samples;
   for (std::size_t id = 0; id < curves.size(); ++id) {
-    const CreaseCurve& curve = curves[id];
+    const TrueCurve& curve = curves[id];
     const int num_steps =
         std::max(2, static_cast<int>(std::lround(curve.length / step)));
     const int num_samples = curve.is_closed ? num_steps : num_steps + 1;
     for (int i = 0; i < num_samples; ++i) {
       const double s = curve.length * i / num_steps;
-      samples.push_back(
-          {curve.Position(s), curve.Tangent(s), static_cast<int>(id), 0, 0});
+      samples.push_back({curve.Position(s),
+                         curve.Tangent(s),
+                         static_cast<int>(id),
+                         0,
+                         0,
+                         curve.kind});
     }
   }
   return samples;

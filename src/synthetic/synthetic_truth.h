@@ -4,16 +4,16 @@
 
 #include <vector>
 
-#include "synthetic/crease_curves.h"
 #include "synthetic/render.h"
 #include "synthetic/solid.h"
 #include "synthetic/synthetic_scene.h"
+#include "synthetic/true_curve.h"
 
 namespace curvix {
 
 // Samples at equal steps of about `step` along each curve, both ends included;
 // curve_id counts the curves from 0. The view counts are left at 0.
-std::vector<TrueSample> SampleCurves(const std::vector<CreaseCurve>& curves,
+std::vector<TrueSample> SampleCurves(const std::vector<TrueCurve>& curves,
                                      double step);
 
 // What one view shows of a sample.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <filesystem>
+#include <set>
 
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
@@ -14,6 +15,7 @@ namespace curvix {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
 SyntheticOptions SmallOptions() {
   SyntheticOptions options;
@@ -66,6 +68,29 @@ TEST(SynthesizeTest, WritesAWorkspaceThatReadsBackExactly) {
     EXPECT_EQ(truth->samples[i].curve_id, scene.truth[i].curve_id);
     EXPECT_EQ(truth->samples[i].num_views_edge, scene.truth[i].num_views_edge);
   }
+}
+
+TEST(SynthesizeTest, TheTruthKeepsItsKinds) {
+  const TemporaryFolder folder;
+  SyntheticOptions options = SmallOptions();
+  options.solid = SyntheticSolid::kTable;
+  options.pattern = SurfacePattern::kMixed;
+  options.shadows = true;
+  ASSERT_TRUE(Synthesize(options, folder.path()).ok());
+  const SyntheticScene scene = *MakeSyntheticScene(options);
+  const Result<GroundTruth> truth = ReadGroundTruth(folder.path() / "gt.txt");
+  ASSERT_TRUE(truth.ok()) << truth.status().message();
+  EXPECT_TRUE(truth->has_kinds);
+  ASSERT_EQ(truth->samples.size(), scene.truth.size());
+  std::set<CurveKind> kinds;
+  for (std::size_t i = 0; i < scene.truth.size(); ++i) {
+    EXPECT_EQ(truth->samples[i].kind, scene.truth[i].kind);
+    kinds.insert(scene.truth[i].kind);
+  }
+  EXPECT_THAT(
+      kinds,
+      UnorderedElementsAre(
+          CurveKind::kCrease, CurveKind::kBoundary, CurveKind::kMarking));
 }
 
 TEST(SynthesizeTest, RefusesToOverwriteAndSaysWhat) {

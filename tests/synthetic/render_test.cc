@@ -25,7 +25,9 @@ Rigid3 FromTheFront() {
   return pose;
 }
 
-SurfaceTexture NoTexture() { return {0, 1, 0}; }
+RenderedImage RenderPlain(const Solid& solid, const Rigid3& pose) {
+  return Render(solid, Surfaces(solid, {}), SmallCamera(), pose);
+}
 
 float PixelAt(const RenderedImage& image, int x, int y) {
   return image.grey[static_cast<std::size_t>(y * image.width + x)];
@@ -58,8 +60,8 @@ TEST(RenderTest, PixelsOnAStraightEdgeAddUpToItsExactPosition) {
     for (const double degrees : {0.0, 1.0, 7.0, 30.0, -42.0}) {
       const double x = 0.6 + 0.0137 * shift;
       const double angle = DegToRad(degrees);
-      const RenderedImage image = Render(
-          WallUpTo(x, angle), NoTexture(), SmallCamera(), FromTheFront());
+      const RenderedImage image =
+          RenderPlain(WallUpTo(x, angle), FromTheFront());
       const double face = static_cast<double>(PixelAt(image, 0, 16));
       const double behind = static_cast<double>(PixelAt(image, 63, 16));
       for (int row = 8; row < 24; ++row) {
@@ -78,8 +80,7 @@ TEST(RenderTest, PixelsOfADiscAddUpToItsExactArea) {
   disc.shape = PrimitiveShape::kFrustum;
   disc.size = {1.2345, 0.1, 2};
   disc.world_from_own.translation = {0.031, -0.017, 0};
-  const RenderedImage image =
-      Render(Solid({disc}), NoTexture(), SmallCamera(), FromTheFront());
+  const RenderedImage image = RenderPlain(Solid({disc}), FromTheFront());
   const double face = static_cast<double>(PixelAt(image, 32, 16));
   const double behind = static_cast<double>(PixelAt(image, 0, 0));
   double area = 0;
@@ -111,7 +112,7 @@ TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
     pose.rotation =
         Eigen::Quaterniond::FromTwoVectors(-eye, Eigen::Vector3d::UnitZ());
     pose.translation = -(pose.rotation * eye);
-    const RenderedImage image = Render(solid, NoTexture(), SmallCamera(), pose);
+    const RenderedImage image = RenderPlain(solid, pose);
     greys.push_back(static_cast<double>(PixelAt(image, 32, 16)));
     greys.push_back(static_cast<double>(PixelAt(image, 0, 0)));
   }
@@ -125,10 +126,12 @@ TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
 
 TEST(RenderTest, TextureStaysWithinItsContrast) {
   const Solid wall = WallUpTo(15, 0);
-  const RenderedImage plain =
-      Render(wall, NoTexture(), SmallCamera(), FromTheFront());
+  const RenderedImage plain = RenderPlain(wall, FromTheFront());
   const RenderedImage textured =
-      Render(wall, SurfaceTexture(40, 0.5, 7), SmallCamera(), FromTheFront());
+      Render(wall,
+             Surfaces(wall, {.scale = 9, .texture = 40, .seed = 7}),
+             SmallCamera(),
+             FromTheFront());
   float lowest = 0;
   float highest = 0;
   for (std::size_t i = 0; i < plain.grey.size(); ++i) {
@@ -138,6 +141,37 @@ TEST(RenderTest, TextureStaysWithinItsContrast) {
   EXPECT_GE(lowest, -20.001F);
   EXPECT_LE(highest, 20.001F);
   EXPECT_GT(highest - lowest, 20.0F);
+}
+
+TEST(RenderTest, LampsOnlyBrightenAndMoveWithTheView) {
+  SolidPrimitive ball;
+  ball.shape = PrimitiveShape::kSphere;
+  ball.size.setConstant(1);
+  const Solid solid({ball});
+  const Surfaces shiny(solid, {.reflections = true});
+  // The mean pixel of the lamps, from two places beside each other.
+  const auto lamps = [&](double turn) {
+    Rigid3 pose = FromTheFront();
+    pose.rotation = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY());
+    const RenderedImage image = Render(solid, shiny, SmallCamera(), pose);
+    const RenderedImage plain = RenderPlain(solid, pose);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const float change = PixelAt(image, x, y) - PixelAt(plain, x, y);
+        EXPECT_GE(change, -2);  // areas are measured to 1/100
+        if (change > 5) sum += Eigen::Vector3d(x, y, 1);
+      }
+    }
+    return sum;
+  };
+  const Eigen::Vector3d straight = lamps(0);
+  const Eigen::Vector3d turned = lamps(0.3);
+  ASSERT_GT(straight.z(), 5);
+  ASSERT_GT(turned.z(), 5);
+  // A mark on the front of the ball would move by a sixth of the ball's radius.
+  const double move = (turned.hnormalized() - straight.hnormalized()).norm();
+  EXPECT_GT(move, 0.2);
 }
 
 }  // namespace

@@ -65,6 +65,9 @@ TEST(SyntheticSceneTest, IsTheSameForAnyNumberOfThreads) {
   SyntheticOptions options = SmallOptions();
   options.noise = 3;
   options.texture = 30;
+  options.pattern = SurfacePattern::kMixed;
+  options.shadows = true;
+  options.reflections = true;
   options.pose_error_px = 1;
   options.num_threads = 1;
   const SyntheticScene one = Make(options);
@@ -97,6 +100,26 @@ TEST(SyntheticSceneTest, SamplesCurvesAtEqualStepsWithIdsWithoutGaps) {
     EXPECT_NEAR(chord.norm(), 20.0 / 500, 0.05 * 20 / 500);
     EXPECT_GT(chord.normalized().dot(truth[i].tangent), 0.99);
   }
+}
+
+TEST(SyntheticSceneTest, PatternsAndShadowsAddMarkingsAndLampsAddNothing) {
+  SyntheticOptions options = SmallOptions();
+  const std::size_t num_plain = Make(options).truth.size();
+  options.pattern = SurfacePattern::kBrick;
+  const std::vector<TrueSample> painted = Make(options).truth;
+  options.shadows = true;
+  const SyntheticScene sunny = Make(options);
+  options.reflections = true;
+  const SyntheticScene shiny = Make(options);
+  ASSERT_GT(painted.size(), num_plain);
+  ASSERT_GT(sunny.truth.size(), painted.size());
+  for (std::size_t i = 0; i < sunny.truth.size(); ++i) {
+    EXPECT_EQ(sunny.truth[i].kind,
+              i < num_plain ? CurveKind::kCrease : CurveKind::kMarking);
+  }
+  ASSERT_EQ(shiny.truth.size(), sunny.truth.size());
+  EXPECT_EQ(shiny.truth.back().position, sunny.truth.back().position);
+  EXPECT_NE(shiny.images[0].pixels, sunny.images[0].pixels);
 }
 
 TEST(SyntheticSceneTest, EverySampleIsAnEdgeOnlyWhereItIsSeen) {

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "synthetic/surfaces.h"
+
+#include "synthetic/counter_random.h"
+#include "synthetic/face_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace curvix {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMottle = 10;      // contrast, grey levels
+constexpr double kSkyShare = 0.65;  // of the light, where the sun shines
+constexpr double kMirrorShare = 0.45;
+constexpr double kLampGrey = 250;
+
+// Grey levels of faces that look along +x, +y, +z and along -x, -y, -z.
+const Eigen::Array3d kForward(140, 78, 208);
+const Eigen::Array3d kBackward(106, 174, 56);
+
+// An ambient cube: smooth in the normal, so that shading makes no edges, and
+// different for all faces of a box.
+double Shade(const Vector3d& normal) {
+  const Eigen::Array3d facing =
+      (normal.array() > 0).select(kForward, kBackward);
+  return (normal.array().square() * facing).sum();
+}
+
+// Which of the square lamps all around lies in this direction; 0: none.
+std::uint64_t LampAt(const Vector3d& direction) {
+  constexpr double kHalfWidth = 0.2;  // tangent of an angle
+  static const std::array<Vector3d, 6> lamps = {
+      Vector3d(0.5, -0.6, 0.62).normalized(),
+      Vector3d(-0.8, -0.3, 0.5).normalized(),
+      Vector3d(0.1, 0.8, 0.6).normalized(),
+      Vector3d(0.9, 0.4, -0.1).normalized(),
+      Vector3d(-0.3, -0.9, -0.1).normalized(),
+      Vector3d(-0.5, 0.7, 0.1).normalized()};
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    const double ahead = direction.dot(lamps[i]);
+    if (ahead <= 0) continue;
+    const Vector3d right = lamps[i].cross(Vector3d::UnitZ()).normalized();
+    const double x = direction.dot(right) / ahead;
+    const double y = direction.dot(right.cross(lamps[i])) / ahead;
+    if (std::max(std::abs(x), std::abs(y)) < kHalfWidth) return i + 1;
+  }
+  return 0;
+}
+
+bool HasPattern(const Solid& solid) {
+  return std::any_of(solid.primitives().begin(),
+                     solid.primitives().end(),
+                     [](const SolidPrimitive& primitive) {
+                       return primitive.pattern != SurfacePattern::kNone;
+                     });
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const Solid& solid, const SurfaceOptions& options)
+    : solid_(solid),
+      options_(options),
+      texture_(options.texture,
+               options.scale / 18,
+               options.seed,
+               SurfaceTexture::Rims::kSome),
+      mottle_(HasPattern(solid) ? kMottle : 0,
+              options.scale / 24,
+              Mix(options.seed, 1),
+              SurfaceTexture::Rims::kNone) {
+  std::uint64_t counter = 2;
+  for (const SolidPrimitive& primitive : solid.primitives()) {
+    auto& faces = patterns_.emplace_back();
+    for (int face = 0; face < NumFaces(primitive.shape); ++face) {
+      const auto area = AreaOfFace(primitive, face);
+      const std::uint64_t seed = Mix(options.seed, counter++);
+      faces.push_back(
+          area ? MakeFacePattern(primitive.pattern, *area, options.scale, seed)
+               : nullptr);
+    }
+  }
+}
+
+const Vector3d& Surfaces::SunDirection() {
+  static const Vector3d direction = Vector3d(0.43, -0.55, 0.72).normalized();
+  return direction;
+}
+
+const FacePattern* Surfaces::PatternOf(int primitive_idx, int face_idx) const {
+  return patterns_[static_cast<std::size_t>(primitive_idx)]
+                  [static_cast<std::size_t>(face_idx)]
+                      .get();
+}
+
+bool Surfaces::IsSunny(const Vector3d& x, const Vector3d& normal) const {
+  if (normal.dot(SunDirection()) <= 0) return false;
+  const double clear = 1e-5 * solid_.detail();
+  return !solid_.Trace({x + clear * normal, SunDirection()});
+}
+
+// The light on the surface, 1 in full sunshine; `id` changes at shadows.
+double Surfaces::Sunlight(const Vector3d& x,
+                          const Vector3d& normal,
+                          std::uint64_t& id) const {
+  if (!IsSunny(x, normal)) return kSkyShare;
+  id = Mix(id, 1);
+  // Smooth where the surface turns away from the sun.
+  const double facing = std::min(1.0, 2 * normal.dot(SunDirection()));
+  return kSkyShare + (1 - kSkyShare) * (1 - (1 - facing) * (1 - facing));
+}
+
+Look Surfaces::At(const Ray& ray, const Hit& hit) const {
+  const Vector3d x = ray.origin + hit.t * ray.direction;
+  const auto texture = texture_.At(x);
+  const auto primitive_idx = static_cast<std::size_t>(hit.primitive_idx);
+  const SolidPrimitive& primitive = solid_.primitives()[primitive_idx];
+  const std::uint64_t face =
+      8 * primitive_idx + static_cast<unsigned>(hit.face_idx);
+  Look look{primitive.albedo * Shade(hit.normal),
+            Mix(texture.patch_id, face + 1)};
+  if (const FacePattern* pattern = PatternOf(hit.primitive_idx, hit.face_idx)) {
+    const Rigid3& pose = primitive.world_from_own;
+    const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
+    const auto painted = pattern->At(FaceFromOwn(primitive, hit.face_idx, own));
+    look.grey *= painted.tone;
+    look.id = Mix(look.id, painted.patch_id);
+  }
+  if (options_.shadows) look.grey *= Sunlight(x, hit.normal, look.id);
+  look.grey += texture.grey + mottle_.At(x).grey;
+  if (options_.reflections) {
+    const Vector3d away = ray.direction.normalized();
+    const std::uint64_t lamp =
+        LampAt(away - 2 * away.dot(hit.normal) * hit.normal);
+    if (lamp > 0) {
+      look.grey += kMirrorShare * (kLampGrey - look.grey);
+      look.id = Mix(look.id, lamp);
+    }
+  }
+  return look;
+}
+
+}  // namespace curvix

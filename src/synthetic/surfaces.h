@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). How the surfaces of a solid look.
+#pragma once
+
+#include "synthetic/face_pattern.h"
+#include "synthetic/solid.h"
+#include "synthetic/surface_texture.h"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace curvix {
+
+struct SurfaceOptions {
+  double scale = 1;          // SyntheticOptions::scale
+  double texture = 0;        // SyntheticOptions::texture
+  bool shadows = false;      // the sun shines, and bodies cast hard shadows
+  bool reflections = false;  // lamps far away are mirrored
+  std::uint64_t seed = 0;
+};
+
+// What a ray sees. Brightness is smooth where `id` is constant.
+struct Look {
+  double grey = 0;
+  std::uint64_t id = 0;
+};
+
+// Faces are lit by fixed lights that cast no shadows, so that all brightness
+// edges are edges of the solid, of its outline, or of what is painted on it:
+// its patterns, and the texture. What is asked for comes on top: the sun, whose
+// shadows have hard edges, and lamps, mirrored in each surface, whose edges
+// move over it with the view. Where there are patterns, surfaces are mottled
+// besides, without edges.
+class Surfaces {
+ public:
+  // `solid` outlives this.
+  Surfaces(const Solid& solid, const SurfaceOptions& options);
+
+  // Where `ray` meets the solid.
+  Look At(const Ray& ray, const Hit& hit) const;
+
+  // What is painted on a face; null: nothing.
+  const FacePattern* PatternOf(int primitive_idx, int face_idx) const;
+
+  // Whether the sun shines on a point of the surface, `normal` its unit normal
+  // out of the solid. False where the surface looks away from it.
+  bool IsSunny(const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const;
+
+  bool has_shadows() const { return options_.shadows; }
+
+  // Towards the sun, unit.
+  static const Eigen::Vector3d& SunDirection();
+
+ private:
+  double Sunlight(const Eigen::Vector3d& x,
+                  const Eigen::Vector3d& normal,
+                  std::uint64_t& id) const;
+
+  const Solid& solid_;
+  SurfaceOptions options_;
+  SurfaceTexture texture_;
+  SurfaceTexture mottle_;
+  std::vector<std::vector<std::unique_ptr<FacePattern>>> patterns_;
+};
+
+}  // namespace curvix

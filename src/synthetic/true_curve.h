@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). A line or circle that is known exactly.
+#pragma once
+
+#include <curvix/curves.h>
+
+#include <Eigen/Core>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace curvix {
+
+// A straight or circular edge, by arc length s in [0, length]:
+// straight: origin + s * along; circular, of radius r and a = s / r:
+// origin + r * (cos(a) * along + sin(a) * across).
+struct TrueCurve {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX();  // unit
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();  // unit; circular only
+  double radius = 0;                                 // 0: straight
+  double length = 0;                                 // world units
+  bool is_closed = false;                            // a whole circle
+  CurveKind kind = CurveKind::kCrease;
+
+  Eigen::Vector3d Position(double s) const;
+  Eigen::Vector3d Tangent(double s) const;  // unit
+};
+
+TrueCurve Segment(const Eigen::Vector3d& from,
+                  const Eigen::Vector3d& to,
+                  CurveKind kind);
+
+// The whole circle around `centre`, at right angles to the unit `normal`.
+TrueCurve Circle(const Eigen::Vector3d& centre,
+                 const Eigen::Vector3d& normal,
+                 double radius,
+                 CurveKind kind);
+
+using OnStretch = std::function<bool(double s)>;
+
+// The stretches of [0, length] on which `holds`, ascending. It is tried at
+// `step` or closer; the ends between two trials are found by bisection.
+std::vector<std::pair<double, double>> Stretches(double length,
+                                                 double step,
+                                                 const OnStretch& holds);
+
+// The stretches of `whole`, from `min_length` on, as curves of their own. A
+// stretch of a circle through its first point is one curve.
+std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
+                                  double step,
+                                  double min_length,
+                                  const OnStretch& holds);
+
+}  // namespace curvix
