@@ -277,7 +277,7 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
         if model is None or not model.is_dir():
             said += '; no cameras: name the folder of the COLMAP model'
         else:
-            count, found = add_cameras(read_model(model), images, collection, offset, size / 40)
+            count, found = add_cameras(read_model(model), images, collection, offset, size / 15)
             said += f', {count} cameras, {found} photographs'
             if found < count:
                 said += f'; {count - found} images are not in "{images}": name their folder'
