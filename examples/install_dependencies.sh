@@ -18,8 +18,8 @@ case "${1:-}" in
   "") ;;
   --tests)
     packages+=(colmap libbenchmark-dev libgmock-dev libgtest-dev
-      python3-ezdxf python3-jsonschema python3-numpy python3-scipy
-      python3-vtk9)
+      python3-ezdxf python3-jsonschema python3-numpy python3-pil
+      python3-scipy python3-vtk9)
     ;;
   *)
     echo "Usage: $0 [--tests]" >&2

@@ -50,7 +50,9 @@ Status ConcatenateEdges(const std::filesystem::path& path,
                         const std::vector<std::filesystem::path>& parts);
 
 // Writes fitted curves for CAD: .dxf, of AutoCAD 2000, with LINE, ARC, CIRCLE,
-// ELLIPSE and SPLINE entities on a layer per kind. Errors as WriteCurves.
+// ELLIPSE and SPLINE entities on a layer per kind; or .step, of AP242, with the
+// same curves, where one unit of the world is declared a millimetre. Errors as
+// WriteCurves.
 Status WriteDrawing(const std::filesystem::path& path,
                     const FittedCurves& fitted);
 

@@ -10,6 +10,8 @@
 #include "plugin/imports/import_middlebury.h"
 #include "plugin/imports/import_nerf.h"
 #include "plugin/imports/new_workspace.h"
+#include "plugin/imports/read_lines.h"
+#include "plugin/run/run_lines.h"
 
 namespace curvix {
 namespace {
@@ -30,8 +32,18 @@ const std::vector<std::string>& CopyPolicies() {
   return names;
 }
 
+// Lines of other programs, in the world of a workspace.
+struct LineFormat {
+  const char* name;
+  Result<std::vector<ImportedLine>> (*read)(const std::filesystem::path& path);
+};
+constexpr std::array kLineFormats = {LineFormat{"line3dpp", ReadLine3dppLines},
+                                     LineFormat{"limap", ReadLimapLines}};
+
 struct Settings {
   std::filesystem::path workspace_path;
+  std::filesystem::path output_path;
+  OutputSettings output;
   std::string format;
   std::string copy_policy = "copy";
   std::string first_pixel = "auto";
@@ -42,6 +54,9 @@ struct Settings {
 FlagSection DataSetFlags(Settings* settings) {
   std::vector<std::string> formats;
   for (const Format& format : kFormats) formats.emplace_back(format.name);
+  for (const LineFormat& format : kLineFormats) {
+    formats.emplace_back(format.name);
+  }
   return {"Data set",
           {Required(ChoiceFlag("format",
                                formats,
@@ -52,7 +67,7 @@ FlagSection DataSetFlags(Settings* settings) {
                              &settings->options.input_path,
                              "the cameras, a file or its folder: *_par.txt, "
                              "cameras*.npz or pos_*.txt, transforms.json, a "
-                             "COLMAP model")),
+                             "COLMAP model; or the lines")),
            PathFlag("image_path",
                     &settings->options.image_path,
                     "the folder of the images; looked for around the "
@@ -76,7 +91,8 @@ FlagSection WorkspaceFlags(Settings* settings) {
           {Required(PathFlag("workspace_path",
                              &settings->workspace_path,
                              "folder to write: images/ and sparse/0/; nothing "
-                             "is overwritten")),
+                             "is overwritten; line3dpp, limap: the workspace "
+                             "that the lines were made of, which stays")),
            ChoiceFlag("copy_policy",
                       CopyPolicies(),
                       &settings->copy_policy,
@@ -84,17 +100,48 @@ FlagSection WorkspaceFlags(Settings* settings) {
                       "already stay")}};
 }
 
+FlagSection ResultFlags(Settings* settings) {
+  FlagSection section = OutputFlags(&settings->output);
+  section.title = "Results of line3dpp and limap";
+  section.flags.insert(section.flags.begin(),
+                       PathFlag("output_path",
+                                &settings->output_path,
+                                "folder of the results; default: line3dpp/ or "
+                                "limap/ in the workspace"));
+  return section;
+}
+
+Status CheckInput(const Settings& settings) {
+  std::error_code error;
+  if (std::filesystem::exists(settings.options.input_path, error)) return {};
+  return {
+      StatusCode::kNotFound,
+      "--input_path " + settings.options.input_path.string() +
+          " does not exist; name the cameras of the data set, or the lines"};
+}
+
+ExitCode ImportLines(const Settings& settings, const LineFormat& format) {
+  RunSettings run;
+  run.workspace_path = settings.workspace_path;
+  run.image_path = settings.options.image_path;
+  run.output_path = settings.output_path.empty()
+                        ? settings.workspace_path / format.name
+                        : settings.output_path;
+  run.output = settings.output;
+  run.poses.refiner = "none";
+  return RunAndSummarize(run, [&](ProgressPrinter& progress) {
+    return RunLines(
+        run,
+        [&] { return format.read(settings.options.input_path); },
+        progress);
+  });
+}
+
 Result<ImportedScene> Import(const Settings& settings) {
   ImportOptions options = settings.options;
   options.image_filter = settings.image_filter.string();
   if (settings.first_pixel != "auto") {
     options.first_pixel = std::stod(settings.first_pixel);
-  }
-  std::error_code error;
-  if (!std::filesystem::exists(options.input_path, error)) {
-    return Status(StatusCode::kNotFound,
-                  "--input_path " + options.input_path.string() +
-                      " does not exist; name the cameras of the data set");
   }
   for (const Format& format : kFormats) {
     if (settings.format == format.name) return format.import(options);
@@ -113,15 +160,7 @@ std::string Counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-}  // namespace
-
-ExitCode RunImport(const Arguments& arguments) {
-  Settings settings;
-  const std::optional<ExitCode> code =
-      ParseCommand("import",
-                   arguments,
-                   {DataSetFlags(&settings), WorkspaceFlags(&settings)});
-  if (code) return *code;
+ExitCode ImportDataSet(const Settings& settings) {
   Status status = CheckWorkspaceUnused(settings.workspace_path);
   if (!status.ok()) return Fail(status, ExitCodeOf(status));
   const Result<ImportedScene> scene = Import(settings);
@@ -142,6 +181,24 @@ ExitCode RunImport(const Arguments& arguments) {
             << (has_links ? " --image_path " + path + "/images" : "")
             << std::endl;
   return kExitSuccess;
+}
+
+}  // namespace
+
+ExitCode RunImport(const Arguments& arguments) {
+  Settings settings;
+  const std::optional<ExitCode> code = ParseCommand("import",
+                                                    arguments,
+                                                    {DataSetFlags(&settings),
+                                                     WorkspaceFlags(&settings),
+                                                     ResultFlags(&settings)});
+  if (code) return *code;
+  const Status status = CheckInput(settings);
+  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  for (const LineFormat& format : kLineFormats) {
+    if (settings.format == format.name) return ImportLines(settings, format);
+  }
+  return ImportDataSet(settings);
 }
 
 }  // namespace curvix

@@ -2,12 +2,14 @@
 // What the words of the program share, and the words themselves.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "plugin/commands/command_line.h"
 #include "plugin/commands/commands.h"
+#include "plugin/run/progress.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {
@@ -33,6 +35,10 @@ FlagSection PathsSection(RunSettings* settings);
 
 // What `reconstruct` can be told; the preset comes before what it changes.
 std::vector<FlagSection> ReconstructSections(RunSettings* settings);
+
+// Does a job with its progress on stderr, and prints its closing words.
+using Job = std::function<Result<RunRecord>(ProgressPrinter& progress)>;
+ExitCode RunAndSummarize(const RunSettings& settings, const Job& job);
 
 // nullptr: there is no such word.
 const Command* FindCommand(const std::string& name);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <unistd.h>
-#include <functional>
 #include <iostream>
 #include <utility>
 
 #include "plugin/commands/command_parts.h"
-#include "plugin/run/progress.h"
 #include "plugin/run/run_parts.h"
 #include "plugin/run/run_workspace.h"
 
@@ -34,21 +32,9 @@ Flag PresetFlag(RunSettings* settings) {
 
 constexpr int kNoPart = -1;
 
-using Job = std::function<Result<RunRecord>(ProgressPrinter& progress)>;
-
 Result<RunRecord> RunWithProgress(const Job& job) {
   ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
   return job(progress);
-}
-
-ExitCode RunAndSummarize(const RunSettings& settings, const Job& job) {
-  const Status valid = Validate(settings.options);
-  if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Result<RunRecord> record = RunWithProgress(job);
-  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
-  const bool is_empty = record->result.num_curves == 0;
-  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
-  return is_empty ? kExitNoCurves : kExitSuccess;
 }
 
 // A part without curves is as good as any.
@@ -65,6 +51,16 @@ ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
 }
 
 }  // namespace
+
+ExitCode RunAndSummarize(const RunSettings& settings, const Job& job) {
+  const Status valid = Validate(settings.options);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
+  const Result<RunRecord> record = RunWithProgress(job);
+  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
+  const bool is_empty = record->result.num_curves == 0;
+  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
+  return is_empty ? kExitNoCurves : kExitSuccess;
+}
 
 FlagSection PathsSection(RunSettings* settings) {
   return {"Paths",

@@ -29,7 +29,8 @@ constexpr std::array kCommands = {
             "Write a small workspace with known curves, to try things",
             RunSynthesize},
     Command{"import",
-            "Make a workspace of Middlebury, DTU, NeRF or COLMAP data",
+            "Make a workspace of other data, or curves of other programs' "
+            "lines",
             RunImport},
     Command{"evaluate",
             "Compare curves with known ones, or with images held out",

@@ -69,7 +69,9 @@ Status WriteFormat(const CurveRecord& record,
       EncodeViewerHtml(record, num_threads, sink);
     });
   }
-  if (format == "dxf") return WriteDrawing(path, record.fitted);
+  if (format == "dxf" || format == "step") {
+    return WriteDrawing(path, record.fitted);
+  }
   if (format == "svg") return WriteSvg(record, settings.svg_image, path);
   if (format == "colmap") return WriteModel(record, path);
   return WriteCurves(path, record.curves, record.scene);
@@ -134,6 +136,7 @@ const std::vector<OutputFormat>& OutputFormats() {
       {"txt", "curves.txt", "text, like COLMAP's points3D.txt"},
       {"json", "curves.json", "all there is: fits, junctions, 2D support"},
       {"dxf", "curves.dxf", "lines, arcs, circles, ellipses, splines: CAD"},
+      {"step", "curves.step", "the same in STEP: CAD"},
       {"vtp", "curves.vtp", "lines with data: ParaView, VTK"},
       {"glb", "curves.glb", "coloured lines: glTF viewers"},
       {"svg", "curves.svg", "the curves as one view sees them: browsers"},

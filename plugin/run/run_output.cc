@@ -29,6 +29,7 @@ FittedCurves Fit(const Scene& scene,
 }
 
 Status WriteCurveFiles(const CurveRecord& curves,
+                       bool is_repeatable,
                        const fs::path& folder,
                        RunRecord& record) {
   Result<std::vector<std::string>> written =
@@ -39,6 +40,7 @@ Status WriteCurveFiles(const CurveRecord& curves,
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());
+  if (!is_repeatable) return {};
   files.push_back("project.ini");
   return WriteFileAtomically(folder / "project.ini",
                              ProjectFile(record.settings));
@@ -60,7 +62,10 @@ Status WriteFindings(const Scene& scene,
   Status status = findings.curves.status();
   const Stopwatch stopwatch;
   if (status.ok() && result.num_curves > 0) {
-    status = WriteCurveFiles({scene, findings.curves, fitted}, folder, record);
+    status = WriteCurveFiles({scene, findings.curves, fitted},
+                             findings.is_repeatable,
+                             folder,
+                             record);
   }
   if (status.ok() && result.num_edges_3d > 0) {
     result.files.push_back("edges.ply");

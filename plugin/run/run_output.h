@@ -20,8 +20,10 @@ namespace curvix {
 struct Findings {
   const CurveSource& curves;
   std::int64_t num_edges_3d = 0;
-  std::function<Status(const std::filesystem::path&)> write_edges;  // those
-  std::string why_empty;  // "" when there are curves
+  std::function<Status(const std::filesystem::path&)> write_edges =
+      nullptr;                 // those
+  std::string why_empty = "";  // "" when there are curves
+  bool is_repeatable = true;   // by project.ini, which is written then
 };
 
 // Fits the curves, and writes the files that record.settings asks for into

@@ -328,10 +328,12 @@ std::string SummaryText(const RunRecord& record) {
   }
   text += ", total length " + FewDigits(result.total_length) +
           " in the units of the model\n";
-  text += "  from " + Plural(record.input.num_views, "view") + ", " +
-          Plural(result.num_edges_2d, "edge") + " and " +
-          Plural(result.num_edges_3d, "3D edge") + " in " +
-          DurationText(record.total.wall_seconds) + " (CPU " +
+  text += "  from " + Plural(record.input.num_views, "view");
+  if (result.num_edges_3d > 0) {
+    text += ", " + Plural(result.num_edges_2d, "edge") + " and " +
+            Plural(result.num_edges_3d, "3D edge");
+  }
+  text += " in " + DurationText(record.total.wall_seconds) + " (CPU " +
           DurationText(record.total.cpu_seconds) + ", " +
           GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
   if (result.edge_sigma_px > 0) {

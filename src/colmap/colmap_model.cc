@@ -10,6 +10,7 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model_format.h"
+#include "colmap/image_file.h"
 
 namespace curvix {
 namespace {
@@ -262,7 +263,7 @@ Scene SceneFromColmapModel(const ColmapModel& model,
       continue;
     }
     scene.views.push_back({image.name,
-                           image_folder / image.name,
+                           ImageFile(image_folder, image.name),
                            image.image_id,
                            camera_idxs.at(image.camera_id),
                            image.cam_from_world,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/file_io.h"
+#include "colmap/image_file.h"
 #include "colmap/links.h"
 #include "colmap/project_file.h"
 
@@ -270,7 +271,7 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
   std::vector<std::string> missing;
   for (const ColmapImage& image : model.images) {
     std::error_code error;
-    if (fs::is_regular_file(folder / image.name, error)) continue;
+    if (fs::is_regular_file(ImageFile(folder, image.name), error)) continue;
     missing.push_back(image.name);
   }
   std::sort(missing.begin(), missing.end());
@@ -280,7 +281,7 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
 // "" if there is none.
 fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
   std::error_code error;
-  fs::path mask = folder / (image_name + ".png");
+  fs::path mask = ImageFile(folder, image_name + ".png");
   if (fs::is_regular_file(mask, error)) return mask;
   const fs::path same_name = folder / image_name;
   const bool is_png = same_name.extension() == ".png";

@@ -105,6 +105,11 @@ std::optional<ImageSize> SizeInHeader(std::string_view bytes) {
   return std::nullopt;
 }
 
+bool IsHeif(std::string_view bytes) {
+  // Behind the length of the first box; videos are such files, too.
+  return bytes.size() >= 12 && bytes.substr(4, 4) == "ftyp";
+}
+
 bool IsTruncatedJpeg(std::string_view bytes) {
   if (!IsJpeg(bytes)) return false;
   bool is_whole = false;

@@ -28,6 +28,9 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 // pixels. nullopt: another format, or no sound header.
 std::optional<ImageSize> SizeInHeader(std::string_view bytes);
 
+// Whether a file is HEIF or AVIF, as telephones make them.
+bool IsHeif(std::string_view bytes);
+
 // Whether a JPEG lacks its end marker: decoders fill what is missing with grey
 // and call it a success.
 bool IsTruncatedJpeg(std::string_view bytes);

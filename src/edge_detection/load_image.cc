@@ -125,7 +125,13 @@ Status WrongSize(const std::filesystem::path& path,
   return {StatusCode::kInvalidArgument, message.str()};
 }
 
-Status Broken(const std::filesystem::path& path) {
+Status Broken(const std::filesystem::path& path, const Bytes& bytes) {
+  if (IsHeif(AsText(bytes))) {
+    return {StatusCode::kUnsupported,
+            "Image " + path.string() +
+                " is HEIF or AVIF, which is not read here. Convert all images "
+                "to JPEG or PNG, and make the model of these."};
+  }
   return {StatusCode::kDataLoss,
           "Image " + path.string() +
               " is broken, cut short or in an unknown format. Copy it "
@@ -139,7 +145,7 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
   if (!bytes.ok()) return bytes.status();
   if (const auto size = SizeInHeader(AsText(*bytes))) return *size;
   const cv::Mat image = Decode(*bytes);
-  if (image.empty()) return Broken(path);
+  if (image.empty()) return Broken(path, *bytes);
   return ImageSize{image.cols, image.rows};
 }
 
@@ -152,7 +158,8 @@ Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
     return WrongSize(path, *announced, *expected);
   }
   const cv::Mat image = Decode(*bytes);
-  if (image.empty() || IsTruncatedJpeg(AsText(*bytes))) return Broken(path);
+  if (image.empty() || IsTruncatedJpeg(AsText(*bytes)))
+    return Broken(path, *bytes);
   const ImageSize size = {image.cols, image.rows};
   if (expected && size != *expected) return WrongSize(path, size, *expected);
   std::optional<GrayImage> gray;

@@ -11,6 +11,7 @@
 #include "io/obj_lines.h"
 #include "io/pcl_lines.h"
 #include "io/ply_lines.h"
+#include "io/step_drawing.h"
 #include "io/svg_curves.h"
 #include "io/txt_curves.h"
 #include "io/vtp_curves.h"
@@ -132,14 +133,16 @@ Status ConcatenateEdges(const fs::path& path,
 }
 
 Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
-  if (path.extension() != ".dxf") {
+  const std::string extension = path.extension().string();
+  if (extension != ".dxf" && extension != ".step") {
     return About(path,
                  {StatusCode::kInvalidArgument,
-                  "a drawing of fitted curves is written as .dxf, not as \"" +
-                      path.extension().string() + "\""});
+                  "fitted curves are written as .dxf or .step, not as \"" +
+                      extension + "\""});
   }
   return Write(path, [&](const ByteSink& sink) {
-    EncodeDxfDrawing(fitted, sink);
+    extension == ".dxf" ? EncodeDxfDrawing(fitted, sink)
+                        : EncodeStepDrawing(fitted, sink);
     return Status();
   });
 }

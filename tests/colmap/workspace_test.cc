@@ -208,6 +208,34 @@ TEST_F(WorkspaceTest, ErrorsListThePlacesThatWereTried) {
   expect(given, "none is not a folder");
 }
 
+TEST_F(WorkspaceTest, BackslashesInNamesMeanFolders) {
+  MakeModel("proj/sparse/0");
+  MakeImages("proj/images");
+  folder_.Write("proj/sparse/0/images.txt",
+                "1 1 0 0 0 0 0 0 1 image_1.png\n\n"
+                "2 1 0 0 0 0 0 0 1 left\\image_2.png\n\n"
+                "3 1 0 0 0 0 0 0 1 a\\b.png\n\n");
+  folder_.Write("proj/images/left/image_2.png", "");
+  folder_.Write("proj/images/a/b.png", "");
+  folder_.Write("proj/images/a\\b.png", "");
+  folder_.Write("proj/masks/left/image_2.png.png", "");
+  WorkspacePaths paths = Root();
+  paths.mask_path = At("proj/masks");
+  const Result<Workspace> workspace = FindWorkspace(paths);
+  ASSERT_TRUE(workspace.ok()) << workspace.status().message();
+  const Result<WorkspaceScene> scene = LoadWorkspaceScene(*workspace);
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  ASSERT_EQ(scene->scene.views.size(), 3u);
+  // By name; a file of the very name wins.
+  EXPECT_EQ(scene->scene.views[0].image_path.filename(), "a\\b.png");
+  const View& left = scene->scene.views[2];
+  EXPECT_EQ(left.name, "left\\image_2.png");
+  EXPECT_TRUE(
+      fs::equivalent(left.image_path, At("proj/images/left/image_2.png")));
+  EXPECT_TRUE(
+      fs::equivalent(left.mask_path, At("proj/masks/left/image_2.png.png")));
+}
+
 TEST_F(WorkspaceTest, SceneSkipsAndNamesMissingImages) {
   MakeModel("proj/sparse/0", 12);
   MakeImages("proj/images", 12);

@@ -135,6 +135,13 @@ TEST_F(LoadGrayImageTest, ExplainsWhatIsMissing) {
             StatusCode::kDataLoss);
 }
 
+TEST_F(LoadGrayImageTest, NamesHeif) {
+  const Bytes bytes = {0, 0, 0, 24, 'f', 't', 'y', 'p', 'h', 'e', 'i', 'c'};
+  const Status status = LoadGrayImage(Written("photo.heic", bytes)).status();
+  EXPECT_EQ(status.code(), StatusCode::kUnsupported);
+  EXPECT_THAT(status.message(), HasSubstr("photo.heic is HEIF"));
+}
+
 TEST_F(LoadGrayImageTest, NoticesTruncatedFiles) {
   for (const char* name : {"whole.png", "whole.jpg"}) {
     const Bytes whole = Contents(Written(name, Texture(CV_8UC3)));

@@ -45,12 +45,12 @@ class Formats : public testing::Test {
     ASSERT_TRUE(Synthesize(options, workspace).ok());
     RenameFirstImage(workspace);
     results_ = folder_->path() / "out";
-    const Outcome outcome =
-        RunInShell(std::string("'") + CURVIX_PROGRAM + "' --workspace_path " +
-                   Quoted(workspace) + " --output_path " + Quoted(results_) +
-                   " --refiner none --write_overlays 3"
-                   " --output_formats "
-                   "ply,obj,pcd,txt,json,dxf,vtp,glb,svg,colmap,html 2>&1");
+    const Outcome outcome = RunInShell(
+        std::string("'") + CURVIX_PROGRAM + "' --workspace_path " +
+        Quoted(workspace) + " --output_path " + Quoted(results_) +
+        " --refiner none --write_overlays 3"
+        " --output_formats "
+        "ply,obj,pcd,txt,json,dxf,step,vtp,glb,svg,colmap,html 2>&1");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     report_ = json::parse(Read(results_ / "report.json"));
   }
@@ -143,6 +143,12 @@ TEST_F(Formats, DxfPassesAnAudit) {
   EXPECT_EQ(count, NumFits());
 }
 
+TEST_F(Formats, FreeCadReadsStep) {
+  const int count = Count("step", Quoted(results_ / "curves.json"));
+  if (count < 0) GTEST_SKIP() << "no freecad-python3";
+  EXPECT_EQ(count, NumFits());
+}
+
 TEST_F(Formats, VtkReadsVtp) {
   const int count = Count("vtp");
   if (count < 0) GTEST_SKIP() << "no python3-vtk9";
@@ -229,9 +235,9 @@ TEST_F(Formats, ViewerSaysThatWebGlIsMissing) {
 TEST_F(Formats, UnknownOnesAreRefusedWithWhatThereIs) {
   const Outcome outcome =
       RunInShell(std::string("'") + CURVIX_PROGRAM +
-                 "' --workspace_path x --output_formats ply,step 2>&1");
+                 "' --workspace_path x --output_formats ply,iges 2>&1");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("\"step\""));
+  EXPECT_THAT(outcome.output, HasSubstr("\"iges\""));
   EXPECT_THAT(outcome.output, HasSubstr("dxf"));
 }
 

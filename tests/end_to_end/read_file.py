@@ -3,12 +3,13 @@
 """Opens one file of a run with a reader that knows nothing of this project.
 
   read_file.py json <file> <schema>
-  read_file.py dxf <file> <curves.json>
+  read_file.py dxf|step <file> <curves.json>
   read_file.py vtp|glb|svg <file>
 
 Prints the number of curves that the reader saw; exits with 77 where the reader
 is not installed, with 1 where it finds a fault.
 """
+import math
 import sys
 
 SKIP = 77
@@ -71,6 +72,55 @@ def read_dxf(path, curves):
     return len(entities)
 
 
+def freecad():
+    """FreeCAD's modules, from where Debian keeps them."""
+    sys.path.append('/usr/lib/freecad-python3/lib')
+    import FreeCAD
+    import Import
+    return FreeCAD, Import
+
+
+def ends_of_fit(fit):
+    """Its first and last point; of arcs, which end beside their nodes by a small part of sigma, by their angles."""
+    if 'center' not in fit:
+        return fit['start'], fit['end']
+    return [[c + math.cos(angle) * a + math.sin(angle) * b for c, a, b in zip(fit['center'], fit['major'], fit['minor'])]
+            for angle in (fit['start_angle'], fit['end_angle'])]
+
+
+def kind_of(edge):
+    kind = type(edge.Curve).__name__.lower()
+    return {'circle': 'circle' if edge.Closed else 'arc', 'bsplinecurve': 'spline'}.get(kind, kind)
+
+
+def read_step(path, curves):
+    import json
+    FreeCAD, Import = freecad()
+    document = FreeCAD.newDocument('seen')
+    Import.insert(path, document.Name)
+    edges = [edge for thing in document.Objects for edge in thing.Shape.Edges]
+    with open(curves) as file:
+        fits = [fit for curve in json.load(file)['curves'] for fit in curve['fits']]
+    for kind in ('line', 'arc', 'circle', 'ellipse', 'spline'):
+        # In the order of the curves.
+        seen = [edge for edge in edges if kind_of(edge) == kind]
+        written = [fit for fit in fits if fit['kind'] == kind]
+        assert len(seen) == len(written), (kind, len(seen), len(written))
+        for edge, fit in zip(seen, written):
+            assert abs(edge.Length - fit['length']) < 1e-5 * fit['length'], (edge.Length, fit)
+            if 'radius' in fit:
+                assert abs(edge.Curve.Radius - fit['radius']) < 1e-9 * fit['radius'], (edge.Curve.Radius, fit)
+            if fit['closed']:
+                continue
+            # The vertices of an edge lie in any order.
+            ends = [tuple(vertex.Point) for vertex in edge.Vertexes]
+            for point in ends_of_fit(fit):
+                off = min(max(abs(a - b) for a, b in zip(end, point)) for end in ends)
+                assert off < 1e-6 * fit['length'], (ends, fit)
+    assert len(edges) == len(fits)
+    return len(edges)
+
+
 def read_vtp(path):
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
     reader = vtkXMLPolyDataReader()
@@ -107,7 +157,8 @@ def read_svg(path):
 
 
 def main():
-    readers = {'json': read_json, 'dxf': read_dxf, 'vtp': read_vtp, 'glb': read_glb, 'svg': read_svg}
+    readers = {'json': read_json, 'dxf': read_dxf, 'step': read_step, 'vtp': read_vtp, 'glb': read_glb,
+               'svg': read_svg}
     try:
         print(readers[sys.argv[1]](*sys.argv[2:]))
     except ImportError as error:

@@ -50,9 +50,11 @@ step "4 of 5: use"
 inside colmap_curvix help >/dev/null
 inside man --pager=cat colmap_curvix | head -5
 inside test -s /usr/share/doc/colmap-curvix/copyright
+inside test -s /usr/share/colmap-curvix/blender/curvix_blender.py
+inside test -s /usr/share/colmap-curvix/freecad/curvix.FCMacro
 inside colmap_curvix synthesize --workspace_path /root/part
 inside colmap_curvix --workspace_path /root/part \
-  --output_formats ply,obj,pcd,txt,json,dxf,vtp,glb,svg,colmap,html
+  --output_formats ply,obj,pcd,txt,json,dxf,step,vtp,glb,svg,colmap,html
 inside colmap_curvix evaluate --curves_path /root/part/curvix/0/curves.ply \
   --truth_path /root/part/gt.txt
 rm -r "$root/root/part"

@@ -4,7 +4,7 @@
 
   open_files.py <workspace>/curvix/0 [...] >table.md
 
-For runs with --output_formats ply,obj,pcd,txt,json,dxf,vtp,glb,svg,colmap,html.
+For runs with --output_formats ply,obj,pcd,txt,json,dxf,step,vtp,glb,svg,colmap,html.
 Prints a table with a column per run; `curves; segments; samples`, where curves
 are parts that hang together, if segments are all that a program shows.
 Programs that are missing are left out. Packages: assimp-utils blender chromium
@@ -165,7 +165,7 @@ def ezdxf_audit(path):
 FREECAD = '''
 import FreeCAD, Import
 document = FreeCAD.newDocument("seen")
-Import.readDXF({path!r}, "seen")
+(Import.readDXF if {path!r}.endswith("dxf") else Import.insert)({path!r}, "seen")
 for thing in document.Objects:
     for edge in thing.Shape.Edges:
         print("\\nEDGE", type(edge.Curve).__name__, edge.Closed)
@@ -209,7 +209,7 @@ ROWS = (
     ('F3D', 'curves.vtp', f3d),
     ('assimp', 'curves.glb', assimp), ('assimp', 'curves.obj', assimp),
     ('PCL', 'curves.pcd', pcl),
-    ('FreeCAD', 'curves.dxf', freecad), ('ezdxf', 'curves.dxf', ezdxf_audit), ('GDAL', 'curves.dxf', ogr),
+    ('FreeCAD', 'curves.dxf', freecad), ('FreeCAD', 'curves.step', freecad), ('ezdxf', 'curves.dxf', ezdxf_audit), ('GDAL', 'curves.dxf', ogr),
     ('Chromium', 'viewer.html', chromium), ('Chromium', 'curves.svg', chromium),
     ('COLMAP', 'curves_model', colmap),
 )

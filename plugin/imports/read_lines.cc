@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "plugin/imports/read_lines.h"
+
+#include <curvix/curve_io.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "base/file_io.h"
+#include "base/text_fields.h"
+#include "plugin/imports/import_scene.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<ImportedLine>;
+
+// Words of a file, one after the other. After one that is not what was asked
+// for, everything is 0 and status() says where that was.
+class Words {
+ public:
+  Words(const fs::path& path, std::string_view text)
+      : path_(path), text_(text), rest_(text) {}
+
+  bool AtEnd() const {
+    std::string_view rest = rest_;
+    return !ok() || TakeWord(rest).empty();
+  }
+  double Number() {
+    const auto number = Take<double>("a number");
+    if (std::isfinite(number)) return number;
+    Fail("a finite number");
+    return 0;
+  }
+  Eigen::Vector3d Point() {
+    Eigen::Vector3d point;
+    for (double& number : point) number = Number();
+    return point;
+  }
+  std::uint32_t Id() { return Take<std::uint32_t>("the id of an image"); }
+  std::uint32_t Count() { return Take<std::uint32_t>("a count"); }
+  void Skip() { Number(); }
+  void Name(std::string_view name) {
+    if (ok() && TakeWord(rest_) != name) Fail("\"" + std::string(name) + "\"");
+  }
+
+  bool ok() const { return status_.ok(); }
+  const Status& status() const { return status_; }
+
+ private:
+  template <typename T>
+  T Take(const std::string& what) {
+    if (!ok()) return 0;
+    const std::optional<T> value = ParseNumber<T>(TakeWord(rest_));
+    if (!value) Fail(what);
+    return value.value_or(0);
+  }
+  void Fail(const std::string& what) {
+    if (!ok()) return;
+    const std::string_view read = text_.substr(0, text_.size() - rest_.size());
+    const auto line = 1 + std::count(read.begin(), read.end(), '\n');
+    status_ = {StatusCode::kDataLoss,
+               path_.string() + ", line " + std::to_string(line) + ", lacks " +
+                   what +
+                   "; write the file again, or name the right one with "
+                   "--input_path."};
+  }
+
+  fs::path path_;
+  std::string_view text_;
+  std::string_view rest_;
+  Status status_;
+};
+
+// What `read` finds in a file, at least one line.
+template <typename Read>
+Result<Lines> ReadWords(const fs::path& path, const Read& read) {
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  Words words(path, *text);
+  Lines lines;
+  read(words, lines);
+  if (!words.ok()) return words.status();
+  if (!lines.empty()) return lines;
+  return Status(StatusCode::kUnsupported,
+                path.string() +
+                    " holds no lines; name the right file with "
+                    "--input_path.");
+}
+
+Result<Lines> ReadObj(const fs::path& path) {
+  const Result<CurveSet> set = ReadCurves(path);
+  if (!set.ok()) return set.status();
+  Lines lines;
+  for (const Curve& curve : set->curves) {
+    for (std::size_t i = 1; i < curve.samples.size(); ++i) {
+      lines.push_back(
+          {curve.samples[i - 1].position, curve.samples[i].position, {}});
+    }
+    if (curve.closed) {
+      lines.push_back(
+          {curve.samples.back().position, curve.samples.front().position, {}});
+    }
+  }
+  return lines;
+}
+
+// Per row: a count and as many segments of one line in space; a count and as
+// many segments in images, each with the image, its number there, and two
+// points.
+void ReadLine3dppRows(Words& words, Lines& lines) {
+  constexpr int kRestOfSegment = 5;
+  while (!words.AtEnd()) {
+    Lines segments;
+    const std::uint32_t num_segments = words.Count();
+    for (std::uint32_t i = 0; i < num_segments && words.ok(); ++i) {
+      const Eigen::Vector3d start = words.Point();
+      segments.push_back({start, words.Point(), {}});
+    }
+    std::vector<std::uint32_t> image_ids;
+    const std::uint32_t num_images = words.Count();
+    for (std::uint32_t i = 0; i < num_images && words.ok(); ++i) {
+      image_ids.push_back(words.Id());
+      for (int k = 0; k < kRestOfSegment; ++k) words.Skip();
+    }
+    for (ImportedLine& segment : segments) {
+      segment.image_ids = image_ids;
+      lines.push_back(std::move(segment));
+    }
+  }
+}
+
+void ReadIds(std::uint32_t count, Words& words, ImportedLine& line) {
+  for (std::uint32_t i = 0; i < count && words.ok(); ++i) {
+    line.image_ids.push_back(words.Id());
+  }
+}
+
+// A count; per line: its number, how many segments of how many images show it,
+// two points, the images of these segments, their numbers there.
+void ReadAllTracks(Words& words, Lines& lines) {
+  const std::uint32_t num_lines = words.Count();
+  for (std::uint32_t i = 0; i < num_lines && words.ok(); ++i) {
+    ImportedLine line;
+    words.Skip();
+    const std::uint32_t num_segments = words.Count();
+    words.Skip();
+    line.start = words.Point();
+    line.end = words.Point();
+    ReadIds(num_segments, words, line);
+    for (std::uint32_t k = 0; k < num_segments && words.ok(); ++k) words.Skip();
+    lines.push_back(std::move(line));
+  }
+}
+
+// Two points, how many segments of how many images show the line, the images of
+// these segments, and more.
+void ReadTrack(Words& words, Lines& lines) {
+  ImportedLine line;
+  line.start = words.Point();
+  line.end = words.Point();
+  const std::uint32_t num_segments = words.Count();
+  words.Skip();
+  words.Name("image_id_list");
+  ReadIds(num_segments, words, line);
+  lines.push_back(std::move(line));
+}
+
+// How many files track_<i>.txt there are in a folder.
+std::size_t CountTracks(const fs::path& folder) {
+  std::size_t count = 0;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with("track_") && name.ends_with(".txt")) ++count;
+  }
+  return count;
+}
+
+Result<Lines> ReadTracks(const fs::path& folder, std::size_t count) {
+  Lines lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Result<Lines> track =
+        ReadWords(folder / ("track_" + std::to_string(i) + ".txt"), ReadTrack);
+    if (!track.ok()) return track.status();
+    lines.push_back(track->front());
+  }
+  return lines;
+}
+
+bool IsFolder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool IsFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+}  // namespace
+
+Result<Lines> ReadLine3dppLines(const fs::path& path) {
+  if (IsFolder(path)) {
+    const Result<fs::path> file = OnlyFile(path, "Line3D++", ".txt");
+    if (file.ok()) return ReadLine3dppLines(*file);
+    return Status(StatusCode::kNotFound,
+                  path.string() +
+                      " does not hold just one Line3D++*.txt; name "
+                      "the .txt or .obj of Line3D++ with "
+                      "--input_path.");
+  }
+  if (path.extension() == ".obj") return ReadObj(path);
+  return ReadWords(path, ReadLine3dppRows);
+}
+
+Result<Lines> ReadLimapLines(const fs::path& path) {
+  if (!IsFolder(path)) {
+    return path.extension() == ".obj" ? ReadObj(path)
+                                      : ReadWords(path, ReadAllTracks);
+  }
+  for (const fs::path& folder : {path, path / "finaltracks"}) {
+    if (const std::size_t count = CountTracks(folder); count > 0) {
+      return ReadTracks(folder, count);
+    }
+  }
+  const fs::path all = path / "alltracks.txt";
+  if (IsFile(all)) return ReadWords(all, ReadAllTracks);
+  return Status(StatusCode::kNotFound,
+                path.string() +
+                    " holds no finaltracks/, track_<i>.txt or "
+                    "alltracks.txt; name the output folder of "
+                    "LIMAP with --input_path.");
+}
+
+}  // namespace curvix

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/run_lines.h"
+
+#include <curvix/curves.h>
+#include <cstdint>
+#include <string>
+
+#include "base/stopwatch.h"
+#include "plugin/imports/curves_of_lines.h"
+#include "plugin/run/run_input.h"
+#include "plugin/run/run_output.h"
+#include "plugin/run/staged_output.h"
+#include "plugin/run/text.h"
+
+namespace curvix {
+namespace {
+
+Result<LineCurves> ReadCurvesOfLines(
+    const std::function<Result<std::vector<ImportedLine>>()>& read,
+    const Scene& scene,
+    ProgressPrinter& progress,
+    RunRecord& record) {
+  const Stopwatch stopwatch;
+  progress.Update("read_lines", 0, 0);
+  const Result<std::vector<ImportedLine>> lines = read();
+  if (!lines.ok()) return lines.status();
+  Result<LineCurves> curves = CurvesOfLines(*lines, scene);
+  if (!curves.ok()) return curves;
+  record.stages.push_back(stopwatch.Read("read_lines"));
+  record.stages.back().counts = {
+      {"lines", static_cast<std::int64_t>(lines->size())},
+      {"without length", curves->num_without_length}};
+  progress.Finish(GroupDigits(static_cast<std::int64_t>(lines->size())) +
+                  " lines");
+  if (curves->num_seen < static_cast<int>(lines->size()) / 2) {
+    progress.Note("Only " + std::to_string(curves->num_seen) +
+                  " of the lines are seen by an image of the model. If they "
+                  "were made of another model, name its workspace with "
+                  "--workspace_path.");
+  }
+  if (curves->num_without_length > 0) {
+    progress.Note("Left out " + std::to_string(curves->num_without_length) +
+                  " lines without length.");
+  }
+  return curves;
+}
+
+}  // namespace
+
+Result<RunRecord> RunLines(
+    const RunSettings& settings,
+    const std::function<Result<std::vector<ImportedLine>>()>& read,
+    ProgressPrinter& progress) {
+  const Stopwatch since_start;
+  RunRecord record;
+  record.settings = settings;
+  const Result<Workspace> workspace = FindInput(settings);
+  if (!workspace.ok()) return workspace.status();
+  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
+  if (!input.ok()) return input.status();
+  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  if (!output.ok()) return output.status();
+  const Result<LineCurves> lines =
+      ReadCurvesOfLines(read, input->scene, progress, record);
+  if (!lines.ok()) return lines.status();
+  const CurvesInMemory curves(lines->curves, &lines->edge_maps);
+  Findings findings{curves};
+  findings.is_repeatable = false;
+  if (curves.size() == 0) findings.why_empty = "no line has a length";
+  Status status =
+      WriteFindings(input->scene, findings, output->folder(), record);
+  if (status.ok()) {
+    status = WriteReport(since_start, output->folder(), progress, record);
+  }
+  if (status.ok() && IsInterrupted()) {
+    status = {StatusCode::kCancelled, "interrupted; nothing was written"};
+  }
+  if (status.ok()) status = output->Publish();
+  if (!status.ok()) return status;
+  return record;
+}
+
+}  // namespace curvix

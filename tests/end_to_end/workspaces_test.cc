@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What docs/workspaces.md says happens with workspaces happens.
+#include <string>
+
+#include "gtest/gtest.h"
+#include "tests/end_to_end/run_program.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kNotInstalled = 77;
+
+TEST(Workspaces, AreAsThePageSays) {
+  const std::string source = CURVIX_SOURCE_DIR;
+  const Outcome outcome = RunInShell(
+      "/usr/bin/python3 " + Quoted(source + "/tests/end_to_end/workspaces.py") +
+      " '" + CURVIX_PROGRAM + "' " + Quoted(source + "/docs/workspaces.md"));
+  if (outcome.exit_code == kNotInstalled) {
+    GTEST_SKIP() << "no python3-pil or python3-numpy";
+  }
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+}
+
+}  // namespace
+}  // namespace curvix
