@@ -64,7 +64,8 @@ class Options(unittest.TestCase):
     def test_a_preset_comes_before_what_changes_it(self):
         options = pycurvix.Options({'Consolidation.max_turn_deg': 3, 'preset': 'paper'})
         self.assertEqual(options['Consolidation.max_turn_deg'], 3)
-        self.assertEqual(options['Hypotheses.view_selection'], pycurvix.Options(preset='paper')['Hypotheses.view_selection'])
+        paper = pycurvix.Options(preset='paper')
+        self.assertEqual(options['Hypotheses.view_selection'], paper['Hypotheses.view_selection'])
         options['preset'] = 'default'
         self.assertEqual(options, pycurvix.Options())
 

@@ -139,7 +139,8 @@ def evaluate_holdout(workspace_path: Path, holdout_every: int = 8, *, curves_pat
     As `reconstruct`.
     """
     paths = _paths(workspace_path, input_path, image_path, '', mask_path)
-    return json.loads(_core.evaluate_holdout(paths, os.fspath(curves_path), holdout_every, core_options(options), progress))
+    text = _core.evaluate_holdout(paths, os.fspath(curves_path), holdout_every, core_options(options), progress)
+    return json.loads(text)
 
 
 def project(curves: Curves, view: int | str, scene: Scene | None = None) -> list[list[NDArray[Any]]]:
