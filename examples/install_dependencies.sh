@@ -3,8 +3,9 @@
 # Installs what colmap_curvix is built from, on Debian 12, Ubuntu 22.04 and
 # later. Does nothing where all of it is there already.
 #
-#   examples/install_dependencies.sh           for the program
-#   examples/install_dependencies.sh --tests   and for its tests
+#   examples/install_dependencies.sh            for the program
+#   examples/install_dependencies.sh --python   and for pycurvix
+#   examples/install_dependencies.sh --tests    and for all tests
 set -euo pipefail
 
 # libopencv-dev holds OpenCV's CMake configuration, libpcl-dev PCL's.
@@ -14,15 +15,17 @@ packages=(
   libgoogle-glog-dev libjs-three libnanoflann-dev libopencv-dev
   libpcl-dev libzip-dev nlohmann-json3-dev
 )
+python_packages=(pybind11-dev python3-dev python3-numpy)
 case "${1:-}" in
   "") ;;
+  --python) packages+=("${python_packages[@]}") ;;
   --tests)
-    packages+=(colmap libbenchmark-dev libgmock-dev libgtest-dev
-      python3-ezdxf python3-jsonschema python3-numpy python3-pil
-      python3-scipy python3-vtk9)
+    packages+=("${python_packages[@]}" colmap libbenchmark-dev libgmock-dev
+      libgtest-dev python3-ezdxf python3-jsonschema python3-matplotlib
+      python3-pil python3-scipy python3-vtk9)
     ;;
   *)
-    echo "Usage: $0 [--tests]" >&2
+    echo "Usage: $0 [--python | --tests]" >&2
     exit 2
     ;;
 esac

@@ -197,6 +197,7 @@ Flag RowFlag(const OptionRow& row) {
   flag.range = RangeText(row);
   flag.unit = row.unit;
   flag.symbol = row.symbol;
+  flag.row = row;
   flag.set = [row](const std::string& text) { return SetFromText(row, text); };
   return flag;
 }

@@ -118,9 +118,12 @@ ExitCode RunReconstruct(const Arguments& arguments) {
   if (part_idx != kNoPart) {
     return ReconstructPart(settings, part_idx);
   }
-  return RunAndSummarize(settings, [&](ProgressPrinter& progress) {
-    return RunWorkspace(settings, progress);
-  });
+  return RunAndSummarize(
+      settings, [&](ProgressPrinter& progress) -> Result<RunRecord> {
+        Result<WorkspaceRun> run = RunWorkspace(settings, progress);
+        if (!run.ok()) return run.status();
+        return std::move(run->record);
+      });
 }
 
 ExitCode RunMergeCommand(const Arguments& arguments) {

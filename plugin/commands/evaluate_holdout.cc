@@ -74,7 +74,7 @@ void PrintJson(const HoldoutResult& result, std::ostream& out) {
 Result<CurveSet> ReconstructOthers(const Scene& scene,
                                    const Options& options,
                                    int every,
-                                   ProgressPrinter& progress) {
+                                   RunProgress& progress) {
   const Result<std::vector<EdgeMap>> edge_maps =
       DetectEdges(scene, options, progress.Callback());
   if (!edge_maps.ok()) return edge_maps.status();
@@ -97,7 +97,7 @@ Status RunHoldout(const RunSettings& settings,
                   const std::filesystem::path& curves_path,
                   int every,
                   EvaluationFormat format,
-                  ProgressPrinter& progress,
+                  RunProgress& progress,
                   std::ostream& out) {
   const Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
                                                      settings.input_path,

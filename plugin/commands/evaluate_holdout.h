@@ -36,7 +36,7 @@ Status RunHoldout(const RunSettings& settings,
                   const std::filesystem::path& curves_path,
                   int every,
                   EvaluationFormat format,
-                  ProgressPrinter& progress,
+                  RunProgress& progress,
                   std::ostream& out);
 
 }  // namespace curvix

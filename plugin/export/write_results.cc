@@ -54,29 +54,6 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
   return WriteColmapModel(model, path, ColmapFormat::kBinary);
 }
 
-Status WriteFormat(const CurveRecord& record,
-                   const OutputSettings& settings,
-                   int num_threads,
-                   const std::string& format,
-                   const fs::path& path) {
-  if (format == "json") {
-    return WriteText(record, path, [&](const ByteSink& sink) {
-      EncodeCurvesJson(record, sink);
-    });
-  }
-  if (format == "html") {
-    return WriteText(record, path, [&](const ByteSink& sink) {
-      EncodeViewerHtml(record, num_threads, sink);
-    });
-  }
-  if (format == "dxf" || format == "step") {
-    return WriteDrawing(path, record.fitted);
-  }
-  if (format == "svg") return WriteSvg(record, settings.svg_image, path);
-  if (format == "colmap") return WriteModel(record, path);
-  return WriteCurves(path, record.curves, record.scene);
-}
-
 Status WriteOverlays(const CurveRecord& record,
                      int count,
                      const fs::path& folder) {
@@ -179,6 +156,29 @@ FlagSection OutputFlags(OutputSettings* settings) {
                     .max = 10000,
                     .help = "draw the curves over so many well-spread "
                             "images, into overlays/"})}};
+}
+
+Status WriteFormat(const CurveRecord& record,
+                   const OutputSettings& settings,
+                   int num_threads,
+                   const std::string& format,
+                   const fs::path& path) {
+  if (format == "json") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeCurvesJson(record, sink);
+    });
+  }
+  if (format == "html") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeViewerHtml(record, num_threads, sink);
+    });
+  }
+  if (format == "dxf" || format == "step") {
+    return WriteDrawing(path, record.fitted);
+  }
+  if (format == "svg") return WriteSvg(record, settings.svg_image, path);
+  if (format == "colmap") return WriteModel(record, path);
+  return WriteCurves(path, record.curves, record.scene);
 }
 
 Result<std::vector<std::string>> WriteResults(const CurveRecord& record,

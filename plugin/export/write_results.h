@@ -37,6 +37,14 @@ Result<std::vector<std::string>> ParseOutputFormats(const std::string& text);
 // The flags that change `settings`, which must outlive them.
 FlagSection OutputFlags(OutputSettings* settings);
 
+// Writes one of OutputFormats(), by its name, to `path`. Errors as
+// WriteResults.
+Status WriteFormat(const CurveRecord& record,
+                   const OutputSettings& settings,
+                   int num_threads,
+                   const std::string& format,
+                   const std::filesystem::path& path);
+
 // Writes the files that `settings` ask for into `folder`, each whole or not at
 // all, and returns their names. Overlays go to overlays/<image name>.png.
 // kInvalidArgument: svg_image is not the name of a view, or a file cannot be

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Run by CPack on what it installed: the names, the compression and the rights
-# that Debian's policy asks of a package.
-set(usr ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr)
+# that Debian's policy asks of packages.
+set(usr ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/program/usr)
 set(doc ${usr}/share/doc/colmap-curvix)
 file(RENAME ${doc}/LICENSE ${doc}/copyright)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/../viewer/LICENSE.three three_license)
@@ -12,3 +12,11 @@ execute_process(COMMAND gzip -9n ${doc}/changelog
                 COMMAND_ERROR_IS_FATAL ANY)
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/colmap-curvix
      DESTINATION ${usr}/share/lintian/overrides)
+
+set(python ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/python/usr)
+if(EXISTS ${python})
+  file(COPY ${doc}/copyright ${doc}/changelog.gz
+       DESTINATION ${python}/share/doc/python3-curvix)
+  file(COPY ${CMAKE_CURRENT_LIST_DIR}/python3-curvix
+       DESTINATION ${python}/share/lintian/overrides)
+endif()

@@ -95,7 +95,7 @@ bool ProgressPrinter::Update(const std::string& stage, int done, int total) {
   return !IsInterrupted();
 }
 
-std::function<bool(const std::string&, int, int)> ProgressPrinter::Callback() {
+std::function<bool(const std::string&, int, int)> RunProgress::Callback() {
   return [this](const std::string& stage, int done, int total) {
     return Update(stage, done, total);
   };

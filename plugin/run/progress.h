@@ -15,32 +15,54 @@ namespace curvix {
 void CatchSignals();
 bool IsInterrupted();
 
+// Is told what a run does, stage after stage, and may stop it.
+class RunProgress {
+ public:
+  virtual ~RunProgress() = default;
+
+  // The stage has done `done` of `total` steps; a new one ends the previous.
+  // False: the run is to stop.
+  virtual bool Update(const std::string& stage, int done, int total) = 0;
+
+  // Ends the current stage, if any, with what it has done: "50 views".
+  virtual void Finish(const std::string& detail) = 0;
+  void Finish() { Finish(""); }
+
+  // A sentence worth telling the user.
+  virtual void Note(const std::string& line) = 0;
+
+  // Whether the run is to stop, as far as is known.
+  virtual bool IsCancelled() = 0;
+
+  // Update(), for curvix::Progress; not to be called after this is gone.
+  std::function<bool(const std::string&, int, int)> Callback();
+};
+
 // One line a stage. On a terminal the line is a bar with the remaining time
 // until the stage ends; elsewhere the name at the start and the rest at the
 // end, without control characters.
-class ProgressPrinter {
+class ProgressPrinter : public RunProgress {
  public:
   // Seconds since any fixed moment.
   using Clock = std::function<double()>;
 
   ProgressPrinter(std::ostream& stream, bool is_terminal);
   ProgressPrinter(std::ostream& stream, bool is_terminal, Clock clock);
-  ~ProgressPrinter();  // ends an open line
+  ~ProgressPrinter() override;  // ends an open line
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
-  // A new `stage` ends the previous one. The bar is
-  // redrawn at most ten times a second. False once IsInterrupted().
-  bool Update(const std::string& stage, int done, int total);
+  // The bar is redrawn at most ten times a second. False once IsInterrupted().
+  bool Update(const std::string& stage, int done, int total) override;
 
-  // Update(), for curvix::Progress; not to be called after this is gone.
-  std::function<bool(const std::string&, int, int)> Callback();
-
-  // Ends the current stage, if any: "Detect edges ... 50 views, 3.1 s".
-  void Finish(const std::string& detail = "");
+  // "Detect edges ... 50 views, 3.1 s".
+  using RunProgress::Finish;
+  void Finish(const std::string& detail) override;
 
   // Prints a line of its own, above the bar.
-  void Note(const std::string& line);
+  void Note(const std::string& line) override;
+
+  bool IsCancelled() override { return IsInterrupted(); }
 
  private:
   void Draw(int done, int total);

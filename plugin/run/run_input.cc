@@ -60,7 +60,7 @@ Result<Workspace> FindInput(const RunSettings& settings) {
 }
 
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
-                                 ProgressPrinter& progress,
+                                 RunProgress& progress,
                                  RunRecord& record) {
   const Stopwatch stopwatch;
   progress.Update("read_model", 0, 0);

@@ -17,7 +17,7 @@ Result<Workspace> FindInput(const RunSettings& settings);
 // Reads the model of `workspace`; puts into `record` which folders and what
 // they hold.
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
-                                 ProgressPrinter& progress,
+                                 RunProgress& progress,
                                  RunRecord& record);
 
 }  // namespace curvix

@@ -2,7 +2,6 @@
 #include "plugin/run/run_output.h"
 
 #include <curvix/curve_io.h>
-#include <curvix/fitting.h>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -48,10 +47,10 @@ Status WriteCurveFiles(const CurveRecord& curves,
 
 }  // namespace
 
-Status WriteFindings(const Scene& scene,
-                     const Findings& findings,
-                     const fs::path& folder,
-                     RunRecord& record) {
+Result<FittedCurves> WriteFindings(const Scene& scene,
+                                   const Findings& findings,
+                                   const fs::path& folder,
+                                   RunRecord& record) {
   ResultSummary& result = record.result;
   findings.curves.ForEach(
       [&](std::size_t, const Curve& curve) { Count(curve, result); });
@@ -73,12 +72,12 @@ Status WriteFindings(const Scene& scene,
   }
   if (!status.ok()) return status;
   record.stages.push_back(stopwatch.Read("write_files"));
-  return {};
+  return fitted;
 }
 
 Status WriteReport(const Stopwatch& since_start,
                    const fs::path& folder,
-                   ProgressPrinter& progress,
+                   RunProgress& progress,
                    RunRecord& record) {
   record.result.files.push_back("report.json");
   record.total = since_start.Read("total");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/curves.h>
+#include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <cstdint>
@@ -26,19 +27,19 @@ struct Findings {
   bool is_repeatable = true;   // by project.ini, which is written then
 };
 
-// Fits the curves, and writes the files that record.settings asks for into
-// `folder`: those of the curves, if there are any, and edges.ply, if there are
-// 3D edges. Puts into `record` what was found and which files tell of
-// it; the folder and the number of 2D edges are there already.
-Status WriteFindings(const Scene& scene,
-                     const Findings& findings,
-                     const std::filesystem::path& folder,
-                     RunRecord& record);
+// Fits the curves, which it returns, and writes the files that record.settings
+// asks for into `folder`: those of the curves, if there are any, and edges.ply,
+// if there are 3D edges. Puts into `record` what was found and which files tell
+// of it; the folder and the number of 2D edges are there already.
+Result<FittedCurves> WriteFindings(const Scene& scene,
+                                   const Findings& findings,
+                                   const std::filesystem::path& folder,
+                                   RunRecord& record);
 
 // Writes report.json of a run that began with `since_start`.
 Status WriteReport(const Stopwatch& since_start,
                    const std::filesystem::path& folder,
-                   ProgressPrinter& progress,
+                   RunProgress& progress,
                    RunRecord& record);
 
 }  // namespace curvix

@@ -48,7 +48,7 @@ RunRecord RecordOf(const RunSettings& settings) {
 
 Result<ScenePartition> Partition(const RunSettings& settings,
                                  int max_views_per_part,
-                                 ProgressPrinter& progress) {
+                                 RunProgress& progress) {
   const Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
   RunRecord record = RecordOf(settings);
@@ -70,7 +70,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   if (!output.ok()) return output.status();
   Status status = WritePlan(
       *partition, input->scene, input->model, output->folder() / kPartsName);
-  if (status.ok() && IsInterrupted()) status = Cancelled();
+  if (status.ok() && progress.IsCancelled()) status = Cancelled();
   if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return partition;
@@ -78,7 +78,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
 
 Result<RunRecord> ReconstructPart(const RunSettings& settings,
                                   int part_idx,
-                                  ProgressPrinter& progress) {
+                                  RunProgress& progress) {
   const Stopwatch since_start;
   Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
@@ -115,7 +115,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
       TakePart(plan->partition, part_idx, reconstruction->curves, *edge_maps);
   const std::vector<Edge3d> edges =
       EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
-  if (IsInterrupted()) return Cancelled();
+  if (progress.IsCancelled()) return Cancelled();
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
     Count(traced.curve, record.result);
@@ -141,8 +141,7 @@ std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
   return paths;
 }
 
-Result<RunRecord> Merge(const RunSettings& settings,
-                        ProgressPrinter& progress) {
+Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   const Stopwatch since_start;
   Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
@@ -170,22 +169,24 @@ Result<RunRecord> Merge(const RunSettings& settings,
       {"parts", static_cast<std::int64_t>(plan->partition.parts.size())},
       {"curves", static_cast<std::int64_t>((*curves)->size())}};
   record.result.num_edges_2d = parts->num_edges_2d();
-  Status status = WriteFindings(
-      input->scene,
-      {**curves,
-       parts->num_edges_3d(),
-       [&](const fs::path& path) {
-         return ConcatenateEdges(path, EdgesPaths(*plan, folder));
-       },
-       (*curves)->size() > 0 ? ""
-                             : "no part has any; report.json in the folders "
-                               "of the parts says more"},
-      output->folder(),
-      record);
+  Status status =
+      WriteFindings(input->scene,
+                    {**curves,
+                     parts->num_edges_3d(),
+                     [&](const fs::path& path) {
+                       return ConcatenateEdges(path, EdgesPaths(*plan, folder));
+                     },
+                     (*curves)->size() > 0
+                         ? ""
+                         : "no part has any; report.json in the folders "
+                           "of the parts says more"},
+                    output->folder(),
+                    record)
+          .status();
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
-  if (status.ok() && IsInterrupted()) status = Cancelled();
+  if (status.ok() && progress.IsCancelled()) status = Cancelled();
   if (status.ok()) status = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!status.ok()) return status;
   return record;
@@ -195,19 +196,18 @@ Result<RunRecord> Merge(const RunSettings& settings,
 
 Result<ScenePartition> RunPartition(const RunSettings& settings,
                                     int max_views_per_part,
-                                    ProgressPrinter& progress) {
+                                    RunProgress& progress) {
   return Guarded(
       [&] { return Partition(settings, max_views_per_part, progress); });
 }
 
 Result<RunRecord> RunPart(const RunSettings& settings,
                           int part_idx,
-                          ProgressPrinter& progress) {
+                          RunProgress& progress) {
   return Guarded([&] { return ReconstructPart(settings, part_idx, progress); });
 }
 
-Result<RunRecord> RunMerge(const RunSettings& settings,
-                           ProgressPrinter& progress) {
+Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   return Guarded([&] { return Merge(settings, progress); });
 }
 

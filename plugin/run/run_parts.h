@@ -18,19 +18,18 @@ namespace curvix {
 // all of them. Errors as RunWorkspace and PartitionScene.
 Result<ScenePartition> RunPartition(const RunSettings& settings,
                                     int max_views_per_part,
-                                    ProgressPrinter& progress);
+                                    RunProgress& progress);
 
 // Reconstructs one part, from its own model and images alone, with the poses
 // that they have, and writes its part.bin and report.json.
 // Errors as RunWorkspace; kNotFound, too, without plan or part.
 Result<RunRecord> RunPart(const RunSettings& settings,
                           int part_idx,
-                          ProgressPrinter& progress);
+                          RunProgress& progress);
 
 // Merges the parts, and writes the files that RunWorkspace would write.
 // Errors as RunWorkspace; kNotFound, too, with the parts that are still to be
 // reconstructed, or again because plan or options are others.
-Result<RunRecord> RunMerge(const RunSettings& settings,
-                           ProgressPrinter& progress);
+Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress);
 
 }  // namespace curvix

@@ -60,7 +60,7 @@ StageCounts CountFits(const FittedCurves& fitted) {
 }
 
 RunStages::RunStages(std::filesystem::path folder,
-                     ProgressPrinter& progress,
+                     RunProgress& progress,
                      RunRecord& record)
     : store_(std::move(folder)), progress_(progress), record_(record) {
   if (record.settings.clean) store_.Clean();

@@ -38,7 +38,7 @@ class RunStages {
  public:
   // `folder`: where results of stages are kept, unless the run is to be clean.
   RunStages(std::filesystem::path folder,
-            ProgressPrinter& progress,
+            RunProgress& progress,
             RunRecord& record);
 
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
@@ -64,7 +64,7 @@ class RunStages {
   void Save(std::uint64_t key, const T& result);
 
   StageStore store_;
-  ProgressPrinter& progress_;
+  RunProgress& progress_;
   RunRecord& record_;
 };
 

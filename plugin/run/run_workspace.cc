@@ -30,12 +30,12 @@ Status Cancelled() {
 // One run, from the first file read to the last one written.
 class Job {
  public:
-  Job(const RunSettings& settings, ProgressPrinter& progress)
+  Job(const RunSettings& settings, RunProgress& progress)
       : progress_(progress) {
     record_.settings = settings;
   }
 
-  Result<RunRecord> Run();
+  Result<WorkspaceRun> Run();
 
  private:
   Result<Scene> RefinePoses(const WorkspaceScene& input);
@@ -49,7 +49,7 @@ class Job {
     for (const std::string& note : notes) progress_.Note(note);
   }
 
-  ProgressPrinter& progress_;
+  RunProgress& progress_;
   Stopwatch since_start_;
   Workspace workspace_;
   fs::path staging_;
@@ -57,7 +57,7 @@ class Job {
   RunRecord record_;
 };
 
-Result<RunRecord> Job::Run() {
+Result<WorkspaceRun> Job::Run() {
   Result<Workspace> workspace = FindInput(record_.settings);
   if (!workspace.ok()) return workspace.status();
   workspace_ = *std::move(workspace);
@@ -82,33 +82,35 @@ Result<RunRecord> Job::Run() {
     if (!edge_maps.ok()) return edge_maps.status();
     scene = std::move(refined);
   }
-  const Result<Reconstruction> reconstruction =
+  Result<Reconstruction> reconstruction =
       stages.Reconstruct(*scene, *edge_maps);
   if (!reconstruction.ok()) return stages.KeptStages(reconstruction.status());
 
   Status written = WriteRefinedModel();
-  if (written.ok()) {
-    const CurvesInMemory curves(reconstruction->curves, &*edge_maps);
-    written =
-        WriteFindings(*scene,
-                      {curves,
-                       static_cast<std::int64_t>(reconstruction->edges.size()),
-                       [&](const fs::path& path) {
-                         return WriteEdges(path, reconstruction->edges);
-                       },
-                       reconstruction->report.why_empty},
-                      staging_,
-                      record_);
-  }
-  if (written.ok()) {
-    written = WriteReport(since_start_, staging_, progress_, record_);
-  }
   if (!written.ok()) return written;
-  if (IsInterrupted()) return Cancelled();
+  const CurvesInMemory curves(reconstruction->curves, &*edge_maps);
+  Result<FittedCurves> fitted =
+      WriteFindings(*scene,
+                    {curves,
+                     static_cast<std::int64_t>(reconstruction->edges.size()),
+                     [&](const fs::path& path) {
+                       return WriteEdges(path, reconstruction->edges);
+                     },
+                     reconstruction->report.why_empty},
+                    staging_,
+                    record_);
+  if (!fitted.ok()) return fitted.status();
+  written = WriteReport(since_start_, staging_, progress_, record_);
+  if (!written.ok()) return written;
+  if (progress_.IsCancelled()) return Cancelled();
   // Those of an earlier run would tell of other poses.
   Status published = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!published.ok()) return published;
-  return std::move(record_);
+  return WorkspaceRun{std::move(record_),
+                      *std::move(scene),
+                      *std::move(edge_maps),
+                      std::move(reconstruction->curves),
+                      *std::move(fitted)};
 }
 
 // The scene with the refined poses, which are written to sparse/ too, or as it
@@ -157,8 +159,8 @@ Status Job::WriteRefinedModel() {
 
 }  // namespace
 
-Result<RunRecord> RunWorkspace(const RunSettings& settings,
-                               ProgressPrinter& progress) {
+Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
+                                  RunProgress& progress) {
   try {
     return Job(settings, progress).Run();
   } catch (const fs::filesystem_error& error) {

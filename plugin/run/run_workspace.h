@@ -2,12 +2,26 @@
 // The whole job: a COLMAP workspace in, files with curves out.
 #pragma once
 
+#include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/fitting.h>
+#include <curvix/scene.h>
 #include <curvix/status.h>
+#include <vector>
 
 #include "plugin/run/progress.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {
+
+// What a run leaves in memory.
+struct WorkspaceRun {
+  RunRecord record;
+  Scene scene;  // with the poses and cameras that the curves are made with
+  std::vector<EdgeMap> edge_maps;  // one per view
+  CurveSet curves;
+  FittedCurves fitted;  // of these; none if there are no curves
+};
 
 // Reads the workspace, refines the poses, reconstructs, and writes what
 // settings.output.formats name, edges.ply, report.json, project.ini and stages/
@@ -23,7 +37,7 @@ namespace curvix {
 // kInvalidArgument and kNotFound: the workspace, or an output folder that
 // cannot be used; kDataLoss and kUnsupported: broken or foreign files;
 // kCancelled: interrupted.
-Result<RunRecord> RunWorkspace(const RunSettings& settings,
-                               ProgressPrinter& progress);
+Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
+                                  RunProgress& progress);
 
 }  // namespace curvix

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the Debian package, installs it on a Debian 12 that holds nothing else,
-# uses it there, and removes it. As root, with debootstrap, lintian and network.
+# Builds the Debian packages, installs them on a Debian 12 that holds nothing
+# else, uses them there, and removes them. As root, with debootstrap, lintian and network.
 #
 #   tests/packages/deb.sh [folder for the Debian 12: build-deb/debian-12]
 set -euo pipefail
@@ -23,15 +23,15 @@ inside() {
       DEBIAN_FRONTEND=noninteractive chroot "$@"' - "$root" "$@"
 }
 
-step "1 of 5: build the package"
-examples/install_dependencies.sh
+step "1 of 5: build the packages"
+examples/install_dependencies.sh --python
 cmake --preset deb --log-level=NOTICE
 rm -f build-deb/*.deb
 cmake --build --preset deb --target package
-package="$(echo build-deb/colmap-curvix_*.deb)"
+packages=(build-deb/colmap-curvix_*.deb build-deb/python3-curvix_*.deb)
 # Who builds the package for others names an address.
 lintian --allow-root --fail-on error,warning \
-  --suppress-tags malformed-contact "$package"
+  --suppress-tags malformed-contact "${packages[@]}"
 
 step "2 of 5: a clean Debian 12"
 if [[ ! -e "$root/var/lib/apt/lists" ]]; then
@@ -41,10 +41,10 @@ inside apt-get -qq -o Dpkg::Use-Pty=0 update
 files_of_system >build-deb/before.txt
 
 step "3 of 5: install"
-cp "$package" "$root/package.deb"
+cp "${packages[@]}" "$root"
 inside apt-get -qq -o Dpkg::Use-Pty=0 install --yes --no-install-recommends \
-  /package.deb >/dev/null
-inside dpkg --verify colmap-curvix
+  "${packages[@]/#build-deb/}" >/dev/null
+inside dpkg --verify colmap-curvix python3-curvix
 
 step "4 of 5: use"
 inside colmap_curvix help >/dev/null
@@ -57,11 +57,21 @@ inside colmap_curvix --workspace_path /root/part \
   --output_formats ply,obj,pcd,txt,json,dxf,step,vtp,glb,svg,colmap,html
 inside colmap_curvix evaluate --curves_path /root/part/curvix/0/curves.ply \
   --truth_path /root/part/gt.txt
-rm -r "$root/root/part"
+cat >"$root/root/use.py" <<'END'
+import pycurvix
+
+curves = pycurvix.reconstruct('/root/part', output_path='/root/part/again')
+curves.select(curves.lengths() > 0.5).write('/root/part/long.dxf')
+print(curves, pycurvix.evaluate(curves, '/root/part/gt.txt')['F5'])
+END
+inside python3 /root/use.py
+inside cmp /root/part/curvix/0/curves.ply /root/part/again/curves.ply
+rm -r "$root/root/part" "$root/root/use.py"
 
 step "5 of 5: remove"
-inside apt-get -qq -o Dpkg::Use-Pty=0 purge --yes --autoremove colmap-curvix >/dev/null
-rm "$root/package.deb"
+inside apt-get -qq -o Dpkg::Use-Pty=0 purge --yes --autoremove colmap-curvix \
+  python3-curvix >/dev/null
+rm "$root"/*.deb
 files_of_system | diff build-deb/before.txt -
-echo "Installed, used and removed: $(basename "$package")," \
-  "$(stat --format=%s "$package") bytes; nothing of it is left."
+echo "Installed, used and removed; nothing is left of them:"
+stat --format='%s bytes: %n' "${packages[@]}"

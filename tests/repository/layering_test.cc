@@ -66,7 +66,13 @@ const std::map<std::string, Rule>& Rules() {
          "io",
          "parts",
          "synthetic"},
-        {"boost", "ceres", "glog", "nlohmann", "opencv2", "zip.h"}}},
+        {"boost",
+         "ceres",
+         "glog",
+         "nlohmann",
+         "opencv2",
+         "pybind11",
+         "zip.h"}}},
       {"examples", {}}};
   return rules;
 }

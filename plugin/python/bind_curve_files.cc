@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <curvix/curve_io.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <filesystem>
+#include <sstream>
+
+#include "evaluation/evaluate.h"
+#include "plugin/export/write_results.h"
+#include "plugin/python/bindings.h"
+#include "plugin/python/python_errors.h"
+
+namespace curvix {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+std::unique_ptr<PythonCurves> Read(const fs::path& path,
+                                   const PythonScene* scene) {
+  const Scene none;
+  CurveSet curves = Take(WithoutLock([&] {
+    return ReadCurves(path, scene == nullptr ? none : *scene->scene);
+  }));
+  return WithoutLock([&] {
+    return std::make_unique<PythonCurves>(
+        std::move(curves), scene == nullptr ? nullptr : scene->scene, nullptr);
+  });
+}
+
+void Write(const PythonCurves& curves,
+           const fs::path& path,
+           const std::string& format,
+           const std::string& svg_image) {
+  OutputSettings settings;
+  settings.svg_image = svg_image;
+  const bool needs_scene = format == "json" || format == "html" ||
+                           format == "svg" || format == "colmap";
+  if (needs_scene && curves.scene() == nullptr) {
+    Raise({StatusCode::kInvalidArgument,
+           "format '" + format +
+               "' shows the curves with their views; read them with "
+               "pycurvix.read(path, scene)"});
+  }
+  Check(WithoutLock([&] {
+    const Scene none;
+    const FittedCurves no_fits;
+    const bool needs_fits =
+        format == "json" || format == "html" || format == "dxf";
+    return WriteFormat({curves.scene() == nullptr ? none : *curves.scene(),
+                        curves.table(),
+                        needs_fits ? curves.Fits().fitted : no_fits},
+                       settings,
+                       0,
+                       format,
+                       path);
+  }));
+}
+
+// One JSON object.
+std::string Evaluate(const PythonCurves& curves,
+                     const fs::path& truth_path,
+                     double unit_mm,
+                     double step,
+                     int min_num_views) {
+  EvaluationOptions options;
+  options.unit_mm = unit_mm;
+  options.step = step;
+  options.min_num_views = min_num_views;
+  const auto evaluate = [&]() -> Result<Evaluation> {
+    const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
+    if (!truth.ok()) return truth.status();
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < curves.table().size(); ++i) all.push_back(i);
+    return EvaluateCurves(curves.table().Select(all), *truth, options);
+  };
+  const Evaluation evaluation = Take(WithoutLock(evaluate));
+  std::ostringstream json;
+  PrintEvaluation(evaluation, EvaluationFormat::kJson, json);
+  return json.str();
+}
+
+}  // namespace
+
+void BindCurveFiles(py::module_& module) {
+  module.def("read", Read);
+  module.def("write", Write);
+  module.def("evaluate", Evaluate);
+  std::vector<std::pair<std::string, std::string>> formats;
+  for (const OutputFormat& format : OutputFormats()) {
+    formats.emplace_back(format.name, format.file);
+  }
+  module.attr("FORMATS") = formats;
+}
+
+}  // namespace curvix

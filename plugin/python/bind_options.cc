@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pybind11/stl.h>
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+#include "base/option_table.h"
+#include "plugin/commands/command_parts.h"
+#include "plugin/python/bindings.h"
+#include "plugin/python/python_errors.h"
+
+namespace curvix {
+namespace {
+
+namespace py = pybind11;
+
+// Those of `reconstruct`, without paths of a workspace, in the order in which
+// they are set. Their defaults are the values that `settings` has.
+std::vector<Flag> FlagsOf(RunSettings& settings) {
+  std::vector<Flag> flags;
+  const std::vector<Flag> paths = PathsSection(&settings).flags;
+  for (FlagSection& section : ReconstructSections(&settings)) {
+    for (Flag& flag : section.flags) {
+      const bool is_path =
+          std::any_of(paths.begin(), paths.end(), [&](const Flag& path) {
+            return path.name == flag.name;
+          });
+      if (!is_path) flags.push_back(std::move(flag));
+    }
+  }
+  return flags;
+}
+
+Flag FlagNamed(const std::string& name, RunSettings& settings) {
+  std::vector<std::string> names;
+  for (Flag& flag : FlagsOf(settings)) {
+    if (flag.name == name) return flag;
+    names.push_back(flag.name);
+  }
+  const std::string nearest = NearestName(name, names);
+  Raise({StatusCode::kInvalidArgument,
+         "There is no option '" + name + "'" +
+             (nearest.empty() ? "; list(pycurvix.Options()) has all"
+                              : "; did you mean '" + nearest + "'?")});
+}
+
+py::object ValueOf(const Flag& flag) {
+  if (!flag.row) return py::str(flag.default_value);
+  return std::visit(
+      [&](const auto* field) -> py::object {
+        using Value = std::remove_cv_t<std::remove_pointer_t<decltype(field)>>;
+        if constexpr (std::is_enum_v<Value>) {
+          return py::str(ValueText(*flag.row));
+        } else {
+          return py::cast(*field);
+        }
+      },
+      flag.row->field);
+}
+
+py::dict About(const Flag& flag) {
+  py::dict about;
+  about["name"] = flag.name;
+  about["help"] = flag.help;
+  about["range"] = flag.range;
+  about["unit"] = flag.unit;
+  about["symbol"] = flag.symbol;
+  about["default"] = ValueOf(flag);
+  return about;
+}
+
+// All at once, in the order of the command line: a preset comes before what may
+// change it. Nothing is set if one cannot be.
+void SetAll(PythonOptions& options,
+            const std::vector<std::pair<std::string, std::string>>& values) {
+  RunSettings settings = options.settings;
+  for (const auto& [name, text] : values) FlagNamed(name, settings);
+  for (const Flag& flag : FlagsOf(settings)) {
+    for (const auto& [name, text] : values) {
+      if (name == flag.name) Check(flag.set(text));
+    }
+  }
+  options.settings = settings;
+}
+
+}  // namespace
+
+void BindOptions(py::module_& module) {
+  py::class_<PythonOptions>(module, "Options")
+      .def(py::init<>())
+      .def("names",
+           [](PythonOptions& options) {
+             std::vector<std::string> names;
+             for (const Flag& flag : FlagsOf(options.settings)) {
+               names.push_back(flag.name);
+             }
+             return names;
+           })
+      .def("get",
+           [](PythonOptions& options, const std::string& name) {
+             return ValueOf(FlagNamed(name, options.settings));
+           })
+      .def("set", SetAll)
+      .def_static("about", [](const std::string& name) {
+        RunSettings settings;
+        return About(FlagNamed(name, settings));
+      });
+}
+
+}  // namespace curvix

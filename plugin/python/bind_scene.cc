@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <curvix/colmap_io.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "colmap/colmap_model_format.h"
+#include "edge_detection/image_header.h"
+#include "plugin/python/bindings.h"
+#include "plugin/python/python_errors.h"
+
+namespace curvix {
+namespace {
+
+namespace py = pybind11;
+namespace fs = std::filesystem;
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Numbers =
+    py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+struct CameraInput {
+  std::string model;
+  int width;   // 0: that of the first of its images
+  int height;  // alike
+  std::vector<double> params;
+};
+
+struct ViewInput {
+  std::string name;
+  fs::path image_path;
+  std::uint32_t image_id;
+  int camera_idx;
+  std::array<double, 4> quaternion;  // x y z w
+  std::array<double, 3> translation;
+};
+
+[[noreturn]] void RaiseArgument(const std::string& sentence) {
+  Raise({StatusCode::kInvalidArgument, sentence});
+}
+
+Camera CameraOf(const CameraInput& input) {
+  const auto model = ModelFromName(input.model);
+  if (!model) {
+    Raise({StatusCode::kUnsupported,
+           "there is no camera model '" + input.model + "'"});
+  }
+  return {*model, input.width, input.height, input.params};
+}
+
+View MakeView(const ViewInput& input, std::size_t num_cameras) {
+  if (input.camera_idx < 0 ||
+      static_cast<std::size_t>(input.camera_idx) >= num_cameras) {
+    RaiseArgument("the camera of view " + input.name + " is not there");
+  }
+  const auto& [x, y, z, w] = input.quaternion;
+  View view;
+  view.cam_from_world = {RotationFromColmap({w, x, y, z}),
+                         Eigen::Vector3d(input.translation.data())};
+  if (!view.cam_from_world.rotation.coeffs().allFinite() ||
+      !view.cam_from_world.translation.allFinite()) {
+    RaiseArgument("the pose of view " + input.name + " is not finite");
+  }
+  view.name = input.name;
+  view.image_path = input.image_path;
+  view.image_id = input.image_id;
+  view.camera_idx = input.camera_idx;
+  return view;
+}
+
+// Cameras without a size take that of their first image.
+void FindSizes(Scene& scene) {
+  for (const View& view : scene.views) {
+    Camera& camera = scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    if (camera.width > 0) continue;
+    const ImageSize size =
+        Take(WithoutLock([&] { return ReadImageSize(view.image_path); }));
+    camera.width = size.width;
+    camera.height = size.height;
+  }
+}
+
+// Observations are the rows (point, view) and pixels, points ascending.
+std::vector<ScenePoint> PointsOf(const Doubles& positions,
+                                 const Numbers& observations,
+                                 const Doubles& pixels,
+                                 std::size_t num_views) {
+  std::vector<ScenePoint> points(static_cast<std::size_t>(positions.shape(0)));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].position =
+        Eigen::Map<const Eigen::Vector3d>(positions.data() + 3 * i);
+  }
+  for (py::ssize_t i = 0; i < observations.shape(0); ++i) {
+    const auto point_idx = static_cast<std::size_t>(observations.at(i, 0));
+    const auto view_idx = static_cast<std::size_t>(observations.at(i, 1));
+    if (point_idx >= points.size() || view_idx >= num_views) {
+      RaiseArgument("an observation names a point or a view that is not there");
+    }
+    ScenePoint& point = points[point_idx];
+    point.view_idxs.push_back(static_cast<int>(view_idx));
+    point.pixels.emplace_back(pixels.at(i, 0), pixels.at(i, 1));
+  }
+  return points;
+}
+
+PythonScene MakeScene(const std::vector<CameraInput>& cameras,
+                      const std::vector<ViewInput>& views,
+                      const Doubles& positions,
+                      const Numbers& observations,
+                      const Doubles& pixels) {
+  Scene scene;
+  for (const CameraInput& camera : cameras) {
+    scene.cameras.push_back(CameraOf(camera));
+  }
+  std::set<std::string> names;
+  for (const ViewInput& view : views) {
+    scene.views.push_back(MakeView(view, cameras.size()));
+    if (!names.insert(view.name).second) {
+      RaiseArgument("two views are named " + view.name);
+    }
+  }
+  FindSizes(scene);
+  for (const Camera& camera : scene.cameras) Check(Validate(camera));
+  scene.points = PointsOf(positions, observations, pixels, views.size());
+  return {std::make_shared<const Scene>(std::move(scene)), nullptr};
+}
+
+// Rows x, y, angle, strength.
+EdgeMap EdgesOf(const Doubles& rows, double spacing_px) {
+  EdgeMap map;
+  map.spacing_px = spacing_px;
+  map.edges.resize(static_cast<std::size_t>(rows.shape(0)));
+  for (std::size_t i = 0; i < map.edges.size(); ++i) {
+    const double* const row = rows.data() + 4 * i;
+    Edge2d& edge = map.edges[i];
+    edge.position = {row[0], row[1]};
+    edge.angle = static_cast<float>(std::remainder(row[2], 2 * EIGEN_PI));
+    edge.strength = static_cast<float>(row[3]);
+  }
+  return map;
+}
+
+PythonScene WithEdges(const PythonScene& scene,
+                      const std::vector<Doubles>& edges,
+                      double spacing_px) {
+  auto maps = std::make_shared<std::vector<EdgeMap>>();
+  for (const Doubles& rows : edges) {
+    maps->push_back(EdgesOf(rows, spacing_px));
+  }
+  return {scene.scene, std::move(maps)};
+}
+
+const Camera& CameraOf(const Scene& scene, const View& view) {
+  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+}
+
+py::tuple FromColmap(const fs::path& workspace, const fs::path& images) {
+  std::vector<std::string> notes;
+  Scene scene = Take(
+      WithoutLock([&] { return ReadColmapScene(workspace, images, &notes); }));
+  return py::make_tuple(
+      PythonScene{std::make_shared<const Scene>(std::move(scene)), nullptr},
+      notes);
+}
+
+void BindInput(py::module_& module) {
+  py::class_<CameraInput>(module, "CameraInput")
+      .def(py::init<std::string, int, int, std::vector<double>>());
+  py::class_<ViewInput>(module, "ViewInput")
+      .def(py::init<std::string,
+                    fs::path,
+                    std::uint32_t,
+                    int,
+                    std::array<double, 4>,
+                    std::array<double, 3>>());
+}
+
+// f(view) of all views.
+template <typename F>
+auto OfViews(const F& f) {
+  return [f](const PythonScene& scene) {
+    std::vector<decltype(f(*scene.scene, scene.scene->views.front()))> all;
+    for (const View& view : scene.scene->views) {
+      all.push_back(f(*scene.scene, view));
+    }
+    return all;
+  };
+}
+
+}  // namespace
+
+void BindScene(py::module_& module) {
+  BindInput(module);
+  py::class_<PythonScene>(module, "Scene")
+      .def_static("from_colmap", FromColmap)
+      .def_static("make", MakeScene)
+      .def("with_edges", WithEdges)
+      .def("__len__",
+           [](const PythonScene& scene) { return scene.scene->views.size(); })
+      .def("num_cameras",
+           [](const PythonScene& scene) { return scene.scene->cameras.size(); })
+      .def("has_edges",
+           [](const PythonScene& scene) { return scene.edge_maps != nullptr; })
+      .def("names",
+           OfViews([](const Scene&, const View& view) { return view.name; }))
+      .def("image_paths", OfViews([](const Scene&, const View& view) {
+             return view.image_path;
+           }))
+      .def("image_ids", OfViews([](const Scene&, const View& view) {
+             return view.image_id;
+           }))
+      .def("camera_models", OfViews([](const Scene& scene, const View& view) {
+             return std::string(ModelName(CameraOf(scene, view).model));
+           }))
+      .def("camera_params", OfViews([](const Scene& scene, const View& view) {
+             return CameraOf(scene, view).params;
+           }))
+      .def("sizes", OfViews([](const Scene& scene, const View& view) {
+             const Camera& camera = CameraOf(scene, view);
+             return std::pair(camera.width, camera.height);
+           }))
+      .def("calibrations", OfViews([](const Scene& scene, const View& view) {
+             return PinholeCalibration(CameraOf(scene, view));
+           }))
+      .def("rotations", OfViews([](const Scene&, const View& view) {
+             return view.cam_from_world.rotation.toRotationMatrix().eval();
+           }))
+      .def("translations", OfViews([](const Scene&, const View& view) {
+             return view.cam_from_world.translation;
+           }))
+      .def("points", [](const PythonScene& scene) {
+        std::vector<Eigen::Vector3d> points;
+        for (const ScenePoint& point : scene.scene->points) {
+          points.push_back(point.position);
+        }
+        return points;
+      });
+}
+
+}  // namespace curvix

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Curves as arrays."""
+from __future__ import annotations
+
+import enum
+import json
+import os
+from typing import Any, Iterator, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._scene import Path, Scene
+
+
+class CurveKind(enum.IntEnum):
+    """What shows as a curve in the images: the values of `Curves.kinds`."""
+
+    UNKNOWN = 0
+    CREASE = 1
+    BOUNDARY = 2
+    MARKING = 3
+    OCCLUDING_CONTOUR = 4
+
+
+class FitKind(enum.IntEnum):
+    """What a curve is fitted by: the field ``kind`` of `Curves.fits`."""
+
+    LINE = 0
+    ARC = 1
+    ELLIPSE = 2
+    SPLINE = 3
+
+
+class Curves:
+    """Curves in space: polylines, and what they are fitted by.
+
+    Made by `reconstruct`, `read` and `select`. All arrays are views of the
+    memory in which the curves are, without copies, and read only. Samples of all
+    curves follow each other: those of curve ``i`` are
+    ``offsets[i]:offsets[i + 1]``. Lengths are in the unit of the world.
+    """
+
+    __slots__ = ('_core', '_scene')
+
+    def __init__(self, *, _core: _core.Curves, _scene: Scene | None = None) -> None:
+        self._core = _core
+        self._scene = _scene
+
+    def __len__(self) -> int:
+        """How many curves there are."""
+        return len(self._core)
+
+    def __getitem__(self, curve_idx: int) -> NDArray[np.float64]:
+        """The positions of one curve's samples, (n, 3)."""
+        idx = range(len(self))[curve_idx]
+        return self.positions[self.offsets[idx]:self.offsets[idx + 1]]
+
+    def __iter__(self) -> Iterator[NDArray[np.float64]]:
+        positions, offsets = self.positions, self.offsets
+        return (positions[offsets[i]:offsets[i + 1]] for i in range(len(self)))
+
+    @property
+    def offsets(self) -> NDArray[np.int64]:
+        """Where the samples of each curve begin, and the end (C + 1,)."""
+        return self._core.offsets
+
+    @property
+    def closed(self) -> NDArray[np.bool_]:
+        """Whether the first sample follows the last one (C,)."""
+        return self._core.closed
+
+    @property
+    def is_occluding_contour(self) -> NDArray[np.bool_]:
+        """Whether a curve is probably an occluding contour of a round body (C,)."""
+        return self._core.is_occluding_contour
+
+    @property
+    def start_junction(self) -> NDArray[np.int32]:
+        """Index into `junctions` of each curve's start, or -1 (C,)."""
+        return self._core.start_junction
+
+    @property
+    def end_junction(self) -> NDArray[np.int32]:
+        """Index into `junctions` of each curve's end, or -1 (C,)."""
+        return self._core.end_junction
+
+    @property
+    def junctions(self) -> NDArray[np.float64]:
+        """Positions in which ends of curves meet (J, 3)."""
+        return self._core.junctions
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """Of all samples (N, 3)."""
+        return self._core.positions
+
+    @property
+    def tangents(self) -> NDArray[np.float64]:
+        """Unit vectors along the curves (N, 3)."""
+        return self._core.tangents
+
+    @property
+    def covariances(self) -> NDArray[np.float64]:
+        """Of the positions, across the curve (N, 3, 3); 0: not estimated."""
+        return self._core.covariances
+
+    @property
+    def sigmas(self) -> NDArray[np.float64]:
+        """Standard deviations across the curve (N,); 0: not estimated."""
+        return self._core.sigmas
+
+    @property
+    def evidence(self) -> NDArray[np.float64]:
+        """How strongly the views support each sample (N,)."""
+        return self._core.evidence
+
+    @property
+    def kinds(self) -> NDArray[np.uint8]:
+        """The most probable `CurveKind` of each sample (N,)."""
+        return self._core.kinds
+
+    @property
+    def kind_probabilities(self) -> NDArray[np.float32]:
+        """The probabilities of `kinds` (N,); 0 of unknown ones."""
+        return self._core.kind_probabilities
+
+    @property
+    def support_offsets(self) -> NDArray[np.int64]:
+        """Where the rows of each sample begin in `support`, and the end (N + 1,)."""
+        return self._core.support_offsets
+
+    @property
+    def support(self) -> NDArray[np.int32]:
+        """Index of a view that supports a sample, and of the 2D edge in it (S, 2)."""
+        return self._core.support
+
+    @property
+    def views(self) -> NDArray[np.int32]:
+        """The first column of `support`: indices of views (S,)."""
+        return self._core.support[:, 0]
+
+    @property
+    def fits(self) -> NDArray[np.void]:
+        """Lines, arcs, ellipses and splines, curve after curve (F,).
+
+        A structured array with the fields ``curve`` (index), ``kind``
+        (`FitKind`), ``closed``, ``first_sample`` (from the start of the curve),
+        ``num_samples``, ``length``, ``start``, ``end``, ``start_node``,
+        ``end_node`` (into `nodes`, or -1), ``rms_residual``, ``max_residual``,
+        ``inlier_share``, ``sigma`` and, of arcs (circles if closed), ``radius``
+        and ``radius_sigma``; of arcs and ellipses ``center``, ``major``,
+        ``minor``, ``start_angle``, ``end_angle``: ``center + cos(a) * major +
+        sin(a) * minor``; of splines ``first_point``, ``num_points`` (into
+        `spline_points`) and ``first_knot`` (into `spline_knots`). Fitted when
+        first asked for, if not by a run.
+        """
+        return self._core.fits
+
+    @property
+    def fit_offsets(self) -> NDArray[np.int64]:
+        """Where the rows of each curve begin in `fits`, and the end (C + 1,)."""
+        return self._core.fit_offsets
+
+    @property
+    def spline_points(self) -> NDArray[np.float64]:
+        """Control points of clamped cubic B-splines (P, 3)."""
+        return self._core.spline_points
+
+    @property
+    def spline_knots(self) -> NDArray[np.float64]:
+        """Their knots, ``num_points + 4`` each, from 0 to 1."""
+        return self._core.spline_knots
+
+    @property
+    def nodes(self) -> NDArray[np.float64]:
+        """Positions in which fits meet (M, 3)."""
+        return self._core.nodes
+
+    @property
+    def scene(self) -> Scene | None:
+        """The views, with the poses and cameras that the curves were made with."""
+        if self._scene is None:
+            core = self._core.scene()
+            self._scene = None if core is None else Scene(_core=core)
+        return self._scene
+
+    @property
+    def report(self) -> dict[str, Any] | None:
+        """What a run did, as in report.json; None if no run made the curves."""
+        text = self._core.report()
+        return json.loads(text) if text else None
+
+    def lengths(self) -> NDArray[np.float64]:
+        """The length of each polyline, closing segments included.
+
+        Returns
+        -------
+        array, (C,)
+        """
+        return np.asarray(self._core.lengths(), float)
+
+    def select(self, which: ArrayLike) -> Curves:
+        """Some of the curves, as a copy.
+
+        Parameters
+        ----------
+        which : array
+            A bool for each curve, or indices of curves, in the order wanted.
+
+        Returns
+        -------
+        Curves
+            With their fits. Junctions and nodes in which two ends still meet
+            stay; `report` goes.
+
+        Raises
+        ------
+        ArgumentError
+            There is no such curve.
+
+        Examples
+        --------
+        >>> curves.select(curves.lengths() > 0.1).write('long.dxf')
+        """
+        chosen = np.atleast_1d(which)
+        if chosen.dtype == bool:
+            if len(chosen) != len(self):
+                raise _core.ArgumentError(f'there are {len(chosen)} bools for {len(self)} curves')
+            chosen = np.flatnonzero(chosen)
+        if chosen.size and not np.issubdtype(chosen.dtype, np.integer):
+            raise _core.ArgumentError('curves are chosen by bools or by indices')
+        indices = [int(i) for i in chosen.ravel()]
+        if any(i < 0 for i in indices):
+            raise _core.ArgumentError('there is no curve with a negative index')
+        return Curves(_core=self._core.select(indices), _scene=self._scene)
+
+    def project(self, view: int | str, scene: Scene | None = None) -> list[list[NDArray[np.float64]]]:
+        """Where a view sees the curves. What surfaces hide is not left out.
+
+        Parameters
+        ----------
+        view : int or str
+            The index of the view, or the name of its image.
+        scene : Scene, optional
+            By default that of the curves.
+
+        Returns
+        -------
+        list of lists of arrays, (n, 2)
+            Of each curve the stretches of two or more samples that the view
+            could see, in pixels of its image.
+
+        Raises
+        ------
+        ArgumentError
+            There is no such view, or no scene.
+        """
+        seen_by = scene or self.scene
+        if seen_by is None:
+            raise _core.ArgumentError('these curves have no views; give a scene')
+        return self._core.project(seen_by._core, seen_by.view_idx(view))
+
+    def write(self, path: Path, format: str | None = None, *, svg_image: str = '') -> None:
+        """Write a file that appears whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            Of the file, or of the folder for 'colmap'.
+        format : str, optional
+            One of those of ``--output_formats``: 'ply', 'obj', 'pcd', 'txt',
+            'json', 'dxf', 'vtp', 'glb', 'svg', 'colmap', 'html'. By default
+            what the ending of the path says.
+        svg_image : str, optional
+            The name of the image that an SVG shows; by default the first.
+
+        Raises
+        ------
+        ArgumentError
+            There is no such format, the path cannot be written, or the format
+            needs views and the curves have none.
+        """
+        name = format or os.path.splitext(os.fspath(path))[1].lstrip('.').lower()
+        known = [known for known, _ in _core.FORMATS]
+        if name not in known:
+            raise _core.ArgumentError(f"there is no format '{name}'; curves are written as {', '.join(known)}")
+        _core.write(self._core, os.fspath(path), name, svg_image)
+
+    def __repr__(self) -> str:
+        if len(self) == 0:
+            return '<pycurvix.Curves: none>'
+        return (f'<pycurvix.Curves: {len(self)} curves, {int(self.closed.sum())} closed, {len(self.positions)} samples, '
+                f'total length {self.lengths().sum():.4g}>')
+
+
+def read(path: Path, scene: Scene | None = None) -> Curves:
+    """Read curves, or lines of other programs.
+
+    Parameters
+    ----------
+    path : path
+        A .ply with edges, an .obj with lines, or a .txt of this program.
+    scene : Scene, optional
+        The views that a .txt names.
+
+    Returns
+    -------
+    Curves
+        Of a .txt with a scene, `support` names views; its edges are not known
+        and number 0.
+
+    Raises
+    ------
+    NotFoundError, DataError, UnsupportedError, ArgumentError
+    """
+    core = _core.read(os.fspath(path), None if scene is None else scene._core)
+    return Curves(_core=core, _scene=scene)

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/python/python_errors.h"
+
+#include <array>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+namespace curvix {
+namespace {
+
+namespace py = pybind11;
+
+struct ErrorClass {
+  StatusCode code;
+  const char* name;
+  const char* base;  // among Python's own
+  const char* doc;
+};
+
+constexpr std::array kClasses = {
+    ErrorClass{StatusCode::kInvalidArgument,
+               "ArgumentError",
+               "ValueError",
+               "An option or an argument that cannot work."},
+    ErrorClass{StatusCode::kNotFound,
+               "NotFoundError",
+               "FileNotFoundError",
+               "A file, folder or program that is not there."},
+    ErrorClass{StatusCode::kDataLoss,
+               "DataError",
+               "OSError",
+               "A file that is there but broken or truncated."},
+    ErrorClass{StatusCode::kUnsupported,
+               "UnsupportedError",
+               "ValueError",
+               "Valid input that curvix does not handle."},
+    ErrorClass{StatusCode::kExternalTool,
+               "ToolError",
+               "RuntimeError",
+               "A program that was called failed."},
+    ErrorClass{StatusCode::kCancelled,
+               "CancelledError",
+               "RuntimeError",
+               "The progress function returned False."},
+    ErrorClass{StatusCode::kInternal,
+               "InternalError",
+               "RuntimeError",
+               "A mistake of curvix itself; please report it."}};
+
+// Not objects of C++, which would be destroyed after Python has ended.
+std::array<PyObject*, kClasses.size()> classes = {};
+
+PyObject* NewClass(const std::string& name,
+                   const char* doc,
+                   const py::object& bases) {
+  PyObject* const made = PyErr_NewExceptionWithDoc(
+      ("pycurvix." + name).c_str(), doc, bases.ptr(), nullptr);
+  if (made == nullptr) throw py::error_already_set();
+  return made;
+}
+
+PyObject* ClassOf(StatusCode code) {
+  for (std::size_t i = 0; i < kClasses.size(); ++i) {
+    if (kClasses[i].code == code) return classes[i];
+  }
+  return PyExc_RuntimeError;
+}
+
+// Names come from files and may hold any bytes.
+void Set(const Status& status) {
+  const std::string& text = status.message();
+  const auto sentence = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+      text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+  PyErr_SetObject(ClassOf(status.code()), sentence.ptr());
+}
+
+}  // namespace
+
+void Raise(const Status& status) {
+  Set(status);
+  throw py::error_already_set();
+}
+
+void BindErrors(py::module_& module) {
+  const auto error = py::reinterpret_steal<py::object>(
+      NewClass("Error",
+               "What curvix cannot do, and why, in a sentence.",
+               py::reinterpret_borrow<py::object>(PyExc_Exception)));
+  module.attr("Error") = error;
+  const py::module_ builtins = py::module_::import("builtins");
+  for (std::size_t i = 0; i < kClasses.size(); ++i) {
+    classes[i] =
+        NewClass(kClasses[i].name,
+                 kClasses[i].doc,
+                 py::make_tuple(error, builtins.attr(kClasses[i].base)));
+    module.attr(kClasses[i].name) = py::handle(classes[i]);
+  }
+  // What CURVIX_CHECK throws.
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const std::logic_error& broken) {
+      Set({StatusCode::kInternal, broken.what()});
+    }
+  });
+}
+
+}  // namespace curvix
