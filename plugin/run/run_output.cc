@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/file_io.h"
+#include "measuring/moved_curves.h"
 #include "plugin/export/write_results.h"
 #include "plugin/run/run_stages.h"
 
@@ -28,14 +29,34 @@ FittedCurves Fit(const Scene& scene,
   return fitted;
 }
 
-Status WriteCurveFiles(const CurveRecord& curves,
+// In the world, if it is known.
+Result<std::vector<std::string>> WriteInFrame(const Scene& scene,
+                                              const CurveSource& curves,
+                                              FittedCurves fitted,
+                                              const fs::path& folder,
+                                              const RunRecord& record) {
+  const OutputSettings& output = record.settings.output;
+  const int num_threads = record.settings.options.runtime.num_threads;
+  if (!record.alignment) {
+    return WriteResults({scene, curves, fitted}, output, num_threads, folder);
+  }
+  const Similarity3& world_from_model = record.alignment->world_from_model;
+  const Scene moved_scene = MoveScene(world_from_model, scene);
+  const MovedCurves moved_curves(curves, world_from_model);
+  const FittedCurves moved = MoveFits(world_from_model, std::move(fitted));
+  return WriteResults({moved_scene, moved_curves, moved, &*record.alignment},
+                      output,
+                      num_threads,
+                      folder);
+}
+
+Status WriteCurveFiles(const Scene& scene,
+                       const CurveSource& curves,
+                       FittedCurves fitted,
                        const fs::path& folder,
                        RunRecord& record) {
   Result<std::vector<std::string>> written =
-      WriteResults(curves,
-                   record.settings.output,
-                   record.settings.options.runtime.num_threads,
-                   folder);
+      WriteInFrame(scene, curves, std::move(fitted), folder, record);
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());
@@ -53,6 +74,9 @@ Status WriteFindings(const Scene& scene,
   ResultSummary& result = record.result;
   findings.curves.ForEach(
       [&](std::size_t, const Curve& curve) { Count(curve, result); });
+  if (record.alignment) {
+    result.total_length *= record.alignment->world_from_model.scale;
+  }
   result.num_edges_3d = findings.num_edges_3d;
   result.why_empty = findings.why_empty;
   FittedCurves fitted;
@@ -60,7 +84,8 @@ Status WriteFindings(const Scene& scene,
   Status status = findings.curves.status();
   const Stopwatch stopwatch;
   if (status.ok() && result.num_curves > 0) {
-    status = WriteCurveFiles({scene, findings.curves, fitted}, folder, record);
+    status = WriteCurveFiles(
+        scene, findings.curves, std::move(fitted), folder, record);
   }
   if (status.ok() && result.num_edges_3d > 0) {
     result.files.push_back("edges.ply");

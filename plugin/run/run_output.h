@@ -25,9 +25,10 @@ struct Findings {
 };
 
 // Fits the curves, and writes the files that record.settings asks for into
-// `folder`: those of the curves, if there are any, and edges.ply, if there are
-// 3D edges. Puts into `record` what was found and which files tell of
-// it; the folder and the number of 2D edges are there already.
+// `folder`: those of the curves, if there are any, in the frame of
+// record.alignment, and edges.ply, if there are 3D edges, in that of the model.
+// Puts into `record` what was found and which files tell of it; the folder and
+// the number of 2D edges are there already.
 Status WriteFindings(const Scene& scene,
                      const Findings& findings,
                      const std::filesystem::path& folder,

@@ -11,11 +11,16 @@
 namespace curvix {
 namespace {
 
-constexpr std::string_view kPlyStart =
-    "ply\n"
-    "format binary_little_endian 1.0\n"
-    "comment curvix: coordinates are those of the COLMAP model\n"
-    "element vertex ";
+constexpr std::string_view kModelFrame =
+    "coordinates are those of the COLMAP model";
+
+std::string PlyStart(std::string_view comment) {
+  return "ply\n"
+         "format binary_little_endian 1.0\n"
+         "comment curvix: " +
+         std::string(comment) + "\nelement vertex ";
+}
+
 constexpr std::string_view kPlyGeometry =
     "\n"
     "property float x\n"
@@ -54,8 +59,9 @@ bool HasClosingEdge(const Curve& curve) {
 
 std::string LinesHeader(std::size_t num_vertices,
                         std::size_t num_edges,
-                        bool is_labelled) {
-  std::string header(kPlyStart);
+                        bool is_labelled,
+                        std::string_view comment) {
+  std::string header = PlyStart(comment);
   header += std::to_string(num_vertices);
   header += kPlyGeometry;
   header +=
@@ -107,7 +113,7 @@ void AppendEdges(const Curve& curve, std::size_t first, std::string& out) {
 }
 
 std::string EdgesHeader(std::size_t num_edges) {
-  std::string header(kPlyStart);
+  std::string header = PlyStart(kModelFrame);
   header += std::to_string(num_edges);
   header += kPlyGeometry;
   header += "property float support\n";
@@ -118,6 +124,12 @@ std::string EdgesHeader(std::size_t num_edges) {
 }  // namespace
 
 Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
+  return EncodePlyLinesInFrame(curves, kModelFrame, sink);
+}
+
+Status EncodePlyLinesInFrame(const CurveSource& curves,
+                             std::string_view comment,
+                             const ByteSink& sink) {
   std::size_t num_vertices = 0;
   std::size_t num_edges = 0;
   bool is_labelled = false;  // only if the user asked for it
@@ -129,7 +141,7 @@ Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
   });
   if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
 
-  sink(LinesHeader(num_vertices, num_edges, is_labelled));
+  sink(LinesHeader(num_vertices, num_edges, is_labelled, comment));
   curves.ForEach([&](std::size_t id, const Curve& curve) {
     std::string out;
     AppendVertices(curve, id, is_labelled, out);
