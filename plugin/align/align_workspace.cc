@@ -231,8 +231,9 @@ Status Aligner::Write(const AlignmentResult& result) {
   Json json = AlignmentJson(result.alignment);
   json["sources"] = sources_;
   fs::create_directories(workspace_.output_path);
-  return WriteFileAtomically(workspace_.output_path / kAlignmentName,
-                             json.dump(2) + "\n");
+  return WriteFileAtomically(
+      workspace_.output_path / kAlignmentName,
+      json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Result<AlignSummary> Aligner::Run() {
