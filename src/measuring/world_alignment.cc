@@ -131,6 +131,11 @@ Status Estimator::StartAtPositions() {
   if (!(start.scale > 0) || !std::isfinite(start.scale)) {
     return Unusable("The positions coincide, which tells no scale");
   }
+  if (n == 1 && !(input_.positions.front().sigma > 0)) {
+    return Unusable(
+        "One position leaves nothing to tell its uncertainty by: give its "
+        "standard deviation, too");
+  }
   a.has_translation = true;
   start.translation = world.rowwise().mean() -
                       start.scale * (start.rotation * model.rowwise().mean());

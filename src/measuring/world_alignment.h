@@ -95,7 +95,8 @@ struct AlignmentResult {
 // mean square of what is left in standard deviations, where that is above 1.
 // Positions without a sigma have that which they leave, all the same.
 // kInvalidArgument, with a sentence: nothing is given, points of a distance
-// coincide, or positions do not fix the rotation and no axes are given.
+// coincide, or positions do not fix the rotation and no axes are given, or one
+// position has no sigma.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

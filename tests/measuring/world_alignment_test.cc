@@ -202,6 +202,11 @@ TEST(EstimateAlignment, SaysWhatIsMissing) {
   same.distances.push_back(DistanceOf({1, 1, 1}, {1, 1, 1}, 2));
   EXPECT_THAT(EstimateAlignment(same).status().message(),
               HasSubstr("same point"));
+  AlignmentInput one;
+  one.axes.emplace();
+  one.positions.push_back({"", {1, 2, 3}, {4, 5, 6}, 0});
+  EXPECT_THAT(EstimateAlignment(one).status().message(),
+              HasSubstr("standard deviation"));
   AlignmentInput one_place;
   for (int i = 0; i < 3; ++i) {
     one_place.positions.push_back(
