@@ -31,6 +31,10 @@ struct CurveFit {
   // Index into FittedCurves::nodes, or -1: the end is free.
   int start_node = -1;
   int end_node = -1;
+  // Of the ends: those of the nodes; of a free end, which may lie elsewhere on
+  // the primitive, 4 px along it. 0 if `closed`. World units squared.
+  Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d end_covariance = Eigen::Matrix3d::Zero();
 
   // kArc, kEllipse: center + cos(t) major + sin(t) minor for t from start_angle
   // to end_angle, which is the larger one; whole: 2 pi apart. Major and minor
@@ -74,6 +78,11 @@ struct CurveNode {
   };
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   std::vector<End> ends;  // two or more, ascending by curve and fit
+  // Of the position: from the errors of the samples of the primitives that meet
+  // here, of which one in 4 px is independent, larger where the primitives miss
+  // each other by more than that, and from options.common_error_px. World units
+  // squared.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
 // The result of FitCurves; `curves` are those of the CurveSet, in its order.

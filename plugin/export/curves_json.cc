@@ -9,12 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "plugin/align/alignment_file.h"
+
 namespace curvix {
 namespace {
 
 constexpr int kPixelDecimals = 3;
 
 Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json MatrixJson(const Eigen::Matrix3d& m) { return Triangle(m); }
 
 Json NodeIdxJson(int node_idx) {
   return node_idx < 0 ? Json() : Json(node_idx);
@@ -30,6 +34,10 @@ Json FitJson(const CurveFit& fit) {
                {"start_node", NodeIdxJson(fit.start_node)},
                {"end_node", NodeIdxJson(fit.end_node)},
                {"length", Length(fit)}};
+  if (!fit.closed) {
+    json["start_covariance"] = MatrixJson(fit.start_covariance);
+    json["end_covariance"] = MatrixJson(fit.end_covariance);
+  }
   if (fit.kind == FitKind::kArc) {
     json["radius"] = fit.major.norm();
     json["radius_sigma"] = fit.radius_sigma;
@@ -77,7 +85,7 @@ Json SampleJson(const CurveRecord& record, const CurveSample& sample) {
   return {{"position", VectorJson(sample.position)},
           {"tangent", VectorJson(sample.tangent)},
           {"sigma", sample.sigma},
-          {"covariance", Triangle(sample.covariance)},
+          {"covariance", MatrixJson(sample.covariance)},
           {"kind_probability", sample.kind_probability},
           {"support", SupportJson(record, sample)}};
 }
@@ -124,6 +132,7 @@ Json ImageJson(const View& view, const Camera& camera) {
 
 Json NodeJson(const CurveNode& node) {
   Json json = {{"position", VectorJson(node.position)},
+               {"covariance", MatrixJson(node.covariance)},
                {"ends", Json::array()}};
   for (const CurveNode::End& end : node.ends) {
     json["ends"].push_back({{"curve", end.curve_idx},
@@ -131,6 +140,15 @@ Json NodeJson(const CurveNode& node) {
                             {"at", end.at_end ? "end" : "start"}});
   }
   return json;
+}
+
+// What coordinates are; the whole of it is in alignment.json.
+std::string FrameText(const WorldAlignment* alignment) {
+  if (alignment == nullptr) return "";
+  Json json = AlignmentJson(*alignment);
+  json.erase("format");
+  json.erase("version");
+  return ",\"alignment\":" + JsonText(json);
 }
 
 void PutLines(const std::vector<Json>& items, const ByteSink& sink) {
@@ -182,7 +200,8 @@ void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
   for (const CurveNode& node : record.fitted.nodes) {
     nodes.push_back(NodeJson(node));
   }
-  sink("{\"format\":\"curvix curves\",\"version\":1,\"images\":[");
+  sink("{\"format\":\"curvix curves\",\"version\":1" +
+       FrameText(record.alignment) + ",\"images\":[");
   PutLines(images, sink);
   sink("],\"nodes\":[");
   PutLines(nodes, sink);

@@ -12,14 +12,18 @@
 #include <string>
 
 #include "base/file_io.h"
+#include "measuring/world_alignment.h"
 
 namespace curvix {
 
-// What a run knows about its curves. All of it outlives the bundle.
+// What a run knows about its curves, all in one frame. All of it outlives the
+// bundle.
 struct CurveRecord {
   const Scene& scene;
   const CurveSource& curves;   // whose 2D edges are known
   const FittedCurves& fitted;  // of `curves`
+  // Whose world the frame is; nullptr: the frame is the model's.
+  const WorldAlignment* alignment = nullptr;
 };
 
 // An edge of a view that supports a sample.

@@ -7,7 +7,9 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
+#include "io/ply_lines.h"
 #include "plugin/export/curves_as_points.h"
+#include "plugin/export/dimensions.h"
 #include "plugin/export/small_images.h"
 #include "plugin/export/viewer_html.h"
 
@@ -15,6 +17,9 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kAlignedFrame =
+    "coordinates are those of alignment.json";
 
 const Camera& CameraOf(const Scene& scene, const View& view) {
   return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
@@ -112,6 +117,7 @@ const std::vector<OutputFormat>& OutputFormats() {
       {"pcd", "curves.pcd", "points with tangents: PCL"},
       {"txt", "curves.txt", "text, like COLMAP's points3D.txt"},
       {"json", "curves.json", "all there is: fits, junctions, 2D support"},
+      {"csv", "dimensions.csv", "lengths, radii, angles: spreadsheets"},
       {"dxf", "curves.dxf", "lines, arcs, circles, ellipses, splines: CAD"},
       {"step", "curves.step", "the same in STEP: CAD"},
       {"vtp", "curves.vtp", "lines with data: ParaView, VTK"},
@@ -167,6 +173,18 @@ Status WriteFormat(const CurveRecord& record,
     return WriteText(record, path, [&](const ByteSink& sink) {
       EncodeCurvesJson(record, sink);
     });
+  }
+  if (format == "csv") {
+    return WriteText(record, path, [&](const ByteSink& sink) {
+      EncodeDimensions(record, sink);
+    });
+  }
+  if (format == "ply" && record.alignment != nullptr) {
+    Status encoded;
+    Status written = WriteText(record, path, [&](const ByteSink& sink) {
+      encoded = EncodePlyLinesInFrame(record.curves, kAlignedFrame, sink);
+    });
+    return encoded.ok() ? written : encoded;
   }
   if (format == "html") {
     return WriteText(record, path, [&](const ByteSink& sink) {

@@ -15,7 +15,7 @@ namespace curvix {
 
 struct OutputSettings {
   std::vector<std::string> formats = {
-      "ply", "obj", "pcd", "txt", "json", "html"};
+      "ply", "obj", "pcd", "txt", "json", "csv", "html"};
   std::string svg_image;  // the view of curves.svg; "": the first one
   int num_overlays = 0;   // images with curves drawn over them
 };

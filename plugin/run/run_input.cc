@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/stopwatch.h"
+#include "plugin/align/alignment_file.h"
 #include "plugin/run/text.h"
 
 namespace curvix {
@@ -67,6 +68,11 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   Result<WorkspaceScene> input = LoadWorkspaceScene(workspace);
   if (!input.ok()) return input.status();
 
+  Result<std::optional<WorldAlignment>> alignment =
+      ReadAlignment(workspace.output_path);
+  if (!alignment.ok()) return alignment.status();
+  record.alignment = *std::move(alignment);
+
   RunSettings& settings = record.settings;
   settings.workspace_path = fs::absolute(settings.workspace_path);
   settings.input_path = fs::absolute(workspace.model_path);
@@ -85,6 +91,10 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                   GroupDigits(record.input.num_points) + " points");
   for (const std::string& note : workspace.notes) progress.Note(note);
   for (const std::string& note : input->notes) progress.Note(note);
+  if (record.alignment) {
+    progress.Note("The results are in the frame of " +
+                  (workspace.output_path / kAlignmentName).string());
+  }
   return input;
 }
 

@@ -14,8 +14,9 @@ namespace curvix {
 // results would lie among the inputs.
 Result<Workspace> FindInput(const RunSettings& settings);
 
-// Reads the model of `workspace`; puts into `record` which folders and what
-// they hold.
+// Reads the model of `workspace`, and alignment.json if the folder of results
+// has one; puts into `record` which folders and what they hold. Errors of
+// LoadWorkspaceScene and ReadAlignment.
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunProgress& progress,
                                  RunRecord& record);

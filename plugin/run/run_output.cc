@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/file_io.h"
+#include "measuring/moved_curves.h"
 #include "plugin/export/write_results.h"
 #include "plugin/run/run_stages.h"
 
@@ -27,15 +28,31 @@ FittedCurves Fit(const Scene& scene,
   return fitted;
 }
 
+// In the world, if it is known.
+Result<std::vector<std::string>> WriteInFrame(const CurveRecord& curves,
+                                              const fs::path& folder,
+                                              const RunRecord& record) {
+  const OutputSettings& output = record.settings.output;
+  const int num_threads = record.settings.options.runtime.num_threads;
+  if (!record.alignment) {
+    return WriteResults(curves, output, num_threads, folder);
+  }
+  const Similarity3& world_from_model = record.alignment->world_from_model;
+  const Scene moved_scene = MoveScene(world_from_model, curves.scene);
+  const MovedCurves moved_curves(curves.curves, world_from_model);
+  const FittedCurves moved = MoveFits(world_from_model, curves.fitted);
+  return WriteResults({moved_scene, moved_curves, moved, &*record.alignment},
+                      output,
+                      num_threads,
+                      folder);
+}
+
 Status WriteCurveFiles(const CurveRecord& curves,
                        bool is_repeatable,
                        const fs::path& folder,
                        RunRecord& record) {
   Result<std::vector<std::string>> written =
-      WriteResults(curves,
-                   record.settings.output,
-                   record.settings.options.runtime.num_threads,
-                   folder);
+      WriteInFrame(curves, folder, record);
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());
@@ -54,6 +71,9 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
   ResultSummary& result = record.result;
   findings.curves.ForEach(
       [&](std::size_t, const Curve& curve) { Count(curve, result); });
+  if (record.alignment) {
+    result.total_length *= record.alignment->world_from_model.scale;
+  }
   result.num_edges_3d = findings.num_edges_3d;
   result.why_empty = findings.why_empty;
   FittedCurves fitted;

@@ -27,10 +27,11 @@ struct Findings {
   bool is_repeatable = true;   // by project.ini, which is written then
 };
 
-// Fits the curves, which it returns, and writes the files that record.settings
-// asks for into `folder`: those of the curves, if there are any, and edges.ply,
-// if there are 3D edges. Puts into `record` what was found and which files tell
-// of it; the folder and the number of 2D edges are there already.
+// Fits the curves, which it returns in the frame of the model, and writes the
+// files that record.settings asks for into `folder`: those of the curves, if
+// there are any, in the frame of record.alignment, and edges.ply, if there are
+// 3D edges, in that of the model. Puts into `record` what was found and which
+// files tell of it; the folder and the number of 2D edges are there already.
 Result<FittedCurves> WriteFindings(const Scene& scene,
                                    const Findings& findings,
                                    const std::filesystem::path& folder,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/option_table.h"
+#include "plugin/align/alignment_file.h"
 #include "plugin/run/text.h"
 
 namespace curvix {
@@ -232,6 +233,13 @@ const char* OpenedBy(const std::string& file) {
   return "";
 }
 
+// What lengths are in, after a number.
+std::string LengthUnit(const std::optional<WorldAlignment>& alignment) {
+  if (!alignment || !alignment->has_scale) return " in the units of the model";
+  if (alignment->unit.empty()) return " in the units of alignment.json";
+  return " " + alignment->unit;
+}
+
 std::string FilesText(const ResultSummary& result) {
   std::string text = "Written to " + result.output_path.string() + "\n";
   for (const std::string& file : result.files) {
@@ -280,6 +288,7 @@ std::string ReportJson(const RunRecord& record) {
     json["pose_refinement_with_curves"] = CurvePosesJson(*record.curve_poses);
   }
   json["stages"] = CountsJson(record.stages);
+  if (record.alignment) json["alignment"] = AlignmentJson(*record.alignment);
   json["result"] = ResultJson(record.result);
   json["run"] = RunJson(record);
   return json.dump(2) + "\n";
@@ -327,7 +336,7 @@ std::string SummaryText(const RunRecord& record) {
     text += " (" + GroupDigits(result.num_closed) + " closed)";
   }
   text += ", total length " + FewDigits(result.total_length) +
-          " in the units of the model\n";
+          LengthUnit(record.alignment) + "\n";
   text += "  from " + Plural(record.input.num_views, "view");
   if (result.num_edges_3d > 0) {
     text += ", " + Plural(result.num_edges_2d, "edge") + " and " +

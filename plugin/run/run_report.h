@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measuring/world_alignment.h"
 #include "plugin/export/write_results.h"
 #include "plugin/poses/curve_poses.h"
 #include "plugin/poses/pose_refinement.h"
@@ -62,6 +63,7 @@ struct ResultSummary {
 
 struct RunRecord {
   RunSettings settings;
+  std::optional<WorldAlignment> alignment;  // of the files of the curves
   InputSummary input;
   PoseRefinementRecord poses;
   std::optional<CurvePoseRecord> curve_poses;  // if asked for

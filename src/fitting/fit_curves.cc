@@ -13,6 +13,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "fitting/choose_primitives.h"
+#include "fitting/end_covariance.h"
 #include "fitting/fit_conic.h"
 #include "fitting/meet_in_nodes.h"
 #include "geometry/pixel_size.h"
@@ -75,7 +76,16 @@ FitSamples MakeSamples(const Curve& curve,
     const double common = options.common_error_px * pixel;
     const double bent = to_end[i] < kBentPx * pixel ? kBentFactor : 1;
     const double own = s.sigma > 0 ? s.sigma : usual;
-    samples.push_back({s.position, std::hypot(own, bent * common), common});
+    const Eigen::Matrix3d across =
+        Eigen::Matrix3d::Identity() - s.tangent * s.tangent.transpose();
+    Eigen::Matrix3d covariance = common * common * across;
+    covariance += s.covariance.isZero(0) ? Eigen::Matrix3d(own * own * across)
+                                         : s.covariance;
+    samples.push_back({s.position,
+                       std::hypot(own, bent * common),
+                       common,
+                       pixel,
+                       covariance});
   }
   return samples;
 }
@@ -84,7 +94,9 @@ CurvePrimitives FitAlone(const FitSamples& samples, bool closed) {
   CurvePrimitives result;
   for (Primitive& primitive : ChoosePrimitives(samples, closed)) {
     const FitSamples own = SamplesOf(primitive, samples);
-    result.push_back({std::move(primitive), own.front(), own.back()});
+    const auto [at_start, at_end] = EndsOf(primitive.shape, own);
+    result.push_back(
+        {std::move(primitive), own.front(), own.back(), at_start, at_end});
   }
   return result;
 }
@@ -272,6 +284,10 @@ FittedCurves FitCurves(const CurveSource& curves,
     if (node < 0) return std::nullopt;
     return result.nodes[static_cast<std::size_t>(node)].position;
   };
+  const auto end_covariance = [&](int node, const PrimitiveEnd& end) {
+    return node < 0 ? MeetingCovariance({end}, end.foot)
+                    : result.nodes[static_cast<std::size_t>(node)].covariance;
+  };
   result.curves.resize(alone.size());
   FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
     for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {
@@ -283,6 +299,9 @@ FittedCurves FitCurves(const CurveSource& curves,
                               position(end)});
       fit.start_node = start;
       fit.end_node = end;
+      fit.start_covariance = end_covariance(start, alone[curve.id][f].at_start);
+      fit.end_covariance = end_covariance(end, alone[curve.id][f].at_end);
+      if (fit.closed) fit.start_covariance = fit.end_covariance.setZero();
       result.curves[curve.id].fits.push_back(std::move(fit));
     }
   });

@@ -13,6 +13,9 @@ struct FitSample {
   Eigen::Vector3d position;
   double sigma = 0;   // > 0
   double common = 0;  // of it, what all samples of a curve share; >= 0
+  double pixel = 0;   // how long a pixel is there; 0: not known
+  // Its errors, across the curve; the common ones included.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
 // Part of a curve, in order.

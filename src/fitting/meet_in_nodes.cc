@@ -70,18 +70,17 @@ Eigen::Vector3d Nearest(const CurveNode& node,
   return point;
 }
 
-}  // namespace
-
-std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point) {
-  if (const auto* line = std::get_if<FittedLine>(&shape)) {
-    return Foot{line->Closest(point), line->direction};
+Eigen::Matrix3d CovarianceOf(const CurveNode& node,
+                             const std::vector<CurvePrimitives>& curves) {
+  std::vector<PrimitiveEnd> ends;
+  for (const End& end : node.ends) {
+    const PrimitiveOfCurve& primitive = curves[end.curve_idx][end.fit_idx];
+    ends.push_back(end.at_end ? primitive.at_end : primitive.at_start);
   }
-  if (const auto* conic = std::get_if<Conic>(&shape)) {
-    const double t = NearestParameter(*conic, point);
-    return Foot{conic->At(t), conic->Tangent(t)};
-  }
-  return std::nullopt;
+  return MeetingCovariance(ends, node.position);
 }
+
+}  // namespace
 
 std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves) {
   std::vector<CurveNode> nodes = GroupEnds(curves);
@@ -93,6 +92,7 @@ std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves) {
     }
     const double move = (point - node.position).norm();
     if (move <= kMaxMoveSigmas * sigma) node.position = point;
+    node.covariance = CovarianceOf(node, curves);
   }
   return nodes;
 }

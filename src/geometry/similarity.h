@@ -22,6 +22,10 @@ struct Similarity3 {
   Eigen::Vector3d operator*(const Eigen::Vector3d& x) const {
     return scale * (rotation * x) + translation;
   }
+  Similarity3 Inverse() const {
+    const Eigen::Quaterniond back = rotation.conjugate();
+    return {1 / scale, back, back * -translation / scale};
+  }
 };
 
 // The pose in b of the camera that has the pose `cam_from_a` in a. Lengths

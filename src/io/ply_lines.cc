@@ -11,11 +11,16 @@
 namespace curvix {
 namespace {
 
-constexpr std::string_view kPlyStart =
-    "ply\n"
-    "format binary_little_endian 1.0\n"
-    "comment curvix: coordinates are those of the COLMAP model\n"
-    "element vertex ";
+constexpr std::string_view kModelFrame =
+    "coordinates are those of the COLMAP model";
+
+std::string PlyStart(std::string_view comment) {
+  return "ply\n"
+         "format binary_little_endian 1.0\n"
+         "comment curvix: " +
+         std::string(comment) + "\nelement vertex ";
+}
+
 constexpr std::string_view kPlyGeometry =
     "\n"
     "property float x\n"
@@ -54,8 +59,9 @@ bool HasClosingEdge(const Curve& curve) {
 
 std::string LinesHeader(std::size_t num_vertices,
                         std::size_t num_edges,
-                        bool has_kinds) {
-  std::string header(kPlyStart);
+                        bool has_kinds,
+                        std::string_view comment) {
+  std::string header = PlyStart(comment);
   header += std::to_string(num_vertices);
   header += kPlyGeometry;
   header +=
@@ -109,7 +115,7 @@ void AppendEdges(const Curve& curve, std::size_t first, std::string& out) {
 }
 
 std::string EdgesHeader(std::size_t num_edges) {
-  std::string header(kPlyStart);
+  std::string header = PlyStart(kModelFrame);
   header += std::to_string(num_edges);
   header += kPlyGeometry;
   header += "property float support\n";
@@ -120,6 +126,12 @@ std::string EdgesHeader(std::size_t num_edges) {
 }  // namespace
 
 Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
+  return EncodePlyLinesInFrame(curves, kModelFrame, sink);
+}
+
+Status EncodePlyLinesInFrame(const CurveSource& curves,
+                             std::string_view comment,
+                             const ByteSink& sink) {
   std::size_t num_vertices = 0;
   std::size_t num_edges = 0;
   bool has_kinds = false;
@@ -136,7 +148,7 @@ Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
   });
   if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
 
-  sink(LinesHeader(num_vertices, num_edges, has_kinds));
+  sink(LinesHeader(num_vertices, num_edges, has_kinds, comment));
   curves.ForEach([&](std::size_t id, const Curve& curve) {
     std::string out;
     AppendVertices(curve, id, has_kinds, out);

@@ -23,6 +23,11 @@ namespace curvix {
 // kUnsupported.
 Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink);
 
+// The same with another comment about the frame, of one line.
+Status EncodePlyLinesInFrame(const CurveSource& curves,
+                             std::string_view comment,
+                             const ByteSink& sink);
+
 // The same vertices for edges before they are grouped: float x y z tx ty tz,
 // uchar red green blue (by direction), float support. No `element edge`.
 Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink);

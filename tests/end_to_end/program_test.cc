@@ -87,6 +87,7 @@ TEST_F(ProgramRun, WritesEveryFileAndLeavesTheInputsAlone) {
                                    "curves.pcd",
                                    "curves.txt",
                                    "curves.json",
+                                   "dimensions.csv",
                                    "viewer.html",
                                    "edges.ply",
                                    "report.json",

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/align/align_workspace.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/angles.h"
+#include "base/file_io.h"
+#include "plugin/align/alignment_file.h"
+#include "plugin/align/find_markers.h"
+#include "plugin/align/known_structures.h"
+#include "plugin/align/positions_file.h"
+#include "plugin/run/run_input.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Text(double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+std::string WithSigma(double value, double sigma) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.2g", sigma);
+  return Text(value) + " +- " + text.data();
+}
+
+Status CheckSettings(const AlignSettings& s) {
+  const auto bad = [](std::string message) {
+    return Status(StatusCode::kInvalidArgument, std::move(message));
+  };
+  if (s.distances.empty() && s.markers.empty() && s.positions_path.empty() &&
+      s.axes == "none") {
+    return bad(
+        "align needs something that is known: --distance, --markers, "
+        "--positions or --axes auto");
+  }
+  if (!s.markers.empty() && !(s.marker_size > 0)) {
+    return bad("--markers needs --marker_size, the side of the black square");
+  }
+  if (!s.up.empty() && s.axes == "none") {
+    return bad("--up needs --axes auto, which it corrects");
+  }
+  if (!s.epsg.empty() && s.positions_path.empty()) {
+    return bad("--epsg needs --positions, whose coordinates it names");
+  }
+  if (s.epsg.find_first_not_of("0123456789") != std::string::npos) {
+    return bad("--epsg is " + s.epsg + "; it takes a number, as 25832");
+  }
+  return {};
+}
+
+class Aligner {
+ public:
+  Aligner(const AlignSettings& settings, ProgressPrinter& progress)
+      : settings_(settings), progress_(progress) {}
+
+  Result<AlignSummary> Run();
+
+ private:
+  Status ReadScene();
+  Status TakeDistances();
+  Status TakeMarkers();
+  Status TakePositions();
+  Status TakeAxes();
+  Status TakeAll();
+  Status Write(const AlignmentResult& result);
+  void DescribeScale(const AlignmentResult& result);
+  void DescribePositions(const AlignmentResult& result);
+  void Say(const std::string& line) { text_ += line + "\n"; }
+
+  const AlignSettings& settings_;
+  ProgressPrinter& progress_;
+  Workspace workspace_;
+  Scene scene_;
+  KnownStructures structures_;
+  AlignmentInput input_;
+  std::vector<FoundMarker> markers_;
+  Json sources_ = Json::object();
+  std::string text_;
+};
+
+Status Aligner::ReadScene() {
+  Result<Workspace> workspace = FindInput(settings_.run);
+  if (!workspace.ok()) return workspace.status();
+  workspace_ = *std::move(workspace);
+  Workspace refined = workspace_;
+  if (fs::exists(workspace_.output_path / "sparse")) {
+    refined.model_path = workspace_.output_path / "sparse";
+  }
+  Result<WorkspaceScene> input = LoadWorkspaceScene(refined);
+  if (!input.ok()) return input.status();
+  for (const std::string& note : input->notes) progress_.Note(note);
+  scene_ = std::move(input->scene);
+  if (settings_.distances.empty() && settings_.axes == "none") return {};
+  Result<KnownStructures> structures = ReadStructures(workspace_.output_path);
+  if (!structures.ok()) return structures.status();
+  structures_ = *std::move(structures);
+  return {};
+}
+
+Status Aligner::TakeDistances() {
+  if (settings_.distances.empty()) return {};
+  Result<std::vector<KnownDistance>> distances =
+      ParseDistances(settings_.distances, structures_);
+  if (!distances.ok()) return distances.status();
+  input_.distances = *std::move(distances);
+  return {};
+}
+
+Status Aligner::TakeMarkers() {
+  if (settings_.markers.empty()) return {};
+  progress_.Update("find_markers", 0, 0);
+  Result<FoundMarkers> found = FindMarkers(scene_,
+                                           settings_.markers,
+                                           settings_.marker_size,
+                                           settings_.run.options.runtime);
+  if (!found.ok()) return found.status();
+  progress_.Finish(std::to_string(found->markers.size()) + " markers");
+  for (const std::string& note : found->notes) progress_.Note(note);
+  for (const FoundMarker& marker : found->markers) {
+    input_.scales.push_back(marker.scale);
+  }
+  sources_["corner_sigma_px"] = found->corner_sigma_px;
+  markers_ = std::move(found->markers);
+  return {};
+}
+
+Status Aligner::TakePositions() {
+  if (settings_.positions_path.empty()) return {};
+  Result<CameraPositions> read =
+      ReadPositions(settings_.positions_path, scene_);
+  if (!read.ok()) return read.status();
+  for (const std::string& note : read->notes) progress_.Note(note);
+  input_.positions = std::move(read->positions);
+  return {};
+}
+
+Status Aligner::TakeAxes() {
+  if (settings_.axes == "none") return {};
+  Eigen::Vector3d up = MeanUp(scene_.views);
+  if (!settings_.up.empty()) {
+    const Result<Eigen::Vector3d> given = ParseVector("--up", settings_.up);
+    if (!given.ok()) return given.status();
+    up = structures_.model_from_world.rotation * *given;
+  }
+  if (!(up.norm() > 0)) {
+    return {StatusCode::kInvalidArgument, "--up has no direction"};
+  }
+  const Result<MainAxes> axes =
+      FindMainAxes(structures_.lines, up, MeanViewDirection(scene_.views));
+  if (!axes.ok()) return axes.status();
+  input_.axes = axes->axes;
+  const char* const names[3] = {"y to z", "z to x", "x to y"};
+  Json& json = sources_["axes"];
+  std::string counts, angles;
+  for (std::size_t i = 0; i < 3; ++i) {
+    counts += (i > 0 ? ", " : "") + std::to_string(axes->num_lines[i]);
+    if (std::isnan(axes->angle_deg[i])) continue;
+    angles += (angles.empty() ? "" : ", ") + std::string(names[i]) + " " +
+              WithSigma(axes->angle_deg[i], axes->angle_sigma_deg[i]);
+  }
+  json["num_lines"] = axes->num_lines;
+  json["total_length"] = axes->total_length;
+  json["angle_deg"] = axes->angle_deg;
+  json["angle_sigma_deg"] = axes->angle_sigma_deg;
+  Say("Axes shared by " + counts + " lines (x, y, z)");
+  if (!angles.empty()) Say("  angles, fitted one by one, deg: " + angles);
+  return {};
+}
+
+Status Aligner::TakeAll() {
+  for (const auto step : {&Aligner::ReadScene,
+                          &Aligner::TakeDistances,
+                          &Aligner::TakeMarkers,
+                          &Aligner::TakePositions,
+                          &Aligner::TakeAxes}) {
+    Status status = (this->*step)();
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+void Aligner::DescribeScale(const AlignmentResult& result) {
+  const double scale = result.alignment.world_from_model.scale;
+  Say("Scale " + Text(scale) + ", to " +
+      Text(100 * result.alignment.scale_sigma()) + " %");
+  for (std::size_t i = 0; i < input_.distances.size(); ++i) {
+    const KnownDistance& d = input_.distances[i];
+    const double now = scale * (d.a - d.b).norm();
+    Say("  distance of " + Text(d.length) + " is now " + Text(now));
+    sources_["distances"].push_back(
+        {{"length", d.length}, {"sigma", d.sigma}, {"after", now}});
+  }
+  for (const FoundMarker& marker : markers_) {
+    const double now = scale * marker.side;
+    Say("  marker " + std::to_string(marker.id) + " in " +
+        std::to_string(marker.num_views) + " images has a side of " +
+        WithSigma(now, now * marker.scale.sigma));
+    sources_["markers"].push_back({{"id", marker.id},
+                                   {"num_views", marker.num_views},
+                                   {"side", settings_.marker_size},
+                                   {"after", now},
+                                   {"after_sigma", now * marker.scale.sigma}});
+  }
+}
+
+void Aligner::DescribePositions(const AlignmentResult& result) {
+  double squares = 0;
+  for (std::size_t i = 0; i < input_.positions.size(); ++i) {
+    const Eigen::Vector3d& left = result.position_residuals[i];
+    squares += left.squaredNorm();
+    sources_["positions"].push_back(
+        {{"name", input_.positions[i].name},
+         {"residual", {left.x(), left.y(), left.z()}}});
+  }
+  const double n = static_cast<double>(input_.positions.size());
+  Say(std::to_string(input_.positions.size()) + " positions, " +
+      Text(std::sqrt(squares / n)) + " off (root mean square)");
+}
+
+Status Aligner::Write(const AlignmentResult& result) {
+  Json json = AlignmentJson(result.alignment);
+  json["sources"] = sources_;
+  fs::create_directories(workspace_.output_path);
+  return WriteFileAtomically(
+      workspace_.output_path / kAlignmentName,
+      json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Result<AlignSummary> Aligner::Run() {
+  Status taken = TakeAll();
+  if (!taken.ok()) return taken;
+  Result<AlignmentResult> result = EstimateAlignment(input_);
+  if (!result.ok()) return result.status();
+  WorldAlignment& alignment = result->alignment;
+  if (settings_.unit != "none") alignment.unit = settings_.unit;
+  if (!settings_.epsg.empty()) alignment.crs = "EPSG:" + settings_.epsg;
+  if (alignment.has_scale) DescribeScale(*result);
+  if (!input_.positions.empty()) DescribePositions(*result);
+  if (alignment.has_rotation) {
+    const Eigen::Vector3d variances =
+        alignment.covariance.diagonal().segment<3>(1);
+    Say("Axes known to " + Text(RadToDeg(std::sqrt(variances.maxCoeff()))) +
+        " deg");
+  }
+  if (!alignment.offset.isZero(0)) {
+    Say("Coordinates are those given less " + Text(alignment.offset.x()) + " " +
+        Text(alignment.offset.y()) + " " + Text(alignment.offset.z()));
+  }
+  Status written = Write(*result);
+  if (!written.ok()) return written;
+  Say("Written to " + (workspace_.output_path / kAlignmentName).string());
+  return AlignSummary{workspace_.output_path, std::move(text_)};
+}
+
+}  // namespace
+
+Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
+                                    ProgressPrinter& progress) {
+  Status usable = CheckSettings(settings);
+  if (!usable.ok()) return usable;
+  try {
+    return Aligner(settings, progress).Run();
+  } catch (const fs::filesystem_error& error) {
+    return Status(StatusCode::kInvalidArgument, error.what());
+  }
+}
+
+}  // namespace curvix

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `colmap_curvix align`: finds scale and axes, and writes alignment.json.
+#pragma once
+
+#include <curvix/status.h>
+#include <filesystem>
+#include <string>
+
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+struct AlignSettings {
+  RunSettings run;        // paths and threads
+  std::string distances;  // as ParseDistances takes them; "": none
+  std::string markers;    // a dictionary; "": none
+  double marker_size = 0;
+  std::filesystem::path positions_path;
+  std::string epsg;           // "": none
+  std::string axes = "none";  // or "auto"
+  std::string up;             // x,y,z in the frame of curves.json; "": cameras'
+  std::string unit = "none";
+};
+
+struct AlignSummary {
+  std::filesystem::path output_path;
+  std::string text;  // what was found, for people
+};
+
+// The model is that with refined poses, if a run has left one.
+// kInvalidArgument: settings that cannot work; errors of what is read;
+// kInvalidArgument: the folder cannot be written to.
+Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
+                                    ProgressPrinter& progress);
+
+}  // namespace curvix

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// alignment.json: scale and axes that `colmap_curvix align` has found.
+#pragma once
+
+#include <curvix/status.h>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "measuring/world_alignment.h"
+#include "plugin/export/curves_json.h"
+
+namespace curvix {
+
+constexpr const char* kAlignmentName = "alignment.json";
+
+// The members of alignment.json, as docs/measuring.md describes them; those of
+// `sources`, which say what it was found from, last.
+Json AlignmentJson(const WorldAlignment& alignment);
+
+// The same, back. kDataLoss, with the member that is missing or wrong.
+Result<WorldAlignment> AlignmentFromJson(const Json& json);
+
+// alignment.json in a folder of results. nullopt: there is none. kDataLoss: it
+// is broken, with its path and what to do.
+Result<std::optional<WorldAlignment>> ReadAlignment(
+    const std::filesystem::path& folder);
+
+}  // namespace curvix

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Square markers of known size, found in the images: ArUco and AprilTag.
+#pragma once
+
+#include <curvix/options.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <string>
+#include <vector>
+
+#include "measuring/world_alignment.h"
+
+namespace curvix {
+
+// Names of the dictionaries: "4x4_50", "apriltag_36h11" and so on. Empty if
+// this build's OpenCV finds no markers.
+std::vector<std::string> MarkerDictionaries();
+
+struct FoundMarker {
+  int id = 0;
+  int num_views = 0;
+  // The side of the square that fits the corners, model units.
+  double side = 0;
+  KnownScale scale;  // that this marker tells
+};
+
+struct FoundMarkers {
+  std::vector<FoundMarker> markers;  // ascending by id
+  double corner_sigma_px = 0;        // of a corner in an image
+  std::vector<std::string> notes;    // of markers that were left out
+};
+
+// Finds the markers of a dictionary, and lines through the edges of their
+// sides, triangulates their corners, and compares the squares with `size`, the
+// side of the black square, world units. The standard deviation of corners in
+// images is what the triangulation leaves. Same result for any number of
+// threads. kUnsupported: no OpenCV for it. kNotFound: an image cannot be read,
+// or no marker is seen well by three views.
+Result<FoundMarkers> FindMarkers(const Scene& scene,
+                                 const std::string& dictionary,
+                                 double size,
+                                 const RuntimeOptions& runtime);
+
+}  // namespace curvix

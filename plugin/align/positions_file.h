@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where cameras are, as GPS or a survey says.
+#pragma once
+
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "measuring/world_alignment.h"
+
+namespace curvix {
+
+struct CameraPositions {
+  std::vector<KnownPosition> positions;  // in the order of the file
+  std::vector<std::string> notes;        // of names that no view has
+};
+
+// A line "name x y z" or "name x y z sigma" per image, blanks, commas or
+// semicolons between; "#" begins a comment. The model's position is the centre
+// of the camera. kNotFound; kDataLoss: the line that cannot be read, a name
+// that is there twice, or no name that a view has.
+Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
+                                      const Scene& scene);
+
+}  // namespace curvix

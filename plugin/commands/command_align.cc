@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+#include <iostream>
+#include <utility>
+
+#include "plugin/align/align_workspace.h"
+#include "plugin/align/find_markers.h"
+#include "plugin/commands/command_parts.h"
+#include "plugin/run/progress.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "--distance 3 7 1.25 --distance 4 9 2" as one flag with one value, "3 7
+// 1.25;4 9 2": the words that follow it up to the next flag.
+Arguments WithDistancesJoined(const Arguments& arguments) {
+  Arguments joined;
+  std::string distances;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] != "--distance") {
+      joined.push_back(arguments[i]);
+      continue;
+    }
+    std::string words;
+    while (i + 1 < arguments.size() && !arguments[i + 1].starts_with("--")) {
+      words += (words.empty() ? "" : " ") + arguments[++i];
+    }
+    if (words.empty()) words = "\"\"";
+    distances += (distances.empty() ? "" : ";") + words;
+  }
+  if (!distances.empty()) joined.push_back("--distance=" + distances);
+  return joined;
+}
+
+Flag Text(std::string name, std::string* value, std::string help) {
+  Flag flag;
+  flag.name = std::move(name);
+  flag.help = std::move(help);
+  flag.set = [value](const std::string& text) {
+    *value = text;
+    return Status();
+  };
+  return flag;
+}
+
+Flag MarkersFlag(AlignSettings* settings) {
+  Flag flag = ChoiceFlag("markers",
+                         MarkerDictionaries(),
+                         &settings->markers,
+                         "dictionary of the square markers in the images");
+  if (!flag.range.empty()) return flag;
+  flag.set = [](const std::string&) {
+    return Status(StatusCode::kInvalidArgument,
+                  "this program was built without OpenCV's aruco module, so "
+                  "that it finds no markers");
+  };
+  return flag;
+}
+
+std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
+  std::vector<FlagSection> sections = {PathsSection(&s->run)};
+  sections.push_back(
+      {"Known",
+       {Text("distance",
+             &s->distances,
+             "two nodes (by number) or points (x,y,z) and how far apart they "
+             "are: A B 1.250, or A B 1.250 0.001 with a standard deviation; "
+             "may be given several times"),
+        MarkersFlag(s),
+        RowFlag({.name = "marker_size",
+                 .field = &s->marker_size,
+                 .help = "side of their black squares"}),
+        PathFlag("positions",
+                 &s->positions_path,
+                 "file with lines 'image_name x y z' or 'image_name x y z "
+                 "sigma': where cameras are"),
+        Text("epsg", &s->epsg, "number of the EPSG code of the positions"),
+        ChoiceFlag("axes",
+                   {"none", "auto"},
+                   &s->axes,
+                   "auto: z up and two horizontals along most lines"),
+        Text("up",
+             &s->up,
+             "x,y,z: where up is, roughly, in the coordinates of curves.json; "
+             "default: up in the images")}});
+  sections.push_back(
+      {"Output",
+       {ChoiceFlag("unit",
+                   {"none", "mm", "cm", "m", "in", "ft"},
+                   &s->unit,
+                   "what lengths, sizes and positions are in"),
+        RowFlag({.name = "write_results",
+                 .field = write_results,
+                 .max = 1,
+                 .help = "write the results again, in the new frame"})}});
+  return sections;
+}
+
+// The run that wrote the results, once more: it goes on from its stages.
+ExitCode WriteResultsAgain(const AlignSettings& settings,
+                           const fs::path& folder) {
+  if (!fs::exists(folder / "project.ini")) {
+    std::cout << "The next run of 'colmap_curvix reconstruct' uses it.\n";
+    return kExitSuccess;
+  }
+  const std::string project = (folder / "project.ini").string();
+  const char* const word =
+      fs::exists(folder / "parts") ? "merge" : "reconstruct";
+  return RunProgram({word,
+                     "--project_path",
+                     project,
+                     "--workspace_path",
+                     settings.run.workspace_path.string(),
+                     "--output_path",
+                     folder.string()});
+}
+
+}  // namespace
+
+ExitCode RunAlign(const Arguments& arguments) {
+  AlignSettings settings;
+  bool write_results = true;
+  const std::optional<ExitCode> code =
+      ParseCommand("align",
+                   WithDistancesJoined(arguments),
+                   Sections(&settings, &write_results));
+  if (code) return *code;
+  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  const Result<AlignSummary> summary = AlignWorkspace(settings, progress);
+  if (!summary.ok()) {
+    return Fail(summary.status(), ExitCodeOf(summary.status()));
+  }
+  std::cout << summary->text << std::flush;
+  if (!write_results) return kExitSuccess;
+  return WriteResultsAgain(settings, summary->output_path);
+}
+
+}  // namespace curvix

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). How well primitives fix the points where they end.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fitting/primitive.h"
+
+namespace curvix {
+
+// A point on a shape and the direction of the shape there.
+struct Foot {
+  Eigen::Vector3d position;
+  Eigen::Vector3d tangent;  // unit
+};
+
+// The foot of `point` on a line or conic. nullopt: a spline, which takes its
+// ends where the nodes are.
+std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point);
+
+// Where a primitive ends, and how well its samples fix it there.
+struct PrimitiveEnd {
+  Eigen::Vector3d foot;     // of its end sample
+  Eigen::Vector3d tangent;  // unit
+  // Of the foot, without errors that all samples share. Across the tangent:
+  // from the samples, of which one in 4 px is independent. Along it: 4 px,
+  // which a corner bends edges.
+  Eigen::Matrix3d covariance;  // positive definite; world units squared
+  double common = 0;           // standard deviation of the shared errors
+  bool is_shape = false;       // of a line or conic, which fixes a node
+};
+
+// Of the first and the last sample.
+std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
+                                             const FitSamples& samples);
+
+// The covariance of `position`, in which these ends (one or more) meet: that of
+// their weighted mean, times the mean square by which they miss it in standard
+// deviations, if that is larger than 1; and the shared errors. World units
+// squared.
+Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
+                                  const Eigen::Vector3d& position);
+
+}  // namespace curvix

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+// Scale and axes. Images do not tell how long the unit of a model is nor where
+// is up; lengths, positions and directions that are known do.
+#pragma once
+
+#include <curvix/status.h>
+#include <Eigen/Core>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/similarity.h"
+
+namespace curvix {
+
+using Matrix7d = Eigen::Matrix<double, 7, 7>;
+
+// From the frame of the model to one of the user's.
+struct WorldAlignment {
+  Similarity3 world_from_model;
+  // Of the logarithm of the scale, of a turn of the world about its axes
+  // (radians), and of the translation (world units): of (s, w, t) in
+  // exp(s) exp([w]x) scale rotation x + translation + t. 0 where a parameter is
+  // not known or exact.
+  Matrix7d covariance = Matrix7d::Zero();
+  // Which parameters were observed; the others are those of the model.
+  bool has_scale = false;
+  bool has_rotation = false;
+  bool has_translation = false;
+  std::string unit;  // "mm", say; "": not named
+  std::string crs;   // "EPSG:25832", say; "": none
+  // Large coordinates lose digits in 32 bits: this much has been taken off
+  // those of the user. Multiples of 100.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+
+  // Standard deviation of the scale, as a share of it.
+  double scale_sigma() const { return std::sqrt(covariance(0, 0)); }
+};
+
+// Two points of the model and how far they are from each other.
+struct KnownDistance {
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();  // model
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_a = Eigen::Matrix3d::Zero();  // model units^2
+  Eigen::Matrix3d covariance_b = Eigen::Matrix3d::Zero();
+  double length = 0;  // world units, > 0
+  double sigma = 0;   // of the length, >= 0
+};
+
+// A factor from the model's unit to the world's.
+struct KnownScale {
+  double scale = 1;  // > 0
+  double sigma = 0;  // of its logarithm, > 0
+};
+
+// A point of the model and where it is.
+struct KnownPosition {
+  std::string name;
+  Eigen::Vector3d model = Eigen::Vector3d::Zero();
+  Eigen::Vector3d world = Eigen::Vector3d::Zero();
+  double sigma = 0;  // of each coordinate, world units; 0: not known
+};
+
+// Directions of the world's axes in the model.
+struct KnownAxes {
+  Eigen::Quaterniond world_from_model = Eigen::Quaterniond::Identity();
+  // Of a turn about the world's axes, radians^2, positive definite.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+};
+
+struct AlignmentInput {
+  std::vector<KnownDistance> distances;
+  std::vector<KnownScale> scales;
+  std::vector<KnownPosition> positions;
+  std::optional<KnownAxes> axes;
+};
+
+struct AlignmentResult {
+  WorldAlignment alignment;
+  // What is left, after the estimate minus before it: of the logarithms of
+  // distances, as shares of them; world units.
+  std::vector<double> distance_residuals;
+  std::vector<double> scale_residuals;
+  std::vector<Eigen::Vector3d> position_residuals;
+  // The standard deviation of the positions that had none.
+  double position_sigma = 0;
+};
+
+// The least squares estimate from all of `input`: the scale from distances,
+// scales and two positions or more; the rotation from axes and from three
+// positions or more that are not on a line; the translation from positions.
+// What nothing tells about stays as in the model. The covariance grows by the
+// mean square of what is left in standard deviations, where that is above 1.
+// Positions without a sigma have that which they leave, all the same.
+// kInvalidArgument, with a sentence: nothing is given, points of a distance
+// coincide, or positions do not fix the rotation and no axes are given, or one
+// position has no sigma.
+Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
+
+}  // namespace curvix

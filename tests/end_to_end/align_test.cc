@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From curves without a unit to millimetres, as a person does it.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "colmap/colmap_model.h"
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/commands/synthesize.h"
+#include "tests/end_to_end/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// A block of size 1 with curves, in small images.
+class Align : public testing::Test {
+ protected:
+  void SetUp() override {
+    SyntheticOptions options;
+    options.solid = SyntheticSolid::kBlock;
+    options.num_views = 12;
+    options.width = 240;
+    options.height = 240;
+    ASSERT_TRUE(Synthesize(options, workspace_).ok());
+    ASSERT_EQ(Run("").exit_code, 0);
+    before_ = Curves();
+    ASSERT_GE(before_["nodes"].size(), 4u);
+  }
+
+  Outcome Run(const std::string& words) {
+    return RunProgram(words + " --workspace_path " + Quoted(workspace_));
+  }
+  // Switched to the frame of `known`.
+  Outcome RunAlign(const std::string& known) { return Run("align " + known); }
+
+  json Curves() { return json::parse(Read(results_ / "curves.json")); }
+
+  // The first line between two nodes.
+  static json FirstLine(const json& curves) {
+    for (const json& curve : curves["curves"]) {
+      for (const json& fit : curve["fits"]) {
+        if (fit["kind"] == "line" && fit["start_node"].is_number() &&
+            fit["end_node"].is_number()) {
+          return fit;
+        }
+      }
+    }
+    return {};
+  }
+
+  TemporaryFolder folder_;
+  const fs::path workspace_ = folder_.path() / "proj";
+  const fs::path results_ = workspace_ / "curvix/0";
+  json before_;
+};
+
+TEST_F(Align, AKnownDistanceScalesAllResults) {
+  const std::string model = Read(workspace_ / "sparse/0/images.bin");
+  const json line = FirstLine(before_);
+  ASSERT_FALSE(line.is_null());
+  const Outcome outcome =
+      RunAlign("--distance " + line["start_node"].dump() + " " +
+               line["end_node"].dump() + " 250 --unit mm");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("mm"));
+  const json after = Curves();
+  EXPECT_NEAR(FirstLine(after)["length"], 250, 1e-6);
+  const double scale = after["alignment"]["world_from_model"]["scale"];
+  EXPECT_NEAR(scale, 250 / line["length"].get<double>(), 1e-6 * scale);
+  const auto& a = before_["curves"][0]["samples"][0];
+  const auto& b = after["curves"][0]["samples"][0];
+  EXPECT_NEAR(b["sigma"], scale * a["sigma"].get<double>(), 1e-9 * scale);
+  EXPECT_EQ(a["support"], b["support"]);
+  EXPECT_THAT(Read(results_ / "dimensions.csv"), HasSubstr(",mm\n"));
+  EXPECT_THAT(Read(results_ / "curves.ply"),
+              HasSubstr("coordinates are those of alignment.json"));
+  EXPECT_EQ(Read(workspace_ / "sparse/0/images.bin"), model);
+
+  // Nodes have the numbers they had, and aligning again starts from the model.
+  ASSERT_EQ(RunAlign("--distance " + line["start_node"].dump() + " " +
+                     line["end_node"].dump() + " 250 --unit mm")
+                .exit_code,
+            0);
+  EXPECT_EQ(Curves(), after);
+  // Without the alignment, all is as it was.
+  fs::remove(results_ / "alignment.json");
+  ASSERT_EQ(Run("").exit_code, 0);
+  EXPECT_EQ(Curves(), before_);
+}
+
+TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
+  // The similarity that is to be found: a turn about z by 90 degrees.
+  const auto model = ReadColmapModel(workspace_ / "sparse/0");
+  ASSERT_TRUE(model.ok());
+  std::ostringstream positions;
+  positions.precision(17);
+  for (const ColmapImage& image : model->images) {
+    const Eigen::Vector3d c = image.cam_from_world.Inverse().translation;
+    positions << image.name << " " << 1000 - 3 * c.y() << " " << 3 * c.x()
+              << " " << 3 * c.z() + 7 << "\n";
+  }
+  const fs::path file = folder_.Write("positions.txt", positions.str());
+  const Outcome outcome = RunAlign("--epsg 25832 --positions " + Quoted(file));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json after = Curves();
+  EXPECT_EQ(after["alignment"]["crs"], "EPSG:25832");
+  for (std::size_t i = 0; i < before_["nodes"].size(); ++i) {
+    const json& a = before_["nodes"][i]["position"];
+    const json& b = after["nodes"][i]["position"];
+    EXPECT_NEAR(b[0], 1000 - 3 * a[1].get<double>(), 1e-5);
+    EXPECT_NEAR(b[1], 3 * a[0].get<double>(), 1e-5);
+    EXPECT_NEAR(b[2], 3 * a[2].get<double>() + 7, 1e-5);
+  }
+}
+
+TEST_F(Align, AxesOfABlockAreItsEdges) {
+  const Outcome outcome = RunAlign("--axes auto");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json alignment = json::parse(Read(results_ / "alignment.json"));
+  // The block's edges are along the axes already, in some order.
+  int num_axes = 0;
+  for (const json& angle : alignment["sources"]["axes"]["angle_deg"]) {
+    EXPECT_NEAR(angle.is_number() ? angle.get<double>() : 90, 90, 0.5);
+  }
+  const json& q = alignment["world_from_model"]["rotation"];
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  for (int i = 0; i < 3; ++i) {
+    num_axes += turn.col(i).cwiseAbs().maxCoeff() > std::cos(0.1 / 57.3);
+  }
+  EXPECT_EQ(num_axes, 3);
+  EXPECT_GT(turn(2, 2), 0);
+}
+
+TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
+  const std::string curves = Read(results_ / "curves.json");
+  for (const auto& [words, why] :
+       {std::pair("", "something that is known"),
+        std::pair("--distance 0 1", "three words"),
+        std::pair("--distance 0 100000 3", "no node 100000"),
+        std::pair("--markers 4x4_50", "--marker_size"),
+        std::pair("--positions none.txt", "none.txt"),
+        std::pair("--up 0,0,1", "--axes auto"),
+        std::pair("--axes auto --up 0,0,0", "no direction"),
+        std::pair("--distance 0 1 1 --epsg 1", "--positions")}) {
+    const Outcome outcome = RunAlign(words);
+    EXPECT_NE(outcome.exit_code, 0) << words;
+    EXPECT_THAT(outcome.output, HasSubstr("ERROR: ")) << words;
+    EXPECT_THAT(outcome.output, HasSubstr(why)) << words;
+  }
+  EXPECT_EQ(Read(results_ / "curves.json"), curves);
+  EXPECT_FALSE(fs::exists(results_ / "alignment.json"));
+  std::ofstream(results_ / "alignment.json") << "{";
+  const Outcome outcome = Run("");
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("alignment.json cannot be used"));
+}
+
+}  // namespace
+}  // namespace curvix
