@@ -111,6 +111,7 @@ Json CurveJson(const Curve& curve,
           {"g", MedianSigma(curve)},
           {"l", Length(curve)},
           {"k", KindOf(fitted)},
+          {"w", KindName(MainKind(curve))},
           {"f", FitsJson(fitted)},
           {"v", SupportingViews(curve)}};
 }

@@ -68,7 +68,7 @@ Result<RunRecord> RunLines(
   findings.is_repeatable = false;
   if (curves.size() == 0) findings.why_empty = "no line has a length";
   Status status =
-      WriteFindings(input->scene, findings, output->folder(), record);
+      WriteFindings(input->scene, findings, output->folder(), record).status();
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
