@@ -4,10 +4,13 @@
 #include <curvix/curve_io.h>
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <optional>
 
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
 #include "io/ply_lines.h"
+#include "measuring/moved_curves.h"
 #include "plugin/export/curves_as_points.h"
 #include "plugin/export/dimensions.h"
 #include "plugin/export/small_images.h"
@@ -57,6 +60,26 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
   Status read = record.curves.status();
   if (!read.ok()) return read;
   return WriteColmapModel(model, path, ColmapFormat::kBinary);
+}
+
+// Of the length units that users name; nullopt: of others.
+std::optional<double> MillimetresPer(const std::string& unit) {
+  static const std::map<std::string, double> millimetres = {
+      {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}};
+  const auto found = millimetres.find(unit);
+  if (found == millimetres.end()) return std::nullopt;
+  return found->second;
+}
+
+// STEP knows units: curves whose unit is known are written in millimetres.
+Status WriteStep(const CurveRecord& record, const fs::path& path) {
+  const auto millimetres = record.alignment == nullptr
+                               ? std::nullopt
+                               : MillimetresPer(record.alignment->unit);
+  if (!millimetres) return WriteDrawing(path, record.fitted);
+  Similarity3 enlarge;
+  enlarge.scale = *millimetres;
+  return WriteDrawing(path, MoveFits(enlarge, record.fitted));
 }
 
 Status WriteOverlays(const CurveRecord& record,
@@ -191,9 +214,8 @@ Status WriteFormat(const CurveRecord& record,
       EncodeViewerHtml(record, num_threads, sink);
     });
   }
-  if (format == "dxf" || format == "step") {
-    return WriteDrawing(path, record.fitted);
-  }
+  if (format == "dxf") return WriteDrawing(path, record.fitted);
+  if (format == "step") return WriteStep(record, path);
   if (format == "svg") return WriteSvg(record, settings.svg_image, path);
   if (format == "colmap") return WriteModel(record, path);
   return WriteCurves(path, record.curves, record.scene);
