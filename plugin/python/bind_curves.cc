@@ -185,7 +185,9 @@ void BindFits(Class& curves) {
                              FitViewerOf<double>(&F::spline_points, {3}))
       .def_property_readonly("spline_knots",
                              FitViewerOf<double>(&F::spline_knots))
-      .def_property_readonly("nodes", FitViewerOf<double>(&F::nodes, {3}));
+      .def_property_readonly("nodes", FitViewerOf<double>(&F::nodes, {3}))
+      .def_property_readonly("node_covariances",
+                             FitViewerOf<double>(&F::node_covariances, {3, 3}));
 }
 
 }  // namespace

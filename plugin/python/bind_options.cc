@@ -49,10 +49,10 @@ py::object ValueOf(const Flag& flag) {
   return std::visit(
       [&](const auto* field) -> py::object {
         using Value = std::remove_cv_t<std::remove_pointer_t<decltype(field)>>;
-        if constexpr (std::is_enum_v<Value>) {
-          return py::str(ValueText(*flag.row));
-        } else {
+        if constexpr (std::is_arithmetic_v<Value>) {
           return py::cast(*field);
+        } else {
+          return py::str(ValueText(*flag.row));
         }
       },
       flag.row->field);

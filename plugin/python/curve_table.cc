@@ -182,7 +182,10 @@ FitTable::FitTable(FittedCurves from) : fitted(std::move(from)) {
     }
     fit_offsets.push_back(static_cast<std::int64_t>(rows.size()));
   }
-  for (const CurveNode& node : fitted.nodes) nodes.push_back(node.position);
+  for (const CurveNode& node : fitted.nodes) {
+    nodes.push_back(node.position);
+    node_covariances.push_back(node.covariance);
+  }
 }
 
 FittedCurves SelectFits(const FittedCurves& fitted,
@@ -200,7 +203,7 @@ FittedCurves SelectFits(const FittedCurves& fitted,
   const std::map<int, int> numbers = NumberTheRepeated(num_ends);
   for (const auto& [idx, number] : numbers) {
     const CurveNode& node = fitted.nodes[static_cast<std::size_t>(idx)];
-    selected.nodes.push_back({node.position, {}});
+    selected.nodes.push_back({node.position, {}, node.covariance});
   }
   const auto renumber =
       [&](int& node, std::size_t curve, std::size_t fit, bool at_end) {

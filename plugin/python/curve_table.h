@@ -104,6 +104,7 @@ struct FitTable {
   std::vector<Eigen::Vector3d> spline_points;
   std::vector<double> spline_knots;
   std::vector<Eigen::Vector3d> nodes;
+  std::vector<Eigen::Matrix3d> node_covariances;
 };
 
 // The fits of some curves, in that order. Nodes that keep two ends stay.

@@ -233,7 +233,7 @@ std::vector<SurfaceEvidence> Classifier::EvidenceAlong(
     const CurveSample& sample = curve.samples[i];
     // A frame that turns no more than the curve does.
     normal = Across(sample.tangent, normal);
-    const CurvePlace place = {
+    const StripPlace place = {
         sample.position, sample.tangent, normal, sample.support};
     evidence.push_back(CompareStrips(place, views_, cameras_, images_));
     AddNearbyPoints(place,

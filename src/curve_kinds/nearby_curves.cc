@@ -49,7 +49,7 @@ double Ratio(const Direction& point, double angle) {
 
 }  // namespace
 
-void AddNearbyPoints(const CurvePlace& place,
+void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Vector3d>& points,

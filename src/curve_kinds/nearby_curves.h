@@ -14,7 +14,7 @@ namespace curvix {
 // Adds what points nearby say: a point in the direction of a surface speaks
 // for it, one in another direction against it. `points` are on other curves,
 // `pixel` is the length of a pixel at the place, world units.
-void AddNearbyPoints(const CurvePlace& place,
+void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Eigen::Vector3d>& points,

@@ -58,7 +58,7 @@ struct LocalView {
   Vector2d along, normal, binormal;
 };
 
-std::optional<LocalView> Locate(const CurvePlace& place,
+std::optional<LocalView> Locate(const StripPlace& place,
                                 const PosedView& view,
                                 const Camera& camera,
                                 const BlurredImage& image) {
@@ -207,7 +207,7 @@ float StripSet::LogBayes() const {
 
 }  // namespace
 
-SurfaceEvidence CompareStrips(const CurvePlace& place,
+SurfaceEvidence CompareStrips(const StripPlace& place,
                               const std::vector<PosedView>& views,
                               const std::vector<const Camera*>& cameras,
                               const std::vector<BlurredImage>& images) {

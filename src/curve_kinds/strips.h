@@ -20,7 +20,7 @@ namespace curvix {
 constexpr int kNumDirections = 24;
 
 // A place on a curve.
-struct CurvePlace {
+struct StripPlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();   // unit, across it
@@ -40,7 +40,7 @@ struct SurfaceEvidence {
 
 // One view per scene view in `images`, `views` and `cameras`, whose ideal
 // pinholes the views are.
-SurfaceEvidence CompareStrips(const CurvePlace& place,
+SurfaceEvidence CompareStrips(const StripPlace& place,
                               const std::vector<PosedView>& views,
                               const std::vector<const Camera*>& cameras,
                               const std::vector<BlurredImage>& images);

@@ -32,8 +32,8 @@ TEST(WriteStep, IsInMillimetresWhereTheUnitIsKnown) {
   WorldAlignment alignment;
   alignment.unit = "m";
   EXPECT_THAT(StepOfALine(&alignment), HasSubstr("(1500.,0.,0.)"));
-  alignment.unit = "in";
-  EXPECT_THAT(StepOfALine(&alignment), HasSubstr("(38.1,0.,0.)"));
+  alignment.unit = "cm";
+  EXPECT_THAT(StepOfALine(&alignment), HasSubstr("(15.,0.,0.)"));
   for (const char* unit : {"mm", "cubits", ""}) {
     alignment.unit = unit;
     EXPECT_THAT(StepOfALine(&alignment), HasSubstr("(1.5,0.,0.)"));

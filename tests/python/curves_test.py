@@ -13,7 +13,8 @@ from workspace import WorkspaceTest, contents
 
 VIEWS = ('offsets', 'closed', 'is_occluding_contour', 'start_junction', 'end_junction', 'junctions', 'positions',
          'tangents', 'covariances', 'sigmas', 'evidence', 'kinds', 'kind_probabilities', 'support_offsets', 'support',
-         'views', 'fits', 'fit_offsets', 'spline_points', 'spline_knots', 'nodes')
+         'views', 'fits', 'fit_offsets', 'spline_points', 'spline_knots', 'nodes',
+         'node_covariances')
 
 
 def resident_bytes():
@@ -191,7 +192,8 @@ class Memory(WorkspaceTest):
                 file.write('l ' + ' '.join(map(str, range(first, first + num_samples))) + '\n')
         curves = pycurvix.read(path)
         self.assertEqual(curves.positions.shape, (num_curves * num_samples, 3))
-        names = [name for name in VIEWS if name not in ('fits', 'fit_offsets', 'spline_points', 'spline_knots', 'nodes')]
+        names = [name for name in VIEWS if name not in ('fits', 'fit_offsets', 'spline_points', 'spline_knots', 'nodes',
+                                                            'node_covariances')]
         before = resident_bytes()
         views = [getattr(curves, name) for name in names]
         grown = resident_bytes() - before

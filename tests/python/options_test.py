@@ -51,6 +51,7 @@ class Options(unittest.TestCase):
                                       ('EdgeDetection.sigma_px', 2, 2.0),
                                       ('EdgeDetection.sigma_px', '1.25', 1.25),
                                       ('Hypotheses.view_selection', 'unused_edges', 'unused_edges'),
+                                      ('CurveFilter.kinds', ['boundary', 'crease'], 'crease,boundary'),
                                       ('output_formats', ['ply', 'dxf'], 'ply,dxf')):
             options[name] = value
             self.assertEqual(options[name], expected, name)

@@ -179,6 +179,11 @@ class Curves:
         return self._core.nodes
 
     @property
+    def node_covariances(self) -> NDArray[np.float64]:
+        """Of the positions of `nodes` (N, 3, 3), world units squared."""
+        return self._core.node_covariances
+
+    @property
     def scene(self) -> Scene | None:
         """The views, with the poses and cameras that the curves were made with."""
         if self._scene is None:
