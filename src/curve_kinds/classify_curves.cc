@@ -39,9 +39,9 @@ constexpr int kMinCreaseSteps = 3;
 
 // Before images are looked at, as where there is no texture: curves are mostly
 // edges of surfaces.
-constexpr double kPriorCrease = 0.6;
-constexpr double kPriorBoundary = 0.1;
-constexpr double kPriorMarking = 0.3;
+constexpr double kPriorCrease = 0.9;
+constexpr double kPriorBoundary = 0.05;
+constexpr double kPriorMarking = 0.05;
 
 struct KindProbability {
   CurveKind kind = CurveKind::kUnknown;

@@ -18,14 +18,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A strip reaches from 1.5 px, beyond the blur of the edge itself, to 11.5 px
+// A strip reaches from 2.5 px, beyond the blur of the edge itself, to 12.5 px
 // from the curve, and 4 px along it to either side.
 constexpr int kNumAcross = 11;
 constexpr int kNumAlong = 5;
-constexpr double kFirstAcrossPx = 1.5;
+constexpr double kFirstAcrossPx = 2.5;
 constexpr double kAlongStepPx = 2;
 constexpr int kNumPixels = kNumAcross * kNumAlong;
-constexpr double kReachPx = 14;
+constexpr double kReachPx = 15;
 
 constexpr std::size_t kMaxViews = 10;
 constexpr int kMinViews = 3;
