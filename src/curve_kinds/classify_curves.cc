@@ -3,11 +3,13 @@
 #include "curve_kinds/classify_curves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/point_tree.h"

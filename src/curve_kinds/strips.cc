@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "base/median.h"
-#include "geometry/edge_geometry.h"
 
 namespace curvix {
 namespace {
@@ -104,15 +105,20 @@ std::vector<LocalView> ChooseViews(std::vector<LocalView> seen) {
   return chosen;
 }
 
-// The grey levels of a strip less their mean. `across` is the image of a step
-// of one pixel away from the curve, `along` of one along it.
+// The grey levels of a strip less their mean; false if the image does not hold
+// all of it. `across` is the image of a step of one pixel away from the curve,
+// `along` of one along it.
 bool Sample(const LocalView& view,
             const Vector2d& across,
             const Vector2d& along,
             Strip* strip) {
+  const Vector2d near = kFirstAcrossPx * across;
   const Vector2d far = (kFirstAcrossPx + kNumAcross - 1) * across;
   const Vector2d side = (kNumAlong / 2 * kAlongStepPx) * along;
-  for (const Vector2d& corner : {Vector2d(far - side), Vector2d(far + side)}) {
+  for (const Vector2d& corner : {Vector2d(near - side),
+                                 Vector2d(near + side),
+                                 Vector2d(far - side),
+                                 Vector2d(far + side)}) {
     const Vector2d at = view.pixel + corner;
     if (!(at.x() >= 0 && at.y() >= 0 && at.x() < view.image->width - 1 &&
           at.y() < view.image->height - 1)) {
@@ -131,68 +137,71 @@ bool Sample(const LocalView& view,
   return true;
 }
 
-// The strips of some views, one per column, of which those are compared that
-// agree best.
+// The strips of some views.
 class StripSet {
  public:
   void Clear() { num_ = 0; }
   Strip* Next() { return &strips_[static_cast<std::size_t>(num_)]; }
   void Keep() { ++num_; }
 
+  // Of the strips that agree best; minus infinity if there are fewer than
+  // kMinViews.
   float LogBayes() const;
 
  private:
+  // Inner products.
+  using Gram = Eigen::Matrix<float, kMaxViews, kMaxViews>;
+  Gram InnerProducts() const;
+
   std::array<Strip, kMaxViews> strips_;
   int num_ = 0;
 };
 
-float StripSet::LogBayes() const {
-  if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
-  using Table = Eigen::Matrix<float, kMaxViews, kMaxViews>;
-  Table gram;
+StripSet::Gram StripSet::InnerProducts() const {
+  Gram gram;
   for (int i = 0; i < num_; ++i) {
     for (int j = 0; j <= i; ++j) {
       gram(i, j) = gram(j, i) = strips_[static_cast<std::size_t>(i)].dot(
           strips_[static_cast<std::size_t>(j)]);
     }
   }
-  // Squared distances between strips, summed over the others that are left.
-  const auto distance = [&](int i, int j) {
-    return gram(i, i) + gram(j, j) - 2 * gram(i, j);
-  };
-  std::array<int, kMaxViews> left;
-  int num_left = num_;
-  for (int i = 0; i < num_; ++i) left[static_cast<std::size_t>(i)] = i;
-  const int num_agreeing =
-      std::max(kMinViews, static_cast<int>(std::ceil(kAgreeingShare * num_)));
-  double total = 0;
+  return gram;
+}
+
+// Drops the strip that is farthest from the others until kAgreeingShare of the
+// first `num` are left, and gives the sum of the squared distances between
+// those, in both orders.
+template <typename Gram>
+double DropWorst(const Gram& gram, int num, std::vector<int>* left) {
+  left->resize(static_cast<std::size_t>(num));
+  std::iota(left->begin(), left->end(), 0);
+  const auto num_agreeing = static_cast<std::size_t>(
+      std::max(kMinViews, static_cast<int>(std::ceil(kAgreeingShare * num))));
   while (true) {
-    int worst = 0;
-    double worst_sum = -1;
-    total = 0;
-    for (int a = 0; a < num_left; ++a) {
+    std::vector<double> sums;
+    for (const int i : *left) {
       double sum = 0;
-      for (int b = 0; b < num_left; ++b) {
-        sum += static_cast<double>(distance(left[static_cast<std::size_t>(a)],
-                                            left[static_cast<std::size_t>(b)]));
+      for (const int j : *left) {
+        sum += static_cast<double>(gram(i, i) + gram(j, j) - 2 * gram(i, j));
       }
-      total += sum;
-      if (sum > worst_sum) {
-        worst_sum = sum;
-        worst = a;
-      }
+      sums.push_back(sum);
     }
-    if (num_left <= num_agreeing) break;
-    std::copy(left.begin() + worst + 1,
-              left.begin() + num_left,
-              left.begin() + worst);
-    --num_left;
+    if (left->size() <= num_agreeing) {
+      return std::accumulate(sums.begin(), sums.end(), 0.0);
+    }
+    left->erase(left->begin() +
+                (std::max_element(sums.begin(), sums.end()) - sums.begin()));
   }
+}
+
+float StripSet::LogBayes() const {
+  if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
+  const Gram gram = InnerProducts();
+  std::vector<int> left;
+  const double total = DropWorst(gram, num_, &left);
+  const auto num_left = static_cast<double>(left.size());
   double variance = 0;
-  for (int a = 0; a < num_left; ++a) {
-    const int i = left[static_cast<std::size_t>(a)];
-    variance += static_cast<double>(gram(i, i));
-  }
+  for (const int i : left) variance += static_cast<double>(gram(i, i));
   variance /= num_left * kNumPixels;
   // `total` counts every pair twice.
   const double residual =

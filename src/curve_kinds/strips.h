@@ -19,7 +19,7 @@ namespace curvix {
 // towards tangent x normal.
 constexpr int kNumDirections = 24;
 
-// A place on a curve.
+// A place on a curve, whose strips are compared.
 struct StripPlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
@@ -27,13 +27,14 @@ struct StripPlace {
   std::vector<EdgeRef> support;
 };
 
-// The logarithm of a Bayes factor for each side of a curve in the images and
-// each direction: that a surface which begins at the curve and leads in this
-// direction shows on this side, against that the views show different things
-// there. Side 0 is that on which the direction of the camera, turned by less
-// than half a turn from `normal` towards tangent x normal, is seen.
-// Minus infinity for directions that fewer than three views face; 0 for all if
-// there are no three views.
+// What the images say about surfaces that begin at a curve, for the two sides
+// of the curve in the images and each direction of a surface away from it: the
+// logarithm of the Bayes factor of "this surface shows on this side" to "the
+// views show different things there". A direction shows on side 0 of a view if
+// it lies less than half a turn from the direction of the camera, turning from
+// `normal` towards tangent x normal; else on side 1. Minus infinity where fewer
+// than three views face the surface; 0 for all if fewer than three views see
+// the place.
 struct SurfaceEvidence {
   std::array<std::array<float, kNumDirections>, 2> log_bayes = {};
 };
