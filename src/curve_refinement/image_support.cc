@@ -8,7 +8,6 @@
 #include "base/angles.h"
 #include "base/check.h"
 #include "base/parallel.h"
-#include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
 
 namespace curvix {
@@ -44,6 +43,30 @@ std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
     if (nearest) support.push_back({static_cast<std::int32_t>(v), *nearest});
   }
   return support;
+}
+
+std::vector<double> ImageSupport::Beside(std::size_t view_idx,
+                                         const ImageEdge& projected,
+                                         double max_distance_px) const {
+  const double min_cosine = std::cos(DegToRad(kMaxAngleDeg));
+  std::vector<double> distances;
+  grids_[view_idx].VisitAround(
+      projected.position, max_distance_px, [&](const IndexedEdge& edge) {
+        Eigen::Vector2d tangent = edge.tangent.cast<double>();
+        const double cosine = tangent.dot(projected.tangent);
+        if (std::abs(cosine) < min_cosine) return;
+        if (cosine < 0) tangent = -tangent;
+        const Eigen::Vector2d offset =
+            edge.position.cast<double>() - projected.position;
+        const double across =
+            offset.y() * tangent.x() - offset.x() * tangent.y();
+        if (std::abs(offset.dot(tangent)) > kMaxTangentialPx ||
+            std::abs(across) > max_distance_px) {
+          return;
+        }
+        distances.push_back(across);
+      });
+  return distances;
 }
 
 }  // namespace curvix

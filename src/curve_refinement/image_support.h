@@ -4,9 +4,11 @@
 
 #include <curvix/edges.h>
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "base/grid_index.h"
+#include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -24,6 +26,13 @@ class ImageSupport {
   std::vector<EdgeRef> Find(const Eigen::Vector3d& position,
                             const Eigen::Vector3d& tangent,
                             double max_distance_px) const;
+
+  // The edges of a view that run along a projected edge, at most 15 degrees
+  // off, and pass it at most `max_distance_px` beside: their signed distances,
+  // positive on the side to which (-tangent.y, tangent.x) points.
+  std::vector<double> Beside(std::size_t view_idx,
+                             const ImageEdge& projected,
+                             double max_distance_px) const;
 
  private:
   const std::vector<PosedView>& views_;

@@ -26,11 +26,11 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const CurveRefinementOptions& options,
                                 int num_threads) {
   if (!options.enabled) return curves;
+  const ImageSupport images(views, edge_maps, num_threads);
   SelectedCurves selected = SelectCurves(
-      curves, views, edge_maps, edge_sigma_px, options, num_threads);
+      curves, views, edge_maps, images, edge_sigma_px, options, num_threads);
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
-  const ImageSupport images(views, edge_maps, num_threads);
   if (options.separate_touching) {
     refined = SeparateTouching(std::move(refined), views, images);
   }

@@ -12,6 +12,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "curve_refinement/occluding_contours.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
@@ -157,6 +158,9 @@ constexpr double kTimesLeastDilution = 6;
 // such limit takes what exists.
 constexpr double kMostTimesMaxDilution = 1.6;
 constexpr double kTimesLeastDilutionInCrowd = 15;
+// Curves are occluding contours, however well determined, where a radius is so
+// much likelier than none (occluding_contours.h).
+constexpr double kCertainLogLikelihoodRatio = 4;
 
 using AllTraits = std::vector<std::optional<CurveTraits>>;
 
@@ -213,11 +217,13 @@ double LargestDilution(const CurveTraits& traits,
 Verdict Judge(const CurveTraits& traits,
               double typical_scatter,
               bool are_crowded,
+              double contour_log_likelihood_ratio,
               const CurveRefinementOptions& options) {
-  if (options.max_dilution == 0) return Verdict::kEdge;
   const double dilution =
       traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
-  const double allowed = LargestDilution(traits, are_crowded, options);
+  const double allowed = LargestDilution(traits, are_crowded, options) *
+                         (1 - std::max(0.0, contour_log_likelihood_ratio) /
+                                  kCertainLogLikelihoodRatio);
   if (dilution > allowed) return Verdict::kOccludingContour;
   if (options.max_blurred_share == 1) return Verdict::kEdge;
   const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
@@ -231,6 +237,7 @@ Verdict Judge(const CurveTraits& traits,
 SelectedCurves SelectCurves(std::vector<Curve> curves,
                             const std::vector<PosedView>& views,
                             const std::vector<EdgeMap>& edge_maps,
+                            const ImageSupport& images,
                             double edge_sigma_px,
                             const CurveRefinementOptions& options,
                             int num_threads) {
@@ -243,15 +250,26 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
   const double typical_scatter =
       TypicalScatter(curves, all_traits, options.max_blurred_share);
   const bool are_crowded = AreCrowded(edge_maps);
+  std::vector<Verdict> verdicts(curves.size(), Verdict::kEdge);
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    if (!all_traits[i] || options.max_dilution == 0) return;
+    const auto judge = [&](double contour_log_likelihood_ratio) {
+      return Judge(*all_traits[i],
+                   typical_scatter,
+                   are_crowded,
+                   contour_log_likelihood_ratio,
+                   options);
+    };
+    verdicts[i] = judge(0);
+    if (verdicts[i] != Verdict::kEdge || are_crowded) return;
+    verdicts[i] = judge(
+        ContourLogLikelihoodRatio(curves[i], views, images, edge_sigma_px));
+  });
   SelectedCurves selected;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Verdict verdict =
-        all_traits[i]
-            ? Judge(*all_traits[i], typical_scatter, are_crowded, options)
-            : Verdict::kEdge;
-    if (verdict == Verdict::kEdge) {
+    if (verdicts[i] == Verdict::kEdge) {
       selected.edges.push_back(std::move(curves[i]));
-    } else if (verdict == Verdict::kOccludingContour) {
+    } else if (verdicts[i] == Verdict::kOccludingContour) {
       curves[i].is_occluding_contour = true;
       selected.occluding_contours.push_back(std::move(curves[i]));
     }

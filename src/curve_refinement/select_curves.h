@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "curve_refinement/image_support.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -60,11 +61,12 @@ struct SelectedCurves {
 
 // Sorts the curves, each kind in the given order. A curve is
 //  * an occluding contour, if
-//      dilution * max(1, s / r) > allowed
-//    with s its scatter, r that of good curves of this scene, and allowed
-//    options.max_dilution; where views cannot tell places so well, 6 times the
-//    least dilution, up to 1.6 options.max_dilution; of crowded images
-//    (AreCrowded()), 15 times the least dilution,
+//      dilution * max(1, s / r) > allowed * (1 - max(0, l) / 4)
+//    with s its scatter, r that of good curves of this scene, l its
+//    ContourLogLikelihoodRatio(), and allowed options.max_dilution; where views
+//    cannot tell places so well, 6 times the least dilution, up to 1.6
+//    options.max_dilution; of crowded images (AreCrowded()) l is 0, and allowed
+//    15 times the least dilution,
 //  * an edge of the scene, if also
 //      dilution * max(1, s / r) <= allowed * (1 - blurred / max_blurred_share)
 //    or options.max_blurred_share is 1,
@@ -75,11 +77,12 @@ struct SelectedCurves {
 // cameras and poses: the lower quartile of the scatter of the sharpest curves,
 // weighted by length / dilution^2; at least 0.06 px, which sampling by pixels
 // leaves. Curves whose sigma is not known or that have no support count as
-// edges; if options.max_dilution is 0, all do. `edge_sigma_px`: as of
-// MeasureCurve().
+// edges; if options.max_dilution is 0, all do. `images`: of these views and
+// edge maps. `edge_sigma_px`: as of MeasureCurve().
 SelectedCurves SelectCurves(std::vector<Curve> curves,
                             const std::vector<PosedView>& views,
                             const std::vector<EdgeMap>& edge_maps,
+                            const ImageSupport& images,
                             double edge_sigma_px,
                             const CurveRefinementOptions& options,
                             int num_threads);

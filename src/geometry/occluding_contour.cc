@@ -21,19 +21,6 @@ Eigen::Vector3d AcrossAxisAndRay(const SpaceEdge& axis,
   return axis.tangent.cross(axis.position - center).normalized();
 }
 
-// The mean of the sides that the views see, of which each is known up to sign.
-Eigen::Vector3d Outward(const SpaceEdge& axis,
-                        const std::vector<PlaneMeasurement>& measurements) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const PlaneMeasurement& m : measurements) {
-    const Eigen::Vector3d side = AcrossAxisAndRay(axis, m.center);
-    scatter += side * side.transpose();
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(scatter);
-  return solver.eigenvectors().col(2);
-}
-
 // The radius if the axis may move across itself, too.
 double FitRadius(const OccludingContour& contour,
                  const std::vector<PlaneMeasurement>& measurements,
@@ -77,6 +64,18 @@ Eigen::Vector3d SideSeenFrom(const OccludingContour& contour,
   return side.dot(contour.outward) < 0 ? -side : side;
 }
 
+Eigen::Vector3d MeanSide(const SpaceEdge& axis,
+                         const std::vector<Eigen::Vector3d>& centers) {
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& center : centers) {
+    const Eigen::Vector3d side = AcrossAxisAndRay(axis, center);
+    scatter += side * side.transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(scatter);
+  return solver.eigenvectors().col(2);
+}
+
 SpaceEdge SeenFrom(const OccludingContour& contour,
                    const Eigen::Vector3d& center) {
   return {
@@ -89,7 +88,9 @@ OccludingContour AdjustOccludingContour(
     const std::vector<PlaneMeasurement>& measurements,
     double sigma_px) {
   OccludingContour contour = start;
-  contour.outward = Outward(contour.axis, measurements);
+  std::vector<Eigen::Vector3d> centers;
+  for (const PlaneMeasurement& m : measurements) centers.push_back(m.center);
+  contour.outward = MeanSide(contour.axis, centers);
   if (contour.outward.dot(start.outward) < 0)
     contour.outward = -contour.outward;
   contour.radius = FitRadius(contour, measurements, sigma_px);

@@ -27,6 +27,11 @@ struct OccludingContour {
 // A place of the contour amid those that views see.
 Eigen::Vector3d MiddleOf(const OccludingContour& contour);
 
+// The mean of the sides on which cameras at `centers` see the body end, up to
+// sign: unit, across the axis.
+Eigen::Vector3d MeanSide(const SpaceEdge& axis,
+                         const std::vector<Eigen::Vector3d>& centers);
+
 // From the axis to the place of the contour that a camera at `center` sees, for
 // a radius of 1: a unit vector across the axis and the ray; zero where the ray
 // runs along the axis.

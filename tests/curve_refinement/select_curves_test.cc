@@ -73,9 +73,11 @@ class Scene {
 
   SelectedCurves Select(const CurveRefinementOptions& options = kOptions,
                         double unit = 1) const {
+    const std::vector<PosedView> views = Scaled(views_, unit);
     return SelectCurves(Scaled(curves_, unit),
-                        Scaled(views_, unit),
+                        views,
                         edge_maps_,
+                        ImageSupport(views, edge_maps_, 1),
                         kEdgeSigmaPx,
                         options,
                         1);
