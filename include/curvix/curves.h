@@ -61,6 +61,8 @@ struct CurveSample {
   // squared; 0: not estimated.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   // The most probable kind of curve here, and its probability; kUnknown: 0.
+  // Occluding contours, which may also be what views show by chance: 1
+  // (CurveRefinementOptions::keep_occluding_contours).
   CurveKind kind = CurveKind::kUnknown;
   float kind_probability = 0;
 };
@@ -69,10 +71,6 @@ struct CurveSample {
 // by the first, which is not repeated.
 struct Curve {
   bool closed = false;
-  // Probably an occluding contour, which lies elsewhere on it in every
-  // view, rather than an edge of it; or what views show by chance.
-  // CurveRefinementOptions::keep_occluding_contours.
-  bool is_occluding_contour = false;
   std::vector<CurveSample> samples;
   // The junctions in which the first and the last sample lie: indices into
   // CurveSet::junctions, or -1.

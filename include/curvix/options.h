@@ -179,9 +179,10 @@ struct CurveRefinementOptions {
   // blurred or not.
   double max_dilution = 2.5;
   // Curves of which so large a share of the 2D edges is blurred are dropped as
-  // shading edges; with a smaller share, max_dilution falls in proportion. > 0,
-  // <= 1; 1: curves may be as blurred as they like.
-  double max_blurred_share = 0.3;
+  // shading edges; with a smaller share, the dilution that the sharp ones alone
+  // leave may be lower in proportion. > 0, <= 1; 1: curves may be as blurred as
+  // they like.
+  double max_blurred_share = 0.6;
   // Curves over max_dilution stay, labelled: occluding contours, mostly.
   bool keep_occluding_contours = false;
   // Standard deviation of the weights of the local fits. Pixels, >= 0; 0

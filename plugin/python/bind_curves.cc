@@ -125,8 +125,6 @@ void BindColumns(Class& curves) {
       .def_property_readonly("offsets",
                              ViewerOf<std::int64_t>(&C::sample_offsets))
       .def_property_readonly("closed", ViewerOf<bool>(&C::closed))
-      .def_property_readonly("is_occluding_contour",
-                             ViewerOf<bool>(&C::is_occluding_contour))
       .def_property_readonly("start_junction",
                              ViewerOf<std::int32_t>(&C::start_junction))
       .def_property_readonly("end_junction",

@@ -104,7 +104,6 @@ void CurveTable::Append(const Curve& curve) {
   }
   to.sample_offsets.push_back(static_cast<std::int64_t>(to.positions.size()));
   to.closed.push_back(curve.closed);
-  to.is_occluding_contour.push_back(curve.is_occluding_contour);
   to.start_junction.push_back(curve.start_junction);
   to.end_junction.push_back(curve.end_junction);
 }
@@ -113,7 +112,6 @@ Curve CurveTable::At(std::size_t id) const {
   const CurveColumns& from = columns_;
   Curve curve;
   curve.closed = from.closed[id] != 0;
-  curve.is_occluding_contour = from.is_occluding_contour[id] != 0;
   curve.start_junction = from.start_junction[id];
   curve.end_junction = from.end_junction[id];
   const auto begin = static_cast<std::size_t>(from.sample_offsets[id]);

@@ -21,7 +21,6 @@ using SharedEdges = std::shared_ptr<const std::vector<EdgeMap>>;
 struct CurveColumns {
   std::vector<std::int64_t> sample_offsets = {0};
   std::vector<std::uint8_t> closed;
-  std::vector<std::uint8_t> is_occluding_contour;
   std::vector<std::int32_t> start_junction;
   std::vector<std::int32_t> end_junction;
 

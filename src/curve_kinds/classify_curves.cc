@@ -280,12 +280,7 @@ void ClassifyCurves(const Scene& scene,
   const Classifier classifier(scene, views, images, *curves);
   ParallelFor(curves->size(), num_threads, [&](std::size_t i) {
     Curve& curve = (*curves)[i];
-    if (curve.is_occluding_contour) {
-      for (CurveSample& sample : curve.samples) {
-        sample.kind = CurveKind::kOccludingContour;
-        sample.kind_probability = 1;
-      }
-    } else {
+    if (MainKind(curve) != CurveKind::kOccludingContour) {
       classifier.Classify(i, &curve);
     }
   });

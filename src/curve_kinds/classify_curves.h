@@ -18,9 +18,9 @@
 namespace curvix {
 
 // Sets kind and probability of every sample, from the images of the scene.
-// Samples of curves that are occluding contours are kOccludingContour. Where no
-// image can be read, or fewer than three views face any surface, samples are
-// kUnknown. One view per scene view.
+// Curves that are occluding contours already stay so. Where no image can be
+// read, or fewer than three views face any surface, samples are kUnknown. One
+// view per scene view.
 void ClassifyCurves(const Scene& scene,
                     const std::vector<PosedView>& views,
                     int num_threads,

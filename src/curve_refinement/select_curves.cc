@@ -26,6 +26,8 @@ constexpr double kBlurred = 0.7;
 constexpr double kBlurredSigmas = 5;
 constexpr double kSigmasOfLowerQuartile = 0.6745;
 constexpr double kSigmasOfMedianDistance = 1.4826;
+// Every third sample tells the dilution of sharp views.
+constexpr std::size_t kSampleStep = 3;
 
 // The edges behind a curve.
 struct Support {
@@ -72,19 +74,63 @@ double LeastDilution(const CurveSample& sample,
   return std::sqrt(covariance.trace() / 2) / pixel;
 }
 
+// Of each view, whether the curve is not blurred in it.
+std::vector<bool> AreSharp(const Support& support,
+                           const std::vector<double>& least_sharpness) {
+  std::vector<bool> are_sharp(least_sharpness.size(), true);
+  for (const auto& [view_idx, sharpness] : support.sharpness) {
+    const auto v = static_cast<std::size_t>(view_idx);
+    are_sharp[v] = Median(sharpness) >= least_sharpness[v];
+  }
+  return are_sharp;
+}
+
 double BlurredShare(const Support& support,
-                    const std::vector<double>& least_sharpness) {
+                    const std::vector<bool>& are_sharp) {
   double num_blurred = 0;
   double num_edges = 0;
   for (const auto& [view_idx, sharpness] : support.sharpness) {
     const double count = static_cast<double>(sharpness.size());
     num_edges += count;
-    if (Median(sharpness) <
-        least_sharpness[static_cast<std::size_t>(view_idx)]) {
-      num_blurred += count;
-    }
+    if (!are_sharp[static_cast<std::size_t>(view_idx)]) num_blurred += count;
   }
   return num_edges > 0 ? num_blurred / num_edges : 0;
+}
+
+// Of the place that the edges of sharp views alone determine; infinite without
+// two of them.
+double SharpDilution(const CurveSample& sample,
+                     const std::vector<PosedView>& views,
+                     const std::vector<EdgeMap>& edge_maps,
+                     const std::vector<bool>& are_sharp,
+                     double edge_sigma_px) {
+  std::vector<PlaneMeasurement> measurements;
+  for (const EdgeRef& ref : sample.support) {
+    const auto v = static_cast<std::size_t>(ref.view_idx);
+    if (!are_sharp[v]) continue;
+    const Edge2d& edge =
+        edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+    measurements.push_back(MeasurePlane(views[v], ToImageEdge(edge)));
+  }
+  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
+  const Eigen::Matrix2d covariance =
+      AdjustEdge({sample.position, sample.tangent}, measurements, edge_sigma_px)
+          .covariance;
+  const double pixel = PixelSize(sample.position, sample.support, views);
+  return std::sqrt(covariance.trace() / 2) / (edge_sigma_px * pixel);
+}
+
+double SharpDilution(const Curve& curve,
+                     const std::vector<PosedView>& views,
+                     const std::vector<EdgeMap>& edge_maps,
+                     const std::vector<bool>& are_sharp,
+                     double edge_sigma_px) {
+  std::vector<double> dilutions;
+  for (std::size_t k = 0; k < curve.samples.size(); k += kSampleStep) {
+    dilutions.push_back(SharpDilution(
+        curve.samples[k], views, edge_maps, are_sharp, edge_sigma_px));
+  }
+  return Median(std::move(dilutions));
 }
 
 double LeastSharpness(const std::vector<Edge2d>& edges) {
@@ -139,7 +185,12 @@ std::optional<CurveTraits> MeasureCurve(
   traits.dilution = Median(std::move(dilutions));
   traits.least_dilution =
       LeastDilution(curve.samples[curve.samples.size() / 2], views);
-  traits.blurred_share = BlurredShare(support, least_sharpness);
+  const std::vector<bool> are_sharp = AreSharp(support, least_sharpness);
+  traits.blurred_share = BlurredShare(support, are_sharp);
+  traits.sharp_dilution =
+      traits.blurred_share > 0
+          ? SharpDilution(curve, views, edge_maps, are_sharp, edge_sigma_px)
+          : traits.dilution;
   traits.scatter_px =
       kSigmasOfMedianDistance * Median(std::move(support.distances_px));
   return traits;
@@ -200,7 +251,7 @@ double TypicalScatter(const std::vector<Curve>& curves,
   return kLeastScatterPx;
 }
 
-enum class Verdict { kEdge, kOccludingContour, kBorderOfShading };
+enum class Verdict { kEdge, kOccludingContour, kShadingEdge };
 
 double LargestDilution(const CurveTraits& traits,
                        bool are_crowded,
@@ -219,17 +270,16 @@ Verdict Judge(const CurveTraits& traits,
               bool are_crowded,
               double contour_log_likelihood_ratio,
               const CurveRefinementOptions& options) {
-  const double dilution =
-      traits.dilution * std::max(1.0, traits.scatter_px / typical_scatter);
+  const double scatter = std::max(1.0, traits.scatter_px / typical_scatter);
   const double allowed = LargestDilution(traits, are_crowded, options) *
                          (1 - std::max(0.0, contour_log_likelihood_ratio) /
                                   kCertainLogLikelihoodRatio);
-  if (dilution > allowed) return Verdict::kOccludingContour;
+  if (traits.dilution * scatter > allowed) return Verdict::kOccludingContour;
   if (options.max_blurred_share == 1) return Verdict::kEdge;
   const double sharpness = 1 - traits.blurred_share / options.max_blurred_share;
-  return sharpness > 0 && dilution <= allowed * sharpness
+  return sharpness > 0 && traits.sharp_dilution * scatter <= allowed * sharpness
              ? Verdict::kEdge
-             : Verdict::kBorderOfShading;
+             : Verdict::kShadingEdge;
 }
 
 }  // namespace
@@ -270,7 +320,10 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
     if (verdicts[i] == Verdict::kEdge) {
       selected.edges.push_back(std::move(curves[i]));
     } else if (verdicts[i] == Verdict::kOccludingContour) {
-      curves[i].is_occluding_contour = true;
+      for (CurveSample& sample : curves[i].samples) {
+        sample.kind = CurveKind::kOccludingContour;
+        sample.kind_probability = 1;
+      }
       selected.occluding_contours.push_back(std::move(curves[i]));
     }
   }

@@ -36,6 +36,9 @@ struct CurveTraits {
   // blurred: the median sharpness of its edges there is below
   // LeastSharpness(). 0..1.
   double blurred_share = 0;
+  // The dilution that edges of the other views alone leave. Infinite, if fewer
+  // than two of them support most samples.
+  double sharp_dilution = 0;
 };
 
 // Of each view, how sharp a curve must be not to count as blurred: 0.7 of the
@@ -68,7 +71,8 @@ struct SelectedCurves {
 //    options.max_dilution; of crowded images (AreCrowded()) l is 0, and allowed
 //    15 times the least dilution,
 //  * an edge of the scene, if also
-//      dilution * max(1, s / r) <= allowed * (1 - blurred / max_blurred_share)
+//      sharp dilution * max(1, s / r)
+//          <= allowed * (1 - max(0, l) / 4) * (1 - blurred / max_blurred_share)
 //    or options.max_blurred_share is 1,
 //  * dropped as a shading edge, otherwise.
 // An occluding contour lies elsewhere in every view, so its edges scatter,

@@ -2,8 +2,8 @@
 // Paper: none (engineering). Results of parts to and from files, which after
 // their head (stage_file.h) hold the number of 2D edges of the part's own
 // views, of 3D edges in its core, and of curves (8 bytes each); the number of
-// bytes of each curve (8 bytes each); per curve: closed, occluding contour (1
-// byte each), number of samples; per sample the fields of a 3D edge
+// bytes of each curve (8 bytes each); per curve: closed (1 byte), number of
+// samples; per sample the fields of a 3D edge
 // (stage_io.cc) and its covariance (6 doubles: the upper triangle, row by row);
 // number of 2D edges behind it, to which its supports refer, as in stage_io.cc
 // but for neighbours.
@@ -58,7 +58,6 @@ bool HasContent(std::istream& in, const StageHead& head) {
 void Put(const TracedCurve& traced, ByteWriter& out) {
   const Curve& curve = traced.curve;
   out.Put(static_cast<std::uint8_t>(curve.closed));
-  out.Put(static_cast<std::uint8_t>(curve.is_occluding_contour));
   out.PutCount(curve.samples.size());
   for (const CurveSample& sample : curve.samples) {
     PutEdge(sample, out);
@@ -73,7 +72,6 @@ void Put(const TracedCurve& traced, ByteWriter& out) {
 TracedCurve TakeTracedCurve(ByteReader& in) {
   TracedCurve traced;
   traced.curve.closed = in.Take<std::uint8_t>() != 0;
-  traced.curve.is_occluding_contour = in.Take<std::uint8_t>() != 0;
   traced.curve.samples.resize(in.TakeCount(kCurveSampleBytes));
   for (CurveSample& sample : traced.curve.samples) {
     sample = TakeEdge<CurveSample>(in);

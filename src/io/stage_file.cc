@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 // "CVXSTAGE" in the byte order of the machine.
 constexpr std::uint64_t kMagic = 0x4547415453585643;
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 Status Other(const fs::path& path) {
   return {StatusCode::kNotFound,

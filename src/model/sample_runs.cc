@@ -35,7 +35,6 @@ Curve TakeOut(Curve& curve, const Run& run) {
   }
   const auto begin = std::make_move_iterator(curve.samples.begin());
   Curve part;
-  part.is_occluding_contour = curve.is_occluding_contour;
   part.samples.assign(begin + static_cast<std::ptrdiff_t>(run.begin),
                       begin + static_cast<std::ptrdiff_t>(run.end));
   return part;

@@ -150,9 +150,7 @@ Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
       TrimSecond(end, *ties[end], views_, curves);
     }
   }
-  const Stretch& first = tied_.stretches[chain.items.front().item];
   joined.curve = StringTogether(std::move(curves), ties, {}).front();
-  joined.curve.is_occluding_contour = pieces_[first.piece].is_occluding_contour;
   return joined;
 }
 

@@ -28,7 +28,7 @@ Piece MakePiece(int part_idx,
               curve_idx,
               curve.samples.size(),
               curve.closed,
-              curve.is_occluding_contour,
+              MainKind(curve) == CurveKind::kOccludingContour,
               {}};
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];

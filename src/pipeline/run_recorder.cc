@@ -20,17 +20,11 @@ Counts CountsOf(const EdgeSketch& sketch) {
 
 Counts CountsOf(const CurveSet& curves) {
   std::int64_t num_samples = 0;
-  std::int64_t num_occluding = 0;
   for (const Curve& curve : curves.curves) {
     num_samples += static_cast<std::int64_t>(curve.samples.size());
-    num_occluding += curve.is_occluding_contour ? 1 : 0;
   }
-  Counts counts = {{"curves", static_cast<std::int64_t>(curves.curves.size())},
-                   {"samples", num_samples}};
-  if (num_occluding > 0) {
-    counts.emplace_back("occluding contours", num_occluding);
-  }
-  return counts;
+  return {{"curves", static_cast<std::int64_t>(curves.curves.size())},
+          {"samples", num_samples}};
 }
 
 Counts KindCounts(const CurveSet& curves) {

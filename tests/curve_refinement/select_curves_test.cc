@@ -35,37 +35,46 @@ std::vector<PosedView> Around(int num_views) {
   return views;
 }
 
-// Curves in two of the views, in which edges as sharp as all others support
-// them but for the share that is blurred. If all n views did, dilution would
-// be sqrt(2 / n).
+// Curves in two views at a right angle, in which edges as sharp as all others
+// support them; blurred ones come from a third view, or, if they are half of
+// all or all, from one of the two or both. If all n views supported a curve,
+// its dilution would be sqrt(2 / n).
 class Scene {
  public:
   explicit Scene(int num_views = 16)
       : views_(Around(num_views)), edge_maps_(views_.size()) {
-    for (int k = 0; k < 1000; ++k) {  // what else the views show
+    for (int k = 0; k < 4000; ++k) {  // what else the views show
       for (EdgeMap& map : edge_maps_) {
         map.edges.push_back(
-            {{0.5 * k, 5}, 0, 20, static_cast<float>(kSharpness)});
+            {{0.1 * k, 5}, 0, 20, static_cast<float>(kSharpness)});
       }
     }
   }
 
-  // A line of 200 samples, the blurred ones of which are seen in view 1. How
-  // many there were before, which its evidence tells, too.
+  // A line of 200 samples. How many there were before, which its evidence
+  // tells, too.
   double Add(const Drawn& drawn) {
     const auto idx = static_cast<double>(curves_.size());
     Curve curve = Line(InPlane(-100, 0), InPlane(99, 0));
     const std::size_t count = curve.samples.size();
+    const double share = drawn.blurred_share;
+    const double num_blurred_beside =
+        share < 0.5 ? share / (1 - share) * 2 * static_cast<double>(count) : 0;
     for (std::size_t k = 0; k < count; ++k) {
       CurveSample& sample = curve.samples[k];
       sample.evidence = idx;
       sample.sigma = kEdgeSigmaPx * drawn.dilution * kPixel;
-      const bool is_blurred = static_cast<double>(k) + 0.5 <
-                              drawn.blurred_share * static_cast<double>(count);
-      sample.support = {
-          AddEdge(sample,
-                  is_blurred,
-                  drawn.scatter_px / 1.4826 * (k % 2 == 0 ? 1 : -1))};
+      const double offset_px =
+          drawn.scatter_px / 1.4826 * (k % 2 == 0 ? 1 : -1);
+      sample.support = {AddEdge(sample, 0, share >= 0.5, offset_px)};
+      if (static_cast<double>(k) + 0.5 < num_blurred_beside) {
+        sample.support.push_back(AddEdge(sample, 1, true, offset_px));
+      }
+      const std::size_t at_right_angle = views_.size() / 4;
+      if (at_right_angle > 0) {
+        sample.support.push_back(
+            AddEdge(sample, at_right_angle, share == 1, offset_px));
+      }
     }
     curves_.push_back(std::move(curve));
     return idx;
@@ -88,19 +97,20 @@ class Scene {
 
   // An edge `offset_px` beside the sample.
   EdgeRef AddEdge(const CurveSample& sample,
+                  std::size_t view_idx,
                   bool is_blurred,
                   double offset_px) {
-    const std::int32_t view_idx = is_blurred ? 1 : 0;
-    const PosedView& view = views_[static_cast<std::size_t>(view_idx)];
+    const PosedView& view = views_[view_idx];
     Edge2d edge;
     edge.position = view.Pixel(view.InCamera(sample.position)) +
                     Eigen::Vector2d(0, offset_px);
     edge.strength = 10;
     edge.sharpness =
         static_cast<float>(is_blurred ? kSharpness / 2 : kSharpness);
-    auto& edges = edge_maps_[static_cast<std::size_t>(view_idx)].edges;
+    auto& edges = edge_maps_[view_idx].edges;
     edges.push_back(edge);
-    return {view_idx, static_cast<std::int32_t>(edges.size() - 1)};
+    return {static_cast<std::int32_t>(view_idx),
+            static_cast<std::int32_t>(edges.size() - 1)};
   }
 
   std::vector<PosedView> views_;
@@ -154,12 +164,25 @@ TEST(SelectCurves, AsksForLessWhereTheViewsCannotTellMore) {
   ExpectLimit(1.6 * 2.5, {}, Scene(2));  // both in one plane with the curve
 }
 
+// The two sharp views alone have a dilution of 1.
 TEST(SelectCurves, AsksForMoreOfBlurredCurves) {
-  ExpectLimit(0.75 * 2.5, {.blurred_share = 0.05}, Scene(), Kind::kNone);
-  ExpectLimit(0.25 * 2.5, {.blurred_share = 0.15}, Scene(), Kind::kNone);
+  constexpr double kLimit = 0.2 * (1 - 1 / 2.5);
+  EXPECT_EQ(KindOf({.blurred_share = kLimit - 0.005}), Kind::kEdge);
+  EXPECT_EQ(KindOf({.blurred_share = kLimit + 0.005}), Kind::kNone);
 }
 
-TEST(SelectCurves, LeavesBordersOfShadingOut) {
+TEST(SelectCurves, AsksThatSharpViewsAloneTellThePlace) {
+  CurveRefinementOptions options = kOptions;
+  options.max_blurred_share = 0.9;
+  for (const double share : {0.3, 0.5}) {
+    Scene scene;
+    scene.Add({});
+    scene.Add({.dilution = 0.1, .blurred_share = share});
+    EXPECT_EQ(scene.Select(options).edges.size(), share < 0.5 ? 2u : 1u);
+  }
+}
+
+TEST(SelectCurves, LeavesShadingEdgesOut) {
   EXPECT_EQ(KindOf({.dilution = 0.1, .blurred_share = 0.195}), Kind::kNone);
   EXPECT_EQ(KindOf({.dilution = 0.01, .blurred_share = 0.25}), Kind::kNone);
   EXPECT_EQ(KindOf({.dilution = 3, .blurred_share = 0.25}),
@@ -187,7 +210,7 @@ TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
 
 TEST(SelectCurves, LearnsTheScatterFromSoftCurvesIfNoneIsSharp) {
   Scene scene;
-  for (const double dilution : {0.5, 1.2, 1.3}) {
+  for (const double dilution : {0.5, 2.4, 2.6}) {
     scene.Add({.dilution = dilution,
                .scatter_px = 5 * kGoodScatterPx,
                .blurred_share = 0.1});
@@ -217,11 +240,11 @@ TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
   std::vector<double> edges, contours;
   for (const Curve& curve : selected.edges) {
     edges.push_back(curve.samples.front().evidence);
-    EXPECT_FALSE(curve.is_occluding_contour);
+    EXPECT_EQ(MainKind(curve), CurveKind::kUnknown);
   }
   for (const Curve& curve : selected.occluding_contours) {
     contours.push_back(curve.samples.front().evidence);
-    EXPECT_TRUE(curve.is_occluding_contour);
+    EXPECT_EQ(MainKind(curve), CurveKind::kOccludingContour);
   }
   EXPECT_EQ(edges, (std::vector<double>{0, 4, 6}));
   EXPECT_EQ(contours, (std::vector<double>{2, 8}));

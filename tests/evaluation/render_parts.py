@@ -171,8 +171,52 @@ def plates():
                         for i in (-1, 0, 1)))
 
 
+def ring():
+    cut(OCC.addTorus(0, 0, 0, .38, .12), OCC.addBox(0, -.05, -.5, 1, .1, 1))
+
+
+def bottle():
+    corners = [OCC.addPoint(x, 0, z) for x, z in (
+        (0, 0), (.18, 0), (.22, .06), (.22, .45), (.17, .6), (.08, .7),
+        (.07, .8), (.09, .83), (.09, .9), (0, .9))]
+    outline = [OCC.addLine(*corners[:2]), OCC.addSpline(corners[1:7])]
+    outline += [OCC.addLine(corners[i], corners[(i + 1) % 10])
+                for i in range(6, 10)]
+    half = OCC.addPlaneSurface([OCC.addCurveLoop(outline)])
+    turned = OCC.revolve([(2, half)], 0, 0, 0, 0, 0, 1, 2 * math.pi)
+    cut(next(tag for dim, tag in turned if dim == 3),
+        OCC.addCylinder(0, 0, .5, 0, 0, .6, .05))
+
+
+def mouse():
+    body = OCC.addSphere(0, 0, 0, .5)
+    OCC.dilate([(3, body)], 0, 0, 0, 1, .6, .45)
+    cut(body, OCC.addBox(-1, -1, -1, 2, 2, .95),
+        OCC.addBox(.1, -.02, -.1, 1, .04, 1),
+        OCC.addCylinder(-.2, 0, 0, 0, 0, 1, .1))
+
+
+def pebble():
+    cut(rounded(prism([(0, 0), (1, 0), (.9, .6), (.1, .7)], .4), .12),
+        OCC.addCylinder(.3, .3, .25, 0, 0, .3, .12),
+        OCC.addCylinder(.7, .3, -.2, 0, 0, 1, .08))
+
+
+def handle():
+    fuse(OCC.addCylinder(-.5, 0, 0, 1, 0, 0, .07),
+         *(OCC.addCylinder(x, 0, -.3, 0, 0, .3, .06) for x in (-.4, .4)),
+         *(OCC.addBox(x, -.12, -.35, .2, .24, .06) for x in (-.5, .3)),
+         *(OCC.addSphere(x, 0, 0, .07) for x in (-.5, .5)))
+
+
+def cup():
+    cut(rounded(OCC.addCone(0, 0, 0, 0, 0, .7, .25, .4), .05,
+                lambda x, y, z: z < .3),
+        OCC.addCone(0, 0, .05, 0, 0, .7, .2, .36))
+
+
 PARTS = [bolt, tee, soapbox, dome, shaft, bracket, gear, enclosure, knob, wedge,
-         plates]
+         plates, ring, bottle, mouse, pebble, handle, cup]
 
 
 # --- The part as triangles and as edges -------------------------------------

@@ -169,7 +169,6 @@ PartResult SomePart() {
   part.num_core_edges_3d = 5'000'000'000;
   part.curves.resize(2);
   part.curves[0].curve.closed = true;
-  part.curves[1].curve.is_occluding_contour = true;
   CurveSample sample;
   sample.position = {1.0 / 3, -1e-300, 7};
   sample.sigma = 0.1;
@@ -197,7 +196,6 @@ TEST_F(StageIo, GivesAPartBackBitByBit) {
   ASSERT_TRUE(first.ok() && second.ok());
   EXPECT_TRUE(first->curve.closed);
   EXPECT_TRUE(first->curve.samples.empty());
-  EXPECT_TRUE(second->curve.is_occluding_contour);
   ASSERT_EQ(second->curve.samples.size(), 2u);
   const CurveSample& sample = part.curves[1].curve.samples[1];
   EXPECT_EQ(second->curve.samples[1].kind, sample.kind);

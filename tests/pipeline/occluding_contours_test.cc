@@ -109,7 +109,8 @@ TEST(KeptOccludingContours, AreLabelled) {
   ASSERT_TRUE(result.ok()) << result.status().message();
   CurveSet edges, contours;
   for (const Curve& curve : result->curves.curves) {
-    (curve.is_occluding_contour ? contours : edges).curves.push_back(curve);
+    (MainKind(curve) == CurveKind::kOccludingContour ? contours : edges)
+        .curves.push_back(curve);
   }
   EXPECT_GT(Compare(edges, cylinder.truth, kPixel).accurate, 0.99);
   EXPECT_FALSE(contours.curves.empty());

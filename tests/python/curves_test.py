@@ -11,7 +11,7 @@ import pycurvix
 from pycurvix import _core
 from workspace import WorkspaceTest, contents
 
-VIEWS = ('offsets', 'closed', 'is_occluding_contour', 'start_junction', 'end_junction', 'junctions', 'positions',
+VIEWS = ('offsets', 'closed', 'start_junction', 'end_junction', 'junctions', 'positions',
          'tangents', 'covariances', 'sigmas', 'evidence', 'kinds', 'kind_probabilities', 'support_offsets', 'support',
          'views', 'fits', 'fit_offsets', 'spline_points', 'spline_knots', 'nodes',
          'node_covariances')

@@ -58,7 +58,6 @@ class Scene:
 class Curves:
     offsets: NDArray[np.int64]
     closed: NDArray[np.bool_]
-    is_occluding_contour: NDArray[np.bool_]
     start_junction: NDArray[np.int32]
     end_junction: NDArray[np.int32]
     junctions: NDArray[np.float64]

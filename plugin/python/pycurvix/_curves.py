@@ -72,11 +72,6 @@ class Curves:
         return self._core.closed
 
     @property
-    def is_occluding_contour(self) -> NDArray[np.bool_]:
-        """Whether a curve is probably an occluding contour of a round body (C,)."""
-        return self._core.is_occluding_contour
-
-    @property
     def start_junction(self) -> NDArray[np.int32]:
         """Index into `junctions` of each curve's start, or -1 (C,)."""
         return self._core.start_junction
