@@ -59,18 +59,26 @@ Result<Slice> ParseSlice(const std::string& text) {
   return Slice{*from, *to};
 }
 
-std::string Short(double value) {
+std::string Short(double value, int digits = 4) {
   std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.4g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
   return text.data();
+}
+
+// "front (xz)".
+std::string ViewName(const std::string& plane) {
+  const std::string name = plane == "xy"   ? "plan"
+                           : plane == "xz" ? "front"
+                           : plane == "yz" ? "side"
+                                           : "plane";
+  return name + " (" + plane + ")";
 }
 
 // One elevation, plan or section.
 struct DrawnView {
   DrawingPlane plane;
   std::vector<SheetCurve> curves = {};
-  int num_unknown =
-      0;  // primitives of which it is not known if they are hidden
+  int num_unknown = 0;  // primitives that may be hidden or not
 };
 
 class Drafter {
@@ -140,6 +148,11 @@ Status Drafter::TakePlanes() {
   }
   for (DrawingPlane& plane : *planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
+    if (curves_.alignment && AxisPlane(plane.name)) {
+      // Sheets hold all digits of large coordinates.
+      const Eigen::Vector3d& offset = curves_.alignment->offset;
+      plane.origin -= offset - offset.dot(plane.toward) * plane.toward;
+    }
     views_.push_back({plane});
     Fill(views_.back());
   }
@@ -259,9 +272,9 @@ Status Drafter::TakePhotograph() {
 }
 
 std::string Drafter::Subtitle() const {
-  std::string text = "plane " + views_.front().plane.name;
-  for (std::size_t i = 1; i < views_.size(); ++i) {
-    text += ", " + views_[i].plane.name;
+  std::string text;
+  for (const DrawnView& view : views_) {
+    text += (text.empty() ? "" : ", ") + ViewName(view.plane.name);
   }
   if (settings_.from_behind) text += ", from behind";
   if (!settings_.slice.empty()) {
@@ -269,6 +282,10 @@ std::string Drafter::Subtitle() const {
             Short(slice_.from) + " to " + Short(slice_.to);
   }
   if (!photograph_.empty()) text += ", photograph " + photograph_;
+  if (curves_.alignment && curves_.alignment->has_scale) {
+    text += ", lengths known to " +
+            Short(100 * curves_.alignment->scale_sigma(), 2) + " %";
+  }
   return text;
 }
 

@@ -2,6 +2,7 @@
 // From curves to drawings to scale, as a person does it.
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -120,6 +121,34 @@ TEST_F(Draw, DistancesAreThoseOfTheDimensions) {
     }
   }
   EXPECT_GE(num_compared, 8u);  // four edges or more of two planes
+}
+
+TEST_F(Draw, CoordinatesAreThoseOfTheSurvey) {
+  json curves = Curves();
+  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
+  const auto before = LineLengths(Read(results_ / "drawing_xy.dxf"));
+  curves["alignment"] = {
+      {"unit", "m"},
+      {"crs", "EPSG:25832"},
+      {"offset", {400000, 5600000, 100}},
+      {"known", {"scale", "rotation", "translation"}},
+      {"covariance", json(7, std::vector<double>(7, 0))},
+      {"world_from_model",
+       {{"scale", 1}, {"rotation", {1, 0, 0, 0}}, {"translation", {0, 0, 0}}}}};
+  std::ofstream(results_ / "curves.json") << curves;
+  ASSERT_EQ(Run("draw --plane xy --slice=-9,9").exit_code, 0);
+  const std::string dxf = Read(results_ / "drawing_xy.dxf");
+  const auto after = LineLengths(dxf);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR(after[i], before[i], 1e-8);
+  }
+  double x = 0, y = 0;
+  const std::size_t line = dxf.find("AcDbLine\n");
+  ASSERT_EQ(std::sscanf(dxf.c_str() + line, "AcDbLine 10 %lf 20 %lf", &x, &y),
+            2);
+  EXPECT_NEAR(x, 400000, 2);
+  EXPECT_NEAR(y, 5600000, 2);
 }
 
 TEST_F(Draw, APhotographLiesBeneath) {
