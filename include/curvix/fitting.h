@@ -24,6 +24,8 @@ struct CurveFit {
   // sample 0 of a closed curve. Neighbouring primitives share a sample.
   std::size_t first_sample = 0;
   std::size_t num_samples = 0;
+  // What most of these samples are; ties: the first in CurveKind.
+  CurveKind curve_kind = CurveKind::kUnknown;
   // World. Equal, to the last bit, to the position of the node, if there is
   // one.
   Eigen::Vector3d start = Eigen::Vector3d::Zero();

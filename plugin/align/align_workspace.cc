@@ -92,11 +92,8 @@ Status Aligner::ReadScene() {
   Result<Workspace> workspace = FindInput(settings_.run);
   if (!workspace.ok()) return workspace.status();
   workspace_ = *std::move(workspace);
-  Workspace refined = workspace_;
-  if (fs::exists(workspace_.output_path / "sparse")) {
-    refined.model_path = workspace_.output_path / "sparse";
-  }
-  Result<WorkspaceScene> input = LoadWorkspaceScene(refined);
+  Result<WorkspaceScene> input =
+      LoadWorkspaceScene(WithRefinedModel(workspace_));
   if (!input.ok()) return input.status();
   for (const std::string& note : input->notes) progress_.Note(note);
   scene_ = std::move(input->scene);

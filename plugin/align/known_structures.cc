@@ -2,14 +2,13 @@
 #include "plugin/align/known_structures.h"
 
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "base/median.h"
 #include "base/text_fields.h"
 #include "measuring/moved_curves.h"
-#include "plugin/align/alignment_file.h"
+#include "plugin/align/curves_file.h"
 
 namespace curvix {
 namespace {
@@ -21,59 +20,6 @@ Status BadDistance(const std::string& text, const std::string& why) {
           "--distance " + text + ": " + why +
               "; it takes two nodes or points and their distance, as in "
               "--distance 12 31 1.250 or --distance 0,0,0 1,0.5,0 1.250"};
-}
-
-Eigen::Vector3d VectorOf(const Json& json) {
-  return {json.at(0).get<double>(),
-          json.at(1).get<double>(),
-          json.at(2).get<double>()};
-}
-
-Eigen::Matrix3d MatrixOf(const Json& json) {
-  const auto at = [&](std::size_t i) { return json.at(i).get<double>(); };
-  Eigen::Matrix3d m;
-  m << at(0), at(1), at(2), at(1), at(3), at(4), at(2), at(4), at(5);
-  return m;
-}
-
-// All of curves.json but the samples, which are most of it.
-Json ReadWithoutSamples(std::ifstream& file) {
-  return Json::parse(
-      file,
-      [](int, Json::parse_event_t event, Json& parsed) {
-        return event != Json::parse_event_t::key || parsed != "samples";
-      },
-      false);
-}
-
-Result<KnownStructures> Structures(const Json& json) {
-  KnownStructures result;
-  if (json.contains("alignment")) {
-    Json alignment = json["alignment"];
-    alignment["format"] = "curvix alignment";
-    alignment["version"] = 1;
-    const Result<WorldAlignment> frame = AlignmentFromJson(alignment);
-    if (!frame.ok()) return frame.status();
-    result.model_from_world = frame->world_from_model.Inverse();
-  }
-  const Similarity3& frame = result.model_from_world;
-  const auto covariance = [&](const Json& matrix) {
-    return MoveCovariance(frame, MatrixOf(matrix));
-  };
-  for (const Json& node : json.at("nodes")) {
-    result.nodes.push_back({frame * VectorOf(node.at("position")),
-                            covariance(node.at("covariance"))});
-  }
-  for (const Json& curve : json.at("curves")) {
-    for (const Json& fit : curve.at("fits")) {
-      if (fit.at("kind") != "line") continue;
-      result.lines.push_back({frame * VectorOf(fit.at("start")),
-                              frame * VectorOf(fit.at("end")),
-                              covariance(fit.at("start_covariance")),
-                              covariance(fit.at("end_covariance"))});
-    }
-  }
-  return result;
 }
 
 KnownPoint UsualPoint(const KnownStructures& structures) {
@@ -145,30 +91,25 @@ Result<KnownDistance> ParseDistance(const std::string& text,
 }  // namespace
 
 Result<KnownStructures> ReadStructures(const fs::path& folder) {
-  const fs::path path = folder / "curves.json";
-  std::ifstream file(path);
-  if (!file) {
-    return Status(StatusCode::kNotFound,
-                  "there is no " + path.string() +
-                      ", which has the nodes and lines; run 'colmap_curvix "
-                      "reconstruct' first, with json among its "
-                      "--output_formats");
+  Result<CurvesFile> file = ReadCurvesFile(folder);
+  if (!file.ok()) return file.status();
+  KnownStructures result;
+  if (file->alignment) {
+    result.model_from_world = file->alignment->world_from_model.Inverse();
   }
-  const Json json = ReadWithoutSamples(file);
-  const std::string advice = "; run 'colmap_curvix reconstruct' again";
-  try {
-    if (!json.is_discarded()) {
-      Result<KnownStructures> result = Structures(json);
-      if (result.ok()) return result;
-      return Status(
-          StatusCode::kDataLoss,
-          path.string() + " is broken: " + result.status().message() + advice);
+  const FittedCurves fitted =
+      MoveFits(result.model_from_world, std::move(file->fitted));
+  for (const CurveNode& node : fitted.nodes) {
+    result.nodes.push_back({node.position, node.covariance});
+  }
+  for (const FittedCurve& curve : fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      if (fit.kind != FitKind::kLine) continue;
+      result.lines.push_back(
+          {fit.start, fit.end, fit.start_covariance, fit.end_covariance});
     }
-  } catch (const nlohmann::json::exception& error) {
-    return Status(StatusCode::kDataLoss,
-                  path.string() + " lacks something: " + error.what() + advice);
   }
-  return Status(StatusCode::kDataLoss, path.string() + " is not JSON" + advice);
+  return result;
 }
 
 Result<std::vector<KnownDistance>> ParseDistances(

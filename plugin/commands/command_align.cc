@@ -34,17 +34,6 @@ Arguments WithDistancesJoined(const Arguments& arguments) {
   return joined;
 }
 
-Flag Text(std::string name, std::string* value, std::string help) {
-  Flag flag;
-  flag.name = std::move(name);
-  flag.help = std::move(help);
-  flag.set = [value](const std::string& text) {
-    *value = text;
-    return Status();
-  };
-  return flag;
-}
-
 Flag MarkersFlag(AlignSettings* settings) {
   Flag flag = ChoiceFlag("markers",
                          MarkerDictionaries(),
@@ -63,11 +52,12 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
   std::vector<FlagSection> sections = {PathsSection(&s->run)};
   sections.push_back(
       {"Known",
-       {Text("distance",
-             &s->distances,
-             "two nodes (by number) or points (x,y,z) and how far apart they "
-             "are: A B 1.250, or A B 1.250 0.001 with a standard deviation; "
-             "may be given several times"),
+       {TextFlag(
+            "distance",
+            &s->distances,
+            "two nodes (by number) or points (x,y,z) and how far apart they "
+            "are: A B 1.250, or A B 1.250 0.001 with a standard deviation; "
+            "may be given several times"),
         MarkersFlag(s),
         RowFlag({.name = "marker_size",
                  .field = &s->marker_size,
@@ -76,15 +66,16 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
                  &s->positions_path,
                  "file with lines 'image_name x y z' or 'image_name x y z "
                  "sigma': where cameras are"),
-        Text("epsg", &s->epsg, "number of the EPSG code of the positions"),
+        TextFlag("epsg", &s->epsg, "number of the EPSG code of the positions"),
         ChoiceFlag("axes",
                    {"none", "auto"},
                    &s->axes,
                    "auto: z up and two horizontals along most lines"),
-        Text("up",
-             &s->up,
-             "x,y,z: where up is, roughly, in the coordinates of curves.json; "
-             "default: up in the images")}});
+        TextFlag(
+            "up",
+            &s->up,
+            "x,y,z: where up is, roughly, in the coordinates of curves.json; "
+            "default: up in the images")}});
   sections.push_back(
       {"Output",
        {ChoiceFlag("unit",

@@ -189,6 +189,18 @@ Flag PathFlag(std::string name, std::filesystem::path* path, std::string help) {
   return flag;
 }
 
+Flag TextFlag(std::string name, std::string* value, std::string help) {
+  Flag flag;
+  flag.name = std::move(name);
+  flag.help = std::move(help);
+  flag.default_value = *value;
+  flag.set = [value](const std::string& text) {
+    *value = text;
+    return Status();
+  };
+  return flag;
+}
+
 Flag RowFlag(const OptionRow& row) {
   Flag flag;
   flag.name = row.name;

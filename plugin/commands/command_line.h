@@ -39,6 +39,7 @@ struct FlagSection {
 // Makers of flags. Pointers must outlive the flag; their values at this moment
 // are the defaults shown.
 Flag PathFlag(std::string name, std::filesystem::path* path, std::string help);
+Flag TextFlag(std::string name, std::string* value, std::string help);
 Flag RowFlag(const OptionRow& row);
 Flag ChoiceFlag(std::string name,
                 std::vector<std::string> choices,

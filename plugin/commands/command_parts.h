@@ -27,6 +27,7 @@ ExitCode RunReconstruct(const Arguments& arguments);
 ExitCode RunPartitionCommand(const Arguments& arguments);
 ExitCode RunMergeCommand(const Arguments& arguments);
 ExitCode RunAlign(const Arguments& arguments);
+ExitCode RunDraw(const Arguments& arguments);
 ExitCode RunSynthesize(const Arguments& arguments);
 ExitCode RunImport(const Arguments& arguments);
 ExitCode RunEvaluate(const Arguments& arguments);

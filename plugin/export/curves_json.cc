@@ -26,6 +26,7 @@ Json NodeIdxJson(int node_idx) {
 
 Json FitJson(const CurveFit& fit) {
   Json json = {{"kind", KindName(fit)},
+               {"curve_kind", KindName(fit.curve_kind)},
                {"closed", fit.closed},
                {"first_sample", fit.first_sample},
                {"num_samples", fit.num_samples},

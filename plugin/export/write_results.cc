@@ -4,7 +4,6 @@
 #include <curvix/curve_io.h>
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <optional>
 
 #include "base/file_io.h"
@@ -62,15 +61,6 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
   return WriteColmapModel(model, path, ColmapFormat::kBinary);
 }
 
-// Of the length units that users name; nullopt: of others.
-std::optional<double> MillimetresPer(const std::string& unit) {
-  static const std::map<std::string, double> millimetres = {
-      {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}};
-  const auto found = millimetres.find(unit);
-  if (found == millimetres.end()) return std::nullopt;
-  return found->second;
-}
-
 // STEP knows units: curves whose unit is known are written in millimetres.
 Status WriteStep(const CurveRecord& record, const fs::path& path) {
   const auto millimetres = record.alignment == nullptr
@@ -114,18 +104,6 @@ Flag FormatsFlag(std::vector<std::string>* formats) {
     Result<std::vector<std::string>> parsed = ParseOutputFormats(text);
     if (!parsed.ok()) return parsed.status();
     *formats = *std::move(parsed);
-    return {};
-  };
-  return flag;
-}
-
-Flag TextFlag(std::string name, std::string* value, std::string help) {
-  Flag flag;
-  flag.name = std::move(name);
-  flag.help = std::move(help);
-  flag.default_value = *value;
-  flag.set = [value](const std::string& text) -> Status {
-    *value = text;
     return {};
   };
   return flag;

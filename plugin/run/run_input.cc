@@ -60,6 +60,12 @@ Result<Workspace> FindInput(const RunSettings& settings) {
   return workspace;
 }
 
+Workspace WithRefinedModel(Workspace workspace) {
+  const fs::path refined = workspace.output_path / "sparse";
+  if (fs::exists(refined)) workspace.model_path = refined;
+  return workspace;
+}
+
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunProgress& progress,
                                  RunRecord& record) {

@@ -14,6 +14,10 @@ namespace curvix {
 // results would lie among the inputs.
 Result<Workspace> FindInput(const RunSettings& settings);
 
+// The same with the model of refined poses that an earlier run has left beside
+// its results, if there is one.
+Workspace WithRefinedModel(Workspace workspace);
+
 // Reads the model of `workspace`, and alignment.json if the folder of results
 // has one; puts into `record` which folders and what they hold. Errors of
 // LoadWorkspaceScene and ReadAlignment.

@@ -106,7 +106,30 @@ struct CurveToFit {
   std::size_t id = 0;
   bool closed = false;
   FitSamples samples;
+  std::vector<CurveKind> kinds;  // of the samples
 };
+
+CurveToFit MakeCurveToFit(std::size_t id,
+                          const Curve& curve,
+                          const std::vector<PosedView>& views,
+                          const CurveFittingOptions& options) {
+  CurveToFit result{id, curve.closed, MakeSamples(curve, views, options), {}};
+  for (const CurveSample& sample : curve.samples) {
+    result.kinds.push_back(sample.kind);
+  }
+  return result;
+}
+
+// Of most samples of the primitive.
+CurveKind KindOf(const Primitive& primitive,
+                 const std::vector<CurveKind>& kinds) {
+  Curve part;
+  part.samples.resize(primitive.num_samples);
+  for (std::size_t i = 0; i < primitive.num_samples; ++i) {
+    part.samples[i].kind = kinds[(primitive.first_sample + i) % kinds.size()];
+  }
+  return MainKind(part);
+}
 
 // Calls fit(curve) for each curve, on several threads at once; a bounded number
 // of curves is in memory.
@@ -125,7 +148,7 @@ void FitEach(const CurveSource& curves,
     num_samples = 0;
   };
   curves.ForEach([&](std::size_t id, const Curve& curve) {
-    some.push_back({id, curve.closed, MakeSamples(curve, views, options)});
+    some.push_back(MakeCurveToFit(id, curve, views, options));
     num_samples += curve.samples.size();
     if (num_samples >= kMaxSamples) fit_some();
   });
@@ -297,6 +320,7 @@ FittedCurves FitCurves(const CurveSource& curves,
                               SamplesOf(primitive, curve.samples),
                               position(start),
                               position(end)});
+      fit.curve_kind = KindOf(primitive, curve.kinds);
       fit.start_node = start;
       fit.end_node = end;
       fit.start_covariance = end_covariance(start, alone[curve.id][f].at_start);

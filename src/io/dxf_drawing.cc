@@ -8,229 +8,26 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
-#include <utility>
+#include <vector>
 
 #include "base/angles.h"
-#include "base/text_fields.h"
+#include "io/drawing_layers.h"
+#include "io/dxf_writer.h"
 
 namespace curvix {
 namespace {
 
-struct Layer {
-  const char* name;
-  int color;  // AutoCAD's index
+constexpr char kFrameLayer[] = "FRAME";
+constexpr char kPhotographLayer[] = "PHOTOGRAPH";
+
+// What an entity is drawn with.
+struct Pen {
+  const char* layer;
+  bool dashed = false;
 };
 
-constexpr std::array<Layer, 6> kLayers = {{{"0", 7},
-                                           {"LINES", 7},
-                                           {"ARCS", 3},
-                                           {"CIRCLES", 1},
-                                           {"ELLIPSES", 6},
-                                           {"SPLINES", 5}}};
-
-// Fixed handles of what entities and tables refer to.
-constexpr char kBlockRecords[] = "1";
-constexpr char kModelSpace[] = "1F";
-constexpr char kPaperSpace[] = "1E";
-constexpr int kFirstFreeHandle = 0x100;
-
-// Pairs of a group code and a value, each on its own line.
-class Writer {
- public:
-  void Put(int code, std::string_view value) {
-    out_ += std::to_string(code) + '\n';
-    out_ += value;
-    out_ += '\n';
-  }
-  void Put(int code, double value) {
-    std::string text;
-    AppendNumber(value, text);
-    // A number without point is not a real for every reader.
-    if (text.find_first_of(".en") == std::string::npos) text += ".0";
-    Put(code, text);
-  }
-  void Put(int code, int value) { Put(code, std::to_string(value)); }
-  void Put(int code, const Eigen::Vector3d& v) {
-    for (int i = 0; i < 3; ++i) Put(code + 10 * i, v[i]);
-  }
-  void PutHandle() {
-    std::array<char, 16> text;
-    std::snprintf(text.data(), text.size(), "%X", next_handle_++);
-    Put(5, text.data());
-  }
-  // What was put since the last time.
-  std::string Take() { return std::exchange(out_, {}); }
-  int next_handle() const { return next_handle_; }
-
- private:
-  std::string out_;
-  int next_handle_ = kFirstFreeHandle;
-};
-
-void BeginTable(const char* name, const char* handle, int count, Writer& w) {
-  w.Put(0, "TABLE");
-  w.Put(2, name);
-  w.Put(5, handle);
-  w.Put(330, "0");
-  w.Put(100, "AcDbSymbolTable");
-  w.Put(70, count);
-}
-
-// The start of a record of the table that has `owner` as its handle.
-void BeginRecord(const char* type,
-                 const char* handle,
-                 const char* owner,
-                 const char* marker,
-                 const char* name,
-                 Writer& w) {
-  w.Put(0, type);
-  if (*handle != '\0') {
-    w.Put(5, handle);
-  } else {
-    w.PutHandle();
-  }
-  w.Put(330, owner);
-  w.Put(100, "AcDbSymbolTableRecord");
-  w.Put(100, marker);
-  w.Put(2, name);
-}
-
-void PutLayers(Writer& w) {
-  BeginTable("LAYER", "2", static_cast<int>(kLayers.size()), w);
-  for (const Layer& layer : kLayers) {
-    BeginRecord("LAYER", "", "2", "AcDbLayerTableRecord", layer.name, w);
-    w.Put(70, 0);
-    w.Put(62, layer.color);
-    w.Put(6, "Continuous");
-    w.Put(390, "F");
-  }
-  w.Put(0, "ENDTAB");
-}
-
-void PutLineTypes(Writer& w) {
-  BeginTable("LTYPE", "5", 3, w);
-  for (const char* name : {"ByBlock", "ByLayer", "Continuous"}) {
-    BeginRecord("LTYPE", "", "5", "AcDbLinetypeTableRecord", name, w);
-    w.Put(70, 0);
-    w.Put(3, "");
-    w.Put(72, 65);
-    w.Put(73, 0);
-    w.Put(40, 0.0);
-  }
-  w.Put(0, "ENDTAB");
-}
-
-void PutViewport(Writer& w) {
-  BeginTable("VPORT", "8", 1, w);
-  BeginRecord("VPORT", "", "8", "AcDbViewportTableRecord", "*Active", w);
-  w.Put(70, 0);
-  for (const auto& [code, x, y] : {std::tuple{10, 0.0, 0.0},
-                                   {11, 1.0, 1.0},
-                                   {12, 0.0, 0.0},
-                                   {13, 0.0, 0.0},
-                                   {14, 10.0, 10.0},
-                                   {15, 10.0, 10.0}}) {
-    w.Put(code, x);
-    w.Put(code + 10, y);
-  }
-  w.Put(16, Eigen::Vector3d(0, 0, 1));
-  w.Put(17, Eigen::Vector3d(0, 0, 0));
-  w.Put(40, 10.0);
-  w.Put(41, 1.0);
-  w.Put(42, 50.0);
-  w.Put(0, "ENDTAB");
-}
-
-void PutStyles(Writer& w) {
-  BeginTable("STYLE", "3", 1, w);
-  BeginRecord("STYLE", "11", "3", "AcDbTextStyleTableRecord", "Standard", w);
-  w.Put(70, 0);
-  w.Put(40, 0.0);
-  w.Put(41, 1.0);
-  w.Put(50, 0.0);
-  w.Put(71, 0);
-  w.Put(42, 2.5);
-  w.Put(3, "txt");
-  w.Put(4, "");
-  w.Put(0, "ENDTAB");
-}
-
-void PutDimensionStyles(Writer& w) {
-  BeginTable("DIMSTYLE", "A", 1, w);
-  w.Put(100, "AcDbDimStyleTable");
-  w.Put(0, "DIMSTYLE");
-  w.Put(105, "27");
-  w.Put(330, "A");
-  w.Put(100, "AcDbSymbolTableRecord");
-  w.Put(100, "AcDbDimStyleTableRecord");
-  w.Put(2, "Standard");
-  w.Put(70, 0);
-  w.Put(340, "11");
-  w.Put(0, "ENDTAB");
-}
-
-void PutTables(Writer& w) {
-  w.Put(0, "SECTION");
-  w.Put(2, "TABLES");
-  PutViewport(w);
-  PutLineTypes(w);
-  PutLayers(w);
-  PutStyles(w);
-  for (const auto& [name, handle] :
-       {std::pair{"VIEW", "6"}, std::pair{"UCS", "7"}}) {
-    BeginTable(name, handle, 0, w);
-    w.Put(0, "ENDTAB");
-  }
-  BeginTable("APPID", "9", 1, w);
-  BeginRecord("APPID", "12", "9", "AcDbRegAppTableRecord", "ACAD", w);
-  w.Put(70, 0);
-  w.Put(0, "ENDTAB");
-  PutDimensionStyles(w);
-  BeginTable("BLOCK_RECORD", kBlockRecords, 2, w);
-  for (const auto& [name, handle] : {std::pair{"*Model_Space", kModelSpace},
-                                     std::pair{"*Paper_Space", kPaperSpace}}) {
-    BeginRecord(
-        "BLOCK_RECORD", handle, kBlockRecords, "AcDbBlockTableRecord", name, w);
-    w.Put(340, "0");
-  }
-  w.Put(0, "ENDTAB");
-  w.Put(0, "ENDSEC");
-}
-
-void PutBlocks(Writer& w) {
-  w.Put(0, "SECTION");
-  w.Put(2, "BLOCKS");
-  for (const auto& [name, record] : {std::pair{"*Model_Space", kModelSpace},
-                                     std::pair{"*Paper_Space", kPaperSpace}}) {
-    w.Put(0, "BLOCK");
-    w.PutHandle();
-    w.Put(330, record);
-    w.Put(100, "AcDbEntity");
-    if (std::string_view(record) == kPaperSpace) w.Put(67, 1);
-    w.Put(8, "0");
-    w.Put(100, "AcDbBlockBegin");
-    w.Put(2, name);
-    w.Put(70, 0);
-    w.Put(10, Eigen::Vector3d(0, 0, 0));
-    w.Put(3, name);
-    w.Put(1, "");
-    w.Put(0, "ENDBLK");
-    w.PutHandle();
-    w.Put(330, record);
-    w.Put(100, "AcDbEntity");
-    if (std::string_view(record) == kPaperSpace) w.Put(67, 1);
-    w.Put(8, "0");
-    w.Put(100, "AcDbBlockEnd");
-  }
-  w.Put(0, "ENDSEC");
-}
-
-void BeginEntity(const char* type, const char* layer, Writer& w) {
-  w.Put(0, type);
-  w.PutHandle();
-  w.Put(330, kModelSpace);
-  w.Put(100, "AcDbEntity");
-  w.Put(8, layer);
+std::vector<DrawingLayer> KindLayers() {
+  return {kDrawingLayers.begin(), kDrawingLayers.end()};
 }
 
 // ARC and CIRCLE live in a frame that follows from the normal alone: AutoCAD's
@@ -255,13 +52,12 @@ double AngleIn(const Eigen::Matrix3d& frame, const Eigen::Vector3d& offset) {
   return angle < 0 ? angle + 360 : angle;
 }
 
-void PutArc(const CurveFit& fit, Writer& w) {
-  BeginEntity(
-      fit.closed ? "CIRCLE" : "ARC", fit.closed ? "CIRCLES" : "ARCS", w);
+void PutArc(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
+  w.BeginEntity(fit.closed ? "CIRCLE" : "ARC", pen.layer, pen.dashed);
   const Eigen::Vector3d normal = fit.major.cross(fit.minor).normalized();
   const Eigen::Matrix3d frame = FrameOfNormal(normal);
   w.Put(100, "AcDbCircle");
-  w.Put(10, frame.transpose() * fit.center);
+  w.Put(10, Eigen::Vector3d(frame.transpose() * fit.center));
   w.Put(40, fit.major.norm());
   w.Put(210, normal);
   if (fit.closed) return;
@@ -270,8 +66,8 @@ void PutArc(const CurveFit& fit, Writer& w) {
   w.Put(51, AngleIn(frame, PointAt(fit, 1) - fit.center));
 }
 
-void PutEllipse(const CurveFit& fit, Writer& w) {
-  BeginEntity("ELLIPSE", "ELLIPSES", w);
+void PutEllipse(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
+  w.BeginEntity("ELLIPSE", pen.layer, pen.dashed);
   w.Put(100, "AcDbEllipse");
   w.Put(10, fit.center);
   w.Put(11, fit.major);
@@ -281,9 +77,9 @@ void PutEllipse(const CurveFit& fit, Writer& w) {
   w.Put(42, fit.closed ? 2 * kPi : fit.end_angle);
 }
 
-void PutSpline(const CurveFit& fit, Writer& w) {
+void PutSpline(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
   constexpr int kDegree = 3;
-  BeginEntity("SPLINE", "SPLINES", w);
+  w.BeginEntity("SPLINE", pen.layer, pen.dashed);
   w.Put(100, "AcDbSpline");
   w.Put(210, Eigen::Vector3d(0, 0, 1));
   w.Put(70, fit.closed ? 1 : 0);
@@ -297,101 +93,141 @@ void PutSpline(const CurveFit& fit, Writer& w) {
   for (const Eigen::Vector3d& point : fit.control_points) w.Put(10, point);
 }
 
-void PutFit(const CurveFit& fit, Writer& w) {
+void PutFit(const CurveFit& fit, bool dashed, DxfWriter& w) {
+  const Pen pen{LayerOf(fit.curve_kind).name, dashed};
   switch (fit.kind) {
     case FitKind::kLine:
-      BeginEntity("LINE", "LINES", w);
+      w.BeginEntity("LINE", pen.layer, pen.dashed);
       w.Put(100, "AcDbLine");
       w.Put(10, fit.start);
       w.Put(11, fit.end);
       return;
     case FitKind::kArc:
-      return PutArc(fit, w);
+      return PutArc(fit, pen, w);
     case FitKind::kEllipse:
-      return PutEllipse(fit, w);
+      return PutEllipse(fit, pen, w);
     case FitKind::kSpline:
-      return PutSpline(fit, w);
+      return PutSpline(fit, pen, w);
   }
 }
 
-void PutObjects(Writer& w) {
-  w.Put(0, "SECTION");
-  w.Put(2, "OBJECTS");
-  const auto dictionary = [&](const char* handle, const char* owner) {
-    w.Put(0, "DICTIONARY");
-    w.Put(5, handle);
-    w.Put(330, owner);
-    w.Put(100, "AcDbDictionary");
-    w.Put(281, 1);
-  };
-  dictionary("C", "0");
-  w.Put(3, "ACAD_GROUP");
-  w.Put(350, "D");
-  w.Put(3, "ACAD_PLOTSTYLENAME");
-  w.Put(350, "E");
-  dictionary("D", "C");
-  w.Put(0, "ACDBDICTIONARYWDFLT");
-  w.Put(5, "E");
-  w.Put(330, "C");
-  w.Put(100, "AcDbDictionary");
-  w.Put(281, 1);
-  w.Put(3, "Normal");
-  w.Put(350, "F");
-  w.Put(100, "AcDbDictionaryWithDefault");
-  w.Put(340, "F");
-  w.Put(0, "ACDBPLACEHOLDER");
-  w.Put(5, "F");
-  w.Put(330, "E");
-  w.Put(0, "ENDSEC");
+// Characters beyond ASCII as \U+00E4, which every code page has.
+std::string DxfText(std::string_view utf8) {
+  std::string out;
+  for (std::size_t i = 0; i < utf8.size();) {
+    const auto first = static_cast<unsigned char>(utf8[i++]);
+    if (first < 0x80) {
+      out += first < 0x20 ? ' ' : static_cast<char>(first);
+      continue;
+    }
+    const int num_more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;
+    unsigned code = first & (0x3fU >> num_more);
+    for (int k = 0; k < num_more && i < utf8.size(); ++k) {
+      code = code << 6U | (static_cast<unsigned char>(utf8[i++]) & 0x3fU);
+    }
+    std::array<char, 16> text;
+    std::snprintf(text.data(), text.size(), "\\U+%04X", code);
+    out += text.data();
+  }
+  return out;
 }
 
-std::string Header(int next_handle) {
-  Writer w;
-  std::array<char, 16> handle;
-  std::snprintf(handle.data(), handle.size(), "%X", next_handle);
-  w.Put(0, "SECTION");
-  w.Put(2, "HEADER");
-  w.Put(9, "$ACADVER");
-  w.Put(1, "AC1015");
-  w.Put(9, "$HANDSEED");
-  w.Put(5, handle.data());
-  w.Put(9, "$INSUNITS");
-  w.Put(70, 0);
-  w.Put(0, "ENDSEC");
-  w.Put(0, "SECTION");
-  w.Put(2, "CLASSES");
-  w.Put(0, "CLASS");
-  w.Put(1, "ACDBDICTIONARYWDFLT");
-  w.Put(2, "AcDbDictionaryWithDefault");
-  w.Put(3, "ObjectDBX Classes");
+Eigen::Vector3d OnSheet(const Eigen::Vector2d& x) { return {x.x(), x.y(), 0}; }
+
+// Returns the handle of the IMAGE.
+std::string PutImage(const SheetPicture& picture, DxfWriter& w) {
+  w.Put(0, "IMAGE");
+  std::string handle = w.PutHandle();
+  w.PutOwner(kPhotographLayer);
+  w.Put(100, "AcDbRasterImage");
   w.Put(90, 0);
+  w.Put(10, OnSheet(picture.corner));
+  w.Put(11, Eigen::Vector3d(picture.pixel, 0, 0));
+  w.Put(12, Eigen::Vector3d(0, picture.pixel, 0));
+  const Eigen::Vector2d size = picture.size.cast<double>();
+  w.Put(13, size);
+  w.Put(340, kDxfPictureHandle);
+  w.Put(70, 3);
   w.Put(280, 0);
-  w.Put(281, 0);
-  w.Put(0, "ENDSEC");
-  return w.Take();
+  w.Put(281, 50);
+  w.Put(282, 50);
+  w.Put(283, 50);
+  w.Put(360, kDxfReactorHandle);
+  w.Put(71, 1);
+  w.Put(91, 2);
+  w.Put(14, Eigen::Vector2d(-0.5, -0.5));
+  w.Put(14, Eigen::Vector2d(size - Eigen::Vector2d(0.5, 0.5)));
+  return handle;
+}
+
+void PutText(const Sheet& sheet, const SheetText& text, DxfWriter& w) {
+  w.BeginEntity("TEXT", kFrameLayer);
+  w.Put(100, "AcDbText");
+  w.Put(10, OnSheet(sheet.FromPaper(text.start)));
+  w.Put(40, text.height / sheet.scale);
+  w.Put(1, DxfText(text.text));
+  w.Put(100, "AcDbText");
 }
 
 }  // namespace
 
 void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink) {
-  Writer w;
-  PutTables(w);
-  PutBlocks(w);
+  DxfWriter w;
+  PutDxfTables(KindLayers(), {}, kDash, kDashGap, w);
   int next_handle = w.next_handle();
   for (const FittedCurve& curve : fitted.curves) {
     next_handle += static_cast<int>(curve.fits.size());
   }
-  sink(Header(next_handle));
+  sink(DxfHeader(next_handle, "", nullptr));
   w.Put(0, "SECTION");
   w.Put(2, "ENTITIES");
   for (const FittedCurve& curve : fitted.curves) {
-    for (const CurveFit& fit : curve.fits) PutFit(fit, w);
+    for (const CurveFit& fit : curve.fits) PutFit(fit, false, w);
     sink(w.Take());
   }
   w.Put(0, "ENDSEC");
-  PutObjects(w);
-  w.Put(0, "EOF");
+  PutDxfObjects(nullptr, w);
   sink(w.Take());
+}
+
+std::string EncodeDxfSheet(const Sheet& sheet) {
+  DxfWriter w;
+  std::vector<DrawingLayer> layers = KindLayers();
+  layers.push_back({kFrameLayer, 7, 0.25});
+  layers.push_back({kPhotographLayer, 7, 0});
+  PutDxfTables(
+      layers,
+      {sheet.FromPaper(sheet.size / 2), sheet.size.maxCoeff() / sheet.scale},
+      kDash / sheet.scale,
+      kDashGap / sheet.scale,
+      w);
+  w.Put(0, "SECTION");
+  w.Put(2, "ENTITIES");
+  DxfPicture picture;
+  if (sheet.picture) {
+    picture = {DxfText(sheet.picture->file),
+               sheet.picture->size.cast<double>(),
+               PutImage(*sheet.picture, w)};
+  }
+  for (const auto& [fit, is_hidden] : sheet.curves) PutFit(fit, is_hidden, w);
+  for (const SheetLine& line : sheet.lines) {
+    w.BeginEntity("LINE", kFrameLayer);
+    w.Put(100, "AcDbLine");
+    w.Put(10, OnSheet(sheet.FromPaper(line.start)));
+    w.Put(11, OnSheet(sheet.FromPaper(line.end)));
+  }
+  for (const SheetText& text : sheet.texts) PutText(sheet, text, w);
+  w.Put(0, "ENDSEC");
+  PutDxfObjects(sheet.picture ? &picture : nullptr, w);
+  // mm on the paper to drawing units.
+  const double to_units = 1 / (sheet.scale * sheet.denominator);
+  const DxfPaper paper{to_units * sheet.size,
+                       -sheet.corner / sheet.denominator,
+                       1 / sheet.denominator};
+  return DxfHeader(w.next_handle(),
+                   sheet.unit,
+                   sheet.denominator > 0 ? &paper : nullptr) +
+         w.Take();
 }
 
 }  // namespace curvix

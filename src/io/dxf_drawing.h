@@ -3,15 +3,22 @@
 #pragma once
 
 #include <curvix/fitting.h>
+#include <string>
 
 #include "base/file_io.h"
+#include "drawing/sheet.h"
 
 namespace curvix {
 
 // DXF of AutoCAD 2000 (AC1015), text: LINE, ARC, CIRCLE, ELLIPSE and SPLINE
-// entities in model space, in the order of the curves, on one layer per kind
-// (LINES, ARCS, CIRCLES, ELLIPSES, SPLINES). Coordinates are those of the
-// model; no unit is declared.
+// entities in model space, in the order of the curves, on one layer per kind of
+// curve (drawing_layers.h). Coordinates are those of the model; no unit is
+// declared.
 void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink);
+
+// The same of a sheet, in drawing units, which are declared. Frame, scale bar
+// and texts are on the layer FRAME, the picture, an IMAGE that refers to its
+// file, on PHOTOGRAPH.
+std::string EncodeDxfSheet(const Sheet& sheet);
 
 }  // namespace curvix

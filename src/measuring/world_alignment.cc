@@ -4,7 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace curvix {
 namespace {
@@ -295,6 +297,15 @@ Result<AlignmentResult> Estimator::Run() {
 }
 
 }  // namespace
+
+std::optional<double> MillimetresPer(std::string_view unit) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> kUnits = {
+      {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}}};
+  for (const auto& [name, millimetres] : kUnits) {
+    if (name == unit) return millimetres;
+  }
+  return std::nullopt;
+}
 
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input) {
   return Estimator(input).Run();

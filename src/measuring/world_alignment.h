@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/similarity.h"
@@ -16,6 +17,9 @@
 namespace curvix {
 
 using Matrix7d = Eigen::Matrix<double, 7, 7>;
+
+// Of "mm", "cm", "m", "in" and "ft"; nullopt: of others.
+std::optional<double> MillimetresPer(std::string_view unit);
 
 // From the frame of the model to one of the user's.
 struct WorldAlignment {

@@ -60,12 +60,13 @@ def read_dxf(path, curves):
     assert not auditor.errors and not auditor.fixes
     assert document.dxfversion == 'AC1015'
     entities = list(document.modelspace())
-    allowed = {'LINE': 'LINES', 'ARC': 'ARCS', 'CIRCLE': 'CIRCLES', 'ELLIPSE': 'ELLIPSES', 'SPLINE': 'SPLINES'}
-    assert all(allowed[e.dxftype()] == e.dxf.layer for e in entities)
+    layers = {'unknown': 'UNKNOWN', 'crease': 'CREASES', 'boundary': 'BOUNDARIES', 'marking': 'MARKINGS',
+              'occluding_contour': 'OCCLUDING_CONTOURS'}
     with open(curves) as file:
         fits = [fit for curve in json.load(file)['curves'] for fit in curve['fits']]
     for entity, fit in zip(entities, fits):
         assert entity.dxftype() == fit['kind'].upper()
+        assert entity.dxf.layer == layers[fit['curve_kind']]
         for point, name in zip(ends_of(entity), ('start', 'end')):
             if not fit['closed']:
                 assert max(abs(a - b) for a, b in zip(point, fit[name])) < 1e-3 * fit['length'] + fit['sigma'], (fit, point)

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+#include <iostream>
+
+#include "plugin/commands/command_parts.h"
+#include "plugin/draw/draw_workspace.h"
+#include "plugin/run/progress.h"
+
+namespace curvix {
+namespace {
+
+std::vector<FlagSection> Sections(DrawSettings* s) {
+  return {
+      PathsSection(&s->run),
+      {"View",
+       {TextFlag("plane",
+                 &s->plane,
+                 "xy (plan), xz (front), yz (side), several with commas "
+                 "between, 'nodes A B C', or auto: where most lines are"),
+        Switch("from_behind", &s->from_behind, "seen from the other side"),
+        ChoiceFlag("hidden",
+                   {"dashed", "omitted", "solid"},
+                   &s->hidden,
+                   "lines that the photographs from this side do not show"),
+        TextFlag("slice",
+                 &s->slice,
+                 "FROM,TO: draw only what lies between, along the third axis "
+                 "or, of nodes, from their plane towards the viewer"),
+        TextFlag("photograph",
+                 &s->photograph,
+                 "name of an image to put beneath, rectified; auto: the one "
+                 "that shows most")}},
+      {"Sheet",
+       {TextFlag("scale",
+                 &s->scale,
+                 "as 1:50 or 2:1; default: the largest round one that fits"),
+        ChoiceFlag("paper",
+                   {"a4", "a3", "a2", "a1", "a0"},
+                   &s->paper,
+                   "size of the sheet, broad side down"),
+        TextFlag("title", &s->title, "default: the name of the workspace"),
+        TextFlag("name",
+                 &s->name,
+                 "of the files; default: drawing_ and the plane")}}};
+}
+
+}  // namespace
+
+ExitCode RunDraw(const Arguments& arguments) {
+  DrawSettings settings;
+  const std::optional<ExitCode> code =
+      ParseCommand("draw", arguments, Sections(&settings));
+  if (code) return *code;
+  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  const Result<DrawSummary> summary = DrawWorkspace(settings, progress);
+  if (!summary.ok()) {
+    return Fail(summary.status(), ExitCodeOf(summary.status()));
+  }
+  std::cout << summary->text << std::flush;
+  return kExitSuccess;
+}
+
+}  // namespace curvix

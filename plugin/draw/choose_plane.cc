@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/draw/choose_plane.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/text_fields.h"
+#include "measuring/main_axes.h"
+
+namespace curvix {
+namespace {
+
+Status Bad(std::string message) {
+  return {StatusCode::kInvalidArgument, "--plane: " + std::move(message)};
+}
+
+bool AxesAreKnown(const CurvesFile& curves) {
+  return curves.alignment && curves.alignment->has_rotation;
+}
+
+Result<DrawingPlane> AutoPlane(const CurvesFile& curves, const Scene& scene) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d look = MeanViewDirection(scene.views);
+  if (!AxesAreKnown(curves)) {
+    std::vector<DirectedLine> lines;
+    for (const FittedCurve& curve : curves.fitted.curves) {
+      for (const CurveFit& fit : curve.fits) {
+        if (fit.kind != FitKind::kLine) continue;
+        lines.push_back(
+            {fit.start, fit.end, fit.start_covariance, fit.end_covariance});
+      }
+    }
+    const Result<MainAxes> found =
+        FindMainAxes(lines, MeanUp(scene.views), look);
+    if (!found.ok()) {
+      return Status(found.status().code(),
+                    found.status().message() +
+                        "; name the plane, as in --plane \"nodes 12 31 7\"");
+    }
+    axes = found->axes.world_from_model.toRotationMatrix().transpose();
+  }
+  return MainPlane(curves.fitted, axes, look);
+}
+
+Result<DrawingPlane> PlaneOfNodes(const std::string& text,
+                                  const CurvesFile& curves,
+                                  const Scene& scene) {
+  const Eigen::Vector3d up =
+      AxesAreKnown(curves) ? Eigen::Vector3d::UnitZ() : MeanUp(scene.views);
+  std::string_view rest = text;
+  TakeWord(rest);
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t count = curves.fitted.nodes.size();
+  for (std::string_view word = TakeWord(rest); !word.empty();
+       word = TakeWord(rest)) {
+    const auto id = ParseNumber<std::size_t>(word);
+    if (!id || *id >= count) {
+      return Bad("there is no node " + std::string(word) +
+                 (count == 0 ? "; curves.json has none"
+                             : "; curves.json has the nodes 0 to " +
+                                   std::to_string(count - 1)));
+    }
+    points.push_back(curves.fitted.nodes[*id].position);
+  }
+  if (points.size() != 3) {
+    return Bad("it takes three nodes, as in --plane \"nodes 12 31 7\"");
+  }
+  Result<DrawingPlane> plane = PlaneThrough(
+      points[0], points[1], points[2], up, MeanViewDirection(scene.views));
+  if (!plane.ok()) return Bad(plane.status().message());
+  plane->name = text;
+  return plane;
+}
+
+Result<DrawingPlane> ChoosePlane(const std::string& name,
+                                 const CurvesFile& curves,
+                                 const Scene& scene) {
+  if (name == "auto") return AutoPlane(curves, scene);
+  if (name.starts_with("nodes")) return PlaneOfNodes(name, curves, scene);
+  std::optional<DrawingPlane> plane = AxisPlane(name);
+  if (plane) return *std::move(plane);
+  return Bad("\"" + name +
+             "\" is no plane; it takes xy, xz, yz, several of these with "
+             "commas between, "
+             "auto, or three nodes, as in \"nodes 12 31 7\"");
+}
+
+}  // namespace
+
+Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
+                                               const CurvesFile& curves,
+                                               const Scene& scene) {
+  std::vector<DrawingPlane> planes;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    Result<DrawingPlane> plane =
+        ChoosePlane(text.substr(begin, end - begin), curves, scene);
+    if (!plane.ok()) return plane.status();
+    planes.push_back(*std::move(plane));
+    begin = end + 1;
+  }
+  return planes;
+}
+
+}  // namespace curvix

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The planes that --plane names.
+#pragma once
+
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <string>
+#include <vector>
+
+#include "drawing/drawing_plane.h"
+#include "plugin/align/curves_file.h"
+
+namespace curvix {
+
+// "xy", "xz", "yz", "auto" (MainPlane, of the axes of the alignment or else of
+// those that lines share), "nodes A B C", or several with commas between.
+// `scene` is in the frame of the curves. kInvalidArgument: it is none of these;
+// kUnsupported: "auto", and no two lines are perpendicular.
+Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
+                                               const CurvesFile& curves,
+                                               const Scene& scene);
+
+}  // namespace curvix

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/draw/draw_workspace.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/file_io.h"
+#include "base/text_fields.h"
+#include "drawing/cut_fit.h"
+#include "drawing/drawing_plane.h"
+#include "drawing/flat_fit.h"
+#include "drawing/sheet.h"
+#include "io/dxf_drawing.h"
+#include "io/svg_sheet.h"
+#include "measuring/moved_curves.h"
+#include "plugin/align/curves_file.h"
+#include "plugin/draw/choose_plane.h"
+#include "plugin/draw/rectified_photograph.h"
+#include "plugin/draw/seen_from.h"
+#include "plugin/run/run_input.h"
+#include "plugin/run/staged_output.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Between views on one sheet, of the extent of the largest.
+constexpr double kGapOfViews = 0.15;
+
+Status Bad(std::string message) {
+  return {StatusCode::kInvalidArgument, std::move(message)};
+}
+
+struct Slice {
+  double from = -kInfinity;
+  double to = kInfinity;
+};
+
+Result<Slice> ParseSlice(const std::string& text) {
+  if (text.empty()) return Slice{};
+  const std::size_t comma = text.find(',');
+  const auto from =
+      ParseNumber<double>(std::string_view(text).substr(0, comma));
+  const auto to =
+      comma == std::string::npos
+          ? std::nullopt
+          : ParseNumber<double>(std::string_view(text).substr(comma + 1));
+  if (!from || !to || !(*from < *to)) {
+    return Bad("--slice is \"" + text +
+               "\"; it takes the lower and the higher depth, as in --slice "
+               "0.9,1.1");
+  }
+  return Slice{*from, *to};
+}
+
+std::string Short(double value, int digits = 4) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+// "front (xz)".
+std::string ViewName(const std::string& plane) {
+  const std::string name = plane == "xy"   ? "plan"
+                           : plane == "xz" ? "front"
+                           : plane == "yz" ? "side"
+                                           : "plane";
+  return name + " (" + plane + ")";
+}
+
+// One elevation, plan or section.
+struct DrawnView {
+  DrawingPlane plane;
+  std::vector<SheetCurve> curves = {};
+  int num_unknown = 0;  // primitives that may be hidden or not
+};
+
+class Drafter {
+ public:
+  Drafter(const DrawSettings& settings, ProgressPrinter& progress)
+      : settings_(settings), progress_(progress) {}
+
+  Result<DrawSummary> Run();
+
+ private:
+  Status Read();
+  Status TakePlanes();
+  std::optional<bool> IsHidden(std::size_t curve_idx,
+                               const CurveFit& fit,
+                               DrawnView& view) const;
+  void Fill(DrawnView& view) const;
+  Status PlaceViews();
+  Status TakePhotograph();
+  Status LayOut();
+  Status Write();
+  std::string Subtitle() const;
+
+  const DrawSettings& settings_;
+  ProgressPrinter& progress_;
+  Workspace workspace_;
+  Scene scene_;  // in the frame of the curves
+  CurvesFile curves_;
+  Slice slice_;
+  std::vector<DrawnView> views_;
+  std::string name_;
+  std::string photograph_;  // its name
+  std::string jpeg_;
+  std::optional<SheetPicture> picture_;
+  Sheet sheet_;
+  std::string text_;
+};
+
+Status Drafter::Read() {
+  Result<Workspace> workspace = FindInput(settings_.run);
+  if (!workspace.ok()) return workspace.status();
+  workspace_ = *std::move(workspace);
+  Result<CurvesFile> curves =
+      ReadCurvesFile(workspace_.output_path, settings_.hidden != "solid");
+  if (!curves.ok()) return curves.status();
+  curves_ = *std::move(curves);
+  Result<WorkspaceScene> input =
+      LoadWorkspaceScene(WithRefinedModel(workspace_));
+  if (!input.ok()) return input.status();
+  for (const std::string& note : input->notes) progress_.Note(note);
+  scene_ = std::move(input->scene);
+  if (curves_.alignment) {
+    scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
+  }
+  const Result<Slice> slice = ParseSlice(settings_.slice);
+  if (!slice.ok()) return slice.status();
+  slice_ = *slice;
+  return {};
+}
+
+Status Drafter::TakePlanes() {
+  Result<std::vector<DrawingPlane>> planes =
+      ChoosePlanes(settings_.plane, curves_, scene_);
+  if (!planes.ok()) return planes.status();
+  if (planes->size() > 1 &&
+      !(settings_.slice.empty() && settings_.photograph.empty())) {
+    return Bad("--slice and --photograph need a single --plane");
+  }
+  for (DrawingPlane& plane : *planes) {
+    if (settings_.from_behind) plane = FromBehind(plane);
+    if (curves_.alignment && AxisPlane(plane.name)) {
+      // Sheets hold all digits of large coordinates.
+      const Eigen::Vector3d& offset = curves_.alignment->offset;
+      plane.origin -= offset - offset.dot(plane.toward) * plane.toward;
+    }
+    views_.push_back({plane});
+    Fill(views_.back());
+  }
+  if (!(curves_.alignment && curves_.alignment->has_rotation) &&
+      AxisPlane(settings_.plane.substr(0, 2))) {
+    progress_.Note(
+        "x, y and z are those of the model, which need not be level; "
+        "'colmap_curvix align --axes auto' turns them");
+  }
+  name_ =
+      settings_.name.empty() ? "drawing_" + settings_.plane : settings_.name;
+  for (char& c : name_) c = c == ' ' || c == ',' ? '_' : c;
+  if (fs::path(name_).filename() != name_ || name_.front() == '.') {
+    return Bad("--name is \"" + name_ +
+               "\"; it takes the name of a file, without folders");
+  }
+  return {};
+}
+
+// Whether to dash a primitive; nullopt: it is left out.
+std::optional<bool> Drafter::IsHidden(std::size_t curve_idx,
+                                      const CurveFit& fit,
+                                      DrawnView& view) const {
+  if (settings_.hidden == "solid") return false;
+  const SeenFrom seen =
+      SeenFromSide(fit, curves_.samples[curve_idx], view.plane.toward, scene_);
+  view.num_unknown += seen == SeenFrom::kUnknown ? 1 : 0;
+  if (seen != SeenFrom::kHidden) return false;
+  if (settings_.hidden == "omitted") return std::nullopt;
+  return true;
+}
+
+// What the plane shows of the slice.
+void Drafter::Fill(DrawnView& view) const {
+  const DrawingPlane& plane = view.plane;
+  view.curves.clear();
+  view.num_unknown = 0;
+  const double at_0 = plane.depth_axis.dot(plane.origin);
+  for (std::size_t c = 0; c < curves_.fitted.curves.size(); ++c) {
+    for (const CurveFit& fit : curves_.fitted.curves[c].fits) {
+      const std::vector<CurveFit> parts = PartsWithin(
+          fit, plane.depth_axis, slice_.from + at_0, slice_.to + at_0);
+      if (parts.empty()) continue;
+      const std::optional<bool> is_hidden = IsHidden(c, fit, view);
+      if (!is_hidden) continue;
+      for (const CurveFit& part : parts) {
+        std::optional<CurveFit> flat = FlatFit(part, plane);
+        if (flat) view.curves.push_back({*std::move(flat), *is_hidden});
+      }
+    }
+  }
+}
+
+// Others beside the first one: above it if they share its horizontal, else to
+// the right, as in third-angle projection.
+Status Drafter::PlaceViews() {
+  const DrawnView& first = views_.front();
+  const Eigen::AlignedBox2d around = BoundsOf(first.curves);
+  Eigen::AlignedBox2d all = around;
+  double extent = 0;
+  for (const DrawnView& view : views_) {
+    const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
+    if (!bounds.isEmpty()) extent = std::max(extent, bounds.sizes().maxCoeff());
+  }
+  const double gap = kGapOfViews * extent;
+  for (std::size_t i = 1; i < views_.size(); ++i) {
+    DrawnView& view = views_[i];
+    const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
+    if (bounds.isEmpty() || around.isEmpty()) continue;
+    const bool is_above = view.plane.right == first.plane.right;
+    const bool is_level = view.plane.up == first.plane.up;
+    Eigen::Vector2d shift(all.max().x() + gap - bounds.min().x(),
+                          is_level ? 0 : around.min().y() - bounds.min().y());
+    if (is_above) shift = {0, all.max().y() + gap - bounds.min().y()};
+    view.plane.origin -=
+        shift.x() * view.plane.right + shift.y() * view.plane.up;
+    Fill(view);
+    all.extend(bounds.translated(shift));
+  }
+  return {};
+}
+
+Status Drafter::TakePhotograph() {
+  if (settings_.photograph.empty()) return {};
+  const DrawnView& view = views_.front();
+  const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
+  if (bounds.isEmpty()) return {};
+  const bool through_nodes = view.plane.name.starts_with("nodes");
+  const PictureArea area{
+      view.plane,
+      through_nodes
+          ? 0
+          : MainDepth(curves_.fitted, view.plane, slice_.from, slice_.to),
+      bounds};
+  std::optional<std::size_t> chosen;
+  if (settings_.photograph == "auto") {
+    chosen = BestViewOf(scene_, area);
+    if (!chosen) return Bad("No image shows the plane from this side");
+  }
+  for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+    if (scene_.views[i].name == settings_.photograph) chosen = i;
+  }
+  if (!chosen) {
+    return Bad("--photograph is " + settings_.photograph +
+               ", which is no image of the model");
+  }
+  Result<RectifiedPhotograph> photograph =
+      Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);
+  if (!photograph.ok()) return photograph.status();
+  photograph_ = scene_.views[*chosen].name;
+  jpeg_ = std::move(photograph->jpeg);
+  picture_ = std::move(photograph->place);
+  picture_->file = name_ + ".jpg";
+  text_ += "Photograph: " + photograph_ + ", right where " +
+           view.plane.depth_name + " is " + Short(area.depth) + "\n";
+  return {};
+}
+
+std::string Drafter::Subtitle() const {
+  std::string text;
+  for (const DrawnView& view : views_) {
+    text += (text.empty() ? "" : ", ") + ViewName(view.plane.name);
+  }
+  if (settings_.from_behind) text += ", from behind";
+  if (!settings_.slice.empty()) {
+    text += ", " + views_.front().plane.depth_name + " from " +
+            Short(slice_.from) + " to " + Short(slice_.to);
+  }
+  if (!photograph_.empty()) text += ", photograph " + photograph_;
+  if (curves_.alignment && curves_.alignment->has_scale) {
+    text += ", lengths known to " +
+            Short(100 * curves_.alignment->scale_sigma(), 2) + " %";
+  }
+  return text;
+}
+
+Status Drafter::LayOut() {
+  SheetSettings sheet;
+  sheet.title = settings_.title;
+  if (sheet.title.empty()) {
+    sheet.title = fs::absolute(settings_.run.workspace_path / ".")
+                      .lexically_normal()
+                      .parent_path()
+                      .filename()
+                      .string();
+  }
+  sheet.subtitle = Subtitle();
+  sheet.paper = settings_.paper;
+  if (curves_.alignment) sheet.unit = curves_.alignment->unit;
+  sheet.millimetres = MillimetresPer(sheet.unit).value_or(0);
+  if (!settings_.scale.empty()) {
+    const std::optional<double> denominator = ParseScale(settings_.scale);
+    if (!denominator) {
+      return Bad("--scale is \"" + settings_.scale +
+                 "\"; it takes a scale such as 1:50 or 2:1");
+    }
+    sheet.denominator = *denominator;
+  }
+  std::vector<SheetCurve> curves;
+  for (const DrawnView& view : views_) {
+    curves.insert(curves.end(), view.curves.begin(), view.curves.end());
+  }
+  Result<Sheet> laid = LaySheet(sheet, std::move(curves), picture_);
+  if (!laid.ok()) return laid.status();
+  sheet_ = *std::move(laid);
+  return {};
+}
+
+Status Drafter::Write() {
+  Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
+  if (!output.ok()) return output.status();
+  std::vector<std::pair<std::string, std::string>> files = {
+      {name_ + ".dxf", EncodeDxfSheet(sheet_)},
+      {name_ + ".svg", EncodeSvgSheet(sheet_)}};
+  if (picture_) files.emplace_back(picture_->file, std::move(jpeg_));
+  std::vector<fs::path> obsolete;
+  if (!picture_) obsolete.emplace_back(name_ + ".jpg");
+  text_ += "Written to " + workspace_.output_path.string() + ":";
+  for (const auto& [file, bytes] : files) {
+    Status written = WriteFileAtomically(output->folder() / file, bytes);
+    if (!written.ok()) return written;
+    text_ += " " + file;
+  }
+  text_ += "\n";
+  return output->Publish(obsolete);
+}
+
+Result<DrawSummary> Drafter::Run() {
+  for (const auto step : {&Drafter::Read,
+                          &Drafter::TakePlanes,
+                          &Drafter::PlaceViews,
+                          &Drafter::TakePhotograph,
+                          &Drafter::LayOut}) {
+    Status status = (this->*step)();
+    if (!status.ok()) return status;
+  }
+  const auto num_hidden = std::count_if(
+      sheet_.curves.begin(), sheet_.curves.end(), [](const SheetCurve& curve) {
+        return curve.is_hidden;
+      });
+  int num_unknown = 0;
+  for (const DrawnView& view : views_) num_unknown += view.num_unknown;
+  text_ += "Drew " + std::to_string(sheet_.curves.size()) +
+           " primitives: " + Subtitle() + ", " + sheet_.scale_text + "\n";
+  if (settings_.hidden == "dashed") {
+    text_ += "Hidden: " + std::to_string(num_hidden);
+    if (num_unknown > 0) {
+      text_ += "; not known: " + std::to_string(num_unknown) +
+               ", at which fewer than three photographs look from this side";
+    }
+    text_ += "\n";
+  }
+  Status written = Write();
+  if (!written.ok()) return written;
+  return DrawSummary{std::move(text_)};
+}
+
+}  // namespace
+
+Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
+                                  ProgressPrinter& progress) {
+  try {
+    return Drafter(settings, progress).Run();
+  } catch (const fs::filesystem_error& error) {
+    return Status(StatusCode::kInvalidArgument, error.what());
+  }
+}
+
+}  // namespace curvix

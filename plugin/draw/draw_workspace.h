@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `colmap_curvix draw`: elevations, plans and sections to scale.
+#pragma once
+
+#include <curvix/status.h>
+#include <filesystem>
+#include <string>
+
+#include "plugin/run/progress.h"
+#include "plugin/run/run_report.h"
+
+namespace curvix {
+
+struct DrawSettings {
+  RunSettings run;             // paths and threads
+  std::string plane = "auto";  // xy, xz, yz, several with commas between, or
+                               // "nodes A B C"
+  bool from_behind = false;
+  std::string hidden = "dashed";  // or "omitted" or "solid"
+  std::string slice;              // "FROM,TO", along the normal; "": all
+  std::string scale;              // "1:50"; "": as fits
+  std::string paper = "a3";
+  std::string title;       // "": the name of the workspace
+  std::string photograph;  // the name of an image, or "auto"; "": none
+  std::string name;        // of the files; "": drawing_<plane>
+};
+
+struct DrawSummary {
+  std::string text;  // what was drawn and where it is, for people
+};
+
+// Writes <name>.dxf and <name>.svg, and <name>.jpg if a photograph is asked
+// for, into the folder of results, all or none. kInvalidArgument: settings that
+// cannot work; errors of what is read.
+Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
+                                  ProgressPrinter& progress);
+
+}  // namespace curvix

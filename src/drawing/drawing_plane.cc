@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "drawing/drawing_plane.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/angles.h"
+#include "geometry/directions.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kInPlaneDeg = 1.5;
+constexpr double kLevelDeg = 10;
+// Cameras whose mean direction is longer than this look at a front.
+constexpr double kLookingOneWay = 0.3;
+
+// The length of a line, if it lies across `normal`; else 0.
+double LengthAcross(const CurveFit& fit, const Eigen::Vector3d& normal) {
+  if (fit.kind != FitKind::kLine) return 0;
+  const Eigen::Vector3d chord = fit.end - fit.start;
+  const double length = chord.norm();
+  return std::abs(chord.dot(normal)) < std::sin(DegToRad(kInPlaneDeg)) * length
+             ? length
+             : 0;
+}
+
+}  // namespace
+
+std::optional<DrawingPlane> AxisPlane(std::string_view name) {
+  const auto x = Eigen::Vector3d::UnitX();
+  const auto y = Eigen::Vector3d::UnitY();
+  const auto z = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  if (name == "xy") return DrawingPlane{"xy", origin, x, y, z, z, "z"};
+  if (name == "xz") return DrawingPlane{"xz", origin, x, z, -y, y, "y"};
+  if (name == "yz") return DrawingPlane{"yz", origin, y, z, x, x, "x"};
+  return std::nullopt;
+}
+
+DrawingPlane FromBehind(DrawingPlane plane) {
+  plane.right = -plane.right;
+  plane.toward = -plane.toward;
+  return plane;
+}
+
+Result<DrawingPlane> PlaneThrough(const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c,
+                                  const Eigen::Vector3d& up,
+                                  const Eigen::Vector3d& views_direction) {
+  constexpr double kOnALine = 1e-6;  // radians
+  const double angle = AngleBetween(b - a, c - a);
+  if (!(angle > kOnALine && angle < kPi - kOnALine)) {
+    return Status(StatusCode::kInvalidArgument,
+                  "the three points are on a line, which is in many planes");
+  }
+  DrawingPlane plane;
+  plane.origin = a;
+  plane.toward = (b - a).cross(c - a).normalized();
+  if (plane.toward.dot(views_direction) > 0) plane.toward = -plane.toward;
+  const double from_up = AngleBetween(plane.toward, up);
+  const double level = DegToRad(kLevelDeg);
+  if (from_up < level || from_up > kPi - level || up.isZero(0)) {
+    plane.right = (b - a).normalized();
+    plane.up = plane.toward.cross(plane.right);
+  } else {
+    plane.up = (up - up.dot(plane.toward) * plane.toward).normalized();
+    plane.right = plane.up.cross(plane.toward);
+  }
+  plane.depth_axis = plane.toward;
+  return plane;
+}
+
+DrawingPlane MainPlane(const FittedCurves& fitted,
+                       const Eigen::Matrix3d& axes,
+                       const Eigen::Vector3d& views_direction) {
+  DrawingPlane best;
+  double most = -1;
+  for (const char* name : {"xz", "xy", "yz"}) {
+    DrawingPlane plane = *AxisPlane(name);
+    for (Eigen::Vector3d* const v :
+         {&plane.right, &plane.up, &plane.toward, &plane.depth_axis}) {
+      *v = axes * *v;
+    }
+    double length = 0;
+    for (const FittedCurve& curve : fitted.curves) {
+      for (const CurveFit& fit : curve.fits) {
+        length += LengthAcross(fit, plane.toward);
+      }
+    }
+    if (views_direction.norm() > kLookingOneWay) {
+      length *= std::abs(plane.toward.dot(views_direction));
+    }
+    if (length > most) best = std::move(plane);
+    most = std::max(most, length);
+  }
+  return best.toward.dot(views_direction) > 0 ? FromBehind(best) : best;
+}
+
+double MainDepth(const FittedCurves& fitted,
+                 const DrawingPlane& plane,
+                 double low,
+                 double high) {
+  std::vector<std::pair<double, double>> depths;  // and lengths
+  double total = 0;
+  for (const FittedCurve& curve : fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      const double length = LengthAcross(fit, plane.toward);
+      const double depth = plane.Depth((fit.start + fit.end) / 2);
+      if (!(length > 0 && depth >= low && depth <= high)) continue;
+      depths.emplace_back(depth, length);
+      total += length;
+    }
+  }
+  std::sort(depths.begin(), depths.end());
+  double sum = 0;
+  for (const auto& [depth, length] : depths) {
+    sum += length;
+    if (2 * sum >= total) return depth;
+  }
+  return 0;
+}
+
+}  // namespace curvix

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). The planes of elevations and plans.
+#pragma once
+
+#include <curvix/fitting.h>
+#include <curvix/status.h>
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace curvix {
+
+// Space seen along -toward, from infinitely far away. `right`, `up` and
+// `toward` are unit and right-handed.
+struct DrawingPlane {
+  std::string name;                                  // "xz"
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // world
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitY();
+  Eigen::Vector3d toward = Eigen::Vector3d::UnitZ();  // the viewer
+  // The normal along which depths grow: `toward` or its opposite.
+  Eigen::Vector3d depth_axis = Eigen::Vector3d::UnitZ();
+  std::string depth_name = "depth";  // "y" in the xz plane
+
+  // x on the paper: (right, up, 0).
+  Eigen::Vector3d Flat(const Eigen::Vector3d& x) const {
+    return {right.dot(x - origin), up.dot(x - origin), 0};
+  }
+  double Depth(const Eigen::Vector3d& x) const {
+    return depth_axis.dot(x - origin);
+  }
+};
+
+// "xy": the plan, seen from above; "xz": the front, seen along y; "yz": the
+// side, seen against x. Coordinates on the paper are those that the name names,
+// depth is the third. nullopt: another name.
+std::optional<DrawingPlane> AxisPlane(std::string_view name);
+
+// The same plane from its other side.
+DrawingPlane FromBehind(DrawingPlane plane);
+
+// The plane through three points, with its origin in `a`, seen against
+// `views_direction`, the way in which cameras look. `up` is up on the paper; in
+// a plane within 10 degrees of level, a to b is right. Depth grows towards the
+// viewer. kInvalidArgument: the points are on a line.
+Result<DrawingPlane> PlaneThrough(const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c,
+                                  const Eigen::Vector3d& up,
+                                  const Eigen::Vector3d& views_direction);
+
+// Of the planes "xz", "xy" and "yz" of the frame whose axes are the columns of
+// `axes`, the one in which most of the length of lines lies, to 1.5 degrees, as
+// `views_direction` sees it: times the cosine of its angle to the normal, if it
+// is longer than 0.3. Ties go to the first. Seen against `views_direction`.
+DrawingPlane MainPlane(const FittedCurves& fitted,
+                       const Eigen::Matrix3d& axes,
+                       const Eigen::Vector3d& views_direction);
+
+// The depth at which most lines in the plane lie: the median, by length, of
+// those from `low` to `high`. 0: there is none.
+double MainDepth(const FittedCurves& fitted,
+                 const DrawingPlane& plane,
+                 double low,
+                 double high);
+
+}  // namespace curvix

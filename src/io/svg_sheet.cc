@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+#include "io/svg_sheet.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "base/angles.h"
+#include "drawing/cut_fit.h"
+#include "io/drawing_layers.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kFrameWidth = 0.25;      // mm
+constexpr double kCapitalHeight = 0.716;  // of a font's size
+constexpr char kPaleness[] = "0.5";
+
+std::string Number(double value) {
+  constexpr int kDecimals = 4;
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(),
+                                 text.data() + text.size(),
+                                 value,
+                                 std::chars_format::fixed,
+                                 kDecimals)
+                       .ptr;
+  return {text.data(), end};
+}
+
+// "a b"
+std::string Pair(double a, double b) { return Number(a) + ' ' + Number(b); }
+
+std::string Escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+// Points of the sheet in SVG's frame: mm, y down.
+class Page {
+ public:
+  explicit Page(const Sheet& sheet) : sheet_(sheet) {}
+
+  std::string OfPaper(const Eigen::Vector2d& mm) const {
+    return Pair(mm.x(), sheet_.size.y() - mm.y());
+  }
+  std::string Of(const Eigen::Vector3d& x) const {
+    return OfPaper(sheet_.ToPaper(x.head<2>()));
+  }
+  std::string Path(const CurveFit& fit) const {
+    std::string path = "M" + Of(PointAt(fit, 0));
+    switch (fit.kind) {
+      case FitKind::kLine:
+        return path + "L" + Of(fit.end);
+      case FitKind::kArc:
+      case FitKind::kEllipse:
+        return path + ArcTo(fit);
+      case FitKind::kSpline:
+        break;
+    }
+    for (std::size_t k = 0; k + 1 < fit.knots.size(); ++k) {
+      if (!(fit.knots[k] < fit.knots[k + 1])) continue;
+      const CurveFit piece = PartOf(fit, fit.knots[k], fit.knots[k + 1]);
+      path += "C" + Of(piece.control_points[1]) + ' ' +
+              Of(piece.control_points[2]) + ' ' + Of(piece.control_points[3]);
+    }
+    return path;
+  }
+
+ private:
+  // In two halves, since SVG has no whole arcs.
+  std::string ArcTo(const CurveFit& fit) const {
+    const double turn = -std::atan2(fit.major.y(), fit.major.x());
+    const std::string half =
+        "A" +
+        Pair(sheet_.scale * fit.major.norm(), sheet_.scale * fit.minor.norm()) +
+        ' ' + Number(RadToDeg(turn)) + " 0 0 ";
+    return half + Of(PointAt(fit, 0.5)) + half + Of(PointAt(fit, 1));
+  }
+
+  const Sheet& sheet_;
+};
+
+std::string BeginLayer(const std::string& name, double width) {
+  return "<g id=\"" + name +
+         "\" inkscape:groupmode=\"layer\" "
+         "inkscape:label=\"" +
+         name + "\" stroke-width=\"" + Number(width) + "\">\n";
+}
+
+std::string PictureText(const Sheet& sheet, const Page& page) {
+  const SheetPicture& picture = *sheet.picture;
+  const Eigen::Vector2d size = picture.pixel * picture.size.cast<double>();
+  const Eigen::Vector2d top_left =
+      picture.corner + Eigen::Vector2d(0, size.y());
+  const std::string at = page.Of({top_left.x(), top_left.y(), 0});
+  const std::size_t blank = at.find(' ');
+  return "<image xlink:href=\"" + Escaped(picture.file) + "\" x=\"" +
+         at.substr(0, blank) + "\" y=\"" + at.substr(blank + 1) +
+         "\" width=\"" + Number(sheet.scale * size.x()) + "\" height=\"" +
+         Number(sheet.scale * size.y()) +
+         "\" preserveAspectRatio=\"none\" opacity=\"" + kPaleness + "\"/>\n";
+}
+
+std::string FrameText(const Sheet& sheet, const Page& page) {
+  std::string out = BeginLayer("FRAME", kFrameWidth);
+  for (const SheetLine& line : sheet.lines) {
+    out += "<path d=\"M" + page.OfPaper(line.start) + "L" +
+           page.OfPaper(line.end) + "\"/>\n";
+  }
+  for (const SheetText& text : sheet.texts) {
+    const double y = sheet.size.y() - text.start.y();
+    out += "<text x=\"" + Number(text.start.x()) + "\" y=\"" + Number(y) +
+           "\" font-size=\"" + Number(text.height / kCapitalHeight) +
+           "\" font-family=\"sans-serif\" stroke=\"none\" fill=\"black\">" +
+           Escaped(text.text) + "</text>\n";
+  }
+  return out + "</g>\n";
+}
+
+}  // namespace
+
+std::string EncodeSvgSheet(const Sheet& sheet) {
+  const Page page(sheet);
+  const std::string width = Number(sheet.size.x());
+  const std::string height = Number(sheet.size.y());
+  std::string out =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+      "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+      "width=\"" +
+      width + "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + ' ' +
+      height +
+      "\" fill=\"none\" stroke=\"black\" stroke-linecap=\"round\" "
+      "stroke-linejoin=\"round\">\n"
+      "<rect width=\"" +
+      width + "\" height=\"" + height + "\" fill=\"white\" stroke=\"none\"/>\n";
+  if (sheet.picture) {
+    out += BeginLayer("PHOTOGRAPH", 0) + PictureText(sheet, page) + "</g>\n";
+  }
+  const std::string dashes =
+      " stroke-dasharray=\"" + Pair(kDash, kDashGap) + "\"";
+  for (int k = 0; k < kNumCurveKinds; ++k) {
+    const auto kind = static_cast<CurveKind>(k);
+    out += BeginLayer(LayerOf(kind).name, LayerOf(kind).width);
+    for (const auto& [fit, is_hidden] : sheet.curves) {
+      if (fit.curve_kind != kind) continue;
+      out += "<path class=\"" + std::string(KindName(fit)) + "\"" +
+             (is_hidden ? dashes : "") + " d=\"" + page.Path(fit) + "\"/>\n";
+    }
+    out += "</g>\n";
+  }
+  return out + FrameText(sheet, page) + "</svg>\n";
+}
+
+}  // namespace curvix

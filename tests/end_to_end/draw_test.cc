@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From curves to drawings to scale, as a person does it.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/commands/synthesize.h"
+#include "tests/end_to_end/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+// A block of size 1, whose longest edge is said to be 250 mm.
+class Draw : public testing::Test {
+ protected:
+  void SetUp() override {
+    SyntheticOptions options;
+    options.solid = SyntheticSolid::kBlock;
+    options.num_views = 12;
+    options.width = 240;
+    options.height = 240;
+    ASSERT_TRUE(Synthesize(options, workspace_).ok());
+    ASSERT_EQ(Run("").exit_code, 0);
+  }
+
+  Outcome Run(const std::string& words) {
+    return RunProgram(words + " --workspace_path " + Quoted(workspace_));
+  }
+  json Curves() { return json::parse(Read(results_ / "curves.json")); }
+
+  TemporaryFolder folder_;
+  const fs::path workspace_ = folder_.path() / "proj";
+  const fs::path results_ = workspace_ / "curvix/0";
+};
+
+// Lengths of the lines of a DXF that are not of the frame.
+std::vector<double> LineLengths(const std::string& dxf) {
+  std::vector<double> lengths;
+  std::istringstream lines(dxf.substr(dxf.find("ENTITIES")));
+  std::string code, value, type, layer;
+  double x[4] = {};
+  std::getline(lines, value);
+  while (std::getline(lines, code) && std::getline(lines, value)) {
+    if (code == "0") {
+      if (type == "LINE" && layer != "FRAME") {
+        lengths.push_back(std::hypot(x[2] - x[0], x[3] - x[1]));
+      }
+      type = value;
+    }
+    if (code == "8") layer = value;
+    const std::string codes[4] = {"10", "20", "11", "21"};
+    for (int i = 0; i < 4; ++i) {
+      if (code == codes[i]) x[i] = std::stod(value);
+    }
+  }
+  return lengths;
+}
+
+TEST_F(Draw, DistancesAreThoseOfTheDimensions) {
+  json longest;
+  const json before = Curves();
+  for (const json& curve : before["curves"]) {
+    for (const json& fit : curve["fits"]) {
+      if (fit["kind"] != "line" || fit["start_node"].is_null() ||
+          fit["end_node"].is_null()) {
+        continue;
+      }
+      if (longest.is_null() || fit["length"] > longest["length"]) longest = fit;
+    }
+  }
+  ASSERT_FALSE(longest.is_null());
+  ASSERT_EQ(Run("align --axes auto --unit mm --distance " +
+                longest["start_node"].dump() + " " +
+                longest["end_node"].dump() + " 250")
+                .exit_code,
+            0);
+  const std::map<std::string, int> depth_of = {{"xy", 2}, {"xz", 1}, {"yz", 0}};
+  const json curves = Curves();
+  std::size_t num_compared = 0;
+  for (const auto& [plane, depth] : depth_of) {
+    const Outcome outcome = Run("draw --scale 1:2 --plane " + plane);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("1:2 on A3"));
+    const auto drawn =
+        LineLengths(Read(results_ / ("drawing_" + plane + ".dxf")));
+    std::istringstream dimensions(Read(results_ / "dimensions.csv"));
+    for (std::string row; std::getline(dimensions, row);) {
+      std::size_t curve = 0, fit = 0;
+      double length = 0, sigma = 0;
+      if (std::sscanf(row.c_str(),
+                      "length,line %zu.%zu,,%lf,%lf",
+                      &curve,
+                      &fit,
+                      &length,
+                      &sigma) != 4) {
+        continue;
+      }
+      const json& line = curves["curves"][curve]["fits"][fit];
+      const auto at = static_cast<std::size_t>(depth);
+      const double deep =
+          line["end"][at].get<double>() - line["start"][at].get<double>();
+      if (std::abs(deep) > 0.02 * length) continue;  // not in the plane
+      double nearest = 1e9;
+      for (const double other : drawn) {
+        nearest = std::min(nearest, std::abs(other - length));
+      }
+      EXPECT_LT(nearest, deep * deep / length + 1e-9 * length) << row;
+      ++num_compared;
+    }
+  }
+  EXPECT_GE(num_compared, 8u);  // four edges or more of two planes
+}
+
+TEST_F(Draw, CoordinatesAreThoseOfTheSurvey) {
+  json curves = Curves();
+  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
+  const auto before = LineLengths(Read(results_ / "drawing_xy.dxf"));
+  curves["alignment"] = {
+      {"unit", "m"},
+      {"crs", "EPSG:25832"},
+      {"offset", {400000, 5600000, 100}},
+      {"known", {"scale", "rotation", "translation"}},
+      {"covariance", json(7, std::vector<double>(7, 0))},
+      {"world_from_model",
+       {{"scale", 1}, {"rotation", {1, 0, 0, 0}}, {"translation", {0, 0, 0}}}}};
+  std::ofstream(results_ / "curves.json") << curves;
+  ASSERT_EQ(Run("draw --plane xy --slice=-9,9").exit_code, 0);
+  const std::string dxf = Read(results_ / "drawing_xy.dxf");
+  const auto after = LineLengths(dxf);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR(after[i], before[i], 1e-8);
+  }
+  double x = 0, y = 0;
+  const std::size_t line = dxf.find("AcDbLine\n");
+  ASSERT_EQ(std::sscanf(dxf.c_str() + line, "AcDbLine 10 %lf 20 %lf", &x, &y),
+            2);
+  EXPECT_NEAR(x, 400000, 2);
+  EXPECT_NEAR(y, 5600000, 2);
+}
+
+TEST_F(Draw, APhotographLiesBeneath) {
+  const Outcome outcome = Run("draw --photograph auto");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("no scale; 1 unit"));
+  EXPECT_GT(fs::file_size(results_ / "drawing_auto.jpg"), 1000u);
+  EXPECT_THAT(Read(results_ / "drawing_auto.svg"),
+              HasSubstr("href=\"drawing_auto.jpg\""));
+  EXPECT_THAT(Read(results_ / "drawing_auto.dxf"),
+              HasSubstr("drawing_auto.jpg"));
+  // A drawing without one takes the old one away.
+  ASSERT_EQ(Run("draw").exit_code, 0);
+  EXPECT_FALSE(fs::exists(results_ / "drawing_auto.jpg"));
+}
+
+TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
+  const auto before = Contents(results_);
+  for (const auto& [words, why] :
+       {std::pair("--plane front", "xy, xz, yz"),
+        std::pair("--plane 'nodes 0 1'", "three nodes"),
+        std::pair("--plane 'nodes 0 1 99999'", "no node 99999"),
+        std::pair("--scale 1:50", "colmap_curvix align"),
+        std::pair("--scale big", "1:50"),
+        std::pair("--slice 2,1", "lower and the higher"),
+        std::pair("--plane xy --slice 1000,1001", "nothing to draw"),
+        std::pair("--plane xy,xz --photograph auto", "a single --plane"),
+        std::pair("--photograph none.jpg", "no image of the model"),
+        std::pair("--name a/b", "--name")}) {
+    const Outcome outcome = Run(std::string("draw ") + words);
+    EXPECT_NE(outcome.exit_code, 0) << words;
+    EXPECT_THAT(outcome.output, HasSubstr("ERROR: ")) << words;
+    EXPECT_THAT(outcome.output, HasSubstr(why)) << words;
+  }
+  EXPECT_EQ(Contents(results_), before);
+}
+
+}  // namespace
+}  // namespace curvix
