@@ -35,6 +35,8 @@ void AppendSample(const CurveSample& sample,
     out += ' ';
   }
   AppendNumber(sample.sigma, out);
+  out += ' ';
+  out += KindName(sample.kind);
   for (const EdgeRef& ref : sample.support) {
     if (scene.views.empty()) break;
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);
@@ -84,6 +86,9 @@ std::optional<CurveSample> ParseSample(std::string_view line,
   sample.position = Eigen::Vector3d::Map(numbers.data());
   sample.tangent = Eigen::Vector3d::Map(numbers.data() + 3);
   sample.sigma = numbers[6];
+  const auto kind = KindFromName(TakeWord(line));
+  if (!kind) return std::nullopt;
+  sample.kind = *kind;
   if (!ParseSupport(line, views, sample.support)) return std::nullopt;
   return sample;
 }
@@ -122,7 +127,8 @@ Status ReadSamples(const CurveHead& head,
                    const ViewByImageId& views,
                    LineReader& lines,
                    Curve& curve) {
-  constexpr std::size_t kMinBytesOfSample = 13;  // seven digits, six blanks
+  // Seven digits, "crease", seven blanks.
+  constexpr std::size_t kMinBytesOfSample = 20;
   if (head.num_samples > lines.bytes_left() / kMinBytesOfSample) {
     return Broken(lines.number(),
                   "followed by as many samples as it announces");
@@ -135,7 +141,7 @@ Status ReadSamples(const CurveHead& head,
     if (line) sample = ParseSample(*line, views);
     if (!sample) {
       return Broken(lines.number(),
-                    "a sample (X Y Z TX TY TZ SIGMA IMAGE_IDS)");
+                    "a sample (X Y Z TX TY TZ SIGMA KIND IMAGE_IDS)");
     }
     curve.samples.push_back(*std::move(sample));
   }
@@ -150,7 +156,7 @@ void EncodeTxtCurves(const CurveSource& curves,
   std::string out =
       "# Curves, with two kinds of lines:\n"
       "#   CURVE_ID CLOSED NUM_SAMPLES, then for each of its samples\n"
-      "#   X Y Z TX TY TZ SIGMA IMAGE_IDS...\n"
+      "#   X Y Z TX TY TZ SIGMA KIND IMAGE_IDS...\n"
       "# Number of curves: ";
   AppendNumber(curves.size(), out);
   out += '\n';

@@ -15,10 +15,10 @@ namespace curvix {
 // Four comment lines, then per curve one line
 //   CURVE_ID CLOSED NUM_SAMPLES
 // and NUM_SAMPLES lines
-//   X Y Z TX TY TZ SIGMA IMAGE_ID...
+//   X Y Z TX TY TZ SIGMA KIND IMAGE_ID...
 // with numbers as short as they can be and still read back exactly, whatever
-// the locale. `scene` turns views into image ids; of an empty one no ids
-// are written, of another support must name its views.
+// the locale, and KindName(). `scene` turns views into image ids; of an empty
+// one no ids are written, of another support must name its views.
 void EncodeTxtCurves(const CurveSource& curves,
                      const Scene& scene,
                      const ByteSink& sink);

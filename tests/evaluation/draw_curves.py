@@ -74,7 +74,7 @@ def read_curves(path):
         rows = [next(lines) for _ in range(int(count))]
         curves.append((closed == '1',
                        np.array([row[:3] for row in rows], float),
-                       [set(map(int, row[7:])) for row in rows]))
+                       [set(map(int, row[8:])) for row in rows]))
     return curves
 
 

@@ -39,12 +39,16 @@ CurveSet Example() {
     sample.position = position;
     sample.tangent = {0.6, 0.8, 0};
     sample.sigma = 0.004;
+    sample.kind = CurveKind::kCrease;
+    sample.kind_probability = 0.9F;
     sample.support = {{0, 11}, {1, 7}, {2, 30}, {3, 2}};
   }
   for (const double x : {0.25, 0.5}) {
     CurveSample& sample = set.curves[1].samples.emplace_back();
     sample.position = {x, 0, 0};
     sample.sigma = 0.001;
+    sample.kind = CurveKind::kMarking;
+    sample.kind_probability = 0.8F;
     sample.support = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}};
   }
   return set;
