@@ -64,6 +64,11 @@ struct CurveFit {
   // which they share. World units.
   double sigma = 0;
   double radius_sigma = 0;
+  // kArc: of the centre, the unit normal (major x minor) and the radius, in
+  // this order: from samples of which one in 4 px is independent, the error
+  // that they share, and the covariances of the nodes. World units and radians.
+  Eigen::Matrix<double, 7, 7> arc_covariance =
+      Eigen::Matrix<double, 7, 7>::Zero();
 };
 
 // The primitives of one curve, in its direction. Never empty.
@@ -87,10 +92,59 @@ struct CurveNode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
+// A fit of FittedCurves.
+struct FitIndex {
+  std::size_t curve_idx = 0;
+  std::size_t fit_idx = 0;
+};
+
+// What the fits of a group share.
+enum class GroupKind {
+  kParallel,     // a direction: of lines, and of the axes of arcs
+  kCollinear,    // a line
+  kConcentric,   // an axis of arcs
+  kEqualRadius,  // a radius, of arcs
+  kCoplanar,     // a plane
+};
+
+// Lines and arcs that agree in something as far as their covariances tell.
+struct FitGroup {
+  GroupKind kind = GroupKind::kParallel;
+  std::vector<FitIndex> fits;  // ascending
+  // What they share, the mean weighted by covariances. All but kEqualRadius:
+  // the direction or the normal of the plane, unit, of either sign. kCollinear,
+  // kConcentric, kCoplanar: a point of the line, the axis or the plane.
+  // kEqualRadius: the radius.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double radius = 0;
+  // Standard deviation: of the direction (radians, mean of the two ways), the
+  // line or axis across itself, the radius, or the distance of the plane.
+  double sigma = 0;
+  // Sum of the squared distances of the fits from it, in standard deviations,
+  // and its degrees of freedom; 0: of a direction that no other fit shares.
+  double chi_squared = 0;
+  int degrees_of_freedom = 0;
+};
+
+// Two groups of parallel fits whose directions are perpendicular.
+struct PerpendicularGroups {
+  std::size_t first = 0;  // < second; indices into FitStructure::groups
+  std::size_t second = 0;
+  double chi_squared = 0;  // one degree of freedom
+};
+
+// What lines and arcs have in common.
+struct FitStructure {
+  std::vector<FitGroup> groups;                    // by kind
+  std::vector<PerpendicularGroups> perpendicular;  // ascending
+};
+
 // The result of FitCurves; `curves` are those of the CurveSet, in its order.
 struct FittedCurves {
   std::vector<FittedCurve> curves;
   std::vector<CurveNode> nodes;
+  FitStructure structure;
 };
 
 // Fits each curve by the primitives that explain its samples with the fewest
@@ -108,8 +162,12 @@ struct FittedCurves {
 // Ends of curves in the same place are one node, joints of a chain too. A node
 // lies where its lines and arcs, fitted alone, come nearest to each other, at
 // most ten standard deviations from where the curves meet; then each primitive
-// is fitted again with its ends in the nodes. Same result for any number of
-// threads. If curves.status() is not ok in the end, the result means nothing.
+// is fitted again with its ends in the nodes. With options.regularize, nodes,
+// free ends of lines, and arcs then move, by at most three standard deviations,
+// so that `structure` holds exactly; fits that do not are left out of it, and
+// its chi_squared and degrees_of_freedom are those of before. Same result for
+// any number of threads. If curves.status() is not ok in the end, the result
+// means nothing.
 FittedCurves FitCurves(const CurveSource& curves,
                        const Scene& scene,
                        const CurveFittingOptions& options,
@@ -123,6 +181,9 @@ inline FittedCurves FitCurves(const CurveSet& curves,
 
 // "line", "arc" ("circle" if closed), "ellipse", "spline".
 std::string_view KindName(const CurveFit& fit);
+
+// "parallel", "collinear", "concentric", "equal_radius", "coplanar".
+std::string_view KindName(GroupKind kind);
 
 // The point at `t` from 0 (start) to 1 (end); equal steps of t are equal angles
 // of arcs and ellipses and equal parameters of splines.

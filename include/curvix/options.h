@@ -237,6 +237,9 @@ struct CurveFittingOptions {
   // as of edges in blurred or bent images: added, in squares, to the sigma of
   // each sample. Pixels of the view that sees the sample largest, >= 0.
   double common_error_px = 0.1;
+  // Whether fits are moved so that the structure that is found among them
+  // (fitting.h) holds exactly, by at most three standard deviations.
+  bool regularize = false;
 };
 
 struct RuntimeOptions {

@@ -143,6 +143,31 @@ Json NodeJson(const CurveNode& node) {
   return json;
 }
 
+Json GroupJson(const FitGroup& group) {
+  Json json = {{"kind", KindName(group.kind)},
+               {"fits", Json::array()},
+               {"sigma", group.sigma},
+               {"chi_squared", group.chi_squared},
+               {"degrees_of_freedom", group.degrees_of_freedom}};
+  for (const FitIndex& index : group.fits) {
+    json["fits"].push_back({index.curve_idx, index.fit_idx});
+  }
+  if (group.kind == GroupKind::kEqualRadius) {
+    json["radius"] = group.radius;
+  } else {
+    json["direction"] = VectorJson(group.direction);
+    if (group.kind != GroupKind::kParallel) {
+      json["point"] = VectorJson(group.point);
+    }
+  }
+  return json;
+}
+
+Json PerpendicularJson(const PerpendicularGroups& pair) {
+  return {{"groups", {pair.first, pair.second}},
+          {"chi_squared", pair.chi_squared}};
+}
+
 // What coordinates are; the whole of it is in alignment.json.
 std::string FrameText(const WorldAlignment* alignment) {
   if (alignment == nullptr) return "";
@@ -201,12 +226,24 @@ void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
   for (const CurveNode& node : record.fitted.nodes) {
     nodes.push_back(NodeJson(node));
   }
+  const FitStructure& structure = record.fitted.structure;
+  std::vector<Json> groups, perpendicular;
+  for (const FitGroup& group : structure.groups) {
+    groups.push_back(GroupJson(group));
+  }
+  for (const PerpendicularGroups& pair : structure.perpendicular) {
+    perpendicular.push_back(PerpendicularJson(pair));
+  }
   sink("{\"format\":\"curvix curves\",\"version\":1" +
        FrameText(record.alignment) + ",\"images\":[");
   PutLines(images, sink);
   sink("],\"nodes\":[");
   PutLines(nodes, sink);
-  sink("],\"curves\":[");
+  sink("],\"structure\":{\"groups\":[");
+  PutLines(groups, sink);
+  sink("],\"perpendicular\":[");
+  PutLines(perpendicular, sink);
+  sink("]},\"curves\":[");
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {
     sink((id > 0 ? ",\n" : "\n") + JsonText(CurveJson(record, id, curve)));
   });

@@ -21,18 +21,6 @@ double NumParametersAcross(const Shape& shape) {
   return static_cast<double>(std::get<Spline>(shape).control_points.size());
 }
 
-double NumIndependent(const FitSamples& samples) {
-  double length = 0, pixel = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    pixel += samples[i].pixel;
-    if (i == 0) continue;
-    length += (samples[i].position - samples[i - 1].position).norm();
-  }
-  const double n = static_cast<double>(samples.size());
-  pixel /= n;
-  return pixel > 0 ? std::min(n, 1 + length / (kSharedPx * pixel)) : n;
-}
-
 Eigen::Vector3d ChordAt(const FitSamples& samples, bool at_end) {
   const std::size_t last = samples.size() - 1;
   const Eigen::Vector3d chord =
@@ -70,6 +58,18 @@ PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
 }
 
 }  // namespace
+
+double NumIndependent(const FitSamples& samples) {
+  double length = 0, pixel = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    pixel += samples[i].pixel;
+    if (i == 0) continue;
+    length += (samples[i].position - samples[i - 1].position).norm();
+  }
+  const double n = static_cast<double>(samples.size());
+  pixel /= n;
+  return pixel > 0 ? std::min(n, 1 + length / (kSharedPx * pixel)) : n;
+}
 
 std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point) {
   if (const auto* line = std::get_if<FittedLine>(&shape)) {

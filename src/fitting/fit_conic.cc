@@ -46,6 +46,7 @@ double NearestParameter(const Conic& conic, const Eigen::Vector3d& point) {
 namespace {
 
 constexpr double kMaxAxisRatio = 20;
+constexpr double kMaxStep = 0.7;  // in units of the axes, and radians
 constexpr std::size_t kMinCircleSamples = 4;
 constexpr std::size_t kMinEllipseSamples = 6;
 
@@ -138,8 +139,10 @@ struct Target {
   double weight = 0;
 };
 
-// One Gauss-Newton step on the distances of the targets; true if it was made.
-bool Step(const std::vector<Target>& targets, bool is_circle, Conic& conic) {
+// The Gauss-Newton step on the distances of the targets, for Moved.
+Eigen::VectorXd StepOf(const std::vector<Target>& targets,
+                       bool is_circle,
+                       const Conic& conic) {
   const Eigen::Index n = is_circle ? 6 : 8;
   constexpr double kDelta = 1e-6;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
@@ -162,10 +165,58 @@ bool Step(const std::vector<Target>& targets, bool is_circle, Conic& conic) {
     right -= target.weight * jacobian.transpose() * residual;
   }
   normal.diagonal() *= 1 + 1e-9;
-  const Eigen::VectorXd step = normal.ldlt().solve(right);
-  if (!step.allFinite() || step.cwiseAbs().maxCoeff() > 0.7) return false;
-  conic = Moved(conic, step, is_circle);
-  return true;
+  return normal.ldlt().solve(right);
+}
+
+double CostOf(const std::vector<Target>& targets, const Conic& conic) {
+  double cost = 0;
+  for (const Target& t : targets) {
+    cost += t.weight * SquaredDistance(conic, t.position);
+  }
+  return cost;
+}
+
+// Gauss-Newton from `conic`, with steps halved until they go down.
+Conic Descend(const std::vector<Target>& targets, bool is_circle, Conic conic) {
+  constexpr int kNumSteps = 20;
+  constexpr double kLeastShare = 1.0 / 64;
+  double least = CostOf(targets, conic);
+  for (int i = 0; i < kNumSteps; ++i) {
+    const Eigen::VectorXd step = StepOf(targets, is_circle, conic);
+    if (!step.allFinite()) break;
+    double share = std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
+    double cost = least;
+    for (; share > kLeastShare; share /= 2) {
+      const Conic moved = Moved(conic, share * step, is_circle);
+      cost = CostOf(targets, moved);
+      if (!(cost < least)) continue;
+      conic = moved;
+      break;
+    }
+    if (!(cost < (1 - 1e-12) * least)) break;
+    least = cost;
+  }
+  return conic;
+}
+
+// nullopt: the points are on a line.
+std::optional<Conic> CircleThrough(const Eigen::Vector3d& a,
+                                   const Eigen::Vector3d& b,
+                                   const Eigen::Vector3d& c) {
+  constexpr double kFlat = 1e-6;  // sine of the least angle
+  const Eigen::Vector3d u = a - b, v = c - b;
+  const Eigen::Vector3d normal = u.cross(v);
+  if (!(normal.norm() > kFlat * u.norm() * v.norm())) return std::nullopt;
+  const Eigen::Vector3d to_center =
+      (u.squaredNorm() * v - v.squaredNorm() * u).cross(normal) /
+      (2 * normal.squaredNorm());
+  Conic circle;
+  circle.center = b + to_center;
+  circle.a = circle.b = to_center.norm();
+  circle.frame.col(0) = -to_center.normalized();
+  circle.frame.col(2) = normal.normalized();
+  circle.frame.col(1) = circle.frame.col(2).cross(circle.frame.col(0));
+  return circle;
 }
 
 // Axes in order, as Conic promises.
@@ -190,7 +241,9 @@ std::optional<Conic> Refine(Conic conic,
           s.position,
           RobustWeight(SquaredDistance(conic, s.position), s.sigma, round)};
     }
-    if (!Step(targets, is_circle, conic)) return std::nullopt;
+    const Eigen::VectorXd step = StepOf(targets, is_circle, conic);
+    if (!(step.cwiseAbs().maxCoeff() <= kMaxStep)) return std::nullopt;
+    conic = Moved(conic, step, is_circle);
     if (!(conic.a < kMaxAxisRatio * conic.b &&
           conic.b < kMaxAxisRatio * conic.a)) {
       return std::nullopt;
@@ -279,40 +332,42 @@ std::optional<Conic> FitEllipse(const FitSamples& samples) {
   return Refine(*rough, samples, false);
 }
 
-Conic FitThrough(const Conic& conic,
-                 const FitSamples& samples,
-                 const std::vector<Eigen::Vector3d>& points) {
-  constexpr int kNumSteps = 5;
+std::optional<Conic> FitThrough(const Conic& conic,
+                                const FitSamples& samples,
+                                const std::optional<Eigen::Vector3d>& start,
+                                const std::optional<Eigen::Vector3d>& end) {
   constexpr double kConstraint = 1e4;  // times the weight of all samples
+  constexpr double kMaxMiss = 0.05;    // standard deviations
   const bool is_circle = conic.a == conic.b;
-  Conic moved = conic;
-  for (int step = 0; step < kNumSteps; ++step) {
-    std::vector<Target> targets;
-    double sum = 0;
-    for (const FitSample& s : samples) {
-      targets.push_back(
-          {s.position,
-           RobustWeight(
-               SquaredDistance(conic, s.position), s.sigma, kNumRounds - 1)});
-      sum += targets.back().weight;
-    }
-    for (const Eigen::Vector3d& p : points) {
-      targets.push_back({p, kConstraint * sum});
-    }
-    if (!Step(targets, is_circle, moved)) return conic;
-  }
-  return Ordered(moved);
-}
-
-double RadiusSigma(const Conic& circle, const FitSamples& samples) {
-  // The distance in the plane changes by -(cos, sin, 1) with centre and radius.
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  std::vector<Target> targets;
+  double sum = 0;
   for (const FitSample& s : samples) {
-    const double t = NearestParameter(circle, s.position);
-    const Eigen::Vector3d row(std::cos(t), std::sin(t), 1);
-    information += row * row.transpose() / (s.sigma * s.sigma);
+    const double squared = SquaredDistance(conic, s.position);
+    targets.push_back(
+        {s.position, RobustWeight(squared, s.sigma, kNumRounds - 1)});
+    sum += targets.back().weight;
   }
-  return std::sqrt(information.inverse()(2, 2));
+  std::vector<Target> fixed;
+  if (start) fixed.push_back({*start, kConstraint * sum});
+  if (end) fixed.push_back({*end, kConstraint * sum});
+  targets.insert(targets.end(), fixed.begin(), fixed.end());
+  Conic best = Descend(targets, is_circle, conic);
+  if (!is_circle) return Ordered(best);
+  const auto foot = [&](const FitSample& s) {
+    return conic.At(NearestParameter(conic, s.position));
+  };
+  // From here on the ends are in place, however far the nodes are.
+  if (const auto through = CircleThrough(start.value_or(foot(samples.front())),
+                                         foot(samples[samples.size() / 2]),
+                                         end.value_or(foot(samples.back())))) {
+    const Conic other = Descend(targets, is_circle, *through);
+    if (CostOf(targets, other) < CostOf(targets, best)) best = other;
+  }
+  const double miss = kMaxMiss * samples.front().sigma;
+  if (CostOf(fixed, best) > kConstraint * sum * miss * miss) {
+    return std::nullopt;
+  }
+  return best;
 }
 
 }  // namespace curvix

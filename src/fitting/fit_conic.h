@@ -41,14 +41,13 @@ std::optional<Conic> RoughCircle(const FitSamples& samples);
 std::optional<Conic> FitCircle(const FitSamples& samples);
 std::optional<Conic> FitEllipse(const FitSamples& samples);
 
-// Moves `conic` to fit `samples` as well as it can while it passes through
-// `points`, to about a hundredth of a standard deviation. A circle stays one.
-Conic FitThrough(const Conic& conic,
-                 const FitSamples& samples,
-                 const std::vector<Eigen::Vector3d>& points);
-
-// Standard deviation of the radius of a circle that was fitted to `samples`,
-// as they lie, with independent errors of their sigmas.
-double RadiusSigma(const Conic& circle, const FitSamples& samples);
+// `conic` moved to fit `samples` as well as it can while its ends, those next
+// to the first and the last sample, lie on `start` and `end` where these are
+// given, to about a hundredth of a standard deviation. A circle stays one.
+// nullopt: no circle does, but a straight line.
+std::optional<Conic> FitThrough(const Conic& conic,
+                                const FitSamples& samples,
+                                const std::optional<Eigen::Vector3d>& start,
+                                const std::optional<Eigen::Vector3d>& end);
 
 }  // namespace curvix

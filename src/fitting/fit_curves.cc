@@ -12,10 +12,13 @@
 #include "base/check.h"
 #include "base/median.h"
 #include "base/parallel.h"
+#include "fitting/arc_covariance.h"
 #include "fitting/choose_primitives.h"
 #include "fitting/end_covariance.h"
+#include "fitting/find_structure.h"
 #include "fitting/fit_conic.h"
 #include "fitting/meet_in_nodes.h"
+#include "fitting/regularize.h"
 #include "geometry/pixel_size.h"
 #include "geometry/posed_views.h"
 
@@ -161,7 +164,13 @@ struct Snapped {
   FitSamples samples;
   std::optional<Eigen::Vector3d> start;
   std::optional<Eigen::Vector3d> end;
+  std::vector<FixedPoint> nodes;
 };
+
+FittedLine ChordOf(const FitSamples& samples) {
+  const Eigen::Vector3d& from = samples.front().position;
+  return {from, (samples.back().position - from).normalized()};
+}
 
 // The node, or the foot of the end sample.
 Eigen::Vector3d EndOn(const Shape& shape,
@@ -188,30 +197,22 @@ struct Draw {
   }
 
   Shape operator()(const Conic& free) const {
-    std::vector<Eigen::Vector3d> points;
-    if (snapped.start) points.push_back(*snapped.start);
-    if (snapped.end) points.push_back(*snapped.end);
-    const Conic conic =
-        points.empty() ? free
-                       : Directed(FitThrough(free, snapped.samples, points),
-                                  snapped.samples);
+    Conic conic = free;
+    if (snapped.start || snapped.end) {
+      const auto through =
+          FitThrough(free, snapped.samples, snapped.start, snapped.end);
+      if (!through) return (*this)(ChordOf(snapped.samples));
+      conic = Directed(*through, snapped.samples);
+    }
     fit.kind = conic.a == conic.b ? FitKind::kArc : FitKind::kEllipse;
-    fit.center = conic.center;
-    fit.major = conic.a * conic.frame.col(0);
-    fit.minor = conic.b * conic.frame.col(1);
     fit.start = EndOn(conic, snapped.start, snapped.samples.front());
     fit.end = EndOn(conic, snapped.end, snapped.samples.back());
-    fit.start_angle = NearestParameter(conic, fit.start);
-    if (fit.closed) {
-      fit.end = fit.start;
-      fit.end_angle = fit.start_angle + 2 * kPi;
-    } else {
-      fit.end_angle = NearestParameter(conic, fit.end);
-      while (fit.end_angle <= fit.start_angle) fit.end_angle += 2 * kPi;
-    }
+    if (fit.closed) fit.end = fit.start;
+    SetConic(conic, fit);
     if (fit.kind == FitKind::kArc) {
-      fit.radius_sigma = std::hypot(RadiusSigma(conic, snapped.samples),
-                                    SharedSigma(snapped.samples));
+      fit.arc_covariance =
+          ArcCovariance(conic, snapped.samples, snapped.nodes, fit.closed);
+      fit.radius_sigma = std::sqrt(fit.arc_covariance(6, 6));
     }
     return conic;
   }
@@ -280,6 +281,66 @@ CurveFit MakeFit(const Snapped& snapped) {
   return fit;
 }
 
+// A line or arc as it is drawn; nullopt: another kind.
+std::optional<Shape> ShapeOf(const CurveFit& fit) {
+  if (fit.kind == FitKind::kLine) {
+    return FittedLine{fit.start, (fit.end - fit.start).normalized()};
+  }
+  if (fit.kind != FitKind::kArc) return std::nullopt;
+  Conic conic;
+  conic.center = fit.center;
+  conic.a = conic.b = fit.major.norm();
+  const Eigen::Vector3d x = fit.major.normalized(), y = fit.minor.normalized();
+  conic.frame << x, y, x.cross(y);
+  return conic;
+}
+
+// Index into the nodes of both ends of each fit, or -1.
+using NodesOfFits = std::vector<std::vector<std::pair<int, int>>>;
+
+NodesOfFits FindNodes(const std::vector<CurvePrimitives>& alone,
+                      const std::vector<CurveNode>& nodes) {
+  NodesOfFits node_of(alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    node_of[i].assign(alone[i].size(), {-1, -1});
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    for (const CurveNode::End& end : nodes[n].ends) {
+      auto& [start, stop] = node_of[end.curve_idx][end.fit_idx];
+      (end.at_end ? stop : start) = static_cast<int>(n);
+    }
+  }
+  return node_of;
+}
+
+CurveFit FitInNodes(const PrimitiveOfCurve& alone,
+                    const std::pair<int, int>& node_idx,
+                    const std::vector<CurveNode>& nodes,
+                    FitSamples samples) {
+  Snapped snapped{alone.primitive, std::move(samples), {}, {}, {}};
+  const auto snap = [&](int idx,
+                        const PrimitiveEnd& end,
+                        std::optional<Eigen::Vector3d>& position) {
+    if (idx < 0) return MeetingCovariance({end}, end.foot);
+    const CurveNode& node = nodes[static_cast<std::size_t>(idx)];
+    position = node.position;
+    snapped.nodes.push_back({node.position, node.covariance});
+    return node.covariance;
+  };
+  const Eigen::Matrix3d at_start =
+      snap(node_idx.first, alone.at_start, snapped.start);
+  const Eigen::Matrix3d at_end =
+      snap(node_idx.second, alone.at_end, snapped.end);
+  CurveFit fit = MakeFit(snapped);
+  fit.start_node = node_idx.first;
+  fit.end_node = node_idx.second;
+  if (!fit.closed) {
+    fit.start_covariance = at_start;
+    fit.end_covariance = at_end;
+  }
+  return fit;
+}
+
 }  // namespace
 
 FittedCurves FitCurves(const CurveSource& curves,
@@ -293,40 +354,36 @@ FittedCurves FitCurves(const CurveSource& curves,
   });
   FittedCurves result;
   result.nodes = MeetInNodes(alone);
-  std::vector<std::vector<std::pair<int, int>>> node_of(alone.size());
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    node_of[i].assign(alone[i].size(), {-1, -1});
-  }
-  for (std::size_t n = 0; n < result.nodes.size(); ++n) {
-    for (const CurveNode::End& end : result.nodes[n].ends) {
-      auto& [start, stop] = node_of[end.curve_idx][end.fit_idx];
-      (end.at_end ? stop : start) = static_cast<int>(n);
-    }
-  }
-  const auto position = [&](int node) -> std::optional<Eigen::Vector3d> {
-    if (node < 0) return std::nullopt;
-    return result.nodes[static_cast<std::size_t>(node)].position;
-  };
-  const auto end_covariance = [&](int node, const PrimitiveEnd& end) {
-    return node < 0 ? MeetingCovariance({end}, end.foot)
-                    : result.nodes[static_cast<std::size_t>(node)].covariance;
-  };
+  const NodesOfFits node_of = FindNodes(alone, result.nodes);
   result.curves.resize(alone.size());
+  const auto fit_one = [&](const CurveToFit& curve, std::size_t f) {
+    const PrimitiveOfCurve& own = alone[curve.id][f];
+    CurveFit fit = FitInNodes(own,
+                              node_of[curve.id][f],
+                              result.nodes,
+                              SamplesOf(own.primitive, curve.samples));
+    fit.curve_kind = KindOf(own.primitive, curve.kinds);
+    return fit;
+  };
   FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
     for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {
-      const Primitive& primitive = alone[curve.id][f].primitive;
-      const auto [start, end] = node_of[curve.id][f];
-      CurveFit fit = MakeFit({primitive,
-                              SamplesOf(primitive, curve.samples),
-                              position(start),
-                              position(end)});
-      fit.curve_kind = KindOf(primitive, curve.kinds);
-      fit.start_node = start;
-      fit.end_node = end;
-      fit.start_covariance = end_covariance(start, alone[curve.id][f].at_start);
-      fit.end_covariance = end_covariance(end, alone[curve.id][f].at_end);
-      if (fit.closed) fit.start_covariance = fit.end_covariance.setZero();
-      result.curves[curve.id].fits.push_back(std::move(fit));
+      result.curves[curve.id].fits.push_back(fit_one(curve, f));
+    }
+  });
+  result.structure = FindStructure(result);
+  if (!options.regularize) return result;
+  Regularize(result);
+  // Lines and arcs have moved; the others follow their nodes.
+  FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
+    for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {
+      CurveFit& fit = result.curves[curve.id].fits[f];
+      if (const std::optional<Shape> shape = ShapeOf(fit)) {
+        Judge(*shape,
+              SamplesOf(alone[curve.id][f].primitive, curve.samples),
+              fit);
+      } else {
+        fit = fit_one(curve, f);
+      }
     }
   });
   return result;

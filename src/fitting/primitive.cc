@@ -2,7 +2,6 @@
 // Paper: none (engineering). A line, circle, ellipse or spline, whichever.
 #include "fitting/primitive.h"
 
-#include <curvix/fitting.h>
 #include <cmath>
 
 #include "base/angles.h"
@@ -95,6 +94,17 @@ bool GoesRound(const Conic& conic, const FitSamples& samples) {
   const double sweep = std::abs(angles.back() - angles.front());
   const double step = sweep / static_cast<double>(samples.size() - 1);
   return sweep > 2 * kPi - std::max(4 * step, 0.1);
+}
+
+void SetConic(const Conic& conic, CurveFit& fit) {
+  fit.center = conic.center;
+  fit.major = conic.a * conic.frame.col(0);
+  fit.minor = conic.b * conic.frame.col(1);
+  fit.start_angle = NearestParameter(conic, fit.start);
+  fit.end_angle = fit.start_angle + 2 * kPi;
+  if (fit.closed) return;
+  fit.end_angle = NearestParameter(conic, fit.end);
+  while (fit.end_angle <= fit.start_angle) fit.end_angle += 2 * kPi;
 }
 
 std::string_view KindName(const CurveFit& fit) {

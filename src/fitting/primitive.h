@@ -2,6 +2,8 @@
 // Paper: none (engineering). A line, circle, ellipse or spline, whichever.
 #pragma once
 
+#include <curvix/fitting.h>
+
 #include <cstddef>
 #include <variant>
 #include <vector>
@@ -49,5 +51,9 @@ Conic Directed(const Conic& conic, const FitSamples& samples);
 // Whether samples of an open curve leave less of a conic open than four of
 // their steps or a tenth of a radian.
 bool GoesRound(const Conic& conic, const FitSamples& samples);
+
+// Sets the centre, the axes and the angles of a fit whose `closed`, `start` and
+// `end` are known.
+void SetConic(const Conic& conic, CurveFit& fit);
 
 }  // namespace curvix

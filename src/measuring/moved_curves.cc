@@ -18,11 +18,24 @@ void MoveFit(const Similarity3& b_from_a, CurveFit& fit) {
     fit.major = vector(fit.major);
     fit.minor = vector(fit.minor);
   }
+  const Eigen::Matrix3d turn = b_from_a.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 7, 7> arc = Eigen::Matrix<double, 7, 7>::Zero();
+  arc.topLeftCorner<3, 3>() = b_from_a.scale * turn;
+  arc.block<3, 3>(3, 3) = turn;
+  arc(6, 6) = b_from_a.scale;
+  fit.arc_covariance = arc * fit.arc_covariance * arc.transpose();
   for (Eigen::Vector3d& point : fit.control_points) point = b_from_a * point;
   for (double* length :
        {&fit.rms_residual, &fit.max_residual, &fit.sigma, &fit.radius_sigma}) {
     *length *= b_from_a.scale;
   }
+}
+
+void MoveGroup(const Similarity3& b_from_a, FitGroup& group) {
+  group.direction = b_from_a.rotation * group.direction;
+  group.point = b_from_a * group.point;
+  group.radius *= b_from_a.scale;
+  if (group.kind != GroupKind::kParallel) group.sigma *= b_from_a.scale;
 }
 
 }  // namespace
@@ -53,6 +66,7 @@ FittedCurves MoveFits(const Similarity3& b_from_a, FittedCurves fitted) {
     node.position = b_from_a * node.position;
     node.covariance = MoveCovariance(b_from_a, node.covariance);
   }
+  for (FitGroup& group : fitted.structure.groups) MoveGroup(b_from_a, group);
   return fitted;
 }
 

@@ -52,7 +52,7 @@ const std::map<std::string, Rule>& Rules() {
       {"curve_kinds", Stage({"opencv2"}, {"edge_detection"})},
       {"poses", Stage({}, {"edge_detection", "edge_sketch", "pipeline"})},
       {"parts", Stage({}, {"edge_sketch"})},
-      {"fitting", Stage()},
+      {"fitting", Stage({"ceres"})},
       {"measuring", Stage()},
       {"drawing", Stage()},
       {"io", Stage({"pcl"}, {"drawing", "parts"})},

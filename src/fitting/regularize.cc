@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Fits that hold the structure found among them.
+#include "fitting/regularize.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "fitting/primitive.h"
+#include "fitting/regularize_costs.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// Times as much as the standard deviations of what they hold weigh relations:
+// they are met to a millionth of what a fit moves.
+constexpr double kHard = 1e3;
+constexpr double kMaxMoveSigmas = 3;
+
+// The inverse of the root of a covariance, for weights; 0 if it has none.
+template <int kRows>
+SquareMatrix<kRows> Whitening(SquareMatrix<kRows> covariance) {
+  covariance.diagonal().array() *= 1 + 1e-9;
+  const Eigen::LLT<SquareMatrix<kRows>> llt(covariance);
+  if (llt.info() != Eigen::Success) return SquareMatrix<kRows>::Zero();
+  return llt.matrixL().solve(SquareMatrix<kRows>::Identity());
+}
+
+// Where primitives go on smoothly, their node is hardly known along them. It is
+// not to slide far: at most so many times as far as it may move across.
+Matrix3d WithoutSliding(const Matrix3d& covariance) {
+  constexpr double kMaxRatio = 10;
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
+  const Vector3d capped = eigen.eigenvalues().cwiseMin(kMaxRatio * kMaxRatio *
+                                                       eigen.eigenvalues()(0));
+  return eigen.eigenvectors() * capped.asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+template <typename Cost, int kResiduals, int... kSizes>
+ceres::CostFunction* Auto(Cost cost) {
+  return new ceres::AutoDiffCostFunction<Cost, kResiduals, kSizes...>(
+      new Cost(std::move(cost)));
+}
+
+struct Point {
+  Vector3d position;
+  Matrix3d covariance;
+};
+
+struct Arc {
+  Vector6 values;
+  Chart normal;
+  Matrix6 covariance;
+};
+
+Arc ArcOf(const CurveFit& fit) {
+  const Chart normal(fit.major.cross(fit.minor).normalized());
+  Arc arc{Vector6::Zero(), normal, Matrix6::Zero()};
+  arc.values.head<3>() = fit.center;
+  arc.values(5) = fit.major.norm();
+  Eigen::Matrix<double, 6, 7> local = Eigen::Matrix<double, 6, 7>::Zero();
+  local.topLeftCorner<3, 3>().setIdentity();
+  local.block<2, 3>(3, 3) = normal.across.transpose();
+  local(5, 6) = 1;
+  arc.covariance = local * fit.arc_covariance * local.transpose();
+  return arc;
+}
+
+// What a group shares, as it moves.
+struct Shared {
+  std::array<double, 2> turn = {0, 0};
+  std::array<double, 2> offset = {0, 0};
+  double radius = 0;
+};
+
+using FitKey = std::pair<std::size_t, std::size_t>;
+
+class Adjustment {
+ public:
+  explicit Adjustment(const FittedCurves& fitted)
+      : fitted_(fitted), shared_(fitted.structure.groups.size()) {
+    for (const CurveNode& node : fitted.nodes) {
+      points_.push_back({node.position, WithoutSliding(node.covariance)});
+    }
+    for (std::size_t c = 0; c < fitted.curves.size(); ++c) {
+      for (std::size_t f = 0; f < fitted.curves[c].fits.size(); ++f) {
+        AddFit({c, f}, fitted.curves[c].fits[f]);
+      }
+    }
+    before_ = points_;
+    arcs_before_ = arcs_;
+    for (std::size_t g = 0; g < shared_.size(); ++g) {
+      shared_[g].radius = fitted.structure.groups[g].radius;
+    }
+  }
+
+  void Solve() {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      Add(Auto<StaysCost<3>, 3, 3>(
+              {Whitening<3>(points_[k].covariance), points_[k].position}),
+          points_[k].position.data());
+    }
+    for (auto& [key, arc] : arcs_) {
+      Add(Auto<StaysCost<6>, 6, 6>({Whitening<6>(arc.covariance), arc.values}),
+          arc.values.data());
+      const CurveFit& fit = FitOf(key);
+      for (const int node : {fit.start_node, fit.end_node}) {
+        if (node < 0) continue;
+        Add(Auto<NodeOnArcCost, 2, 3, 6>({arc.normal, kHard / fit.sigma}),
+            points_[static_cast<std::size_t>(node)].position.data(),
+            arc.values.data());
+      }
+    }
+    const FitStructure& structure = fitted_.structure;
+    for (std::size_t g = 0; g < structure.groups.size(); ++g) {
+      for (const FitIndex& index : structure.groups[g].fits) {
+        AddMember(structure.groups[g], index, shared_[g]);
+      }
+    }
+    for (const PerpendicularGroups& p : structure.perpendicular) {
+      const FitGroup& first = structure.groups[p.first];
+      const FitGroup& second = structure.groups[p.second];
+      Add(Auto<PerpendicularCost, 1, 2, 2>(
+              {Chart(first.direction),
+               Chart(second.direction),
+               kHard / std::min(first.sigma, second.sigma)}),
+          shared_[p.first].turn.data(),
+          shared_[p.second].turn.data());
+    }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    options.num_threads = 1;
+    options.function_tolerance = 1e-12;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+  }
+
+  // Fits that are, or end in, what has moved too far.
+  std::set<FitKey> MovedTooFar() const {
+    std::set<FitKey> far;
+    const auto is_far = [](const auto& whitening, const auto& move) {
+      return !((whitening * move).norm() <= kMaxMoveSigmas);
+    };
+    std::vector<bool> point_is_far;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      point_is_far.push_back(
+          is_far(Whitening<3>(points_[k].covariance),
+                 (points_[k].position - before_[k].position).eval()));
+    }
+    for (std::size_t c = 0; c < fitted_.curves.size(); ++c) {
+      for (std::size_t f = 0; f < fitted_.curves[c].fits.size(); ++f) {
+        const FitKey key{c, f};
+        const auto arc = arcs_.find(key);
+        bool moved =
+            arc != arcs_.end() &&
+            is_far(Whitening<6>(arc->second.covariance),
+                   (arc->second.values - arcs_before_.at(key).values).eval());
+        for (const bool at_end : {false, true}) {
+          const auto end = end_points_.find({key, at_end});
+          if (end != end_points_.end()) moved |= point_is_far[end->second];
+        }
+        if (moved) far.insert(key);
+      }
+    }
+    return far;
+  }
+
+  void WriteTo(FittedCurves& fitted) const {
+    for (std::size_t n = 0; n < fitted.nodes.size(); ++n) {
+      fitted.nodes[n].position = points_[n].position;
+    }
+    for (const auto& [end, point] : end_points_) {
+      const auto& [key, at_end] = end;
+      CurveFit& fit = fitted.curves[key.first].fits[key.second];
+      (at_end ? fit.end : fit.start) = points_[point].position;
+    }
+    for (const auto& [key, arc] : arcs_) {
+      WriteArc(arc, fitted.curves[key.first].fits[key.second]);
+    }
+  }
+
+ private:
+  const CurveFit& FitOf(const FitKey& key) const {
+    return fitted_.curves[key.first].fits[key.second];
+  }
+
+  template <typename... Blocks>
+  void Add(ceres::CostFunction* cost, Blocks... blocks) {
+    problem_.AddResidualBlock(cost, nullptr, blocks...);
+  }
+
+  // The nodes of a fit, and its free ends if it is a line, are points.
+  void AddFit(const FitKey& key, const CurveFit& fit) {
+    if (fit.kind == FitKind::kArc) arcs_.emplace(key, ArcOf(fit));
+    for (const bool at_end : {false, true}) {
+      const int node = at_end ? fit.end_node : fit.start_node;
+      if (node >= 0) {
+        end_points_[{key, at_end}] = static_cast<std::size_t>(node);
+      } else if (fit.kind == FitKind::kLine) {
+        end_points_[{key, at_end}] = points_.size();
+        points_.push_back(
+            at_end ? Point{fit.end, WithoutSliding(fit.end_covariance)}
+                   : Point{fit.start, WithoutSliding(fit.start_covariance)});
+      }
+    }
+  }
+
+  double* EndOf(const FitKey& key, bool at_end) {
+    return points_[end_points_.at({key, at_end})].position.data();
+  }
+
+  void AddMember(const FitGroup& group, const FitIndex& index, Shared& shared) {
+    const FitKey key{index.curve_idx, index.fit_idx};
+    const CurveFit& fit = FitOf(key);
+    const bool is_arc = fit.kind == FitKind::kArc;
+    const Chart direction(group.direction);
+    const double weight = kHard / fit.sigma;
+    double* arc = is_arc ? arcs_.at(key).values.data() : nullptr;
+    std::vector<double*> positions = {arc};
+    if (!is_arc) positions = {EndOf(key, false), EndOf(key, true)};
+    const double turn_weight =
+        weight * (is_arc ? fit.major.norm() : (fit.end - fit.start).norm());
+    if (group.kind == GroupKind::kEqualRadius) {
+      Add(Auto<RadiusCost, 1, 6, 1>({weight}), arc, &shared.radius);
+    } else if (group.kind == GroupKind::kCoplanar) {
+      for (double* position : positions) {
+        AddOnPlane(direction, group.point, weight, is_arc, position, shared);
+      }
+      if (is_arc) {
+        Add(Auto<ArcAlongCost, 2, 6, 2>(
+                {arcs_.at(key).normal, direction, turn_weight}),
+            arc,
+            shared.turn.data());
+      }
+    } else if (group.kind == GroupKind::kParallel && is_arc) {
+      Add(Auto<ArcAlongCost, 2, 6, 2>(
+              {arcs_.at(key).normal, direction, turn_weight}),
+          arc,
+          shared.turn.data());
+    } else if (group.kind == GroupKind::kParallel) {
+      Add(Auto<LineAlongCost, 2, 3, 3, 2>({direction, weight}),
+          positions[0],
+          positions[1],
+          shared.turn.data());
+    } else {
+      for (double* position : positions) {
+        AddOnAxis(direction, group.point, weight, is_arc, position, shared);
+      }
+    }
+  }
+
+  void AddOnPlane(const Chart& normal,
+                  const Vector3d& point,
+                  double weight,
+                  bool is_arc,
+                  double* position,
+                  Shared& shared) {
+    const OnPlaneCost cost{normal, point, weight};
+    Add(is_arc ? Auto<OnPlaneCost, 1, 6, 2, 1>(cost)
+               : Auto<OnPlaneCost, 1, 3, 2, 1>(cost),
+        position,
+        shared.turn.data(),
+        shared.offset.data());
+  }
+  void AddOnAxis(const Chart& direction,
+                 const Vector3d& point,
+                 double weight,
+                 bool is_arc,
+                 double* position,
+                 Shared& shared) {
+    const OnAxisCost cost{direction, point, weight};
+    Add(is_arc ? Auto<OnAxisCost, 2, 6, 2, 2>(cost)
+               : Auto<OnAxisCost, 2, 3, 2, 2>(cost),
+        position,
+        shared.turn.data(),
+        shared.offset.data());
+  }
+
+  static void WriteArc(const Arc& arc, CurveFit& fit) {
+    const Vector3d normal = arc.normal.At(arc.values.data() + 3).normalized();
+    Conic conic;
+    conic.center = arc.values.head<3>();
+    conic.a = conic.b = arc.values(5);
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(arc.normal.base, normal);
+    const Vector3d x = (turn * fit.major).normalized();
+    conic.frame << x, normal.cross(x), normal;
+    // Free ends go to their feet.
+    if (fit.start_node < 0) {
+      fit.start = conic.At(NearestParameter(conic, fit.start));
+    }
+    if (fit.end_node < 0) fit.end = conic.At(NearestParameter(conic, fit.end));
+    if (fit.closed) fit.end = fit.start;
+    SetConic(conic, fit);
+  }
+
+  const FittedCurves& fitted_;
+  std::vector<Point> points_, before_;
+  std::map<FitKey, Arc> arcs_, arcs_before_;
+  std::map<std::pair<FitKey, bool>, std::size_t> end_points_;
+  std::vector<Shared> shared_;
+  ceres::Problem problem_;
+};
+
+// Without these fits, and without groups that say nothing any more. False:
+// there was nothing to drop.
+bool Drop(const std::set<FitKey>& fits, FitStructure& structure) {
+  bool any = false;
+  for (FitGroup& group : structure.groups) {
+    any |= std::erase_if(group.fits, [&](const FitIndex& i) {
+             return fits.count({i.curve_idx, i.fit_idx}) > 0;
+           }) > 0;
+  }
+  std::erase_if(structure.perpendicular, [&](const PerpendicularGroups& p) {
+    return structure.groups[p.first].fits.empty() ||
+           structure.groups[p.second].fits.empty();
+  });
+  std::vector<bool> used(structure.groups.size());
+  for (const PerpendicularGroups& p : structure.perpendicular) {
+    used[p.first] = used[p.second] = true;
+  }
+  std::vector<FitGroup> kept;
+  std::vector<std::size_t> place(structure.groups.size());
+  for (std::size_t g = 0; g < structure.groups.size(); ++g) {
+    place[g] = kept.size();
+    if (used[g] || structure.groups[g].fits.size() > 1) {
+      kept.push_back(std::move(structure.groups[g]));
+    }
+  }
+  for (PerpendicularGroups& p : structure.perpendicular) {
+    p.first = place[p.first];
+    p.second = place[p.second];
+  }
+  structure.groups = std::move(kept);
+  return any;
+}
+
+}  // namespace
+
+void Regularize(FittedCurves& fitted) {
+  while (!fitted.structure.groups.empty()) {
+    Adjustment adjustment(fitted);
+    adjustment.Solve();
+    const std::set<FitKey> far = adjustment.MovedTooFar();
+    if (far.empty() || !Drop(far, fitted.structure)) {
+      if (far.empty()) adjustment.WriteTo(fitted);
+      return;
+    }
+  }
+}
+
+}  // namespace curvix
