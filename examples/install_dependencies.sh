@@ -8,9 +8,10 @@
 #   examples/install_dependencies.sh --tests    and for all tests
 set -euo pipefail
 
-# libopencv-dev holds OpenCV's CMake configuration, libpcl-dev PCL's.
+# libopencv-dev holds OpenCV's CMake configuration, libpcl-dev PCL's. dpkg-dev
+# and file are for the target `package`.
 packages=(
-  cmake g++ git ninja-build
+  cmake dpkg-dev file g++ git ninja-build
   libboost-program-options-dev libceres-dev libeigen3-dev
   libgoogle-glog-dev libjs-three libnanoflann-dev libopencv-dev
   libpcl-dev libzip-dev nlohmann-json3-dev

@@ -14,9 +14,9 @@ case "${1:-}" in
     ctest --preset asan --parallel "$(nproc)" --timeout 1800
     ;;
   thread)
-    tests=(base_parallel_test laws_reconstruction_laws_test
-      pipeline_reconstruct_test pipeline_refine_poses_test
-      end_to_end_program_test)
+    tests=(base_parallel_test end_to_end_program_test
+      invariance_reconstruction_invariance_test pipeline_reconstruct_test
+      poses_refine_poses_test)
     export TSAN_OPTIONS="halt_on_error=1:suppressions=$PWD/tests/thread_sanitizer.supp"
     cmake --preset tsan --log-level=NOTICE
     cmake --build --preset tsan --target "${tests[@]}"

@@ -114,7 +114,7 @@ EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
       tile_columns_((columns_ - 1) / kTileSide + 1),
       tiles_(TileOf(columns_ - 1, rows_ - 1) + 1, 0),
       cells_(kCellsPerTile, 0) {
-  constexpr double kCellPx = 1 / kCellsPerPx;
+  constexpr double kSidePx = 1 / kCellsPerPx;
   constexpr double kRoundingPx = 1e-3;
   for (const Edge2d& edge : edges) {
     const std::uint16_t bins =
@@ -126,14 +126,14 @@ EdgePresence::EdgePresence(const std::vector<Edge2d>& edges,
                                   tangential_px * tangent.cwiseAbs() +
                                   Eigen::Vector2d::Constant(kRoundingPx);
     // Half the extent of a cell along any two directions at right angles.
-    const double half_cell = kCellPx / 2 * tangent.lpNorm<1>() + kRoundingPx;
+    const double half_cell = kSidePx / 2 * tangent.lpNorm<1>() + kRoundingPx;
     const int column_end = Cell(x.x() + reach.x(), columns_);
     const int row_end = Cell(x.y() + reach.y(), rows_);
     for (int row = Cell(x.y() - reach.y(), rows_); row <= row_end; ++row) {
       for (int column = Cell(x.x() - reach.x(), columns_); column <= column_end;
            ++column) {
         const Eigen::Vector2d offset =
-            kCellPx * Eigen::Vector2d(column + 0.5, row + 0.5) - x;
+            kSidePx * Eigen::Vector2d(column + 0.5, row + 0.5) - x;
         const bool is_near =
             std::abs(offset.dot(normal)) <= normal_px + half_cell &&
             std::abs(offset.dot(tangent)) <= tangential_px + half_cell;

@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the Debian packages, installs them on a Debian 12 that holds nothing
-# else, uses them there, and removes them. As root, with debootstrap, lintian and network.
+# Builds the Debian packages, installs them on the same Debian (12 or 13) that
+# holds nothing else, uses them there, and removes them. As root, with
+# debootstrap, lintian and network.
 #
-#   tests/packages/deb.sh [folder for the Debian 12: build-deb/debian-12]
+#   tests/packages/deb.sh [folder for the clean Debian: build-deb/clean]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-root="${1:-build-deb/debian-12}"
+root="${1:-build-deb/clean}"
+# shellcheck source=/dev/null
+suite="$(. /etc/os-release && echo "$VERSION_CODENAME")"
 
 step() { printf '\n== %s\n' "$*"; }
 
@@ -15,7 +18,7 @@ files_of_system() {
   find "$root"/{etc,opt,usr} ! -name '*cache*' ! -name '*~' -printf '%P\n' | sort
 }
 
-# In the Debian 12, with /proc, which goes with this process.
+# In the clean Debian, with /proc, which goes with this process.
 inside() {
   # shellcheck disable=SC2016  # for the inner shell to expand
   unshare --mount bash -ec 'mount -t proc proc "$1/proc"
@@ -33,9 +36,9 @@ packages=(build-deb/colmap-curvix_*.deb build-deb/python3-curvix_*.deb)
 lintian --allow-root --fail-on error,warning \
   --suppress-tags malformed-contact "${packages[@]}"
 
-step "2 of 5: a clean Debian 12"
+step "2 of 5: a clean $suite"
 if [[ ! -e "$root/var/lib/apt/lists" ]]; then
-  debootstrap --variant=minbase --include=man-db bookworm "$root"
+  debootstrap --variant=minbase --include=man-db "$suite" "$root"
 fi
 inside apt-get -qq -o Dpkg::Use-Pty=0 update
 files_of_system >build-deb/before.txt
