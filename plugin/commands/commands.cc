@@ -67,7 +67,7 @@ ExitCode Help(const Arguments& arguments) {
       {{"Output",
         {Switch("markdown",
                 &markdown,
-                "print docs/options.md, every option in a table")}}});
+                "print docs/options.md, every option with its default")}}});
   if (code) return *code;
   if (markdown) {
     std::cout << OptionsMarkdown();
