@@ -115,7 +115,7 @@ void KeepAfterFailure(const std::string& reason,
        result);
 }
 
-// Judges the aligned `refined`, and takes it over into `model` if it is good.
+// Tests the aligned `refined`, and copies it to `model` if it is accepted.
 void Conclude(const ColmapModel& model,
               const Bundle& input,
               Bundle refined,

@@ -14,7 +14,7 @@ namespace curvix {
 // the median size of the Laplacian of the image smoothed by about 1 px, over
 // the flatter half of the pixels that are not clipped. Finer masks would not
 // do, since JPEG removes the finest noise and leaves what edges are made of.
-// Flatness is judged by the gradient of the same smoothed image, which in
+// Flatness is decided by the gradient of the same smoothed image, which in
 // stationary noise is independent of the Laplacian at the same place, so that
 // the choice does not bias the estimate. Smooth shading has no Laplacian;
 // texture finer than a few pixels counts as noise where it covers most of the
