@@ -16,9 +16,7 @@ ExitCode Version(const Arguments& arguments);
 
 // In the order of the overview.
 constexpr std::array kCommands = {
-    Command{"reconstruct",
-            "Images and poses in, curves out: the whole job",
-            RunReconstruct},
+    Command{"reconstruct", "Images and poses in, curves out", RunReconstruct},
     Command{"partition",
             "Divide a large scene into parts for reconstruct --part",
             RunPartitionCommand},
