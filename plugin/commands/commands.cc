@@ -16,9 +16,7 @@ ExitCode Version(const Arguments& arguments);
 
 // In the order of the overview.
 constexpr std::array kCommands = {
-    Command{"reconstruct",
-            "Images and poses in, curves out: the whole job",
-            RunReconstruct},
+    Command{"reconstruct", "Images and poses in, curves out", RunReconstruct},
     Command{"partition",
             "Divide a large scene into parts for reconstruct --part",
             RunPartitionCommand},
@@ -67,7 +65,7 @@ ExitCode Help(const Arguments& arguments) {
       {{"Output",
         {Switch("markdown",
                 &markdown,
-                "print docs/options.md, every option in a table")}}});
+                "print docs/options.md, every option with its default")}}});
   if (code) return *code;
   if (markdown) {
     std::cout << OptionsMarkdown();

@@ -97,7 +97,7 @@ void PrintTable(const Evaluation& e, std::ostream& out) {
   PrintRow("completeness of visible", e.visible_completeness_mm, "mm", out);
   PrintRow("tangent error, median", e.tangent_deg, "deg", out);
   PrintRow("duplication", e.duplication, "(1 is best)", out);
-  PrintRow("curves found whole", e.whole, "%", out);
+  PrintRow("recall of whole curves", e.whole, "%", out);
   PrintRow("purity of curves", e.pure, "%", out);
   out << "curves                  " << e.num_curves << " found, "
       << (e.num_true_curves ? std::to_string(*e.num_true_curves) : "-")

@@ -52,24 +52,20 @@ std::string With(const std::string& text,
   return more.empty() ? text : text + before + more + after;
 }
 
-std::string MarkdownRow(const Flag& flag, const std::string& paper_value) {
+// "- `--EdgeDetection.sigma_px` (1 px): standard deviation of ...".
+std::string MarkdownItem(const Flag& flag, const std::string& paper_value) {
   std::string value = With(flag.default_value, " ", flag.unit);
   if (paper_value != flag.default_value) {
     value = With(value, value.empty() ? "" : "; ", "paper " + paper_value);
   }
-  return "| `--" + flag.name + "` | " + (value.empty() ? "–" : value) + " | " +
-         (flag.range.empty() ? "–" : flag.range) + " | " +
-         With(flag.help, " (", flag.symbol, ")") + " |\n";
+  return "- `--" + flag.name + "`" + With("", " (", value, ")") + ": " +
+         With(flag.help, " (", flag.symbol, ")") + "\n";
 }
 
-std::string MarkdownTable(const FlagSection& section,
-                          const FlagSection& paper) {
-  std::string text = "\n## " + section.title +
-                     "\n\n"
-                     "| option | default | range | meaning |\n"
-                     "|---|---|---|---|\n";
+std::string MarkdownList(const FlagSection& section, const FlagSection& paper) {
+  std::string text = "\n## " + section.title + "\n\n";
   for (std::size_t i = 0; i < section.flags.size(); ++i) {
-    text += MarkdownRow(section.flags[i], paper.flags[i].default_value);
+    text += MarkdownItem(section.flags[i], paper.flags[i].default_value);
   }
   return text;
 }
@@ -79,12 +75,12 @@ constexpr char kMarkdownHead[] =
     "\n"
     "<!-- Written by `colmap_curvix help --markdown`; a test compares. -->\n"
     "\n"
-    "Every option of the reconstruction, in the order of the paper. Give them\n"
-    "on the command line (`--Validation.max_angle_deg 10`) or in a project\n"
-    "file (`--project_path x.ini`, with `max_angle_deg=10` below\n"
-    "`[Validation]`). The command line wins over the project file, and both\n"
-    "over `--preset`. *Paper*: the value with `--preset paper`, where it is\n"
-    "another. Pixels are those of the original images.\n";
+    "Options of the reconstruction with their defaults, in the order of the\n"
+    "paper; `colmap_curvix --help_all` adds their ranges. They are given on\n"
+    "the command line (`--Validation.max_angle_deg 10`) or in a project file\n"
+    "(`--project_path x.ini`, with `max_angle_deg=10` below `[Validation]`).\n"
+    "*Paper*: the value with `--preset paper`, where it differs. Pixels are\n"
+    "those of the original images. Switches: 1 is on, 0 is off.\n";
 
 }  // namespace
 
@@ -111,13 +107,13 @@ std::string HelpText(const std::string& usage,
 std::string OptionsMarkdown() {
   PoseRefinementSettings poses;
   const FlagSection pose_flags = PoseRefinementFlags(&poses);
-  std::string text = kMarkdownHead + MarkdownTable(pose_flags, pose_flags);
+  std::string text = kMarkdownHead + MarkdownList(pose_flags, pose_flags);
   Options options;
   Options paper = PaperOptions();
   const std::vector<FlagSection> sections = OptionSections(options);
   const std::vector<FlagSection> papers = OptionSections(paper);
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    text += MarkdownTable(sections[i], papers[i]);
+    text += MarkdownList(sections[i], papers[i]);
   }
   return text;
 }

@@ -17,8 +17,8 @@ std::string HelpText(const std::string& usage,
                      const std::vector<FlagSection>& sections,
                      bool with_advanced);
 
-// docs/options.md: every row of the option table with its default, its value
-// with `--preset paper`, range and meaning.
+// docs/options.md: every option with its default, its value with
+// `--preset paper` and its meaning.
 std::string OptionsMarkdown();
 
 }  // namespace curvix

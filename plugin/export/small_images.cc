@@ -188,7 +188,7 @@ bool IsShownIn(int view_idx, const CurveSample& sample) {
       });
 }
 
-// The stretches of `curve` of which the view shows every third sample or more.
+// The parts of `curve` of which the view supports every third sample or more.
 std::vector<Curve> StretchesShownIn(int view_idx, const Curve& curve) {
   constexpr std::size_t kMaxGap = 3;
   std::vector<Curve> stretches;

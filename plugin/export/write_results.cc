@@ -117,7 +117,7 @@ const std::vector<OutputFormat>& OutputFormats() {
       {"obj", "curves.obj", "lines: CloudCompare, MeshLab, Blender"},
       {"pcd", "curves.pcd", "points with tangents: PCL"},
       {"txt", "curves.txt", "text, like COLMAP's points3D.txt"},
-      {"json", "curves.json", "all there is: fits, junctions, 2D support"},
+      {"json", "curves.json", "everything: fits, junctions, 2D support"},
       {"csv", "dimensions.csv", "lengths, radii, angles: spreadsheets"},
       {"dxf", "curves.dxf", "lines, arcs, circles, ellipses, splines: CAD"},
       {"step", "curves.step", "the same in STEP: CAD"},

@@ -20,7 +20,7 @@ Result<Camera> NerfCamera(const nlohmann::json& frame,
                           std::optional<double> first_pixel);
 
 // "transform_matrix" of `frame` as cam_from_world with COLMAP's axes. kDataLoss
-// if there is none, or if it is not a rigid motion but for a scale.
+// if there is none, or if it is not a similarity transform.
 Result<Rigid3> NerfPose(const nlohmann::json& frame);
 
 }  // namespace curvix

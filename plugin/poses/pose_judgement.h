@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
-// Whether refined poses are to be trusted. Bundle adjustment always makes the
-// errors smaller that it looks at, on badly spread points by bending the whole
-// scene. So points are held out to judge by, and moves must be earned.
+// Paper: none (engineering). Acceptance of refined poses. Bundle adjustment
+// always lowers the errors that it sees, on badly spread points by bending the
+// scene. So some points are held out, and shifts must be explained by their
+// errors.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +25,9 @@ inline constexpr double kMinGain = 0.01;
 // Refused: what a view sees shifts, or its camera moves, by more.
 inline constexpr double kMaxShiftPx = 20;
 inline constexpr double kMaxMove = 0.05;  // of the median distance to points
-// Refused: the typical view shifts by more than so many times the error that
-// the move explains. Wrong poses explain about as much error as they shift the
-// image; a larger shift is one that the points hardly feel.
+// Refused: the median shift of the views is more than so many times the error
+// that it explains. Wrong poses shift images by about as much as they explain;
+// a larger shift is one that the points hardly observe.
 inline constexpr double kMaxShiftPerExplained = 3;
 
 struct ErrorSummary {

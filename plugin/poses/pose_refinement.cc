@@ -115,7 +115,7 @@ void KeepAfterFailure(const std::string& reason,
        result);
 }
 
-// Judges the aligned `refined`, and takes it over into `model` if it is good.
+// Tests the aligned `refined`, and copies it to `model` if it is accepted.
 void Conclude(const ColmapModel& model,
               const Bundle& input,
               Bundle refined,
@@ -163,8 +163,8 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
       {ChoiceFlag("refiner",
                   {"colmap", "ceres", "none"},
                   &settings->refiner,
-                  "bundle adjustment with the points of the model: by the "
-                  "installed COLMAP, by Ceres, or none (as with --preset "
+                  "bundle adjustment with the model's points: by the installed "
+                  "COLMAP (colmap), by Ceres (ceres) or none (as with --preset "
                   "paper); used only if held-out errors fall"),
        Advanced(PathFlag("colmap_path",
                          &settings->colmap_path,
@@ -173,23 +173,19 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
        RowFlag({.name = "refine_intrinsics",
                 .field = &settings->refine_intrinsics,
                 .max = 1,
-                .help =
-                    "1: with poses, refine the intrinsics of cameras that five "
-                    "views or more share, and add terms of distortion if "
-                    "held-out errors fall"}),
+                .help = "refine cameras that five views or more share, and add "
+                        "terms of distortion if held-out errors fall"}),
        Advanced(RowFlag({.name = "refiner_timeout_s",
                          .field = &settings->refiner_timeout_s,
                          .min_is_excluded = true,
                          .unit = "s",
-                         .help = "COLMAP is ended after so long, and the poses "
-                                 "stay as they are"})),
+                         .help = "time limit for COLMAP; then poses stay"})),
        RowFlag({.name = "refine_poses_with_curves",
                 .field = &settings->refine_poses_with_curves,
                 .max = 1,
-                .help = "1: refine poses and curves together by the edges "
-                        "of the images, with or without points (0 with "
-                        "--preset paper); used only if held-out errors "
-                        "fall"})}};
+                .help = "refine poses and curves together, with or without "
+                        "points (0 with --preset paper); used only if "
+                        "held-out errors fall"})}};
 }
 
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,

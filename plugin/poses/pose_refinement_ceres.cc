@@ -42,14 +42,14 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
   return Eigen::Matrix3d::Identity() - a * cross + b * cross * cross;
 }
 
-// A pose is the input pose followed by a small motion: rotation vector, then
+// A pose is the input pose followed by an increment: rotation vector, then
 // translation, both in the camera's frame.
 Rigid3 Moved(const Vector6d& motion, const Rigid3& pose) {
   return Rigid3{Rotation(motion.head<3>()), motion.tail<3>()} * pose;
 }
 
-// Projected minus observed, in pixels. Parameters: the motion of the pose (6)
-// and the point (3).
+// Projected minus observed, in pixels. Parameters: the increment of the pose
+// (6) and the point (3).
 class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3> {
  public:
   ReprojectionCost(const Camera& camera,
@@ -97,8 +97,8 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3> {
   const Eigen::Vector2d pixel_;
 };
 
-// Holds a pose where it was: each of the six residuals is 1 where the motion
-// shifts the image by kPriorPx.
+// Prior of a pose: each of the six residuals is 1 where the increment shifts
+// the image by kPriorPx.
 class PriorCost : public ceres::SizedCostFunction<6, 6> {
  public:
   // Focal length in pixels; distance to what the view sees.

@@ -79,7 +79,7 @@ const View& ViewAt(const Scene& scene, std::size_t view_idx) {
   return scene.views[view_idx];
 }
 
-// Of each curve the stretches that the view could see.
+// Of each curve the parts that the view could see.
 std::vector<std::vector<py::array_t<double>>> ProjectAll(
     const PythonCurves& curves,
     const PythonScene& scene,

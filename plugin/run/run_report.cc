@@ -346,8 +346,8 @@ std::string SummaryText(const RunRecord& record) {
           DurationText(record.total.cpu_seconds) + ", " +
           GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
   if (result.edge_sigma_px > 0) {
-    text += "  edges lie " + FewDigits(Milli(result.edge_sigma_px)) +
-            " px beside where the curves are (standard deviation)\n";
+    text += "  2D edges are " + FewDigits(Milli(result.edge_sigma_px)) +
+            " px off their 3D edges (standard deviation)\n";
   }
   text += "\n";
   return text + FilesText(result);

@@ -160,8 +160,7 @@ void RunStages::Save(std::uint64_t key, const T& result) {
   if (record_.settings.clean) return;
   const std::string problem = store_.Save(key, result);
   if (!problem.empty()) {
-    progress_.Note("A later run will not be able to go on from here: " +
-                   problem);
+    progress_.Note("A later run cannot resume from here: " + problem);
   }
 }
 

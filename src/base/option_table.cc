@@ -77,8 +77,8 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "Sec. 3, ref. [15]",
       "weakest gradient kept");
   row("noise_factor", &o.noise_factor, AtLeast(0), "", "",
-      "weakest gradient kept, in standard deviations of the gradient of the "
-      "image's noise");
+      "weakest gradient kept, in standard deviations of the noise's "
+      "gradient");
   row("border_px", &o.border_px, AtLeast(0), "px", "",
       "edges nearer to the border of the image are dropped");
   row("max_neighbor_distance_px", &o.max_neighbor_distance_px,
@@ -88,26 +88,25 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "deg", "Sec. 5",
       "largest angle between an edge, its neighbor and the chord");
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
-      "contours with fewer edges are short: dropped where weak, and first "
-      "where there are too many edges");
+      "contours with fewer edges are short; weak ones of these are dropped");
   row("short_contour_factor", &o.short_contour_factor, AtLeast(0), "", "",
       "short contours are weak below this many times the weakest gradient "
       "kept");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
       "most edges of an image per million pixels, at least 10,000 in all; "
-      "contours of others are thinned, strong and straight ones kept first");
+      "others are thinned, strong and straight contours kept first");
   row.Switch("separate_edges", &o.separate_edges,
-      "move parallel edges back that blur has moved apart or together");
+      "correct the shift of parallel edges by blur");
 }
 
 void AddRows(HypothesisOptions& o, Section row) {
   row.Choice("view_selection", &o.view_selection,
       {"unused_edges", "every_view"}, "Sec. 3",
-      "pairs of views: those with most unused edges in turn, or every view "
-      "with its best partners");
+      "pairs of views: by unused edges, or every view with its best "
+      "partners");
   row("location_tolerance_px", &o.location_tolerance_px, AboveUpTo(0, 100),
       "px", "Delta gamma, Sec. 3",
-      "how well an edge is localized: opens the epipolar wedges");
+      "localization error of an edge, which opens the epipolar wedges");
   row("num_partners", &o.num_partners, AtLeast(1), "", "",
       "partners of each view with every_view");
   row("min_ray_angle_deg", &o.min_ray_angle_deg, Between(0, 180), "deg", "",
@@ -115,14 +114,14 @@ void AddRows(HypothesisOptions& o, Section row) {
   row("max_ray_angle_deg", &o.max_ray_angle_deg, AboveUpTo(0, 180), "deg", "",
       "largest angle between the rays of a pair of views");
   row("depth_margin", &o.depth_margin, AtLeast(0), "", "",
-      "how far beyond the depths of a view's sparse points edges are looked "
-      "for, in shares of the range of these; 0: anywhere");
+      "depths searched beyond those of a view's sparse points, as a share "
+      "of their range; 0: all depths");
   row("min_epipolar_angle_deg", &o.min_epipolar_angle_deg, Between(0, 90),
       "deg", "",
       "smallest angle between an edge and its epipolar line");
   row("used_edges_to_stop", &o.used_edges_to_stop, Between(0, 1), "",
       "P, Sec. 3",
-      "with unused_edges: stop when this share of the edges of every view is "
+      "with unused_edges: stop when this share of every view's edges is "
       "used");
   row("max_num_view_pairs", &o.max_num_view_pairs, AtLeast(1), "", "",
       "with unused_edges: stop after so many pairs of views");
@@ -156,13 +155,13 @@ void AddRows(ValidationOptions& o, Section row) {
       "M, Sec. 3",
       "fewest validation views that must support a hypothesis");
   row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
-      "with every_view: least evidence of the views for a 3D edge, log units");
+      "with every_view: least log-likelihood ratio of a 3D edge");
   row("min_rival_support", &o.min_rival_support, Between(0, 1), "", "",
       "hypotheses of one edge with less than this share of the best one's "
       "support are dropped");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
-      "with every_view: fewest views whose supporting edge shows no stronger "
-      "3D edge elsewhere");
+      "with every_view: fewest views whose supporting edge supports no "
+      "stronger 3D edge");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {
@@ -172,7 +171,7 @@ void AddRows(NeighborhoodOptions& o, Section row) {
       "px", "tau_gamma, Sec. 5",
       "longest distance between the projections of linked edges");
   row("max_num_links", &o.max_num_links, AtLeast(1), "", "",
-      "links that one edge may ask for, the heaviest first; bounds memory");
+      "most links that an edge asks for, heaviest first; limits memory");
 }
 
 void AddRows(AlignmentOptions& o, Section row) {
@@ -181,27 +180,25 @@ void AddRows(AlignmentOptions& o, Section row) {
   row("step_size", &o.step_size, AboveUpTo(0, 1), "", "Sec. 5",
       "share of the mean force and torque applied in a step");
   row.Switch("use_mean_direction", &o.use_mean_direction,
-      "pull towards the line with the mean direction of both edges, which "
-      "leaves circles alone; 0: the neighbor's own line");
+      "pull towards the mean direction of both edges; 0: the neighbor's");
 }
 
 void AddRows(ConnectivityOptions& o, Section row) {
   row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
-      "edges nearer together along a curve are made one; 0 keeps all");
+      "edges closer along a curve are merged; 0 keeps all");
   row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
-      "largest distance across the tangent of edges made one or connected");
+      "largest distance across the tangent of merged or connected edges");
   row("max_step_px", &o.max_step_px, Above(0), "px", "Sec. 6",
       "longest step along the tangent to the next edge");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
       "largest angle between connected edges");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
-      "longest gap closed between ends that continue each other; 0 closes "
-      "none");
+      "longest gap closed between ends that continue each other; 0: none");
   row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0),
       "px", "",
-      "a piece of a curve nearer to a longer one is drawn once; 0 keeps all");
+      "parts of a curve closer to a longer one are dropped; 0 keeps all");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
-      "curves are cut where they turn by more in one place; 180 cuts none");
+      "curves are cut where they turn by more; 180 cuts none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "Sec. 6",
       "shortest curve kept, in the view that sees it largest");
 }
@@ -210,7 +207,8 @@ void AddRows(CurveGrowthOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "grow curves along the contours of the images, instead of Secs. 5 and 6");
   row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
-      "curves end where the evidence falls below this share of its mean");
+      "curves end where the log-likelihood ratio falls below this share of "
+      "its mean");
   row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
       "longest unsupported gap");
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
@@ -223,27 +221,26 @@ void AddRows(CurveRefinementOptions& o, Section row) {
   row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
       "largest dilution of precision of a curve; 0: any");
   row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
-      "curves with so large a share of blurred edges are shading edges and "
-      "dropped; 1: none");
+      "curves with this share of blurred edges are dropped as shading "
+      "edges; 1: none");
   row.Switch("keep_occluding_contours", &o.keep_occluding_contours,
       "keep and label curves over max_dilution: occluding contours, mostly");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
-      "standard deviation of the weights of the local fits; 0 smooths nothing");
+      "standard deviation of the weights of local fits; 0: no smoothing");
   row.Switch("undo_response_curve", &o.undo_response_curve,
-      "estimate the response curve of the images (a gamma, say) and correct "
-      "the edges for it");
+      "estimate the response curve of the images and correct edges for it");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed between ends that continue each other in a bend");
   row.Switch("separate_touching", &o.separate_touching,
-      "tell curves apart that touch, and end them there in a junction");
+      "separate curves that touch; they end in a junction");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
       "fitted curves are cut where they turn by more; 180 cuts none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
-      "shortest curve kept, unless it leads from one junction to another");
+      "shortest curve kept, except between junctions");
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",
-      "how far ends are carried on to a corner; 0 carries none on");
+      "how far ends are extended to a corner; 0: not at all");
   row("max_junction_gap_px", &o.max_junction_gap_px, Above(0), "px", "",
-      "largest distance of a continued end from its corner");
+      "largest distance of an extended end from its corner");
 }
 
 void AddRows(CurveKindOptions& o, Section row) {
@@ -255,17 +252,17 @@ void AddRows(CurveFilterOptions& o, Section row) {
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
       "shortest curve, in the views that see it largest");
   row("min_num_views", &o.min_num_views, AtLeast(0), "", "",
-      "fewest views that support a sample of a curve, median");
+      "least median number of views that support a sample");
   row("min_contrast", &o.min_contrast, AtLeast(0), "", "",
-      "least gradient of a curve's edges, grey levels per pixel, median");
+      "least median gradient of the edges, grey levels per pixel");
   row("max_sigma_px", &o.max_sigma_px, AtLeast(0), "px", "",
-      "largest standard deviation across a curve, median; 0: any");
+      "largest median standard deviation across the curve; 0: any");
   row("min_straightness", &o.min_straightness, Between(0, 1), "", "",
-      "mean cosine between tangents 10 px apart: 1 for lines, 0.995 for a "
-      "circle of radius 100 px");
+      "least mean cosine between tangents 10 px apart: 1 for lines, 0.995 "
+      "for a circle of radius 100 px");
   row.Choice("kinds", &o.kinds,
       {"crease", "boundary", "marking", "occluding_contour"}, "",
-      "kinds of curves to keep, with commas between; others are cut out");
+      "kinds to keep, with commas between; others are cut out");
 }
 
 void AddRows(CurveFittingOptions& o, Section row) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The only door to threads.
+// Paper: none (engineering). All threads are started here.
 #pragma once
 
 #include <cstddef>

@@ -31,8 +31,8 @@ class SupportIndex {
            static_cast<std::size_t>(ref.edge_idx);
   }
 
-  // The place of each view's first edge, and the end: up to its last edge that
-  // supports anything.
+  // The index of each view's first edge, then the end; a view's edges count up
+  // to the last that supports anything.
   std::vector<std::size_t> view_begins_;
   std::vector<std::size_t> offsets_;  // by place, into edge_idxs_, and the end
   std::vector<std::int32_t> edge_idxs_;
@@ -52,9 +52,9 @@ std::vector<NeighborLink> HeaviestLinks(const std::vector<Edge3d>& edges,
 // Each edge asks for its `options.max_num_links` heaviest links only, the
 // nearer and then the smaller index first among equals; a link stays if either
 // end asks for it. So there are at most max_num_links links per edge on
-// average, however many 3D edges lean on one 2D edge.
-// Deviation: the paper has no such limit. What it drops are the lightest links
-// of crowded edges, which the alignment hardly feels.
+// average, however many 3D edges one 2D edge supports.
+// Deviation: the paper has no such limit. It drops the lightest links of
+// crowded edges, which hardly change the alignment.
 //
 // Time: the sum over 2D edges of the square of the number of 3D edges that each
 // supports.

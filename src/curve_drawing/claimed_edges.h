@@ -9,7 +9,7 @@
 
 namespace curvix {
 
-// Which 2D edges the curves have that were grown so far.
+// The 2D edges of the curves grown so far.
 class ClaimedEdges {
  public:
   explicit ClaimedEdges(const std::vector<ViewIndex>& indices);

@@ -19,7 +19,7 @@
 namespace curvix {
 namespace {
 
-// What an edge would like best at its front ([0]) and back ([1]): the end of
+// The best candidate at the front ([0]) and back ([1]) of an edge: the end of
 // another edge.
 using Choice = std::array<std::optional<EndIdx>, 2>;
 

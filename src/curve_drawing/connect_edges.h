@@ -16,17 +16,17 @@ namespace curvix {
 
 // Projects the linked edges onto the line of each edge and connects it to the
 // nearest on either side, if both choose each other. Candidates are at most
-// options.max_step_px away along either line, max_normal_distance_px and no
-// further than along it across it, and max_angle_deg off in direction; pixels
-// as in pixel_size.h. "Nearest" is the sum of both distances, each the larger
-// of the two lines'; ties go to the smaller index. Edges that project onto the
-// same point are no candidates for each other.
+// options.max_step_px away along either line, at most max_normal_distance_px
+// across it and no further than along it, and at most max_angle_deg off in
+// direction; pixels as in pixel_size.h. "Nearest" is the sum of both distances,
+// each the larger of the two lines'; ties: the smaller index. Edges that
+// project onto the same point are no candidates for each other.
 //
 // Directions follow: the edge with the smallest index of each chain keeps its
 // own, the others are flipped where they oppose it.
 //
-// Deviation: the paper asks for no limit across the line and for no mutual
-// choice; without them traces jump between parallel tracks and branch.
+// Deviation: the paper has no limit across the line and no mutual choice.
+// Without them traces jump between parallel tracks and branch.
 ConnectivityGraph ConnectEdges(const std::vector<Edge3d>& edges,
                                const NeighborhoodGraph& graph,
                                const std::vector<PosedView>& views,

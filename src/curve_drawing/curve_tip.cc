@@ -13,10 +13,10 @@ namespace {
 // Of the random walk of the direction, after a pixel.
 constexpr double kBendSigmaRad = 0.04;
 constexpr double kTangentSigmaRad = DegToRad(4);
-// Errors of an edge go on along its contour: so many pixels are one
+// Errors of edges are correlated along a contour: so many pixels are one
 // measurement.
 constexpr double kCorrelatedPx = 3;
-// Of the direction of a seed, where its edges do not tell.
+// Of the direction of a seed, where its edges do not determine it.
 constexpr double kSeedSlopeSigma = 0.3;
 
 }  // namespace

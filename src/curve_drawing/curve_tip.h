@@ -12,11 +12,11 @@
 
 namespace curvix {
 
-// Place and direction of the end of a curve, and how well they are known: a
-// Kalman filter along the curve. The state is the offset across the tangent, in
-// pixels, and the slope of the tangent, both along two axes. Each 2D edge
-// measures the offset across its plane and the slope out of it. The direction
-// wanders from pixel to pixel as a random walk. The axes may be left-handed.
+// Position and direction of the end of a curve with their covariance: a Kalman
+// filter along the curve. The state is the offset across the tangent, in
+// pixels, and the slope of the tangent, each along two axes. Each 2D edge
+// measures the offset from its plane and the slope out of it. The direction is
+// a random walk from pixel to pixel. The axes may be left-handed.
 class CurveTip {
  public:
   // `pixel`: of world units; `measurements`: those that gave `edge`.
@@ -28,18 +28,18 @@ class CurveTip {
   const SpaceEdge& edge() const { return edge_; }
   double pixel() const { return pixel_; }
 
-  // Turns the tip round.
+  // Reverses the direction.
   void Reverse();
-  // Predicts the tip that much further along.
+  // Predicts the tip after a step along the tangent.
   void Step(double step_px);
-  // Moves and turns the tip to where these 2D edges show it, with Cauchy's
-  // weights. Their order makes no difference.
+  // Corrects the tip by these 2D edges, with Cauchy's weights. Their order
+  // makes no difference.
   void Correct(const std::vector<PlaneMeasurement>& measurements);
 
-  // Of the distance across the tangent from where the true curve is seen, px^2.
+  // Variance of the distance across the projected tangent, px^2.
   double VarianceIn(const PosedView& view, const ImageEdge& projected) const;
 
-  // Standard deviation of the place across the curve, of each axis, world.
+  // Standard deviation across the curve, along each axis, world units.
   double Sigma() const;
 
  private:

@@ -22,7 +22,7 @@ namespace {
 // other.
 constexpr std::size_t kMinLoop = 6;
 
-// All samples of all curves, which of them stay, and who is near whom.
+// All samples of all curves, which of them stay, and which are near.
 class SampleFilter {
  public:
   SampleFilter(const std::vector<Curve>& curves,
@@ -92,7 +92,7 @@ std::vector<std::size_t> ByLength(const std::vector<Curve>& curves,
   return order;
 }
 
-// The runs of samples of `curve` that stay; its first sample is number `base`.
+// The runs of samples of `curve` that stay. `base`: index of its first sample.
 std::vector<Curve> Pieces(Curve curve,
                           const SampleFilter& filter,
                           std::size_t base) {

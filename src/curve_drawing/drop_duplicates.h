@@ -10,16 +10,16 @@
 
 namespace curvix {
 
-// Cuts out what a longer curve draws already. Curves are taken by decreasing
-// length in pixels (ties: smaller index), samples in order; one goes if a
-// sample that stays, of an earlier curve or further back on its own, is at most
+// Drops duplicates of longer curves. Curves are taken by decreasing length in
+// pixels (ties: smaller index), samples in order. A sample is dropped if one
+// that stays, of an earlier curve or earlier on its own, is at most
 // options.max_duplicate_distance_px across it, sample_spacing_px along it and
-// max_angle_deg off in direction. Curves fall apart where samples go; the
-// pieces come in the order of the curves that they come from.
+// max_angle_deg off in direction. Curves are split where samples are dropped;
+// the parts are in the order of their curves.
 //
 // Deviation: the paper draws every track. Edges of the same place that no 2D
-// edge links, since different views formed them, come out as curves side by
-// side. options.max_duplicate_distance_px = 0 returns the input.
+// edge links, since different views formed them, become parallel curves.
+// options.max_duplicate_distance_px = 0 returns the input.
 std::vector<Curve> DropDuplicates(std::vector<Curve> curves,
                                   const std::vector<PosedView>& views,
                                   const ConnectivityOptions& options);

@@ -15,8 +15,8 @@
 namespace curvix {
 namespace {
 
-// Curves that grow side by side, whatever the number of threads; those that
-// get in each other's way grow again. No result depends on it.
+// Curves that grow at the same time, for any number of threads. Those that use
+// the same edges grow again, so no result depends on it.
 constexpr std::size_t kNumAtOnce = 64;
 
 std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {

@@ -11,29 +11,28 @@
 
 namespace curvix {
 
-// Grows a curve from each seed, those of most evidence first (ties: the smaller
-// position, by its coordinates), unless earlier curves have most of its 2D
-// edges.
+// Grows a curve from each seed, in the order of falling log-likelihood ratio
+// (ties: the smaller position, by its coordinates), unless earlier curves have
+// most of its 2D edges.
 //
-// From the seed, and in both directions, the curve steps on along its tangent
-// (CurveTip): by a pixel in the view, of those that show it there, that sees
-// the step largest, but at most by four times the seed's PixelSize(). Each view
-// is asked for the nearest edge where it should show the new place, of those
-// that no earlier curve has. Views that have shown the curve three times in a
-// row correct the tip, until they miss it three times; views that cannot tell
-// do neither. A sample is shown if at least three such views support it and its
-// evidence (evidence.h) is at least the share options.min_relative_evidence of
-// the mean of the curve so far. A curve ends with its last shown sample before
-// a stretch of more than options.max_gap_px without any; it is closed where it
-// comes back to its seed.
+// From the seed, in both directions, the curve steps along its tangent
+// (CurveTip): by one pixel of the supporting view that sees the step largest,
+// but at most by four times the seed's PixelSize(). Each view is queried for
+// the nearest edge at the projection, among those that no earlier curve has.
+// Views that support the curve three times in a row correct the tip, until they
+// miss it three times in a row; views in which the prediction is too uncertain
+// count neither way. A sample is supported if at least three such views support
+// it and its log-likelihood ratio (evidence.h) is at least the share
+// options.min_relative_evidence of the mean of the curve so far. A curve ends
+// at its last supported sample before a gap of more than options.max_gap_px; it
+// is closed where it returns to its seed.
 //
-// A curve exists if it is significant (keep_significant.h,
-// options.min_significance); the others are left out, and their edges show no
-// other curve. How surely its place is known has no part in that: the sigma of
-// a sample is that of a 3D edge with the same support, before hits of too few
-// in a row go.
+// Curves below options.min_significance (keep_significant.h) are dropped, and
+// their edges are not free for other curves. The uncertainty of their position
+// does not matter: the sigma of a sample is that of a 3D edge with the same
+// support, before short streaks of hits are dropped.
 //
-// The curves are in the order of their seeds' evidence.
+// The curves are in the order of their seeds.
 std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
                               const GrowthInput& input,
                               int num_threads);

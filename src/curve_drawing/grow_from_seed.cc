@@ -29,9 +29,9 @@ constexpr double kMaxNormalPx = 1;
 constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 constexpr double kMaxAngleDeg = 15;
-// Views in which the place is known less surely are not asked.
+// Views in which the prediction is less certain are not queried.
 constexpr double kMaxPredictedSigmaPx = 0.7;
-// Of samples, whose evidence that of the seed counts as.
+// Number of samples that the log-likelihood ratio of the seed counts as.
 constexpr double kSeedWeight = 5;
 constexpr std::size_t kMinNumSamples = 5;
 // Curves that come back to their seed so near are closed, if they are so long.
@@ -42,7 +42,7 @@ constexpr std::size_t kMinClosedSteps = 32;
 // for the next ones and for the other direction.
 constexpr std::size_t kUnclaimedSteps = 32;
 
-// What one view says of a place.
+// The result of a query in one view.
 struct Look {
   std::optional<EdgeRef> hit;
   double vote = 0;
@@ -125,7 +125,7 @@ class Grower {
     return measurements;
   }
 
-  // nullopt if the view cannot tell.
+  // nullopt outside the image, or if the prediction is too uncertain.
   std::optional<Look> LookIn(const ViewIndex& index,
                              std::int32_t view_idx,
                              const CurveTip& tip) const {
@@ -204,8 +204,8 @@ class Grower {
     return grown;
   }
 
-  // As of a 3D edge with this support, which is what the selection of curves
-  // knows; that of the tip is smaller.
+  // That of a 3D edge with this support, as the selection of curves expects;
+  // that of the tip is smaller.
   double SigmaOf(const GrownSample& grown, const CurveTip& tip) const {
     if (grown.hits.size() < 2) return tip.Sigma();
     const EdgeEstimate estimate =

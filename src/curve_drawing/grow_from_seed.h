@@ -18,13 +18,12 @@ namespace curvix {
 // What a seed grew into.
 struct Growth {
   std::optional<GrownCurve> curve;  // none: it is too short, or there already
-  // All 2D edges that were found on the way, also those that the curve does not
-  // have in the end. While nobody claims one of them, growing again gives the
-  // same.
+  // All 2D edges that were found, also those that the curve dropped. While none
+  // of them is claimed, growing again gives the same curve.
   std::vector<EdgeRef> found;
 };
 
-// What curves grow by; see GrowCurves(). All references must outlive it.
+// The input of GrowCurves(). All references must outlive it.
 struct GrowthInput {
   const std::vector<PosedView>& views;
   const std::vector<ViewIndex>& indices;                    // by view

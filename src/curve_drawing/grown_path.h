@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). What the steps of a growing curve found.
+// Paper: none (beyond it). The samples of a growing curve.
 #pragma once
 
 #include <curvix/curves.h>
@@ -12,26 +12,26 @@
 
 namespace curvix {
 
-// Views that must show a sample.
+// Fewest views that support a sample.
 inline constexpr std::size_t kMinNumSupports = 3;
 
 struct GrownSample {
   SpaceEdge edge;
-  double sigma = 0;  // world units
-  double evidence = 0;
-  std::vector<EdgeRef> hits;  // ascending
-  std::int64_t num_looks = 0;
+  double sigma = 0;            // world units
+  double evidence = 0;         // log-likelihood ratio
+  std::vector<EdgeRef> hits;   // ascending
+  std::int64_t num_looks = 0;  // queries
 };
 
-// Which views have shown a curve lately.
+// The views that supported the last samples of a curve.
 class Streaks {
  public:
   // Those of the seed's support are trusted from the start, the others after
   // three hits in a row; three misses in a row end it.
   Streaks(std::size_t num_views, const std::vector<EdgeRef>& seed_support);
 
-  // Adds what the view says of the next sample. Whether it is a hit that
-  // counts.
+  // Adds the view's result for the next sample. Whether it is a hit of a
+  // trusted view.
   bool Count(std::size_t view_idx, bool is_hit);
 
  private:
@@ -47,7 +47,7 @@ class Streaks {
 // between does not end a streak.
 void DropShortStreaks(std::size_t num_views, std::vector<GrownSample>& path);
 
-// Down to samples that kMinNumSupports views show.
+// Trims both ends to samples with kMinNumSupports supports.
 void TrimEnds(std::vector<GrownSample>& path);
 
 CurveSample ToCurveSample(GrownSample grown);

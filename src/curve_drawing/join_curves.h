@@ -11,12 +11,12 @@
 namespace curvix {
 
 // Joins ends of open curves that continue each other: seen from either end, the
-// other lies ahead, at most options.max_gap_px away, max_normal_distance_px off
-// the line that the end continues on, in a direction at most max_angle_deg from
-// it, and runs on in a direction at most as much off. The nearest ends first,
-// where distance across counts twice; ties by the order of curves. A curve
-// whose own ends meet becomes closed. Joined curves take the place and the
-// direction of the first of them.
+// other lies ahead, at most options.max_gap_px away, at most
+// max_normal_distance_px off the tangent line of the end, at an angle of at
+// most max_angle_deg to it, and its own direction differs by no more. The
+// nearest ends are joined first, where distance across counts twice; ties: the
+// order of curves. A curve whose own ends meet becomes closed. A joined curve
+// takes index and direction of the first of its curves.
 //
 // Deviation: the paper's curves end where an edge has no neighbour; single
 // missing edges then break them. options.max_gap_px = 0 returns the input.

@@ -12,9 +12,9 @@
 
 namespace curvix {
 
-// Which edges belong together: links of shared 2D edges, light ones pruned by
-// the spread of all, united with the lifted tangential links, all pruned by
-// their projections.
+// Links of shared 2D edges, of which the light ones are pruned by the spread of
+// all, united with the lifted tangential links; all are pruned by their
+// projections.
 // Deviation: the paper prunes by projection before it adds the tangential
 // links; these can err as well, where contours of different depth meet in an
 // image.
@@ -32,9 +32,9 @@ EdgeDistances SpreadLimits(const std::vector<Edge3d>& edges,
                            int num_threads);
 
 // `graph` without the links of weight one that exceed any of the limits above,
-// with lambda = options.max_spread. The paper does not say over which links it
-// takes mu and sigma; here over all of them, as those of weight one alone are
-// the ones in doubt.
+// with lambda = options.max_spread. The paper does not say which links mu and
+// sigma are of; here they are of all, since links of weight one are the
+// doubtful ones.
 NeighborhoodGraph PruneBySpread(const std::vector<Edge3d>& edges,
                                 const NeighborhoodGraph& graph,
                                 const NeighborhoodOptions& options,
@@ -42,10 +42,9 @@ NeighborhoodGraph PruneBySpread(const std::vector<Edge3d>& edges,
 
 // Fig. 6(e): `graph` without the links whose edges project more than tau_gamma
 // = options.max_projection_distance_px apart in any view that sees both. A view
-// sees an edge if one of its 2D edges supports it: in other views something may
-// hide it, and what they would show says nothing. Edges behind a camera that
-// supports them are at an infinite distance. Links between edges that no view
-// sees both of stay.
+// sees an edge if one of its 2D edges supports it; in other views the edge may
+// be hidden. Edges behind a camera that supports them are at an infinite
+// distance. Links between edges without a common view stay.
 NeighborhoodGraph PruneByProjection(const std::vector<Edge3d>& edges,
                                     const NeighborhoodGraph& graph,
                                     const std::vector<PosedView>& views,

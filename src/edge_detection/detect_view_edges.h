@@ -22,10 +22,10 @@ std::int64_t MaxEdges(const EdgeDetectionOptions& options,
                       int width,
                       int height);
 
-// The edges of the view's image that are worth keeping, linked along its
-// contours and carried to the ideal pinhole of `camera`, which is the view's.
-// Isolated edges and, of crowded images, what tells least of structure are
-// dropped and counted: see KeepContours(). kInvalidArgument: the image is not
+// The edges of the view's image, linked along its contours and mapped to the
+// ideal pinhole of `camera`, which is the view's. Isolated edges, and the least
+// prominent contours of crowded images, are dropped and counted: see
+// KeepContours(). kInvalidArgument: the image is not
 // of the camera's size. Other errors: those of LoadGrayImage().
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,

@@ -6,15 +6,15 @@
 
 namespace curvix {
 
-// The standard deviation of the image noise in grey levels, as far as it
-// reaches the edge filters; 0 where there is none or where it cannot be told:
-// images below 5 x 5 pixels, or clipped (black or white) everywhere.
+// The standard deviation of the image noise in grey levels, as the edge filters
+// see it. 0 without noise, and where it cannot be estimated: images below 5 x 5
+// pixels, or clipped (black or white) everywhere.
 //
 // A robust form of Immerkaer's (1996) method at the scale of the edge filters:
 // the median size of the Laplacian of the image smoothed by about 1 px, over
 // the flatter half of the pixels that are not clipped. Finer masks would not
 // do, since JPEG removes the finest noise and leaves what edges are made of.
-// Flatness is judged by the gradient of the same smoothed image, which in
+// Flatness is decided by the gradient of the same smoothed image, which in
 // stationary noise is independent of the Laplacian at the same place, so that
 // the choice does not bias the estimate. Smooth shading has no Laplacian;
 // texture finer than a few pixels counts as noise where it covers most of the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which edges of an image are worth keeping.
+// Paper: none (engineering). Selection of the edges of an image.
 #pragma once
 
 #include <curvix/edges.h>
@@ -12,9 +12,9 @@
 
 namespace curvix {
 
-// Drops the edges of least Prominence(), all but `max_edges` (>= 1) and what is
-// as prominent as the last of these; keeps the order of the others. Returns how
-// many it dropped.
+// Keeps the `max_edges` (>= 1) edges of largest Prominence(), and those that
+// are as prominent as the last of these, in their order. Returns how many it
+// dropped.
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges);
 
@@ -29,12 +29,12 @@ struct KeptEdges {
 // Drops isolated edges, which are noise, mostly: contours of fewer than
 // options.min_contour_edges edges whose mean strength is below
 // options.short_contour_factor * min_gradient. (Strong short contours are
-// corners and tight bends.) If more than `max_edges` are left, keeps
-// whole contours in turn, those that tell most of structure first: those of
+// corners and tight bends.) If more than `max_edges` are left, keeps whole
+// contours up to the first that does not fit, in this order: those of
 // options.min_contour_edges before shorter ones, then by mean Prominence()
-// times the square root of the mean length of their straight runs, then by
-// number, up to the first that does not fit. Edges and `neighbors` correspond;
-// `min_gradient` is that of the detector.
+// times the square root of the mean length of their straight segments, then by
+// index. Edges and `neighbors` correspond; `min_gradient` is that of the
+// detector.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Structure apart from texture.
+// Paper: none (engineering). A measure that is larger for structure than for
+// texture.
 #pragma once
 
 #include <curvix/edges.h>
@@ -10,16 +11,16 @@
 
 namespace curvix {
 
-// How much each edge stands out from what surrounds it: its strength, less
-// where there are edges as strong on both sides. Grey levels per pixel.
+// The strength of each edge, reduced where both sides have edges as strong.
+// Grey levels per pixel.
 //
-// Where a surface or an object ends, one side is empty, or its edges are
-// weaker; inside brick, foliage and gravel both sides are crowded. What counts
-// is the emptier side: the mean strength of edges per pixel in a square of 9
-// pixels whose centre lies 8 pixels from the edge. A fifth of the edge's own
-// strength there halves the prominence; a parallel contour as strong has about
-// half of that. What lies outside the image is empty. Positions are those of
-// the image, strengths positive.
+// Where a surface or an object ends, one side has no edges, or weaker ones. In
+// brick, foliage and gravel both sides are crowded. The emptier side counts,
+// with the mean strength of edges per pixel in a square of 9 pixels whose
+// centre lies 8 pixels from the edge. A fifth of the edge's own strength there
+// halves the prominence; a parallel contour as strong has about half of that.
+// What lies outside the image is empty. Positions are those of the image,
+// strengths positive.
 std::vector<double> Prominence(const std::vector<Edge2d>& edges);
 std::vector<double> Prominence(const std::vector<LocatedEdge>& edges);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Edges side by side, where blur has moved them.
+// Paper: none (beyond it). Corrects the shift of parallel edges by blur.
 #pragma once
 
 #include <curvix/edges.h>
@@ -8,14 +8,13 @@
 
 namespace curvix {
 
-// Moves parallel edges to where they would be if blur had not mixed them. The
-// detector sees steps blurred by a Gaussian, of which standard deviation w the
-// median sharpness tells. Two steps within some 4 w add up: of a thin line,
-// dark to bright and back, the two peaks of the gradient lie too far apart, at
-// least 2 w; of a staircase, too close together. From places and strengths of
-// the two peaks both steps follow. Each edge is seen with the nearest parallel
-// edge (37 degrees) on either side, and moves at most 0.6 w for each, since
-// peaks hardly tell steps nearer than w apart.
+// The detector sees steps blurred by a Gaussian. Its standard deviation w
+// follows from the median sharpness. Two steps within some 4 w add up: of a
+// thin line, dark to bright and back, the two peaks of the gradient lie too far
+// apart, at least 2 w; of a staircase, too close together. Positions and
+// strengths of the two peaks determine both steps. Each edge is corrected for
+// the nearest parallel edge (37 degrees) on either side, by at most 0.6 w each,
+// since peaks hardly resolve steps nearer than w.
 void SeparateEdges(std::vector<Edge2d>* edges);
 
 }  // namespace curvix

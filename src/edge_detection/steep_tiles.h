@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Where an image is flat, so that nothing need be
-// computed there.
+// Paper: none (engineering). Flat parts of an image, in which nothing needs to
+// be computed.
 #pragma once
 
 #include <cstddef>

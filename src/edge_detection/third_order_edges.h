@@ -28,7 +28,7 @@ struct LocatedEdge {
 // row by row on the half-pixel grid. Steps:
 //  1. Gaussian derivatives (options.sigma_px) at half-pixel sampling; gradient
 //     magnitude; points at or below `min_gradient` (grey levels per pixel) are
-//     done with.
+//     dropped.
 //  2. Non-maximum suppression along the gradient with a parabola through three
 //     values interpolated between grid neighbours: position. Edges nearer than
 //     options.border_px to the border are dropped.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, which looks along whole epipolar lines. Deviation: sparse
-// points bound the depth.
+// Paper: Sec. 3, which searches whole epipolar lines. Deviation: sparse points
+// bound the depth.
 #pragma once
 
 #include <curvix/scene.h>
@@ -17,12 +17,12 @@ struct DepthRange {
   double farthest = std::numeric_limits<double>::infinity();
 };
 
-// For each view the depths at which it may see edges, by view_idx: those of the
-// sparse points that it sees, without the two nearest and the two farthest,
-// which may be wrong, and beyond them `margin` of their range on either side.
-// The range counts in inverse depths, as steps along epipolar lines do, and is
-// at least a fifth of their median, lest a flat scene has none. All depths for
-// a view of fewer than 16 points, and for all views if `margin` is 0.
+// For each view, by view_idx, the depths at which edges are searched: those of
+// its sparse points without the two nearest and the two farthest, which may be
+// wrong, extended by `margin` of their range on either side. The range is one
+// of inverse depths, in which epipolar lines are uniform; it is at least a
+// fifth of their median, so that a flat scene has one. All depths for a view of
+// fewer than 16 points, and for all views if `margin` is 0.
 std::vector<DepthRange> FindDepthRanges(const std::vector<PosedView>& views,
                                         const std::vector<ScenePoint>& points,
                                         double margin);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). How many edges lie about by chance, and where none
-// does.
+// Paper: none (beyond it). The density of edges, and a map of places without
+// edges.
 #pragma once
 
 #include <curvix/edges.h>
@@ -36,7 +36,7 @@ class EdgeDensity {
 // the nearest edge.
 class EdgePresence {
  public:
-  // Knows nothing: everything may be found.
+  // Empty: MayHave() is always true.
   EdgePresence() = default;
   // For places up to normal_px from an edge across its tangent and
   // tangential_px along it (> 0), and up to max_angle_rad off in direction, in
@@ -71,7 +71,7 @@ class EdgePresence {
     if (!(cell > 0)) return 0;
     return cell >= count ? count - 1 : static_cast<int>(cell);
   }
-  // Rises with the angle of the line, from 0 up to 2 for a half turn.
+  // Monotonic in the angle of the line: 0 to 2 for a half turn.
   static double DiamondAngle(const Eigen::Vector2d& t) {
     const double share = t.x() / (std::abs(t.x()) + std::abs(t.y()));
     return t.y() < 0 || (t.y() == 0 && t.x() < 0) ? 1 + share : 1 - share;
@@ -94,7 +94,7 @@ class EdgePresence {
   static std::size_t FirstCell(std::uint32_t tile) {
     return tile * kCellsPerTile;
   }
-  // The cell to write to, in a tile of its own.
+  // The cell, for writing; its tile is made if there is none.
   std::uint16_t& CellAt(int column, int row);
   bool IsAtBorder(int column, int row) const {
     return column == 0 || row == 0 || column == columns_ - 1 ||
@@ -104,7 +104,7 @@ class EdgePresence {
   int columns_ = 0;
   int rows_ = 0;
   int tile_columns_ = 0;
-  std::vector<std::uint32_t> tiles_;  // where in cells_; 0: all bits are 0
+  std::vector<std::uint32_t> tiles_;  // index in cells_; 0: all bits are 0
   std::vector<std::uint16_t> cells_;  // tile by tile, first that without bits
 };
 

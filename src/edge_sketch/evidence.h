@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Weighs which views support a 3D edge and which do
-// not.
+// Paper: none (beyond it). The log-likelihood ratio of a 3D edge, from the
+// views that support it and those that do not.
 //
-// What a view shows where a 3D edge projects has a likelihood under "a real
-// edge, seen here" and one under "nothing, and other edges lie about by
-// chance". The logarithm of their ratio is the view's vote:
+// What a view shows where a 3D edge projects has a likelihood if the edge is
+// real and visible, and one if there is none and other edges are there by
+// chance. The logarithm of their ratio is the view's vote:
 //   log(q N(r) N(a) / c + 1 - q)  with an edge at distance r and angle a,
 //   log(1 - q)                    without;
 // N are normal densities with wide tails, q = 0.9 the share of seen edges that
 // are detected, and c the density of edges of like direction around the place.
 //
-// A real edge is seen from one or two connected regions of viewing directions,
-// so a view without support between supporting views speaks against it, and one
-// far from all of them hardly does. Therefore each vote is averaged with those
-// of the views next in direction, and the evidence is the sum of the positive
-// averages: regions of support count, scattered support cancels.
+// A real edge is seen from one or two connected regions of viewing directions.
+// A view without support between supporting views speaks against it, one far
+// from all of them hardly does. Therefore each vote is averaged with those of
+// the nearest views in direction, and the log-likelihood ratio of the edge is
+// the sum of the positive averages: scattered support cancels.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct ViewNeighbor {
   double weight = 0;  // exp(-(angle / 25 deg)^2 / 2)
 };
 
-// How a supporting edge lies relative to the projected 3D edge.
+// A supporting edge relative to the projected 3D edge.
 struct SupportFit {
   double distance_px = 0;  // across the edge
   double sigma_px = 0;     // expected standard deviation of the distance, > 0
@@ -39,12 +39,12 @@ struct SupportFit {
 // across them, > 0. Natural logarithm units.
 double VoteWithSupport(const SupportFit& fit, double density);
 
-// The vote of a view that ought to show the edge and does not.
+// The vote of a query view without a supporting edge.
 double VoteWithoutSupport();
 
-using Votes = std::vector<std::optional<double>>;  // by view; none: not asked
+using Votes = std::vector<std::optional<double>>;  // by view; none: no query
 
-// The sum over regions of support; `votes` and `neighbors` by view index. >= 0.
+// The log-likelihood ratio; `votes` and `neighbors` by view index. >= 0.
 double Evidence(const Votes& votes,
                 const std::vector<std::vector<ViewNeighbor>>& neighbors);
 

@@ -20,7 +20,7 @@ constexpr double kSamePlacePx = 0.5;
 constexpr double kSamePlaceSigmas = 4;
 constexpr std::int32_t kNobody = -1;
 
-// Who has claimed which 2D edges.
+// The 3D edge that has claimed each 2D edge.
 class Claims {
  public:
   Claims(const std::vector<Edge3d>& edges,

@@ -27,13 +27,13 @@ struct Hypothesis {
 // The hypotheses of one H1 edge.
 struct Hypotheses {
   std::vector<Hypothesis> hypotheses;  // in order along the epipolar line
-  VirtualEdges virtual_edges;          // also those that lead to none
+  VirtualEdges virtual_edges;          // also those without a hypothesis
 };
 
-// The edges of H2 ready to be paired with those of H1.
+// The edges of H2, indexed for pairing with those of H1.
 class HypothesisViews {
  public:
-  // Looks at `depths` of H1 only. nullopt if the views share their centre.
+  // Only hypotheses at `depths` of H1. nullopt if the views share their centre.
   static std::optional<HypothesisViews> Make(const PosedView& h1,
                                              const PosedView& h2,
                                              const std::vector<Edge2d>& edges2,
@@ -41,9 +41,9 @@ class HypothesisViews {
                                              const Options& options);
 
   // Candidates in the epipolar wedge of `edge1`, moved onto its epipolar line,
-  // clustered, triangulated. None for an edge that
-  // runs along its epipolar line in H1; virtual edges that do so in H2 or give
-  // no 3D edge are left out.
+  // clustered and triangulated. None for an edge that runs along its epipolar
+  // line in H1. Virtual edges that do so in H2, or give no 3D edge, are left
+  // out.
   Hypotheses Hypothesise(const Edge2d& edge1) const;
 
   const PosedView& h1() const { return *h1_; }
@@ -57,8 +57,8 @@ class HypothesisViews {
                   const DepthRange& depths,
                   const Options& options);
 
-  // The part of the epipolar line of `pixel1` that shows `depths_`, and as much
-  // beyond it as an edge may slide: pixels along its direction.
+  // The part of the epipolar line of `pixel1` that shows `depths_`, extended by
+  // the longest slide of an edge. Pixels along the line.
   Interval SearchAlong(const Line2& line, const Eigen::Vector2d& pixel1) const;
   bool RunsAlongEpipolarLine(const ImageEdge& edge1) const;
 

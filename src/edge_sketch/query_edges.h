@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Which edges of a view ask for hypotheses.
+// Paper: none (beyond it). The edges of a view for which hypotheses are made.
 #pragma once
 
 #include <curvix/edges.h>
@@ -10,20 +10,20 @@
 
 namespace curvix {
 
-// For each edge whether its contour may become a curve: where the strengths of
-// the contour's edges add up to what `min_contour_edges` edges of median
-// strength have. A contour is what mutual links join.
+// For each edge whether its contour is strong enough for a curve: the strengths
+// of its edges sum to at least `min_contour_edges` times the median strength.
+// Mutual links join the edges of a contour.
 std::vector<bool> AreOnStrongContours(const EdgeMap& map,
                                       int min_contour_edges);
 
-// One in input.h1_step of the edges of a view, those that are not used yet; of
-// seeds only those on strong contours. Ascending.
+// One in input.h1_step of the unused edges of a view; for seeds only those on
+// strong contours. Ascending.
 std::vector<std::int32_t> QueryEdges(const SketchInput& input,
                                      int view_idx,
                                      const UsedEdges& used);
 
-// Links along a contour from one edge that asks to the next: every other one
-// asks, of crowded images one in four, and one in eight for seeds.
+// Number of links along a contour from one query edge to the next: two, four in
+// crowded images, eight for seeds.
 int LinksBetweenQueries(const SketchInput& input);
 
 }  // namespace curvix

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Chooses the views that judge a view's hypotheses.
+// Paper: none (beyond it). Chooses the query views of a view's hypotheses.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@ namespace curvix {
 // More query views cost time and change little.
 inline constexpr int kMaxNumValidators = 64;
 
-// All views, if there are at most `max_num` (>= 1). Else view h1 and of those
-// that overlap it max_num - 1 in directions as different as can be: one after
-// the other that with the largest ray angle to the nearest of those chosen;
-// ties: the smaller index. The `partners` of h1 are always among them.
-// Ascending. `overlaps` is FindOverlaps() of all views.
+// All views, if there are at most `max_num` (>= 1). Else h1, its `partners`,
+// and of the views that overlap h1 those that differ most in direction, max_num
+// in all: repeatedly the view with the largest ray angle to the nearest view
+// chosen so far; ties: the smaller index. Ascending. `overlaps` is
+// FindOverlaps() of all views.
 std::vector<int> SelectValidators(
     const std::vector<std::vector<ViewOverlap>>& overlaps,
     int h1,

@@ -27,10 +27,9 @@ std::optional<ViewPair> NextViewPair(
     const HypothesisOptions& options);
 
 // Deviation: every view as H1. Its partners, best first, at most
-// options.num_partners: much overlap, rays far enough apart for depth and near
-// enough to see the same, and baselines in different directions, because an
-// edge that runs along the epipolar lines of one pair has depth only from
-// another.
+// options.num_partners. They overlap it, at ray angles that give depth without
+// hiding what is seen, and their baselines differ in direction, because an edge
+// along the epipolar lines of one pair gets its depth from another.
 std::vector<int> SelectPartners(const std::vector<ViewOverlap>& overlaps,
                                 const HypothesisOptions& options);
 

@@ -23,21 +23,21 @@
 namespace curvix {
 namespace {
 
-// Within it, views see the same edges, unless something stands in front.
+// Views within this angle see the same edges, unless something hides them.
 constexpr double kSameSideRad = DegToRad(40);
-// Times the evidence that is asked for.
+// Factor of the least log-likelihood ratio.
 constexpr double kSettledEvidence = 3;
 
-// What one H1 edge led to.
+// The results of one H1 edge.
 struct H1Result {
   std::vector<TrackedEdge> tracked;
-  std::vector<EdgeRef> also_shown;  // by views that were not asked
+  std::vector<EdgeRef> also_shown;  // by views that were not queried
   std::int64_t hypotheses = 0;
   std::int64_t unsupported = 0;
   std::int64_t rivals = 0;
 };
 
-// A partner of an H1 view, and the views to ask about their hypotheses.
+// A partner of an H1 view, and the query views of their hypotheses.
 struct Partner {
   HypothesisViews pair;
   QueryViews to_ask;
@@ -46,8 +46,8 @@ struct Partner {
 // All partners of an H1 view.
 struct H1View {
   std::vector<Partner> partners;
-  std::vector<std::vector<ViewNeighbor>> neighbors;  // among those to ask
-  std::vector<std::int32_t> not_asked;               // but overlap it
+  std::vector<std::vector<ViewNeighbor>> neighbors;  // among query views
+  std::vector<std::int32_t> not_asked;               // others that overlap it
 };
 
 class ViewSketcher {
@@ -187,8 +187,8 @@ class ViewSketcher {
         });
   }
 
-  // All views have had their say about what is tracked already, so another
-  // partner would lead to the same 3D edge again.
+  // All views were queried for the tracked edges already, so another partner
+  // would lead to the same 3D edge.
   bool IsSettled(const H1Result& result) const {
     return std::any_of(result.tracked.begin(),
                        result.tracked.end(),
@@ -244,7 +244,7 @@ Edge3d ToEdge3d(TrackedEdge tracked) {
   return edge;
 }
 
-// In an order that has nothing to do with that of views.
+// In an order that does not depend on that of views.
 bool IsBefore(const EdgeMap& a, const EdgeMap& b) {
   return std::lexicographical_compare(
       a.edges.begin(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Secs. 3 and 4. What both ways to a 3D edge sketch take.
+// Paper: Secs. 3 and 4. The input of both ways to a 3D edge sketch.
 #pragma once
 
 #include <curvix/edges.h>
@@ -27,12 +27,12 @@ struct SketchInput {
   const std::vector<std::vector<ViewOverlap>>& overlaps;
   const std::vector<DepthRange>& depths;  // of each view
   const Options& options;
-  // Standard deviation of a 2D edge's place. Pixels, > 0.
+  // Standard deviation of a 2D edge across its tangent. Pixels, > 0.
   double sigma_px = 0;
-  // One edge in so many of each view asks for hypotheses, with SketchByViews.
+  // SketchByViews: hypotheses are made for one in h1_step edges of each view.
   std::size_t h1_step = 1;
-  // Curves will grow from the 3D edges: a few along each contour do, and none
-  // on contours that are too weak for a curve. With SketchByViews.
+  // SketchByViews: the 3D edges are seeds of growing curves, so that a few on
+  // each contour are enough, and none on contours too weak for a curve.
   bool finds_seeds = false;
 };
 

@@ -17,8 +17,8 @@ namespace curvix {
 //     which shortens the slide; the turned tangent is kept;
 //  3. for an edge within location_tolerance_px of the line, a shift along the
 //     line's normal; the tangent is kept.
-// nullopt if none is: such an edge cannot be paired. The signs of the tangent
-// and of the line's normal make no difference.
+// nullopt if none is possible. The signs of the tangent and of the line's
+// normal make no difference.
 std::optional<ImageEdge> SlideToLine(const ImageEdge& edge,
                                      const Line2& line,
                                      double location_tolerance_px,

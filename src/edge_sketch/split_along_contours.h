@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Which edges of a view ask for hypotheses first.
+// Paper: none (beyond it). The order in which edges of a view are queried.
 #pragma once
 
 #include <curvix/edges.h>
@@ -8,13 +8,13 @@
 
 namespace curvix {
 
-// Edges that ask in two turns. Neighbours along a contour mostly have the same
-// fate: what the first turn finds tells which edges of the second are worth
-// their cost.
+// Edges that are queried in two turns. Neighbours along a contour mostly have
+// the same result, so the first turn tells which edges of the second are worth
+// it.
 struct TwoTurns {
-  // Fewer than `step` links lead from none of them to one before it,
+  // At least `step` links apart along their contours.
   std::vector<std::int32_t> first;
-  // and from each of these to one of `first`.
+  // Fewer than `step` links from an edge of `first`.
   std::vector<std::int32_t> second;
 };
 

@@ -12,8 +12,8 @@ namespace curvix {
 namespace {
 
 constexpr int kNumRounds = 4;
-// Views in which the estimate may be off by more are not asked yet: pixels, or
-// standard deviations of an edge's location where these are larger.
+// Views in which the estimate may be off by more are not queried yet: pixels,
+// or standard deviations of an edge's location where these are larger.
 constexpr double kMaxPredictedSigmaPx = 0.7;
 constexpr double kMaxPredictedSigmas = 4.6;
 // The hypothesis views and one more.
@@ -92,7 +92,7 @@ struct Sighting {
 };
 
 // The support of an estimate in the views of `asked`, ascending; nullopt if it
-// is less than `fewest`. Asks no more of them than it takes to know.
+// is less than `fewest`. Stops as soon as this is known.
 std::optional<std::vector<EdgeRef>> FindSupport(
     const EdgeEstimate& estimate,
     const std::vector<ViewIndex>& views,
@@ -159,8 +159,8 @@ double VoteWithSupport(const ImageEdge& projected,
   return VoteWithSupport(fit, view.density.Density(projected.position, angle));
 }
 
-// What a view with this support, if any, says of an estimate; nullopt if it
-// cannot tell.
+// The vote of a view with this support, if any; nullopt if the estimate is too
+// uncertain in it.
 std::optional<double> VoteOf(const ViewIndex& view,
                              const std::optional<ImageEdge>& support,
                              const EdgeEstimate& estimate,

@@ -14,7 +14,7 @@
 
 namespace curvix {
 
-// What validation asks of a view, made once.
+// What validation needs of a view, made once.
 struct ViewIndex {
   const PosedView* view = nullptr;
   const EdgeMap* edges = nullptr;

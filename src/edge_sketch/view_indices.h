@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What validation asks of all views, made once.
+// Paper: none (engineering). What validation needs of all views, made once.
 #pragma once
 
 #include <curvix/edges.h>
@@ -18,7 +18,7 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                                   const std::vector<EdgeMap>& edge_maps,
                                   int num_threads);
 
-// Gives each index the `presence` that searches for support by `options` ask.
+// Adds to each index the `presence` for searches with `options`.
 void AddPresence(const ValidationOptions& options,
                  int num_threads,
                  std::vector<ViewIndex>& indices);

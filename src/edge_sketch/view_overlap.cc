@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMinNumPoints = 8;
 constexpr std::size_t kMaxNumPlaces = 64;
-constexpr std::size_t kMaxNumCameras = 64;  // that tell of a working depth
+constexpr std::size_t kMaxNumCameras = 64;  // that a working depth is from
 // Shares of the baseline below this have no direction.
 constexpr double kMinAcross = 1e-6;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3 ("overlapping views"), which leaves open how overlap is known.
+// Paper: Sec. 3 ("overlapping views"), which does not define overlap.
 // Deviation: sparse points where there are any, else the cameras' geometry.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace curvix {
 
-// How well view `other` sees what a view sees.
+// How much view `other` sees of what a view sees.
 struct ViewOverlap {
   int other = 0;             // view_idx
   double share = 0;          // of the places of the view, 0..1
@@ -21,16 +21,16 @@ struct ViewOverlap {
   Eigen::Vector3d baseline_across = Eigen::Vector3d::Zero();
 };
 
-// The places that each view sees: where it sees at least eight sparse points,
-// up to 64 of these, else a grid in its image at its working depth: the median,
-// over the 64 nearest cameras, of the depth at which its optical axis passes
-// nearest to theirs. Time: views times their logarithm.
+// The places that each view sees: up to 64 of its sparse points, if it has
+// eight or more; else a grid in its image at its working depth, which is the
+// median, over the 64 nearest cameras, of the depth at which its optical axis
+// passes nearest to theirs. O(n log n) for n views.
 std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 
 // For each view the views that overlap it, by view_idx: those that see some of
-// its places. Views at one and the same place do not overlap: together they see
-// no depth. Time: pairs that overlap, and some around them.
+// its places. Views with the same centre do not overlap, since they see no
+// depth together. The time grows with the number of overlapping pairs.
 std::vector<std::vector<ViewOverlap>> FindOverlaps(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 

@@ -12,7 +12,7 @@ namespace curvix {
 
 inline constexpr double kNearMm = 5;  // what counts as the same place
 
-// Both sets and how they lie to each other.
+// Both sets, and distances between them.
 struct Comparison {
   std::vector<CurveStep> predicted;
   std::vector<TrueSample> truth;

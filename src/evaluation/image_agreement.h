@@ -20,7 +20,7 @@ struct ShareTally {
   ShareAboveChance Summarize() const;
 };
 
-// A stretch of at most 2 pixels of a curve in an image: its middle with the
+// A segment of at most 2 pixels of a curve in an image: its middle, with the
 // angle of the curve.
 struct DrawnPlace {
   Edge2d edge;

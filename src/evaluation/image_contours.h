@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). What an image shows, found by other means than
-// the edges that curves are made of: curves must not be judged by their own
+// the edges that curves are made of: curves must not be compared with their own
 // detector.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Whether curves are said to be what they are.
+// Paper: none (engineering). Predicted kinds of curves against true ones.
 #pragma once
 
 #include <curvix/curves.h>
@@ -17,7 +17,7 @@ inline constexpr std::size_t kNumKinds = 5;  // of CurveKind
 // Lengths by the kind that the curves are said to be, mm.
 using LengthPerKind = std::array<double, kNumKinds>;
 
-// What became of the true curves of one kind.
+// The results for the true curves of one kind.
 struct TrueKind {
   CurveKind kind = CurveKind::kUnknown;
   double length_mm = 0;          // true

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). Multi-view triangulation of an oriented edge.
 //
-// A 2D edge says on which plane through its camera's centre the 3D edge lies,
-// and nothing about the place along the edge. So the position moves only across
-// the tangent: two unknowns, one equation per view.
+// A 2D edge determines the plane through its camera's centre in which the 3D
+// edge lies, but no position along the edge. So the position changes only
+// across the tangent: two unknowns, one equation per view.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 
 namespace curvix {
 
-// What one 2D edge says about a 3D edge.
+// One 2D edge as a measurement of a 3D edge.
 struct PlaneMeasurement {
   Eigen::Vector3d plane;   // of EdgePlane()
   Eigen::Vector3d center;  // of the camera, world

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Lenses: what they do to edges, and how they change.
+// Paper: none (beyond it). Edges through lenses, and changes of lenses.
 #pragma once
 
 #include <curvix/scene.h>

@@ -2,10 +2,10 @@
 // Paper: none (beyond it). Places on edges or on occluding contours of smooth
 // bodies.
 //
-// Around its contour, a smooth body is nearly a cylinder, and each view sees
-// that line of it which its ray touches; the radius is taken to be small
-// against the distance. An edge is a cylinder of radius zero. So one radius
-// more explains what views see, and nobody needs to know which it is.
+// Near its contour, a smooth body is nearly a cylinder. Each view sees the line
+// of it that its ray touches; the radius is assumed to be small compared with
+// the distance. An edge is a cylinder of radius zero. So one more unknown, the
+// radius, covers both cases without a decision between them.
 #pragma once
 
 #include <Eigen/Core>

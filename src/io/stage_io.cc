@@ -6,10 +6,10 @@
 //     (int32 each); per edge: x, y (doubles), angle, strength, sharpness, level
 //     (floats), indices of the previous and the next edge (int32, -1: none)
 //   sketch.bin: view pairs, edges asked, hypotheses, without support, weaker
-//     rivals, 2D edges used (int64 each); edge sigma in pixels (double); number
-//     of 3D edges; per edge: position, tangent (3 doubles each), sigma,
-//     evidence (doubles), number of supports, per support view and edge (int32
-//     each)
+//     weaker alternatives, 2D edges used (int64 each); edge sigma in pixels
+//     (double); number of 3D edges; per edge: position, tangent (3 doubles
+//     each), sigma, evidence (doubles), number of supports, per support view
+//     and edge (int32 each)
 //   curve_poses.bin: number of views; per view: rotation x, y, z, w and
 //     translation (7 doubles); number of cameras; per camera: model, width,
 //     height (int32 each), number of parameters, these (doubles); accepted (1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What is in the frame of the model, in another.
+// Paper: none (engineering). Curves and scenes in another frame.
 #pragma once
 
 #include <curvix/curves.h>

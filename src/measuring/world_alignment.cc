@@ -125,17 +125,17 @@ Status Estimator::StartAtPositions() {
     const double from = (model.colwise() - model.rowwise().mean()).norm();
     const double to = (world.colwise() - world.rowwise().mean()).norm();
     if (!(from > 0 && to > 0)) {
-      return Unusable("All positions are at one place, which tells no scale");
+      return Unusable("All positions are at one place, which gives no scale");
     }
     if (!a.has_scale) start.scale = to / from;
     a.has_scale = true;
   }
   if (!(start.scale > 0) || !std::isfinite(start.scale)) {
-    return Unusable("The positions coincide, which tells no scale");
+    return Unusable("The positions coincide, which gives no scale");
   }
   if (n == 1 && !(input_.positions.front().sigma > 0)) {
     return Unusable(
-        "One position leaves nothing to tell its uncertainty by: give its "
+        "The uncertainty of a single position cannot be estimated: give its "
         "standard deviation, too");
   }
   a.has_translation = true;

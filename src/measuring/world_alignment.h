@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-// Scale and axes. Images do not tell how long the unit of a model is nor where
-// is up; lengths, positions and directions that are known do.
+// Scale and axes. Images determine neither the unit of a model nor where up is;
+// known lengths, positions and directions do.
 #pragma once
 
 #include <curvix/status.h>
@@ -95,12 +95,12 @@ struct AlignmentResult {
 // The least squares estimate from all of `input`: the scale from distances,
 // scales and two positions or more; the rotation from axes and from three
 // positions or more that are not on a line; the translation from positions.
-// What nothing tells about stays as in the model. The covariance grows by the
-// mean square of what is left in standard deviations, where that is above 1.
-// Positions without a sigma have that which they leave, all the same.
-// kInvalidArgument, with a sentence: nothing is given, points of a distance
-// coincide, or positions do not fix the rotation and no axes are given, or one
-// position has no sigma.
+// Unobserved parameters stay as in the model. The covariance is multiplied by
+// the mean square of the residuals in standard deviations, where this is above
+// 1. Positions without a sigma all have the same, estimated from their
+// residuals. kInvalidArgument, with a sentence: nothing is given, points of a
+// distance coincide, or positions do not fix the rotation and no axes are
+// given, or one position has no sigma.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

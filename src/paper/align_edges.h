@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5, Fig. 7. Parallel tracks of edges made one.
+// Paper: Sec. 5, Fig. 7. Aligns parallel tracks of edges.
 #pragma once
 
 #include <curvix/edges.h>
@@ -16,8 +16,8 @@ namespace curvix {
 // Moves all edges at once by options.step_size times the pull of their
 // neighbours (PullOn), options.num_iterations times:
 //   x <- x + step force,   t <- (t + step torque) / |...|.
-// Supports stay. Edges without neighbours stay where they are. Two groups of
-// edges without links between them do not feel each other, however close.
+// Supports do not change. Edges without neighbours do not move. Two groups of
+// edges without links between them have no effect on each other.
 //
 // Deviation: stops early once no force exceeds 0.001 of the mean length of all
 // links; the paper always runs 1000 iterations.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). What of a part's curves is near its core.
+// Paper: none (beyond it). The segments of a part's curves near its core.
 #pragma once
 
 #include <curvix/curves.h>

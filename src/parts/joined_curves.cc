@@ -18,7 +18,7 @@
 namespace curvix {
 namespace {
 
-// Shortest step from one stretch to the next, pixels.
+// Shortest step from one segment to the next, pixels.
 constexpr double kMinStepPx = 0.5;
 
 // The ties among the items of a chain, by their ranks in `items`, which are
@@ -38,7 +38,7 @@ EndTies TiesAmong(const std::vector<std::size_t>& items, const EndTies& ties) {
   return among;
 }
 
-// Takes away what of the second curve lies beside the first, not beyond it.
+// Removes the samples of the second curve beside the first, not beyond it.
 void TrimSecond(EndIdx first,
                 EndIdx second,
                 const std::vector<PosedView>& views,

@@ -14,12 +14,12 @@
 
 namespace curvix {
 
-// The curves of JoinParts() in scene_parts.h, for posed views. In memory are
-// what several parts may have drawn (tie_curves.h) while it is made, then a
-// table of stretches, and one curve while it is shown.
+// The curves of JoinParts() in scene_parts.h, for posed views. The constructor
+// holds the border samples (tie_curves.h) in memory; afterwards there are a
+// table of segments, and one curve while it is shown.
 //
-// Tied segments (TieStretches) are one curve. Where the next stretch would
-// step back, its first samples go.
+// Tied segments (TieStretches) become one curve. First samples of the next
+// segment that would step back are dropped.
 class JoinedCurves final : public CurveSource {
  public:
   // Reads each curve twice. Partition and parts outlive it.

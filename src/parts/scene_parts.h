@@ -2,10 +2,10 @@
 // Paper: none (beyond it). Scenes larger than one machine: cut into parts that
 // are reconstructed one by one, and put together again.
 //
-// Space is cut by planes into cores; each part owns one of them and all curves
-// in it. Around its core a part sees `overlap` further, and its views show
-// twice that, so what lies in the overlap of two parts is drawn by both, nearly
-// alike. There curves are joined.
+// Planes cut space into cores; each part has one of them and the curves in it.
+// A part also gives curves in an `overlap` around its core, and its views are
+// chosen for twice that, so curves in the overlap of two parts are nearly the
+// same in both. There they are joined.
 #pragma once
 
 #include <curvix/curves.h>
@@ -45,11 +45,10 @@ struct ScenePartition {
 
 // Parts of at most `max_views_per_part` views (>= 3), as few as suffice, with
 // nearly as many own views each. Views are divided by the places that they see
-// (sparse points; without them, a grid at their working depth): across the
-// longest direction of these, again and again. A part has all views of which
-// the core and twice the overlap around it hold at least one place in twenty.
-// The overlap is 25 pixels long where a typical view looks. Time: views times
-// log views.
+// (sparse points; without them, a grid at their working depth), by recursive
+// bisection across the longest direction. A part has all views with at least
+// one place in twenty in its core or within twice the overlap around it. The
+// overlap is 25 pixels at the depth of a typical view. O(n log n) for n views.
 // kInvalidArgument if the scene is none, or if so few views are too few to
 // divide it, as where all views see the same.
 Result<ScenePartition> PartitionScene(const Scene& scene,
@@ -92,15 +91,15 @@ class PartResults {
   virtual Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) = 0;
 };
 
-// The curves of the scene, which read those of `parts` again whenever they are
-// shown; partition and parts outlive them. In memory are only a table of the
-// curves and the one that is shown, and before, while they are joined, places
+// The curves of the scene. They read those of `parts` again whenever they are
+// shown; partition and parts must outlive them. In memory are only a table of
+// the curves and the one that is shown; while they are joined, also positions
 // and directions of samples near borders.
 //
-// Where several parts have drawn a place, that of the owner stays; ends at
-// borders are joined to what goes on there in another part. Curves come in the
-// order of the parts and of the curves in them, by their first piece. Pieces
-// without a continuation go if they are shorter than
+// Of duplicates in several parts, that of the part whose core holds it stays.
+// Ends at borders are joined to their continuation in another part. Curves come
+// in the order of the parts and of the curves in them, by their first piece.
+// Pieces without a continuation go if they are shorter than
 // options.curve_refinement.min_length_px. Errors are those of `parts`, the
 // first one; kDataLoss if a curve names views or edges that are not there.
 Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,

@@ -124,7 +124,7 @@ bool DuplicateSamples::Stays(const SampleRef& ref) const {
 
 namespace {
 
-// Samples of a stretch that may lie beyond the place at which it is entered.
+// Samples of a segment that may lie beyond the sample at which it is entered.
 constexpr std::size_t kMaxSkipped = 10;
 
 class Tier {
@@ -159,7 +159,7 @@ class Tier {
     return pieces_[ref.piece].border_samples[ref.border_sample];
   }
 
-  // The stretch in which a sample of a piece stays.
+  // The segment that holds a sample of a piece.
   std::optional<std::size_t> StretchOf(std::size_t piece,
                                        std::size_t sample) const {
     const auto at = [&](std::size_t idx) {
@@ -186,7 +186,7 @@ class Tier {
     return {piece, static_cast<std::size_t>(found - border.begin())};
   }
 
-  // The tie from an end of a stretch to that which it runs into.
+  // The tie from an end of a segment to the segment that continues it.
   std::optional<EndPair> Continuation(EndIdx end) const {
     const Stretch& from = stretches_[ItemOf(end)];
     const Piece& piece = pieces_[from.piece];
@@ -207,7 +207,7 @@ class Tier {
     return std::nullopt;
   }
 
-  // The tie to a stretch of another piece, which has a duplicate of the k-th
+  // The tie to a segment of another piece, which has a duplicate of the k-th
   // sample beyond `end`.
   std::optional<EndPair> TieAcross(EndIdx end,
                                    std::size_t k,

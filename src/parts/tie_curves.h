@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Places that several parts have drawn, and which
-// ends of their curves belong together.
+// Paper: none (beyond it). Duplicates of samples in several parts, and the ends
+// of curves to join.
 #pragma once
 
 #include <curvix/curves.h>
@@ -17,7 +17,7 @@
 
 namespace curvix {
 
-// A sample of a piece that another part may have drawn, too.
+// A sample of a piece of which another part may have a duplicate.
 struct BorderSample {
   std::size_t sample = 0;                              // of the piece
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
@@ -50,9 +50,9 @@ struct SampleRef {
   std::size_t border_sample = 0;  // index into Piece::border_samples
 };
 
-// For border samples, the nearest sample in each other part that is the same
-// place on the same curve: at most options.max_normal_distance_px away and
-// max_angle_deg off in direction. Ties: the earlier sample.
+// For border samples, their duplicate in each other part: the nearest sample,
+// at most options.max_normal_distance_px away and max_angle_deg off in
+// direction. Ties: the earlier sample.
 class DuplicateSamples {
  public:
   // Partition and pieces outlive it.
@@ -65,9 +65,10 @@ class DuplicateSamples {
     return duplicates_[ref.piece][ref.border_sample];
   }
 
-  // Whether, of a sample and its duplicates, it is the one that stays: that of
-  // the part that owns the place where the first of their parts has put it; if
-  // that part has none, that of the first.
+  // Whether the sample stays, of it and its duplicates. The sample in the part
+  // with the smallest index says where the place is. The sample of the part
+  // whose core holds this place stays; if that part has none, that of the part
+  // with the smallest index.
   bool Stays(const SampleRef& ref) const;
 
  private:
@@ -77,23 +78,22 @@ class DuplicateSamples {
   std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
 };
 
-// Samples of a piece that stay.
+// A segment of a piece: successive samples that stay.
 struct Stretch {
   std::size_t piece = 0;
   Run run;
 };
 
-// In the order of the pieces, and how their ends go on.
+// The segments in the order of the pieces, and the ties of their ends.
 struct TiedStretches {
   std::vector<Stretch> stretches;
   EndTies ties;
 };
 
-// Of the samples that several parts have of one place, one stays
-// (DuplicateSamples), so that pieces fall into stretches. Beyond its end, a
-// stretch goes on as its part has drawn it: the first sample there that has a
-// duplicate that stays leads to the stretch to which it is tied; the nearest
-// first.
+// Of duplicates one stays (DuplicateSamples), so pieces are split into
+// segments. Beyond the end of a segment, its part has more samples. The first
+// of these of which a duplicate stays gives the segment to which the end is
+// tied. The nearest ends are tied first.
 TiedStretches TieStretches(const ScenePartition& partition,
                            const std::vector<Piece>& pieces,
                            const ConnectivityOptions& options);

@@ -23,8 +23,7 @@ Counts CountsOf(const CurveSet& curves);
 Counts KindCounts(const CurveSet& curves);
 
 // Records one stage after the other. Once the progress callback returns false
-// the run is cancelled, and the stages still to come find that out by
-// themselves.
+// the run is cancelled; later stages check that themselves.
 class RunRecorder {
  public:
   explicit RunRecorder(const Progress& progress) : progress_(progress) {}

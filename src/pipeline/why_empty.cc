@@ -25,8 +25,8 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
   std::ostringstream text;
   if (num_edges == 0 && num_masked > 0) {
     text << "All " << num_masked
-         << " edges lie where the masks are black, and black is what does not "
-            "count. Are the masks inverted?";
+         << " edges are on black pixels of the masks, which are left out. Are "
+            "the masks inverted?";
   } else if (num_edges == 0) {
     text << "No edges were found in the " << edge_maps.size()
          << " images. Are they blank or very dark? A lower "
@@ -55,8 +55,8 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
   } else {
     text << sketch.edges.size() << " 3D edges were found, but no ";
     if (CurvesGrow(edge_maps, options)) {
-      text << "curve that grows from them is shown clearly enough; see "
-              "edges.ply, or lower --CurveGrowth.min_significance.";
+      text << "curve that grows from them is significant; see edges.ply, or "
+              "lower --CurveGrowth.min_significance.";
     } else {
       text << "run of them is " << options.connectivity.min_length_px
            << " pixels long; see edges.ply, or lower "

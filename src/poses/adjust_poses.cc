@@ -20,12 +20,13 @@
 namespace curvix {
 namespace {
 
-// A pose that is off by many times what is usual is let go.
+// Scale of the robust loss of the prior: it hardly pulls poses that are off by
+// many times the usual.
 constexpr double kPriorLossScale = 3;
-// Of each parameter of a camera: standard deviation of what it does to the
+// Prior of each parameter of a camera: standard deviation of its effect on the
 // image. COLMAP's cameras are hardly off by more.
 constexpr double kLensPriorPx = 3;
-// Edges are looked up anew after each solution, so none need be exact.
+// Edges are matched again after each solution, so none needs to be exact.
 constexpr int kMaxNumIterations = 25;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
@@ -76,7 +77,7 @@ struct Loss {
 constexpr Loss kLoss{1};
 constexpr Loss kPriorLoss{kPriorLossScale * kPriorLossScale};
 
-// Where the search stands.
+// The state of the search.
 struct State {
   std::vector<PoseIncrement> increments;  // by view
   std::vector<LensChange> lenses;         // by camera

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Poses, lenses, places on curves and points, adjusted
-// together.
+// Paper: none (beyond it). Joint adjustment of poses, cameras, samples of
+// curves and points.
 //
-// An edge in an image says nothing about the place along it. So a sample moves
-// only across its tangent, and its radius changes
-// (geometry/occluding_contour.h); each of its edges gives one equation between
-// these three unknowns, the six of the view's pose and those of its camera. A
-// point has three unknowns, too, and each view that sees it gives two
-// equations.
+// An edge does not determine the position along it. So a sample has three
+// unknowns: two offsets across its tangent, and its radius
+// (geometry/occluding_contour.h). Each edge gives one equation in these, the
+// six unknowns of the view's pose and those of its camera. A point has three
+// unknowns, and each view that sees it gives two equations.
 #pragma once
 
 #include <curvix/scene.h>
@@ -21,7 +20,7 @@
 
 namespace curvix {
 
-// A place on a curve and where views see the curve there.
+// A sample of a curve and its edges in the views.
 struct PoseSample {
   struct Observation {
     std::int32_t view_idx = 0;
@@ -31,7 +30,7 @@ struct PoseSample {
   std::vector<Observation> observations;  // at most one per view
 };
 
-// A point and where views see it.
+// A point and its pixels in the views.
 struct PointSample {
   struct Observation {
     std::int32_t view_idx = 0;
@@ -41,31 +40,32 @@ struct PointSample {
   std::vector<Observation> observations;               // at most one per view
 };
 
-// What changes of the views of a scene.
+// The poses and cameras of a scene after a change.
 struct MovedCameras {
   std::vector<Rigid3> new_cam_from_cam;  // by view, from the pose of the scene
   std::vector<Camera> cameras;           // by camera, instead of the scene's
 };
 
 struct PoseProblem {
-  // As it was in the beginning: a prior holds each pose there, with a
-  // standard deviation of prior_px of shift in its image. It fixes the world
-  // where observations do not. Its points are not read.
+  // The input. A prior pulls each pose to its input pose, with a standard
+  // deviation of prior_px in the image. It fixes what observations leave free,
+  // as the gauge. The points of the scene are not read.
   const Scene& scene;
   const std::vector<PoseSample>& samples;
   const std::vector<PointSample>& points;
-  // By view: the standard deviation of distances from edges. Pixels, > 0.
+  // By view: standard deviation of the distances from edges. Pixels, > 0.
   const std::vector<double>& sigmas_px;
   double point_sigma_px = 1;  // of a pixel of a point, in x and in y
   double prior_px = 10;
-  // By camera: whether its first eight parameters change, too. Empty: of none.
+  // By camera: whether its first eight parameters are unknowns. Empty: none
+  // are.
   std::vector<bool> free_lenses = {};
-  // Of the cost: the search ends with a step that gains a smaller share.
+  // The search ends when a step lowers the cost by a smaller share.
   double min_gain = 1e-4;
 };
 
 struct AdjustedPoses {
-  // Views and cameras without observations are as they were at the start.
+  // Views and cameras without observations stay as at the start.
   MovedCameras moved;
   std::vector<OccludingContour> contours;  // of the samples
   std::vector<Eigen::Vector3d> points;     // positions
@@ -73,12 +73,12 @@ struct AdjustedPoses {
   std::vector<double> costs;
 };
 
-// Minimises the distances between projected samples and the lines of their
-// edges, and between points and their pixels, over sigma, with Cauchy's loss,
-// by Levenberg and Marquardt with samples and points eliminated. The search
-// begins at `start`. The same result for any number of threads. Asked between
-// iterations, `keep_going` stops early. Everything stays where it was if a
-// sample or a point is behind a camera.
+// Minimises the distances of projected samples from the lines of their edges,
+// and of projected points from their pixels, each over its sigma and with
+// Cauchy's loss. Levenberg-Marquardt from `start`; samples and points are
+// eliminated. The result does not depend on the number of threads. The search
+// ends when `keep_going`, called between iterations, returns false. Nothing
+// changes if a sample or a point is behind a camera.
 AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const MovedCameras& start,
                           int num_threads,

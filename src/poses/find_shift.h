@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Where a view's picture belongs, if its pose is off
-// by several pixels.
+// Paper: none (beyond it). The shift of an image whose pose is off by several
+// pixels.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace curvix {
 
-// What one projected sample of a curve sees around it.
+// The edges around one projected sample of a curve.
 struct EdgesAround {
   // Across its projected tangent; unit.
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
@@ -17,8 +17,8 @@ struct EdgesAround {
 };
 
 // The shift of the image, up to `reach_px` in x and in y, that brings most
-// samples onto an edge. Wrong matches are harmless: they agree on no common
-// shift. Zero unless another shift is clearly better. Pixels; ties: smaller y,
+// samples onto an edge. Wrong matches do no harm, since they share no shift.
+// Zero unless another shift is clearly better. Pixels; ties: smaller y,
 // then smaller x.
 Eigen::Vector2d FindShift(const std::vector<EdgesAround>& samples,
                           double reach_px);

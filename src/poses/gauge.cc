@@ -34,8 +34,7 @@ std::optional<double> DistanceSeen(const PosedView& view,
   return (view.Pixel(x) - pixel).norm();
 }
 
-// Of the distances at which places are seen: what is bent more than most is
-// outvoted.
+// Scale of the weights, from the distances: outliers have little weight.
 double LossScale(const std::vector<PosedView>& views,
                  const std::vector<SeenPlace>& places,
                  const Rigid3& transform) {

@@ -12,7 +12,7 @@
 
 namespace curvix {
 
-// Where a view with its new pose sees a place of the new world.
+// The pixel at which a view with its new pose sees a place of the new world.
 struct SeenPlace {
   std::size_t view_idx = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // new world
@@ -20,10 +20,10 @@ struct SeenPlace {
 };
 
 // old_world_from_new_world: the rigid transform after which `views`, with their
-// old poses, see the places nearest to where the new poses see them. Camera
-// centres would determine it poorly: a small rotation and a small translation
-// of a camera hardly change its image together. Gauss-Newton with Cauchy's
-// weights, of the median distance so far; the identity without places.
+// old poses, project the places nearest to their pixels by the new poses.
+// Camera centres would determine it poorly, since rotations and translations
+// of a camera can compensate each other in its image. Gauss-Newton with
+// Cauchy's weights, scaled by the median distance; the identity without places.
 Rigid3 FixGauge(const std::vector<PosedView>& views,
                 const std::vector<SeenPlace>& places);
 

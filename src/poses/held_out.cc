@@ -15,12 +15,12 @@ namespace {
 constexpr double kMaxErrorPx = 1;  // of places
 constexpr double kMaxPointErrorPx = 2;
 constexpr double kMinLossScalePx = 0.3;
-// Standard deviations: what would be wrong once in some twenty times.
+// Standard deviations, exceeded by chance once in some twenty times.
 constexpr double kContrary = 2;
 
 using Error = std::optional<double>;
 
-// The errors of a place fitted to the poses of `edges`, in its views to ask.
+// The errors of a place fitted to the poses of `edges`, in its query views.
 std::vector<Error> ErrorsOfPlace(const CurvePlace& start,
                                  const PosedEdges& edges) {
   const std::vector<std::size_t> views = edges.QueryViews(start);
@@ -58,8 +58,8 @@ std::vector<double> ErrorsOfPoint(const PointSample& point,
   return errors;
 }
 
-// Errors over three times the smaller of their medians, or over 0.3 px, at most
-// 1: what fits nowhere tells nothing, nor does what fits perfectly.
+// Errors over three times the smaller of their medians, or over 0.3 px; at most
+// 1, so that outliers and differences of perfect fits count little.
 class Loss {
  public:
   Loss(std::vector<double> before, std::vector<double> after)

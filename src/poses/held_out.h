@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Whether poses and cameras are better, told by a part
-// of space that did not take part in refining them.
+// Paper: none (beyond it). Whether poses and cameras are better, tested in a
+// part of space that was not used to refine them.
 #pragma once
 
 #include <map>
@@ -12,13 +12,13 @@
 
 namespace curvix {
 
-// Of places and points fitted anew to the poses and cameras as they are.
+// Errors of places and points, fitted anew to the present poses and cameras.
 // Pixels.
 struct HeldOutErrors {
-  // By place, in its views to ask: from the nearest edge; nothing if none is
+  // By place and query view: distance from the nearest edge; nothing if none is
   // near.
   std::vector<std::vector<std::optional<double>>> places;
-  // By point and observation, cut at 2 px.
+  // By point and observation, at most 2 px.
   std::vector<std::vector<double>> points;
 };
 
@@ -26,8 +26,8 @@ HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
                              int num_threads,
                              const PosedEdges& edges);
 
-// Errors of one place in one view before and after, where an edge is near
-// before or after; one pixel where none is.
+// Errors of one place in one view, before and after. Only where an edge is near
+// before or after; the other error is then one pixel.
 struct ErrorPair {
   std::size_t place_idx = 0;
   std::size_t view_idx = 0;
@@ -40,7 +40,7 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
                                   const HeldOutErrors& after,
                                   const PosedEdges& edges);
 
-// Gains of what lies in one cell add up. Cells are taken to be independent.
+// Sums the gains of each cell. Cells are assumed to be independent.
 class GainsByCell {
  public:
   explicit GainsByCell(const SpaceCells& cells) : cells_(cells) {}
@@ -49,9 +49,9 @@ class GainsByCell {
     gains_[cells_.CellOf(position)] += gain;
   }
   double Sum() const;
-  // The sum over the root of the sum of squares. If losses were as likely as
-  // gains, z or more would come out with a probability of exp(-z^2 / 2) at
-  // most. Zero without gains.
+  // z: the sum over the root of the sum of squares. If losses are as likely as
+  // gains, z or more has a probability of at most exp(-z^2 / 2). Zero without
+  // gains.
   double Significance() const;
 
  private:
@@ -76,19 +76,18 @@ SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
                                  const HeldOutErrors& after,
                                  const PosedEdges& edges);
 
-// exp(-z^2 / 2) is 1 / 5000: more is no chance. A run judges five times at
-// most, each of up to four camera models and then the whole, and so takes
-// chance for a gain in one of a thousand runs at most.
+// exp(-z^2 / 2) is 1 / 5000. A run tests at most five times, up to four camera
+// models and then the whole, so at most one run in a thousand accepts a gain by
+// chance.
 inline constexpr double kSignificant = 4.127;
 
-// Whether the gain is no chance, and neither places nor points tell the
-// contrary.
+// Whether the gain is significant, and neither places nor points contradict it.
 bool IsBetter(const SignificanceOfGain& gain);
 
-// Whether neither places nor points tell that the gain is a loss.
+// Whether neither places nor points show a loss.
 bool IsNoWorse(const SignificanceOfGain& gain);
 
-// Views in which the places come away from their edges, and hardly by chance.
+// Views in which the errors of the places grow significantly.
 std::vector<bool> WorseViews(const std::vector<ErrorPair>& pairs,
                              std::size_t num_views);
 

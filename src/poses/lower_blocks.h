@@ -12,13 +12,13 @@ namespace curvix {
 // The lower half of a symmetric positive definite matrix, by blocks.
 class LowerBlocks {
  public:
-  // Where blocks begin, rows and columns alike: ascending, 0 first; and the
-  // end.
+  // First row (and column) of each block, ascending from 0; then the number of
+  // rows.
   explicit LowerBlocks(std::vector<int> first_rows)
       : first_rows_(std::move(first_rows)) {}
 
-  // Adds `block` at a row and a column at which blocks begin, row >= column.
-  // Of blocks on the diagonal, the lower half is read.
+  // Adds `block` at the first row and column of blocks, row >= column. Of
+  // blocks on the diagonal, the lower half is read.
   template <typename Matrix>
   void Add(int row, int column, const Matrix& block) {
     for (int c = 0; c < block.cols(); ++c) {
@@ -28,9 +28,9 @@ class LowerBlocks {
     }
   }
 
-  // The solution for `vector`; empty if there is none. Exact up to 600 rows:
-  // the time of more would grow with their third power, so they are solved by
-  // conjugate gradients, to a thousandth of `vector`.
+  // The solution for `vector`; empty if there is none. Exact up to 600 rows.
+  // Larger systems are solved by conjugate gradients, to a residual of a
+  // thousandth of `vector`, since the time of the exact solution is cubic.
   Eigen::VectorXd Solve(const Eigen::VectorXd& vector) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). What tells poses and cameras: places on curves and
-// points.
+// Paper: none (beyond it). What poses and cameras are refined with: places on
+// curves, and points.
 #pragma once
 
 #include <curvix/scene.h>
@@ -31,7 +31,7 @@ inline Eigen::Vector3d PositionOf(const PointSample& point) {
 // Of the places, then of the points.
 std::vector<Eigen::Vector3d> PositionsOf(const PoseObservationSet& evidence);
 
-// Calls f(view_idx, position) for all places and points and their views.
+// Calls f(view_idx, position) for each place and point and each of its views.
 template <typename F>
 void VisitSeen(const PoseObservationSet& evidence, const F& f) {
   const auto visit = [&f](const auto& seen, const Eigen::Vector3d& position) {
@@ -47,12 +47,12 @@ void VisitSeen(const PoseObservationSet& evidence, const F& f) {
   }
 }
 
-// The points of the scene that at least two views see at known pixels; none if
-// they are less than a hundred.
+// The points of the scene with known pixels in two views or more; none if they
+// are fewer than a hundred.
 std::vector<PointSample> UsablePoints(const Scene& scene);
 
-// Of the points that most views see, as many as the views need, all but every
-// fifth; and all others. Ties: the order of `points`.
+// `chosen`: points with the most views, as many as the views need, but every
+// fifth of these. `held_out`: all others. Ties: the order of `points`.
 struct ChosenPoints {
   std::vector<PointSample> chosen;
   std::vector<PointSample> held_out;
@@ -60,8 +60,8 @@ struct ChosenPoints {
 ChosenPoints ChoosePoints(std::vector<PointSample> points,
                           std::size_t num_views);
 
-// Cubes of a tenth of the median distance of positions from their median. Every
-// fifth is held out.
+// Cubic cells. Their side is a tenth of the median distance of positions from
+// their median. Every fifth cell is held out.
 class SpaceCells {
  public:
   using Cell = std::array<double, 3>;

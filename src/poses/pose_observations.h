@@ -13,34 +13,34 @@ namespace curvix {
 
 // The distance of a projected sample or point from `pixel`, along `direction`.
 struct PoseObservation {
-  Eigen::Vector3d position;   // in the camera as it was in the beginning
-  Eigen::Matrix3d moves;      // of the position, by the unknowns of the sample
+  Eigen::Vector3d position;   // in the camera with its input pose
+  Eigen::Matrix3d moves;      // Jacobian of position by the sample's unknowns
   Eigen::Vector2d direction;  // over sigma
   Eigen::Vector2d pixel;
   std::size_t camera_idx;
 };
 
-// One of each edge of a sample, then two of each pixel of a point.
+// One for each edge of a sample, then two for each pixel of a point.
 std::vector<PoseObservation> ObservationsOf(const PoseProblem& problem);
 
-// Whose they are; points count on from samples.
+// View and sample of each; indices of points follow those of samples.
 EquationOwners OwnersOf(const PoseProblem& problem);
 
-// A camera at a step of the search, and how its pixels change with it.
+// A camera during the search, and the derivatives of its pixels.
 class CameraState {
  public:
-  // Only with `has_derivatives`, Derivatives() may be asked.
+  // Derivatives() needs `has_derivatives`.
   CameraState(const Lens& lens, const LensChange& change, bool has_derivatives);
 
   const Camera& camera() const { return camera_; }
 
-  // Of `direction` . pixel, by the changes of the lens.
+  // Derivatives of direction . pixel by the parameters of the lens.
   LensChange Derivatives(const Eigen::Vector2d& direction,
                          const Eigen::Vector2d& ideal) const;
 
  private:
   Camera camera_;
-  std::vector<Camera> around_;  // each parameter less, then more
+  std::vector<Camera> around_;  // each parameter decreased, then increased
 };
 
 }  // namespace curvix

@@ -34,8 +34,8 @@ constexpr double kPlaceSigmaPx = 0.3;
 constexpr double kSigmaPerMedian = 1.4826;
 constexpr double kFirstPriorPx = 10;
 constexpr double kMinPriorPx = 0.02;
-// If cameras are free: another principal point turns all views, which shows in
-// no picture.
+// If cameras are free: a shift of the principal point and a rotation of all
+// views compensate each other.
 constexpr double kPriorOfFreeLensesPx = 50;
 
 // The median ratio of distances between positions to those between the same
@@ -198,8 +198,8 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& evidence,
                      [this] { return step_done_(0, 0); });
 }
 
-// Points hold poses better than a narrow prior, which would keep the drift of
-// all.
+// Points constrain poses better than a narrow prior, which would keep a common
+// drift.
 double PoseSearch::PriorFor(const PoseObservationSet& evidence) const {
   if (!free_lenses_.empty()) return kPriorOfFreeLensesPx;
   return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
@@ -283,8 +283,7 @@ std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
   return positions;
 }
 
-// Cameras would tell the unit worse: with another focal length they stand
-// elsewhere.
+// Not from camera centres, which depend on the focal length.
 void PoseSearch::RestoreScale(PoseObservationSet* evidence) {
   const double unit =
       MedianRatio(PositionsByInput(*evidence), PositionsOf(*evidence));

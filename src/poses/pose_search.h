@@ -17,66 +17,66 @@ namespace curvix {
 
 class PoseSearch {
  public:
-  // Enough if edges are found anew afterwards.
+  // kRoughGain is enough if edges are matched again afterwards.
   static constexpr double kRoughGain = 3e-3;
   static constexpr double kFineGain = 1e-4;
 
-  // The arguments must outlive it. `step_done` is called now and then; false:
-  // stop.
+  // The arguments must outlive it. `step_done` is called between steps; it
+  // returns false to stop.
   PoseSearch(const Scene& scene,
              const std::vector<EdgeMap>& edge_maps,
              const Options& options,
              StepDone step_done);
 
-  // Poses and cameras as they are, and what views see with them.
+  // The present poses and cameras, and the edges of the views.
   const PosedEdges& edges() const { return edges_; }
   void Move(const MovedCameras& moved) { edges_.Move(moved); }
   bool is_stopped() const { return is_stopped_; }
 
-  // By camera: whether it is refined, too. None to begin with.
+  // By camera: whether it is refined. At first none is.
   const std::vector<bool>& free_lenses() const { return free_lenses_; }
   void FreeLenses(std::vector<bool> is_free) {
     free_lenses_ = std::move(is_free);
   }
 
-  // Places on curves; if they are few, edges are expected farther off.
+  // Places on curves. If there are few, edges are searched further away.
   std::vector<CurvePlace> Sketch();
 
-  // Turns each camera such that its picture shifts to where most places agree.
-  // Whether any did.
+  // Rotates each camera so that its image shifts by what most places agree on.
+  // Whether any camera rotated.
   bool ShiftViews(const std::vector<CurvePlace>& places);
 
-  // Adjusts poses, cameras that are free, places and points to each other,
-  // until a step gains less than a share of the loss.
+  // Adjusts poses, free cameras, places and points jointly, until a step lowers
+  // the loss by a share of less than `min_gain`.
   void Adjust(PoseObservationSet* evidence, double min_gain = kRoughGain);
 
-  // Finds edges and adjusts in turns, until edges come no nearer.
+  // Alternates FindEdges() and Adjust() until edges come no nearer.
   void AdjustInTurns(PoseObservationSet* evidence);
 
-  // Finds the edges of the places anew; drops places with few.
+  // Matches places with edges again; drops places with few.
   void FindEdges(std::vector<CurvePlace>* places) const;
 
-  // Fits places and points to poses and cameras as they are.
+  // Fits places and points to the present poses and cameras.
   void Fit(PoseObservationSet* evidence) const;
 
-  // The loss of each place, then of each point, once poses are adjusted to
-  // `evidence` alone and cameras stay. Nothing moves.
+  // The loss of each place, then of each point, after an adjustment of poses to
+  // `evidence` alone with fixed cameras. The state does not change.
   std::vector<double> LossesOf(const PoseObservationSet& evidence);
 
-  // Brings the world back to the unit that places and points have by the poses
-  // of the scene, and to where these show it.
+  // Restores the gauge: scale and frame that places and points have with the
+  // poses of the scene.
   void HoldTheWorld(PoseObservationSet* evidence);
 
-  // How far pictures have shifted since `before`, by view: the median over what
-  // the view shows of `evidence`; nothing in views that show too little of it.
+  // Shift of each image since `before`: median over the places and points of
+  // `evidence` in the view; nothing where these are too few.
   std::vector<std::optional<double>> Shifts(const PoseObservationSet& evidence,
                                             const MovedCameras& before) const;
-  // Of the typical view.
+  // Median over the views.
   double MedianShift(const PoseObservationSet& evidence,
                      const MovedCameras& before) const;
 
  private:
-  // The position fitted to poses and cameras as they are.
+  // The position, fitted to the present poses and cameras.
   Eigen::Vector3d Fitted(const PointSample& point) const;
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;

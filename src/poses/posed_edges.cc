@@ -21,14 +21,14 @@
 namespace curvix {
 namespace {
 
-// Edges that ask for hypotheses, in all views: some half of them lead to a
-// place, and a view sees some half of the places.
+// Query edges in all views. About half of them lead to a place, and a view sees
+// about half of the places.
 constexpr std::size_t kNumQueryEdges = 2500;
 constexpr std::size_t kNumQueryEdgesPerView = 50;
 constexpr double kGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 constexpr double kMinCosine = 0.9659258;  // 15 degrees
-// More tell little more of a place, and cost views the square of their number.
+// More views add little, and the cost grows with the square of their number.
 constexpr std::size_t kMaxViewsOfPlace = 40;
 // Edges along one contour are one.
 constexpr double kSameContourPx = 0.2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). The edges of views whose poses and cameras
-// change, and samples of the curves that they show.
+// Paper: none (beyond it). The edges of views whose poses and cameras change,
+// and places on curves: samples with the 2D edges that show them.
 #pragma once
 
 #include <curvix/edges.h>
@@ -18,7 +18,7 @@
 
 namespace curvix {
 
-// More than an edge of a curve needs, since places are many.
+// More than a 3D edge needs, since there are many places.
 inline constexpr std::size_t kMinSupportsOfPlace = 6;
 
 // A place on a curve and the 2D edges that show it.
@@ -49,13 +49,13 @@ class PosedEdges {
   Rigid3 PoseOf(std::size_t view_idx) const;
   void Move(const MovedCameras& moved);
 
-  // Places on curves, from some thousand edges spread over the views. Edges
-  // are expected within a few times `sigma_px` of where the poses put them.
+  // Places on curves, from some thousand edges spread over the views. Edges are
+  // searched within a few times `sigma_px` of their projections.
   std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
 
-  // The query views of a place, forty at most, ascending: its supporters, or
-  // forty of them that look from all sides, and of the views next to them
-  // those that look from other sides.
+  // The query views of a place, at most forty, ascending: its supporting views
+  // (if more than forty, those that differ most in direction), and neighbours
+  // of these that add directions.
   std::vector<std::size_t> QueryViews(const CurvePlace& place) const;
 
   // The nearest edge in each of `views` that is within its gate, by view.
@@ -63,10 +63,10 @@ class PosedEdges {
                                  const std::vector<std::size_t>& views,
                                  const std::vector<double>& gates_px) const;
 
-  // For each view the places that ask it; they outlive the result.
+  // For each view the places that query it; they must outlive the result.
   std::vector<std::vector<const CurvePlace*>> PlacesByView(
       const std::vector<CurvePlace>& places) const;
-  // What the places see around them in a view, up to reach_px away.
+  // The edges around each place in a view, up to reach_px away.
   std::vector<EdgesAround> LookAround(
       const std::vector<const CurvePlace*>& places,
       std::size_t view_idx,
@@ -76,14 +76,14 @@ class PosedEdges {
   ImageEdge EdgeInImage(const EdgeRef& ref) const;
   // Pixels; of the projection of `contour` from the line of the edge.
   double Distance(const OccludingContour& contour, const EdgeRef& ref) const;
-  // Where views see the point, with their poses and cameras as they are.
+  // The pixels of the point, with the present poses and cameras.
   std::vector<PointInImage> Observed(const PointSample& point) const;
   // The pixel of the photograph in which a view sees `x`, in the ideal pinhole
   // of the scene's camera; nothing where there is none.
   std::optional<Eigen::Vector2d> PixelByInputCamera(
       std::size_t view_idx, const Eigen::Vector3d& x) const;
-  // By how many pixels the photograph of a view shows a place elsewhere than by
-  // `before`; nothing where either does not see it.
+  // Distance of the pixels of `x` in a view with the present cameras and with
+  // `before`; nothing where one of the two does not see it.
   std::optional<double> ShiftIn(std::size_t view_idx,
                                 const Eigen::Vector3d& x,
                                 const MovedCameras& before) const;
@@ -92,19 +92,20 @@ class PosedEdges {
 
  private:
   const Camera& InputCameraOf(std::size_t view_idx) const;
-  // `taken`, and of the `others` as many as a place needs, each as far as can
-  // be in direction from those before; by the poses of the scene. Ascending.
+  // `taken` and as many of the `others` as a place needs, each as different in
+  // direction from those before as possible, by the poses of the scene.
+  // Ascending.
   std::vector<std::size_t> SpreadViews(
       const CurvePlace& place,
       std::vector<std::size_t> taken,
       const std::vector<std::size_t>& others) const;
   ImageEdge InputEdge(const EdgeRef& ref) const;
-  // Where a view sees the contour, in the ideal image of the input camera, in
+  // The projection of the contour in the ideal image of the input camera, in
   // which edges are indexed; nothing outside the image.
   std::optional<ImageEdge> Seen(const OccludingContour& contour,
                                 std::size_t view_idx) const;
-  // The edges in the ideal images of the cameras as they are; none of a view
-  // whose camera cannot be inverted.
+  // The edges in the ideal images of the present cameras; none of a view whose
+  // camera cannot be inverted.
   std::vector<EdgeMap> CarriedMaps() const;
 
   const Scene& scene_;

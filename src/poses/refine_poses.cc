@@ -26,7 +26,7 @@ constexpr double kGoodEnoughPx = 0.06;
 constexpr double kNothingFitsPx = 1;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
-// A lens of fewer views is hardly told from poses and from what they show.
+// With fewer views, a lens is hardly distinguishable from poses and structure.
 constexpr int kMinViewsPerLens = 5;
 
 ErrorsOfViews Summarize(std::vector<double> errors) {
@@ -105,7 +105,7 @@ class Refiner {
     return MeasureHeldOut(held_out_, num_threads_, search_.edges());
   }
 
-  // Saves the time of looking for what cannot be found.
+  // Saves the search if there is nothing to find.
   bool DoEdgesFit() const {
     std::vector<double> errors;
     for (const ErrorPair& pair :
@@ -115,7 +115,7 @@ class Refiner {
     return MedianOr(kNothingFitsPx, std::move(errors)) < kGoodEnoughPx;
   }
 
-  // In each view. Then points would tell against any other poses.
+  // In each view. Then the points contradict any other poses.
   bool DoPointsFit() const {
     std::vector<std::vector<double>> errors(scene_.views.size());
     for (std::size_t i = 0; i < held_out_.points.size(); ++i) {
@@ -178,7 +178,7 @@ class Refiner {
     };
     const Lenses without{
         search_.edges().moved(), evidence_, search_.free_lenses()};
-    // The same edges for all, as losses of more edges are more.
+    // The same edges for all, since more edges have a larger loss.
     PoseObservationSet held_out = held_out_;
     search_.Fit(&held_out);
     search_.FindEdges(&held_out.places);
@@ -218,8 +218,8 @@ class Refiner {
     return IsBetter(Together(places, points));
   }
 
-  // Views whose places come away from their edges keep their poses, unless
-  // lenses have changed: then old poses are of no use.
+  // Views in which errors grow keep their poses, unless lenses have changed,
+  // for which the old poses do not hold.
   void RestoreWorseViews(const HeldOutErrors& after) {
     if (!search_.free_lenses().empty()) return;
     const std::vector<bool> worse =
@@ -283,8 +283,8 @@ class Refiner {
     }
   }
 
-  // Adjusts to all there is, what was held out included: of places, what poses
-  // that are nearly right have found there.
+  // Adjusts to all observations, held-out ones included; places are those found
+  // by the nearly final poses.
   void Finish(CurvePoses* result) {
     held_out_.places = std::move(last_held_out_);
     search_.Fit(&held_out_);
@@ -371,7 +371,7 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
     return Refiner(scene, edge_maps, options, with_cameras, &run).Run();
   };
   CurvePoses result = refine(refine_intrinsics);
-  // Later steps ask for the edges that the cameras show.
+  // Later steps need the edges of the new cameras.
   if (const Status status = CanCarryEdges(scene, edge_maps, result.cameras);
       !status.ok()) {
     result = refine(false);

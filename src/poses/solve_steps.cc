@@ -15,11 +15,10 @@
 namespace curvix {
 namespace {
 
-// Of the diagonal that damping multiplies: what nothing tells stays where it
-// is.
+// Least diagonal that damping multiplies: unobserved unknowns stay fixed.
 constexpr double kMinDiagonal = 1e-6;
 
-// Of the trace: radii that views hardly tell from a shift stay.
+// Share of the trace: radii that are nearly unobservable stay fixed.
 constexpr double kRadiusDamping = 1e-9;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Steps of views, cameras and samples that bring them
-// to agree, by normal equations of which the samples are eliminated.
+// Paper: none (beyond it). Steps of views, cameras and samples, by normal
+// equations from which the samples are eliminated (Schur complement).
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 
 // residual + by_pose . step of the view + by_lens . step of its camera +
-// by_offset . step of the sample = 0, already times the root of its weight.
+// by_offset . step of the sample = 0, multiplied by the root of its weight.
 struct StepEquation {
   double residual = 0;
   Vector6d by_pose = Vector6d::Zero();
@@ -32,7 +32,7 @@ struct PriorEquations {
 using StepPrior = PriorEquations<Vector6d>;
 using LensPrior = PriorEquations<Vector8d>;
 
-// Which equation is whose; those of one sample follow each other.
+// View and sample of each equation; those of one sample are successive.
 struct EquationOwners {
   struct Owner {
     std::size_t view_idx, sample_idx;
@@ -53,12 +53,12 @@ struct Steps {
   std::vector<Eigen::Vector3d> offsets;  // by sample
 };
 
-// The steps of least squares, once the diagonal of the normal equations has
-// grown by its `damping`-fold (> 0), as Marquardt does, and that of each third
-// unknown of a sample by 1e-9 of the sample's trace before. If the increments
-// have none, they are zero, and the offsets those of the samples alone. Cameras
-// stay if there are no `lens_priors`, of which there is one a camera. The same
-// for any number of threads.
+// The steps of least squares with Marquardt's damping: the diagonal of the
+// normal equations is multiplied by 1 + `damping` (> 0). Before, 1e-9 of the
+// trace of each sample is added to the diagonal of its third unknown. If the
+// equations of the increments have no solution, increments are zero, and
+// offsets those of the samples alone. `lens_priors`: one per camera; without
+// any, cameras are fixed. The result does not depend on the number of threads.
 Steps SolveSteps(const EquationOwners& owners,
                  const std::vector<StepEquation>& equations,
                  const std::vector<StepPrior>& priors,

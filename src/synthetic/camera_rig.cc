@@ -69,7 +69,8 @@ Rigid3 LookingAtOrigin(const Vector3d& centre, double roll) {
   return pose;
 }
 
-// A motion in the camera frame: half turn (axis . angle), half shift.
+// A pose increment in the camera frame: half rotation (axis . angle), half
+// translation.
 struct Motion {
   Vector3d turn;
   Vector3d shift;

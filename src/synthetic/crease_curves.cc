@@ -229,7 +229,7 @@ bool TouchesAnotherSheet(const Solid& solid,
       });
 }
 
-// The rim of a sheet: free, or on a face of the solid or another sheet.
+// The boundary of a sheet: free, or on a face of the solid or another sheet.
 void AppendRim(const Solid& solid,
                const SolidPrimitive& sheet,
                std::vector<TrueCurve>& curves) {

@@ -266,7 +266,7 @@ class Print : public FacePattern {
     return inside(0) || (inside(1) && !inside(2));
   }
 
-  // The stretches of one line of the grid across which the ink changes.
+  // The segments of one line of the grid across which the ink changes.
   void AppendSteps(bool is_level,
                    int line,
                    int num_cells,

@@ -99,8 +99,7 @@ class EdgeShadow {
              const TrueCurve& caster)
       : solid_(solid), surfaces_(surfaces), caster_(caster) {}
 
-  // The stretches of `caster` that cast an edge on one face each, cut into
-  // samples.
+  // The parts of `caster` that cast an edge on one face each, as samples.
   std::vector<std::vector<TrueSample>> Sample(double step) const;
 
  private:

@@ -39,14 +39,14 @@ TrueCurve Circle(const Eigen::Vector3d& centre,
 
 using OnStretch = std::function<bool(double s)>;
 
-// The stretches of [0, length] on which `holds`, ascending. It is tried at
-// `step` or closer; the ends between two trials are found by bisection.
+// The intervals of [0, length] in which `holds`, ascending. It is tested at
+// steps of `step` or less; their ends are found by bisection.
 std::vector<std::pair<double, double>> Stretches(double length,
                                                  double step,
                                                  const OnStretch& holds);
 
-// The stretches of `whole`, from `min_length` on, as curves of their own. A
-// stretch of a circle through its first point is one curve.
+// The parts of `whole` where `holds`, of `min_length` or more. A part of a
+// circle through its first point is one curve.
 std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
                                   double step,
                                   double min_length,

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes workspaces as people and programs make them, and says what happens.
 
-  workspaces.py <colmap_curvix>         prints the table of docs/workspaces.md
-  workspaces.py <colmap_curvix> <page>  exits with 1 where the page has another one
+  workspaces.py <colmap_curvix>         prints the lists of workspaces.md
+  workspaces.py <colmap_curvix> <page>  exits with 1 where the page has others
 
 Each is a change of one small synthetic workspace. Exits with 77 without
 Pillow and NumPy.
@@ -108,26 +108,26 @@ class Workspace:
 
 # Where things are.
 
-@row('`sparse/0` and `images`', 'as `colmap automatic_reconstructor`')
+@row('`sparse/0` and `images`', 'from `colmap automatic_reconstructor`')
 def _(w):
     pass
 
 
-@row('model in `sparse/`', 'as `colmap mapper` by hand')
+@row('model in `sparse/`', 'from `colmap mapper`')
 def _(w):
     for file in list(w.model.iterdir()):
         file.rename(w.path / 'sparse' / file.name)
     w.model.rmdir()
 
 
-@row('the workspace is the model', 'files beside `images/`')
+@row('model beside `images/`', '')
 def _(w):
     for file in list(w.model.iterdir()):
         file.rename(w.path / file.name)
     shutil.rmtree(w.path / 'sparse')
 
 
-@row('`dense/0` of undistorted images', 'as `colmap image_undistorter`')
+@row('`dense/0`', 'from `colmap image_undistorter`')
 def _(w):
     dense = w.path / 'dense/0'
     dense.mkdir(parents=True)
@@ -143,36 +143,36 @@ def _(w):
     w.write_text(points=False)
 
 
-@row('files of rigs and frames', '`rigs.bin` and `frames.bin`, empty, beside `images.bin`, which has the poses')
+@row('`rigs.bin` and `frames.bin`', 'empty; `images.bin` has the poses')
 def _(w):
     for name in ('rigs.bin', 'frames.bin'):
         (w.model / name).write_bytes(struct.pack('<Q', 0))
 
 
-@row('database, project file and other files', 'beside the model and in `images/`')
+@row('database and other files beside the model and in `images/`', '')
 def _(w):
     for name in ('database.db', 'images/Thumbs.db', 'images/.DS_Store', 'sparse/0/project.ini'):
         (w.path / name).write_bytes(b'')
 
 
-@row('5000 images that are not in the model', 'in `images/`')
+@row('5000 more images in `images/`', '')
 def _(w):
     for i in range(5000):
         (w.images / f'{i:05}.jpg').write_bytes(b'')
 
 
-@row('one image is not there', 'deleted')
+@row('an image is missing', '')
 def _(w):
     (w.images / 'view_003.png').unlink()
 
 
-@row('all but two are not there', 'deleted')
+@row('all but two images are missing', '')
 def _(w):
     for file in w.files()[2:]:
         file.unlink()
 
 
-@row('no images', '`images/` deleted')
+@row('no folder `images/`', '')
 def _(w):
     shutil.rmtree(w.images)
 
@@ -183,7 +183,7 @@ def _(w):
     return ['--image_path', w.path / 'photos']
 
 
-@row('relative paths', 'run in the workspace with `--workspace_path .`')
+@row('relative path', '`--workspace_path .`')
 def _(w):
     return ['--workspace_path', '.']
 
@@ -194,20 +194,20 @@ def _(w):
     return ['--input_path', w.path / 'model']
 
 
-@row('a path with blanks and letters of UTF-8', 'a link to the workspace')
+@row('path with blanks and UTF-8', '')
 def _(w):
     link = w.path / 'mein Schloß'
     link.symlink_to(w.path)
     return ['--workspace_path', link]
 
 
-@row('`images` is a link', 'to a folder')
+@row('`images` is a link', '')
 def _(w):
     w.images.rename(w.path / 'photos')
     w.images.symlink_to('photos')
 
 
-@row('images are links', 'each')
+@row('images are links', '')
 def _(w):
     shutil.copytree(w.images, w.path / 'photos')
     for file in w.files():
@@ -215,7 +215,7 @@ def _(w):
         file.symlink_to(w.path / 'photos' / file.name)
 
 
-@row('images are hard links', 'each')
+@row('images are hard links', '')
 def _(w):
     shutil.copytree(w.images, w.path / 'photos')
     for file in w.files():
@@ -223,7 +223,7 @@ def _(w):
         os.link(w.path / 'photos' / file.name, file)
 
 
-@row('`sparse/0` is a link', 'to a folder of the workspace')
+@row('`sparse/0` is a link into the workspace', '')
 def _(w):
     w.model.rename(w.path / 'model')
     w.model.symlink_to('../model')
@@ -241,12 +241,12 @@ def _(w):
     w.rename(lambda name: name.replace('.png', '.PNG'))
 
 
-@row('endings in other capitals than the model has', '`.png` in the model, `.PNG` on the disk')
+@row('`.png` in the model, `.PNG` on the disk', '')
 def _(w):
     w.rename(lambda name: name, lambda name: name.replace('.png', '.PNG'))
 
 
-@row('names with spaces', 'text model')
+@row('names with spaces', '')
 def _(w):
     w.rename(lambda name: 'my photo ' + name)
 
@@ -256,34 +256,34 @@ def _(w):
     w.rename(lambda name: 'Straße_ö_写真_' + name)
 
 
-@row('names in Latin-1', 'bytes that are no UTF-8')
+@row('names in Latin-1', '')
 def _(w):
     w.rename(lambda name: 'Stra\udcdfe_' + name)
 
 
-@row('backslashes in names', '`camera\\view_000.png` in the model, folders on the disk')
+@row('backslashes for folders', '`camera\\view_000.png` in the model')
 def _(w):
     w.rename(lambda name: 'camera\\' + name, lambda name: 'camera/' + name)
 
 
-@row('names that lead out of the folder', '`../images/view_000.png`')
+@row('names that leave the folder', '`../images/view_000.png`')
 def _(w):
     w.rename(lambda name: '../images/' + name, lambda name: name)
 
 
-@row('names with a folder that is not there', '`images/view_000.png` in the model')
+@row('names with a missing folder', '`images/view_000.png` in the model')
 def _(w):
     w.rename(lambda name: 'images/' + name, lambda name: name)
 
 
 # Models.
 
-@row('text model', 'as `colmap model_converter`')
+@row('text model', 'from `colmap model_converter`')
 def _(w):
     w.write_text()
 
 
-@row('text and binary model', 'both in `sparse/0`')
+@row('text and binary model in one folder', '')
 def _(w):
     copy = w.path / 'copy'
     shutil.copytree(w.model, copy)
@@ -292,44 +292,44 @@ def _(w):
         file.rename(w.model / file.name)
 
 
-@row('text model, Windows', 'lines end with CR LF')
+@row('text model with CR LF', '')
 def _(w):
     w.write_text(end='\r\n')
 
 
-@row('text model, byte order mark', 'three bytes at the start of each file')
+@row('text model with byte order marks', '')
 def _(w):
     w.write_text(head='\ufeff')
 
 
-@row('text model, tabs', 'between the words')
+@row('text model with tabs', '')
 def _(w):
     w.write_text(between='\t')
 
 
-@row('text model, comments and blank lines first', 'no points')
+@row('text model with comments and blank lines first', 'no points')
 def _(w):
     w.write_text(head='# Exported\n#\n\n', points=False)
 
 
-@row('text model without points', 'every second line of `images.txt` is empty')
+@row('text model without points', '')
 def _(w):
     w.write_text(points=False)
 
 
-@row('text model without the empty lines', '`images.txt` has one line per image')
+@row('`images.txt` with one line per image', '')
 def _(w):
     w.write_text(points=False)
     file = w.model / 'images.txt'
     file.write_text(''.join(line + '\n' for line in file.read_text().splitlines() if line))
 
 
-@row('no `points3D` file', 'deleted')
+@row('no `points3D` file', '')
 def _(w):
     (w.model / 'points3D.bin').unlink()
 
 
-@row('a camera per image', 'as without `--single_camera`')
+@row('a camera per image', '')
 def _(w):
     camera = w.cameras[0]
     w.cameras = [[camera[0], view[0], *camera[2:]] for view in w.views]
@@ -338,13 +338,13 @@ def _(w):
     w.write_text()
 
 
-@row('a camera that no image has', 'as of images that were not registered')
+@row('a camera without images', '')
 def _(w):
     w.cameras.append(['SIMPLE_RADIAL', 77, 3000, 2000, 2500.0, 1500.0, 1000.0, 0.1])
     w.write_text()
 
 
-@row('`OPENCV` without distortion', 'four zeros')
+@row('`OPENCV` with zero distortion', '')
 def _(w):
     for camera in w.cameras:
         camera[0] = 'OPENCV'
@@ -358,13 +358,13 @@ def _(w):
     w.write_text()
 
 
-@row('a size of another image', 'half of that of the images')
+@row('cameras of half the size of the images', '')
 def _(w):
     w.cameras[0][2:] = [w.cameras[0][2] // 2, w.cameras[0][3] // 2, *(number / 2 for number in w.cameras[0][4:])]
     w.write_text()
 
 
-@row('a model cut off', 'half of `images.bin`')
+@row('half of `images.bin`', '')
 def _(w):
     file = w.model / 'images.bin'
     file.write_bytes(file.read_bytes()[:file.stat().st_size // 2])
@@ -372,7 +372,7 @@ def _(w):
 
 # Images.
 
-@row('JPEG', 'quality 95')
+@row('JPEG', '')
 def _(w):
     w.convert('.jpg', lambda image, path: image.convert('RGB').save(path, quality=95))
 
@@ -402,7 +402,7 @@ def save_deep(image, path):
     Image.fromarray(np.asarray(image.convert('L')).astype(np.uint16) * 257).save(path)
 
 
-@row('JPEG turned by EXIF', 'orientation 6; COLMAP does not turn it, either')
+@row('JPEG with EXIF orientation 6', 'not rotated, as in COLMAP')
 def _(w):
     w.convert('.jpg', save_turned)
 
@@ -417,7 +417,7 @@ def _(w):
     w.convert('.tif', save_deep)
 
 
-@row('PNG with an opaque alpha', 'four channels')
+@row('PNG with an opaque alpha channel', '')
 def _(w):
     w.convert('.png', lambda image, path: image.convert('RGBA').save(path))
 
@@ -437,17 +437,17 @@ def _(w):
     w.convert('.webp', lambda image, path: image.convert('RGB').save(path, lossless=True))
 
 
-@row('HEIF', 'its first bytes')
+@row('HEIF', '')
 def _(w):
     w.convert('.heic', lambda _, path: path.write_bytes(b'\0\0\0\x18ftypheic\0\0\0\0mif1heic' + bytes(100)))
 
 
-@row('raw', 'the first bytes of a DNG')
+@row('raw images', 'DNG')
 def _(w):
     w.convert('.dng', lambda _, path: path.write_bytes(b'II*\0\x08\0\0\0' + bytes(100)))
 
 
-@row('an image cut off', 'half of `view_003.png`')
+@row('half of `view_003.png`', '')
 def _(w):
     file = w.images / 'view_003.png'
     file.write_bytes(file.read_bytes()[:file.stat().st_size // 2])
@@ -461,26 +461,26 @@ def make_masks(w, shrink=1):
     return ['--mask_path', w.path / 'masks']
 
 
-@row('masks', 'white, `masks/view_000.png.png`, `--mask_path`')
+@row('white masks', '`masks/view_000.png.png`, `--mask_path`')
 def _(w):
     return make_masks(w)
 
 
-@row('a mask is not there', 'that of `view_003.png`')
+@row('a mask is missing', '')
 def _(w):
     arguments = make_masks(w)
     (w.path / 'masks/view_003.png.png').unlink()
     return arguments
 
 
-@row('masks of another size', 'half of that of the images')
+@row('masks of half the size', '')
 def _(w):
     return make_masks(w, 2)
 
 
 # Models of other programs.
 
-@row('nerfstudio\'s `transforms.json`', '`colmap_im_id` and `applied_transform` in it; `import --format nerf`')
+@row('nerfstudio\'s `transforms.json`', 'by `import --format nerf`')
 def _(w):
     _, _, width, height, fx, fy, cx, cy = w.cameras[0]
     frames = []
@@ -501,45 +501,47 @@ def _(w):
 
 
 def happens(base, change, folder, expected):
+    """The result, one of RESULTS, and what the program says."""
     shutil.copytree(base, folder, symlinks=True)
     arguments = change(Workspace(folder)) or []
     if '--workspace_path' not in arguments:
         arguments = ['--workspace_path', folder, *arguments]
     code, said = run(*arguments, '--refiner', 'none', '--refine_poses_with_curves', '0', '--output_formats', 'ply',
                      '--output_path', folder / 'results', '--num_threads', '1', cwd=folder)
-    curves = folder / 'results/curves.ply'
-    result = 'the same curves' if code == 0 and curves.read_bytes() == expected else 'curves' if code == 0 else 'error'
+    is_same = code == 0 and (not expected or (folder / 'results/curves.ply').read_bytes() == expected)
     # Sentences end with a full stop; lines of stages with a time.
     notes = [line for line in said.split('\nWritten to')[0].splitlines() if re.match(r'(ERROR: )?[A-Z/0-9].*[.;]$', line)]
-    notes = [note.replace(str(folder), 'W').replace('ERROR: ', '').replace('|', '\\|') for note in notes]
-    return ': '.join([result, *notes]) if notes else result
+    note = re.sub(r'\(missing: [^)]*\)', '(missing: ...)', ' '.join(notes).replace(str(folder), 'W').replace('ERROR: ', ''))
+    return 'The same curves' if is_same else 'Curves' if code == 0 else 'Errors', note
 
 
-def table(scratch):
+RESULTS = ['The same curves', 'Curves', 'Errors']
+
+
+def lists(scratch):
+    """The lists of the page: a heading per result, a line per workspace."""
     base = scratch / 'base'
     run('synthesize', '--workspace_path', base, '--solid', 'block', '--num_views', '12', '--width', '120', '--height', '120',
         '--points_per_view', '20')
-    lines = ['| what | how | what happens |', '|---|---|---|']
+    items = {result: [] for result in RESULTS}
     expected = b''
     for number, (what, how, change) in enumerate(ROWS):
         folder = scratch / str(number)
-        happened = happens(base, change, folder, expected)
-        if not expected:
-            expected = (folder / 'results/curves.ply').read_bytes()
-            happened = 'curves, the same as those below'
-        lines.append(f'| {what} | {how} | {happened} |')
+        result, note = happens(base, change, folder, expected)
+        expected = expected or (folder / 'results/curves.ply').read_bytes()
+        items[result].append(f'- {what}' + (f' ({how})' if how else '') + (f': `{note}`' if note else ''))
         shutil.rmtree(folder)
-    return lines
+    return [line for result in RESULTS for line in ('## ' + result, *items[result])]
 
 
 def main():
     with tempfile.TemporaryDirectory(prefix='curvix-') as scratch:
-        lines = table(pathlib.Path(scratch).resolve())
+        lines = lists(pathlib.Path(scratch).resolve())
     if len(sys.argv) < 3:
         print('\n'.join(lines))
         return 0
     page = pathlib.Path(sys.argv[2]).read_text('utf8').splitlines()
-    page = [line for line in page if line.startswith('|')]
+    page = [line for line in page if line.startswith(('## ', '- '))]
     print('\n'.join(difflib.unified_diff(page, lines, 'page', 'this run', n=0, lineterm='')))
     return page != lines
 

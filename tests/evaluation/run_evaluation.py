@@ -36,7 +36,7 @@ SCORES = [  # key of `evaluate --json`, heading, decimals
     ('Fv5', 'Fv5', 1), ('P5', 'P5', 1), ('whole', 'recall', 0)]
 LIFTS = ['precision_lift', 'strong_lift', 'lines_lift']
 
-UNDO = [  # what is taken back (docs/paper_map.md, table four), flags
+UNDO = [  # what is taken back (docs/paper_map.md, departures), flags
     ('nothing', []),
     ('every view, tracked support, log-likelihood',
      ['--Hypotheses.view_selection', 'unused_edges']),

@@ -30,7 +30,7 @@ WireScene Wires() {
   return wires;
 }
 
-class Laws : public ::testing::TestWithParam<const char*> {
+class ReconstructionInvariance : public ::testing::TestWithParam<const char*> {
  protected:
   static Reconstruction Run(const WireScene& wires, int num_threads = 2) {
     Options options =
@@ -45,7 +45,7 @@ class Laws : public ::testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(Laws, ThreadsMakeNoDifference) {
+TEST_P(ReconstructionInvariance, ThreadsMakeNoDifference) {
   const WireScene wires = Wires();
   const Reconstruction expected = Run(wires, 1);
   for (const int num_threads : {2, 3, 8}) {
@@ -54,7 +54,7 @@ TEST_P(Laws, ThreadsMakeNoDifference) {
   }
 }
 
-TEST_P(Laws, TheWorldsFrameAndUnitMakeNoDifference) {
+TEST_P(ReconstructionInvariance, TheWorldsFrameAndUnitMakeNoDifference) {
   const WireScene wires = Wires();
   const Reconstruction expected = Run(wires);
   Random random(5);
@@ -69,7 +69,7 @@ TEST_P(Laws, TheWorldsFrameAndUnitMakeNoDifference) {
   }
 }
 
-TEST_P(Laws, TheOrderOfViewsMakesNoDifference) {
+TEST_P(ReconstructionInvariance, TheOrderOfViewsMakesNoDifference) {
   const WireScene wires = Wires();
   const Reconstruction expected = Run(wires);
   WireScene reversed = wires;
@@ -79,7 +79,7 @@ TEST_P(Laws, TheOrderOfViewsMakesNoDifference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets,
-                         Laws,
+                         ReconstructionInvariance,
                          ::testing::Values("default", "paper"),
                          [](const auto& test) { return test.param; });
 

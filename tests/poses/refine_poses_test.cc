@@ -101,7 +101,7 @@ CurvePoses Refine(const Scene& scene, int num_threads = 0) {
   return Refine(scene, EdgesOf(scene), num_threads);
 }
 
-// Enough for laws.
+// Enough for invariance tests.
 Scene FewDisturbedViews() {
   Scene scene = Disturbed(Wires().scene, 1);
   scene.views.resize(9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene of wires with exact edges, and how well curves agree with it.
+// A scene of thin curves with exact edges, and how well curves agree with it.
 #pragma once
 
 #include <curvix/curves.h>
@@ -20,7 +20,7 @@ struct WireScene {
 
 // `num_views` cameras of 400 x 400 pixels, about 6 from the origin, all around
 // at irregular places above and below, looking at it: one pixel is about 1/65
-// there. Wires hide nothing.
+// there. Curves hide nothing.
 WireScene MakeWireScene(std::vector<TestCurve> truth, int num_views);
 
 // A cube of side 2 around the origin and a circle of radius 0.6 inside it.
