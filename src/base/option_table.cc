@@ -269,7 +269,7 @@ void AddRows(CurveFittingOptions& o, Section row) {
   row("common_error_px", &o.common_error_px, AtLeast(0), "px", "",
       "error that neighbouring samples share, besides the sigma of each");
   row.Switch("regularize", &o.regularize,
-      "1: move fits so that the structure found among them holds exactly");
+      "move fits so that the structure found among them holds exactly");
 }
 
 void AddRows(RuntimeOptions& o, Section row) {
