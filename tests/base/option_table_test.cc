@@ -3,6 +3,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/option_table.h"
@@ -46,11 +47,11 @@ constexpr std::size_t NumFieldsOf(const Structs&...) {
 }
 
 const OptionRow& Find(const std::vector<OptionRow>& rows,
-                      const std::string& name) {
+                      std::string_view name) {
   for (const OptionRow& row : rows) {
     if (row.name == name) return row;
   }
-  throw std::runtime_error("no row " + name);
+  throw std::runtime_error("no row " + std::string(name));
 }
 
 const void* Address(const OptionRow& row) {
