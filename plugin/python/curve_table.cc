@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "fitting/find_structure.h"
+
 namespace curvix {
 namespace {
 
@@ -217,6 +219,7 @@ FittedCurves SelectFits(const FittedCurves& fitted,
       renumber(fits[k].end_node, i, k, true);
     }
   }
+  selected.structure = FindStructure(selected);
   return selected;
 }
 

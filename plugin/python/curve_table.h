@@ -106,7 +106,8 @@ struct FitTable {
   std::vector<Eigen::Matrix3d> node_covariances;
 };
 
-// The fits of some curves, in that order. Nodes that keep two ends stay.
+// The fits of some curves, in that order, and what they share. Nodes that keep
+// two ends stay.
 FittedCurves SelectFits(const FittedCurves& fitted,
                         const std::vector<std::size_t>& curve_idxs);
 

@@ -66,6 +66,7 @@ const std::map<std::string, Rule>& Rules() {
          "drawing",
          "edge_detection",
          "evaluation",
+         "fitting",
          "io",
          "measuring",
          "parts",
