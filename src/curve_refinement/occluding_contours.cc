@@ -203,9 +203,10 @@ double LogLikelihoodRatio(const Place& place, double edge_sigma_px) {
       if (std::abs(edge_px) < kOnCurvePx || !IsPossible(place, contour.z())) {
         continue;
       }
-      const double likelihood = LogLikelihood(place, contour, edge_sigma_px);
-      if (likelihood > best) {
-        best = likelihood;
+      const double log_likelihood =
+          LogLikelihood(place, contour, edge_sigma_px);
+      if (log_likelihood > best) {
+        best = log_likelihood;
         best_contour = contour;
       }
     }
@@ -238,8 +239,8 @@ double ContourLogLikelihoodRatio(const Curve& curve,
       to_next -=
           (sample.position - curve.samples[i - 1].position).norm() / pixel;
     }
-    const bool is_last = i + 1 == curve.samples.size() && num_places == 0;
-    if (to_next > 0 && !is_last) continue;
+    const bool is_too_short = i + 1 == curve.samples.size() && num_places == 0;
+    if (to_next > 0 && !is_too_short) continue;
     to_next = kPlaceSpacingPx;
     sum += LogLikelihoodRatio(Look(sample, views, images), edge_sigma_px);
     ++num_places;

@@ -68,9 +68,7 @@ class InstalledColmap : public testing::Test {
         "feature_extractor --database_path db --image_path images "
         "--ImageReader.single_camera 1 --ImageReader.camera_model PINHOLE "
         "--SiftExtraction.use_gpu 0 --SiftExtraction.num_threads 1");
-    Colmap(
-        "exhaustive_matcher --database_path db --SiftMatching.use_gpu 0 "
-        "--SiftMatching.max_num_trials 100");
+    Colmap("exhaustive_matcher --database_path db --SiftMatching.use_gpu 0");
     Colmap(
         "point_triangulator --database_path db --image_path images "
         "--input_path sparse/0 --output_path true");
