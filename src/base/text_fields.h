@@ -22,6 +22,18 @@ void AppendNumber(T value, std::string& out) {
   out.append(text.data(), end);
 }
 
+// Appends `value` with so many decimals, at most 60.
+inline void AppendFixed(double value, int num_decimals, std::string& out) {
+  std::array<char, 400> text;  // the largest number has 309 digits
+  const auto end = std::to_chars(text.data(),
+                                 text.data() + text.size(),
+                                 value,
+                                 std::chars_format::fixed,
+                                 num_decimals)
+                       .ptr;
+  out.append(text.data(), end);
+}
+
 // The number that `word` is as a whole; an optional sign leads. nullopt: it is
 // none, or does not fit into T.
 template <typename T>

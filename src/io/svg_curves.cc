@@ -3,8 +3,6 @@
 #include "io/svg_curves.h"
 
 #include <curvix/curves.h>
-#include <array>
-#include <charconv>
 #include <string>
 
 #include "base/text_fields.h"
@@ -14,17 +12,6 @@ namespace curvix {
 namespace {
 
 constexpr int kDecimals = 2;
-
-void AppendFixed(double value, std::string& out) {
-  std::array<char, 400> text;
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::fixed,
-                                 kDecimals)
-                       .ptr;
-  out.append(text.data(), end);
-}
 
 void AppendHexColor(const Rgb& color, std::string& out) {
   constexpr char kDigits[] = "0123456789abcdef";
@@ -57,9 +44,9 @@ void EncodeSvgCurves(const CurveSource& curves,
       char command = 'M';
       for (const Eigen::Vector2d& point : stretch) {
         out += command;
-        AppendFixed(point.x(), out);
+        AppendFixed(point.x(), kDecimals, out);
         out += ' ';
-        AppendFixed(point.y(), out);
+        AppendFixed(point.y(), kDecimals, out);
         command = 'L';
       }
     }

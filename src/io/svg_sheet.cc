@@ -2,12 +2,11 @@
 // Paper: none (engineering).
 #include "io/svg_sheet.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "base/angles.h"
+#include "base/text_fields.h"
 #include "drawing/cut_fit.h"
 #include "io/drawing_layers.h"
 
@@ -19,15 +18,9 @@ constexpr double kCapitalHeight = 0.716;  // of a font's size
 constexpr char kPaleness[] = "0.5";
 
 std::string Number(double value) {
-  constexpr int kDecimals = 4;
-  std::array<char, 64> text;
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::fixed,
-                                 kDecimals)
-                       .ptr;
-  return {text.data(), end};
+  std::string text;
+  AppendFixed(value, 4, text);
+  return text;
 }
 
 // "a b"

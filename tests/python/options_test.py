@@ -15,12 +15,13 @@ class Options(unittest.TestCase):
         items = re.findall(r'^- `--([\w.]+)`(?: \((.*?)\))?: (.*)$',
                            (SOURCE / 'docs' / 'options.md').read_text(encoding='utf8'), re.M)
         self.assertGreater(len(items), 60)
-        listed = ' '.join(run_program('reconstruct', '--help_all').split())
+        listed = run_program('reconstruct', '--help_all')
         options = pycurvix.Options()
         for name, default, meaning in items:
             about = options.about(name)
             self.assertEqual(about.name, name)
-            self.assertIn(about.range, listed[listed.index(f'--{name} '):])
+            of_option = re.search(rf'^  --{re.escape(name)} .*?(?=^  --|^\S|\Z)', listed, re.M | re.S)[0]
+            self.assertIn(' '.join(about.range.split()), ' '.join(of_option.split()))
             self.assertIn(about.help, meaning)
             value = options[name]
             self.assertEqual(about.default, value)
