@@ -27,13 +27,17 @@ constexpr double kFirstAcrossPx = 2.5;
 constexpr double kAlongStepPx = 2;
 constexpr int kNumPixels = kNumAcross * kNumAlong;
 constexpr double kReachPx = 15;
+// With this probability a surface does not reach as far, but to 7.5 px from the
+// curve.
+constexpr double kNarrowProbability = 0.2;
+constexpr int kNumNarrowPixels = 5 * kNumAlong;
 
 constexpr std::size_t kMaxViews = 10;
 constexpr int kMinViews = 3;
 // The share of the views that must agree; others may be hidden.
 constexpr double kAgreeingShare = 0.7;
 // Strips that a view sees under a smaller angle are not compared.
-constexpr double kMinSine = 0.3;
+constexpr double kMinSine = 0.4;
 
 // The variance, in squared grey levels, by which strips of one surface differ:
 // noise, and a share of the variance of the strip for what resampling and
@@ -144,25 +148,27 @@ class StripSet {
   Strip* Next() { return &strips_[static_cast<std::size_t>(num_)]; }
   void Keep() { ++num_; }
 
-  // Of the strips that agree best; minus infinity if there are fewer than
-  // kMinViews.
+  // Minus infinity if there are fewer than kMinViews.
   float LogBayes() const;
 
  private:
-  // Inner products.
   using Gram = Eigen::Matrix<float, kMaxViews, kMaxViews>;
-  Gram InnerProducts() const;
+  // Of the first pixels of each strip less their mean.
+  Gram InnerProducts(int num_pixels) const;
+  // That of the strips whose first pixels agree best.
+  double LogBayes(int num_pixels) const;
 
   std::array<Strip, kMaxViews> strips_;
   int num_ = 0;
 };
 
-StripSet::Gram StripSet::InnerProducts() const {
+StripSet::Gram StripSet::InnerProducts(int num_pixels) const {
   Gram gram;
   for (int i = 0; i < num_; ++i) {
+    const auto first = strips_[static_cast<std::size_t>(i)].head(num_pixels);
     for (int j = 0; j <= i; ++j) {
-      gram(i, j) = gram(j, i) = strips_[static_cast<std::size_t>(i)].dot(
-          strips_[static_cast<std::size_t>(j)]);
+      const auto other = strips_[static_cast<std::size_t>(j)].head(num_pixels);
+      gram(i, j) = gram(j, i) = first.dot(other) - first.sum() * other.mean();
     }
   }
   return gram;
@@ -196,22 +202,30 @@ double DropWorst(const Gram& gram, int num, std::vector<int>* left) {
 
 float StripSet::LogBayes() const {
   if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
-  const Gram gram = InnerProducts();
+  const double log_bayes =
+      std::log((1 - kNarrowProbability) * std::exp(LogBayes(kNumPixels)) +
+               kNarrowProbability * std::exp(LogBayes(kNumNarrowPixels)));
+  return std::max(static_cast<float>(log_bayes), kMinLogBayes);
+}
+
+double StripSet::LogBayes(int num_pixels) const {
+  const Gram gram = InnerProducts(num_pixels);
   std::vector<int> left;
   const double total = DropWorst(gram, num_, &left);
   const auto num_left = static_cast<double>(left.size());
   double variance = 0;
   for (const int i : left) variance += static_cast<double>(gram(i, i));
-  variance /= num_left * kNumPixels;
+  variance /= num_left * num_pixels;
   // `total` counts every pair twice.
   const double residual =
-      total / (2.0 * num_left * (num_left - 1) * kNumPixels);
+      total / (2.0 * num_left * (num_left - 1) * num_pixels);
   const double same = kNoiseVariance + kSameShare * variance;
   const double other = kNoiseVariance + kOtherShare * variance;
-  const double log_bayes =
-      -kIndependentPixels * (num_left - 1) / 2 *
-      (residual / same + std::log(same) - residual / other - std::log(other));
-  return std::max(static_cast<float>(log_bayes), kMinLogBayes);
+  const double num_independent =
+      kIndependentPixels * num_pixels / kNumPixels * (num_left - 1);
+  return -num_independent / 2 *
+         (residual / same + std::log(same) - residual / other -
+          std::log(other));
 }
 
 }  // namespace
