@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/imports/curves_of_lines.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Lines of other programs as curves of a scene.
+// Lines of other programs as curves of a scene.
 #pragma once
 
 #include <curvix/curves.h>

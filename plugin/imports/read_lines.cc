@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/imports/read_lines.h"
 
 #include <curvix/curve_io.h>

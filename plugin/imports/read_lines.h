@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Straight lines that other programs reconstructed.
+// Straight lines that other programs reconstructed.
 #pragma once
 
 #include <curvix/status.h>

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "plugin/base/progress.h"
 #include "plugin/python/python_errors.h"
-#include "plugin/run/progress.h"
 
 namespace curvix {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5.
 #include "curve_drawing/build_graph.h"
 
 #include <algorithm>

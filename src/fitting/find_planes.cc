@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which lines and arcs lie in one plane.
 #include "fitting/find_planes.h"
 
 #include <Eigen/Dense>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What lines and arcs have in common.
 #include "fitting/find_structure.h"
 
 #include <Eigen/Dense>

@@ -12,7 +12,6 @@
 #include "base/check.h"
 #include "base/median.h"
 #include "base/parallel.h"
-#include "fitting/arc_covariance.h"
 #include "fitting/choose_primitives.h"
 #include "fitting/end_covariance.h"
 #include "fitting/find_structure.h"

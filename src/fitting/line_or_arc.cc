@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Lines and arcs, and how well they are known.
 #include "fitting/line_or_arc.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Clamped cubic B-splines with even knots.
 #include "fitting/spline.h"
 
 #include <Eigen/Dense>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Line sets as PLY.
 #include "io/ply_lines.h"
 
 #include <cstdint>

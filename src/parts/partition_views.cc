@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "parts/partition_views.h"
 
 #include <Eigen/Eigenvalues>

@@ -33,11 +33,11 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
 // Up to `num_per_view` points of the surface that each view finds, in random
 // places of its image (given by `seed`), with all views that see them: two at
 // least.
-std::vector<TruePoint> FindTruePoints(const Solid& solid,
-                                      const Camera& camera,
-                                      const std::vector<Rigid3>& poses,
-                                      int num_per_view,
-                                      std::uint64_t seed,
-                                      int num_threads);
+std::vector<ScenePoint> FindPoints(const Solid& solid,
+                                   const Camera& camera,
+                                   const std::vector<Rigid3>& poses,
+                                   int num_per_view,
+                                   std::uint64_t seed,
+                                   int num_threads);
 
 }  // namespace curvix

@@ -11,7 +11,6 @@
 
 #include "base/angles.h"
 #include "model/curve_chains.h"
-#include "parts/cut_curves.h"
 #include "parts/regions.h"
 #include "tests/support/synthetic_edges.h"
 
