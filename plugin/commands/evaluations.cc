@@ -154,6 +154,12 @@ void PrintJson(const Evaluation& e, std::ostream& out) {
   out << json.dump() << '\n';
 }
 
+struct HoldoutResult {
+  int num_held_out = 0;  // views
+  ResultSummary curves;
+  ImageAgreement agreement;
+};
+
 void PrintRow(std::string name,
               const ShareAboveChance& share,
               std::ostream& out) {
@@ -216,6 +222,13 @@ Result<CurveSet> ReconstructOthers(const Scene& scene,
   return std::move(holdout->reconstruction.curves);
 }
 
+void PrintHoldout(const HoldoutResult& result,
+                  EvaluationFormat format,
+                  std::ostream& out) {
+  if (format == EvaluationFormat::kJson) return PrintJson(result, out);
+  PrintTable(result, out);
+}
+
 }  // namespace
 
 void PrintEvaluation(const Evaluation& evaluation,
@@ -239,13 +252,6 @@ Status RunEvaluate(const std::filesystem::path& curves_path,
   if (!evaluation.ok()) return evaluation.status();
   PrintEvaluation(*evaluation, format, out);
   return {};
-}
-
-void PrintHoldout(const HoldoutResult& result,
-                  EvaluationFormat format,
-                  std::ostream& out) {
-  if (format == EvaluationFormat::kJson) return PrintJson(result, out);
-  PrintTable(result, out);
 }
 
 Status RunHoldout(const RunSettings& settings,

@@ -21,7 +21,7 @@
 #include "plugin/commands/evaluations.h"
 #include "plugin/poses/curve_poses.h"
 #include "plugin/python/bindings.h"
-#include "plugin/python/python_progress.h"
+#include "plugin/python/python_errors.h"
 #include "plugin/run/run_stages.h"
 #include "plugin/run/run_workspace.h"
 

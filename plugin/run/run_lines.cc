@@ -8,7 +8,7 @@
 #include "base/stopwatch.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/base/text.h"
-#include "plugin/imports/curves_of_lines.h"
+#include "plugin/imports/read_lines.h"
 #include "plugin/run/run_steps.h"
 
 namespace curvix {

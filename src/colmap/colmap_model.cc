@@ -9,7 +9,7 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model_format.h"
-#include "colmap/image_file.h"
+#include "colmap/links.h"
 
 namespace curvix {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/file_io.h"
-#include "colmap/image_file.h"
 #include "colmap/links.h"
 #include "colmap/project_file.h"
 

@@ -14,10 +14,9 @@
 #include "base/parallel.h"
 #include "fitting/choose_primitives.h"
 #include "fitting/end_covariance.h"
-#include "fitting/find_structure.h"
 #include "fitting/fit_conic.h"
 #include "fitting/meet_in_nodes.h"
-#include "fitting/regularize.h"
+#include "fitting/structure.h"
 #include "geometry/pixel_size.h"
 #include "geometry/posed_views.h"
 

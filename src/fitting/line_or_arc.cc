@@ -66,13 +66,6 @@ double ExtentOf(const std::vector<LineOrArc>& features) {
   return 2 * furthest;
 }
 
-Basis BasisAcross(const Eigen::Vector3d& axis) {
-  const Eigen::Vector3d first = axis.unitOrthogonal();
-  Basis basis;
-  basis << first, axis.cross(first);
-  return basis;
-}
-
 Eigen::Vector3d Upright(const Eigen::Vector3d& direction) {
   Eigen::Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);

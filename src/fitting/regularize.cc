@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/regularize.h"
+// Paper: none (engineering).
+#include "fitting/structure.h"
 
 #include <ceres/ceres.h>
 

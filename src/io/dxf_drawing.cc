@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Fitted curves for CAD.
 #include "io/dxf_drawing.h"
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/angles.h"
-#include "base/text_fields.h"
 #include "io/drawing_layers.h"
 #include "io/dxf_writer.h"
 
@@ -124,7 +125,9 @@ std::string DxfText(std::string_view utf8) {
     for (int k = 0; k < num_more && i < utf8.size(); ++k) {
       code = code << 6U | (static_cast<unsigned char>(utf8[i++]) & 0x3fU);
     }
-    out += FormatText("\\U+%04X", code);
+    std::array<char, 16> text;
+    std::snprintf(text.data(), text.size(), "\\U+%04X", code);
+    out += text.data();
   }
   return out;
 }

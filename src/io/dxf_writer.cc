@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
 #include "io/dxf_writer.h"
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <tuple>
 #include <utility>
 
@@ -20,6 +22,12 @@ constexpr char kDashed[] = "HIDDEN";
 constexpr int kDefaultWidth = -3;
 
 int ToInt(double value) { return static_cast<int>(std::lround(value)); }
+
+std::string Hex(int handle) {
+  std::array<char, 16> text;
+  std::snprintf(text.data(), text.size(), "%X", handle);
+  return text.data();
+}
 
 // Of $INSUNITS.
 int UnitCode(std::string_view unit) {
@@ -238,7 +246,7 @@ void DxfWriter::Put(int code, double value) {
 }
 
 std::string DxfWriter::PutHandle() {
-  std::string handle = FormatText("%X", next_handle_++);
+  std::string handle = Hex(next_handle_++);
   Put(5, handle);
   return handle;
 }
@@ -330,7 +338,7 @@ std::string DxfHeader(int next_handle,
   w.Put(9, "$ACADVER");
   w.Put(1, "AC1015");
   w.Put(9, "$HANDSEED");
-  w.Put(5, FormatText("%X", next_handle));
+  w.Put(5, Hex(next_handle));
   w.Put(9, "$INSUNITS");
   w.Put(70, UnitCode(unit));
   if (paper != nullptr) {

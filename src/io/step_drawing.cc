@@ -14,6 +14,7 @@
 
 #include "base/angles.h"
 #include "base/text_fields.h"
+#include "io/drawing_layers.h"
 
 namespace curvix {
 namespace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
 #include "io/svg_sheet.h"
 
 #include <cmath>

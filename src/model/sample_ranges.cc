@@ -6,17 +6,10 @@
 #include <utility>
 
 namespace curvix {
+namespace {
 
-std::vector<SampleRange> RangesOf(const std::vector<bool>& kept) {
-  std::vector<SampleRange> ranges;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i]) continue;
-    if (i == 0 || !kept[i - 1]) ranges.push_back({i, i});
-    ranges.back().end = i + 1;
-  }
-  return ranges;
-}
-
+// A closed curve of which not all samples are kept becomes an open one that
+// begins with one that is not; `kept` turns with it.
 void OpenAtGap(Curve& curve, std::vector<bool>& kept) {
   const auto gap = std::find(kept.begin(), kept.end(), false);
   if (!curve.closed || gap == kept.end()) return;
@@ -26,6 +19,18 @@ void OpenAtGap(Curve& curve, std::vector<bool>& kept) {
               curve.samples.end());
   std::rotate(kept.begin(), gap, kept.end());
   curve.closed = false;
+}
+
+}  // namespace
+
+std::vector<SampleRange> RangesOf(const std::vector<bool>& kept) {
+  std::vector<SampleRange> ranges;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) continue;
+    if (i == 0 || !kept[i - 1]) ranges.push_back({i, i});
+    ranges.back().end = i + 1;
+  }
+  return ranges;
 }
 
 Curve TakeOut(Curve& curve, const SampleRange& range) {

@@ -17,10 +17,6 @@ struct SampleRange {
 // The longest ranges of true.
 std::vector<SampleRange> RangesOf(const std::vector<bool>& kept);
 
-// A closed curve of which not all samples are kept becomes an open one that
-// begins with one that is not; `kept` turns with it.
-void OpenAtGap(Curve& curve, std::vector<bool>& kept);
-
 // The samples of a range, which leave the curve empty behind. The whole curve
 // stays what it is; a part of it is open and has no junctions.
 Curve TakeOut(Curve& curve, const SampleRange& range);

@@ -11,7 +11,7 @@
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 #include "model/sample_ranges.h"
-#include "parts/regions.h"
+#include "parts/partition_views.h"
 
 namespace curvix {
 namespace {

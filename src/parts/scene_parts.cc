@@ -15,7 +15,6 @@
 #include "model/check_input.h"
 #include "parts/joined_curves.h"
 #include "parts/partition_views.h"
-#include "parts/regions.h"
 
 namespace curvix {
 namespace {

@@ -13,7 +13,7 @@
 #include "base/point_tree.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
-#include "parts/regions.h"
+#include "parts/partition_views.h"
 
 namespace curvix {
 

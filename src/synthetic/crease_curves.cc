@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/crease_curves.h"
+// Paper: none (engineering).
+#include "synthetic/synthetic_truth.h"
 
 #include "base/angles.h"
 

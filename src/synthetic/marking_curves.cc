@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/marking_curves.h"
+// Paper: none (engineering).
+#include "synthetic/synthetic_truth.h"
 
 #include "synthetic/face_frame.h"
 

@@ -9,8 +9,6 @@
 #include "base/parallel.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
-#include "synthetic/crease_curves.h"
-#include "synthetic/marking_curves.h"
 #include "synthetic/render.h"
 #include "synthetic/scenes.h"
 #include "synthetic/solid.h"
