@@ -5,8 +5,8 @@
 #include <iostream>
 #include <new>
 
+#include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
-#include "plugin/run/progress.h"
 
 int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);

@@ -95,12 +95,12 @@ struct ValidationOptions {
   // M: fewest supporting validation views; >= 1. With kEveryView, more than
   // half of the views on one side will do, hypothesis views included.
   int min_num_support_views = 4;
-  // With kEveryView: least evidence, see docs/stages/validation.md; natural
-  // logarithm units, >= 0.
-  double min_evidence = 10.0;
+  // With kEveryView: least log-likelihood ratio, see
+  // docs/stages/validation.md; natural logarithm, >= 0.
+  double min_log_likelihood_ratio = 10.0;
   // Hypotheses of one H1 edge with fewer than this share of the best one's
   // support are dropped. 0..1.
-  double min_rival_support = 0.6;
+  double min_relative_support = 0.6;
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;

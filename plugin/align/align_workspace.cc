@@ -10,11 +10,11 @@
 
 #include "base/angles.h"
 #include "base/file_io.h"
-#include "plugin/align/alignment_file.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
-#include "plugin/run/run_input.h"
+#include "plugin/export/alignment_file.h"
+#include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/align/alignment_file.h"
+#include "plugin/export/alignment_file.h"
 
 namespace curvix {
 namespace {

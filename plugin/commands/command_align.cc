@@ -5,8 +5,8 @@
 
 #include "plugin/align/align_workspace.h"
 #include "plugin/align/find_markers.h"
-#include "plugin/commands/command_parts.h"
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
+#include "plugin/commands/commands.h"
 
 namespace curvix {
 namespace {

@@ -2,9 +2,9 @@
 #include <unistd.h>
 #include <iostream>
 
-#include "plugin/commands/command_parts.h"
+#include "plugin/base/progress.h"
+#include "plugin/commands/commands.h"
 #include "plugin/draw/draw_workspace.h"
-#include "plugin/run/progress.h"
 
 namespace curvix {
 namespace {

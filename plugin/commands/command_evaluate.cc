@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "evaluation/evaluate.h"
-#include "plugin/commands/command_parts.h"
-#include "plugin/commands/evaluate_holdout.h"
+#include "plugin/commands/commands.h"
+#include "plugin/commands/evaluations.h"
 
 namespace curvix {
 namespace {

@@ -4,11 +4,8 @@
 #include <iostream>
 #include <string>
 
-#include "plugin/commands/command_parts.h"
-#include "plugin/imports/import_colmap.h"
-#include "plugin/imports/import_dtu.h"
-#include "plugin/imports/import_middlebury.h"
-#include "plugin/imports/import_nerf.h"
+#include "plugin/commands/commands.h"
+#include "plugin/imports/importers.h"
 #include "plugin/imports/new_workspace.h"
 #include "plugin/imports/read_lines.h"
 #include "plugin/run/run_lines.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "plugin/commands/command_parts.h"
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
+#include "plugin/commands/commands.h"
 #include "plugin/run/run_parts.h"
 
 namespace curvix {

@@ -3,7 +3,7 @@
 #include <iostream>
 #include <utility>
 
-#include "plugin/commands/command_parts.h"
+#include "plugin/commands/commands.h"
 #include "plugin/run/run_parts.h"
 #include "plugin/run/run_workspace.h"
 

@@ -1,14 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/commands/command_synthesize.h"
+
 #include <curvix/scene.h>
 #include <algorithm>
 #include <iostream>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
-#include "plugin/commands/command_parts.h"
-#include "plugin/commands/synthesize.h"
+#include "base/file_io.h"
+#include "base/text_fields.h"
+#include "colmap/colmap_model.h"
+#include "plugin/commands/commands.h"
+#include "plugin/imports/new_workspace.h"
 
 namespace curvix {
 namespace {
+
+namespace fs = std::filesystem;
+
+Status MakeFolder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (!error) return {};
+  return {StatusCode::kInvalidArgument,
+          "cannot make the folder " + path.string() + ": " + error.message()};
+}
+
+Status WriteImage(const RgbImage& image, const fs::path& path) {
+  std::vector<std::uint8_t> bgr = image.pixels;
+  for (std::size_t i = 0; i + 2 < bgr.size(); i += 3) {
+    std::swap(bgr[i], bgr[i + 2]);
+  }
+  const cv::Mat picture(image.height, image.width, CV_8UC3, bgr.data());
+  std::vector<unsigned char> png;
+  try {
+    if (!cv::imencode(".png", picture, png)) png.clear();
+  } catch (const cv::Exception&) {
+    png.clear();
+  }
+  if (png.empty()) {
+    return {StatusCode::kInternal, "cannot encode " + path.string()};
+  }
+  return WriteFileAtomically(path, std::string(png.begin(), png.end()));
+}
+
+std::string TruthText(const std::vector<TrueSample>& samples) {
+  std::string text;
+  for (const TrueSample& sample : samples) {
+    for (const Eigen::Vector3d& vector : {sample.position, sample.tangent}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        AppendNumber(vector[axis], text);
+        text += ' ';
+      }
+    }
+    text += std::to_string(sample.curve_id) + ' ' +
+            std::to_string(sample.num_views_seen) + ' ' +
+            std::to_string(sample.num_views_edge) + ' ' +
+            std::to_string(static_cast<int>(sample.kind)) + '\n';
+  }
+  return text;
+}
 
 struct Settings {
   std::filesystem::path workspace_path;
@@ -164,6 +218,28 @@ ExitCode RunSynthesize(const Arguments& arguments) {
             << " images and their poses to " << path
             << "\nTry: colmap_curvix --workspace_path " << path << std::endl;
   return kExitSuccess;
+}
+
+Status Synthesize(const SyntheticOptions& options, const fs::path& workspace) {
+  const fs::path images = workspace / "images";
+  const fs::path sparse = workspace / "sparse";
+  const fs::path truth = workspace / "gt.txt";
+  for (const fs::path& path : {images, sparse, truth}) {
+    if (Status status = CheckUnused(path); !status.ok()) return status;
+  }
+  const Result<SyntheticScene> scene = MakeSyntheticScene(options);
+  if (!scene.ok()) return scene.status();
+
+  if (Status status = MakeFolder(images); !status.ok()) return status;
+  for (std::size_t i = 0; i < scene->images.size(); ++i) {
+    const fs::path path = images / scene->scene.views[i].name;
+    Status status = WriteImage(scene->images[i], path);
+    if (!status.ok()) return status;
+  }
+  Status status = WriteColmapModel(
+      ModelOfScene(scene->scene), sparse / "0", ColmapFormat::kBinary);
+  if (!status.ok()) return status;
+  return WriteFileAtomically(truth, TruthText(scene->truth));
 }
 
 }  // namespace curvix

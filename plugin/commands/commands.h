@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The words of the program: `colmap_curvix <word> --flags`.
+// The commands of the program, `colmap_curvix <command> --flags`, and what they
+// share.
 #pragma once
 
 #include <curvix/status.h>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace curvix {
+#include "plugin/base/command_line.h"
+#include "plugin/base/progress.h"
+#include "plugin/run/run_report.h"
 
-enum ExitCode : int {
-  kExitSuccess = 0,
-  kExitInternal = 1,     // our own mistake
-  kExitCommandLine = 2,  // flags that cannot work
-  kExitInput = 3,        // files or folders that are missing or broken
-  kExitTool = 4,         // a program called by this one failed
-  kExitNoCurves = 5,     // everything worked, and there are no curves
-  kExitInterrupted = 130
-};
+namespace curvix {
 
 // The code of a failure after the command line was accepted.
 ExitCode ExitCodeOf(const Status& status);
@@ -25,5 +22,46 @@ ExitCode ExitCodeOf(const Status& status);
 // program; flags without a word mean `reconstruct`, nothing at all `help`.
 // Results go to stdout, progress and errors to stderr.
 ExitCode RunProgram(const std::vector<std::string>& arguments);
+
+using Arguments = std::vector<std::string>;
+
+// A word; `summary` is one line without a full stop.
+struct Command {
+  const char* name;
+  const char* summary;
+  ExitCode (*run)(const Arguments& arguments);
+};
+
+ExitCode RunReconstruct(const Arguments& arguments);
+ExitCode RunPartitionCommand(const Arguments& arguments);
+ExitCode RunMergeCommand(const Arguments& arguments);
+ExitCode RunAlign(const Arguments& arguments);
+ExitCode RunDraw(const Arguments& arguments);
+ExitCode RunSynthesize(const Arguments& arguments);
+ExitCode RunImport(const Arguments& arguments);
+ExitCode RunEvaluate(const Arguments& arguments);
+
+// Where things are.
+FlagSection PathsSection(RunSettings* settings);
+
+// What `reconstruct` can be told; the preset comes before what it changes.
+std::vector<FlagSection> ReconstructSections(RunSettings* settings);
+
+// Does a job with its progress on stderr, and prints its closing words.
+using Job = std::function<Result<RunRecord>(ProgressPrinter& progress)>;
+ExitCode RunAndSummarize(const RunSettings& settings, const Job& job);
+
+// nullptr: there is no such word.
+const Command* FindCommand(const std::string& name);
+
+// Prints "ERROR: <message>." to stderr and returns `code`.
+ExitCode Fail(const Status& status, ExitCode code);
+
+// Parses the flags of a word, in at least one section, to which those are added
+// that every word has (project file, logging), and applies the latter. An exit
+// code if that is all there is to do: help was asked for, or a flag is wrong.
+std::optional<ExitCode> ParseCommand(const std::string& name,
+                                     const Arguments& arguments,
+                                     std::vector<FlagSection> sections);
 
 }  // namespace curvix

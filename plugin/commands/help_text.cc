@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "plugin/base/text.h"
 #include "plugin/poses/pose_refinement.h"
-#include "plugin/run/text.h"
 
 namespace curvix {
 namespace {

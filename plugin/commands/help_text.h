@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin/commands/command_line.h"
+#include "plugin/base/command_line.h"
 
 namespace curvix {
 

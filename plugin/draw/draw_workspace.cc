@@ -18,11 +18,11 @@
 #include "io/svg_sheet.h"
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
+#include "plugin/base/staged_output.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/rectified_photograph.h"
 #include "plugin/draw/seen_from.h"
-#include "plugin/run/run_input.h"
-#include "plugin/run/staged_output.h"
+#include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {

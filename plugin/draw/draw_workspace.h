@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {

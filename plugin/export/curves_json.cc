@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "plugin/align/alignment_file.h"
+#include "plugin/export/alignment_file.h"
 
 namespace curvix {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "plugin/commands/command_line.h"
+#include "plugin/base/command_line.h"
 #include "plugin/export/curves_json.h"
 
 namespace curvix {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
-#include "plugin/imports/import_middlebury.h"
+#include "plugin/imports/importers.h"
 
 #include <array>
 #include <string_view>

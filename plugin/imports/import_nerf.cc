@@ -1,20 +1,222 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
-#include "plugin/imports/import_nerf.h"
-
+#include <curvix/scene.h>
+#include <curvix/status.h>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/file_io.h"
-#include "plugin/imports/nerf_camera.h"
+#include "edge_detection/image_header.h"
+#include "plugin/imports/importers.h"
+#include "plugin/imports/projection_matrix.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+
+Status Broken(const std::string& why) { return {StatusCode::kDataLoss, why}; }
+
+// What a frame says, else what the file says.
+class Fields {
+ public:
+  Fields(const json& frame, const json& file) : frame_(frame), file_(file) {}
+
+  // nullptr: neither says it.
+  const json* Find(const char* key) const {
+    for (const json* object : {&frame_, &file_}) {
+      const auto found = object->find(key);
+      if (found != object->end() && !found->is_null()) return &*found;
+    }
+    return nullptr;
+  }
+  // CheckNumbers() has seen that these are numbers.
+  std::optional<double> Number(const char* key) const {
+    const json* const value = Find(key);
+    return value ? std::optional(value->get<double>()) : std::nullopt;
+  }
+  Status CheckNumbers() const {
+    for (const char* key : {"w",
+                            "h",
+                            "fl_x",
+                            "fl_y",
+                            "cx",
+                            "cy",
+                            "camera_angle_x",
+                            "camera_angle_y",
+                            "k1",
+                            "k2",
+                            "k3",
+                            "k4",
+                            "p1",
+                            "p2"}) {
+      const json* const value = Find(key);
+      if (value == nullptr || value->is_number()) continue;
+      return Broken(std::string(key) + " is not a number");
+    }
+    return {};
+  }
+
+ private:
+  const json& frame_;
+  const json& file_;
+};
+
+// The leading rows x cols numbers of a list of lists, which may be longer.
+std::optional<Eigen::MatrixXd> ReadMatrix(const json* rows,
+                                          std::size_t num_rows,
+                                          std::size_t num_cols) {
+  if (!rows || !rows->is_array() || rows->size() < num_rows) return {};
+  Eigen::MatrixXd matrix(num_rows, num_cols);
+  for (std::size_t i = 0; i < num_rows; ++i) {
+    const json& row = (*rows)[i];
+    if (!row.is_array() || row.size() < num_cols) return {};
+    for (std::size_t j = 0; j < num_cols; ++j) {
+      if (!row[j].is_number()) return {};
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          row[j].get<double>();
+    }
+  }
+  return matrix;
+}
+
+// The PINHOLE camera; distortion comes later.
+Result<Camera> Pinhole(const Fields& fields,
+                       const ImageSize& image,
+                       std::optional<double> first_pixel) {
+  if (const json* const rows = fields.Find("camera_intrinsics")) {
+    const auto matrix = ReadMatrix(rows, 3, 3);
+    if (!matrix) return Broken("camera_intrinsics is not a 3 x 3 matrix");
+    return CameraFromCalibration(
+        *matrix, image.width, image.height, first_pixel.value_or(0));
+  }
+  const auto focal = [&](const char* length, const char* angle, int size) {
+    const std::optional<double> radians = fields.Number(angle);
+    if (fields.Number(length) || !radians) return fields.Number(length);
+    return std::optional(0.5 * size / std::tan(0.5 * *radians));
+  };
+  const auto fx = focal("fl_x", "camera_angle_x", image.width);
+  if (!fx) {
+    return Broken("there is no camera_intrinsics, fl_x or camera_angle_x");
+  }
+  // Pixels are square unless fl_y, or an angle beside an angle, says otherwise.
+  const auto fy = fields.Number("fl_x")
+                      ? fields.Number("fl_y")
+                      : focal("fl_y", "camera_angle_y", image.height);
+  const double shift = 0.5 - first_pixel.value_or(0.5);
+  const auto center = [&](const char* key, int size) {
+    const std::optional<double> value = fields.Number(key);
+    return value ? *value + shift : 0.5 * size;
+  };
+  Camera camera;
+  camera.params = {*fx,
+                   fy.value_or(*fx),
+                   center("cx", image.width),
+                   center("cy", image.height)};
+  return camera;
+}
+
+// Whether the camera is a fisheye; kUnsupported for models that are not ours.
+Result<bool> IsFisheye(const Fields& fields) {
+  const json* const flag = fields.Find("is_fisheye");
+  if (flag && flag->is_boolean() && flag->get<bool>()) return true;
+  const json* const model = fields.Find("camera_model");
+  if (model == nullptr) return false;
+  const std::string name = model->is_string() ? model->get<std::string>() : "";
+  if (name == "OPENCV_FISHEYE") return true;
+  for (const char* known : {"PINHOLE",
+                            "SIMPLE_PINHOLE",
+                            "OPENCV",
+                            "SIMPLE_RADIAL",
+                            "RADIAL",
+                            "FULL_OPENCV"}) {
+    if (name == known) return false;
+  }
+  return Status(StatusCode::kUnsupported,
+                "camera_model is " + model->dump() +
+                    ", which cannot be imported; undistort the images");
+}
+
+Status AddDistortion(const Fields& fields, Camera* camera) {
+  const auto value = [&](const char* key) {
+    return fields.Number(key).value_or(0);
+  };
+  const double k1 = value("k1"), k2 = value("k2"), k3 = value("k3");
+  const double k4 = value("k4"), p1 = value("p1"), p2 = value("p2");
+  const Result<bool> fisheye = IsFisheye(fields);
+  if (!fisheye.ok()) return fisheye.status();
+  std::vector<double> more;
+  if (*fisheye) {
+    camera->model = CameraModel::kOpenCVFisheye;
+    more = {k1, k2, k3, k4};
+  } else if (k4 != 0) {
+    return {StatusCode::kUnsupported,
+            "k4 is not zero, which only fisheye cameras may have; undistort "
+            "the images"};
+  } else if (k3 != 0) {
+    camera->model = CameraModel::kFullOpenCV;
+    more = {k1, k2, p1, p2, k3, 0, 0, 0};
+  } else if (k1 != 0 || k2 != 0 || p1 != 0 || p2 != 0) {
+    camera->model = CameraModel::kOpenCV;
+    more = {k1, k2, p1, p2};
+  }
+  camera->params.insert(camera->params.end(), more.begin(), more.end());
+  return {};
+}
+
+// The camera of a frame of a transforms.json, both of which are JSON objects,
+// as ImportNerf explains. `first_pixel` wins over the convention of the source.
+// Errors are parts of a sentence: "camera_model is EQUIRECTANGULAR, ...".
+Result<Camera> NerfCamera(const json& frame,
+                          const json& file,
+                          const ImageSize& image,
+                          std::optional<double> first_pixel) {
+  const Fields fields(frame, file);
+  if (Status status = fields.CheckNumbers(); !status.ok()) return status;
+  const double width = fields.Number("w").value_or(image.width);
+  const double height = fields.Number("h").value_or(image.height);
+  if (width != image.width || height != image.height) {
+    return Broken("w and h are not the size of the image, " +
+                  std::to_string(image.width) + " x " +
+                  std::to_string(image.height) +
+                  "; take the images that the cameras were made for");
+  }
+  Result<Camera> camera = Pinhole(fields, image, first_pixel);
+  if (!camera.ok()) return camera;
+  camera->width = image.width;
+  camera->height = image.height;
+  if (Status s = AddDistortion(fields, &*camera); !s.ok()) return s;
+  const Status status = Validate(*camera);
+  if (!status.ok()) return Broken(status.message());
+  return camera;
+}
+
+// "transform_matrix" of `frame` as cam_from_world with COLMAP's axes. kDataLoss
+// if there is none, or if it is not a similarity transform.
+Result<Rigid3> NerfPose(const json& frame) {
+  const auto found = frame.find("transform_matrix");
+  const json* const rows = found == frame.end() ? nullptr : &*found;
+  const auto matrix = ReadMatrix(rows, 3, 4);
+  if (!matrix) return Broken("transform_matrix is not a 4 x 4 matrix");
+  const auto bottom = rows->size() > 3 ? ReadMatrix(rows, 4, 4) : std::nullopt;
+  if (rows->size() > 3 &&
+      (!bottom || bottom->row(3) != Eigen::RowVector4d(0, 0, 0, 1))) {
+    return Broken("transform_matrix does not end in the row 0 0 0 1");
+  }
+  Eigen::Matrix3d axes = matrix->leftCols<3>();
+  axes.rightCols<2>() *= -1;  // OpenGL's y and z
+  const auto rotation = RotationFromMatrix(axes);
+  if (!rotation) return Broken("transform_matrix holds no rotation");
+  return Rigid3{*rotation, matrix->col(3)}.Inverse();
+}
 
 bool IsFile(const fs::path& path) {
   std::error_code error;

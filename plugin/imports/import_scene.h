@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 // What the importers of data sets have in common. Each reads cameras, finds the
 // images and gives a COLMAP model; none writes anything.
 #pragma once

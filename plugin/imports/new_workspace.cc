@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/imports/new_workspace.h"
 
 #include <stdexcept>
 #include <string>
 #include <system_error>
 
-#include "plugin/run/staged_output.h"
+#include "plugin/base/staged_output.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-Status CheckUnused(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(fs::symlink_status(path, error))) return {};
-  if (fs::is_directory(path, error) && fs::is_empty(path, error)) return {};
-  return {StatusCode::kInvalidArgument,
-          path.string() +
-              " is there already and would be overwritten; name another "
-              "--workspace_path or remove it first."};
-}
 
 Status CannotWrite(const fs::path& path, const std::error_code& error) {
   return {StatusCode::kInvalidArgument,
@@ -78,6 +67,16 @@ Status MoveFolders(const std::vector<std::string>& names,
 }
 
 }  // namespace
+
+Status CheckUnused(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return {};
+  if (fs::is_directory(path, error) && fs::is_empty(path, error)) return {};
+  return {StatusCode::kInvalidArgument,
+          path.string() +
+              " is there already and would be overwritten; name another "
+              "--workspace_path or remove it first."};
+}
 
 Status CheckWorkspaceUnused(const fs::path& workspace) {
   return CheckUnused(workspace / "sparse");

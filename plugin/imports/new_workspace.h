@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Writes a COLMAP workspace, whole or not at all.
+// Writes a COLMAP workspace, whole or not at all.
 #pragma once
 
 #include <curvix/status.h>
@@ -27,6 +27,9 @@ Status WriteNewWorkspace(const ColmapModel& model,
                          const std::vector<std::filesystem::path>& image_files,
                          CopyPolicy policy,
                          const std::filesystem::path& workspace);
+
+// kInvalidArgument if `path` is there and is not an empty folder.
+Status CheckUnused(const std::filesystem::path& path);
 
 // As WriteNewWorkspace fails when the workspace is in use: to be asked before
 // long work.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). NumPy's arrays on disk: .npy, and .npz archives.
+// NumPy's arrays on disk: .npy, and .npz archives.
 #pragma once
 
 #include <curvix/status.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). 3 x 4 projection matrices as cameras.
+// 3 x 4 projection matrices as cameras.
 #pragma once
 
 #include <curvix/scene.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 // Bundle adjustment's unknowns and data: poses, cameras, points, and where the
 // points are seen.
 #pragma once

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/poses/child_process.h"
 
 #include <fcntl.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 // Runs another program, without a shell, and outlives it whatever it does.
 #pragma once
 

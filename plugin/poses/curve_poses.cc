@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/poses/curve_poses.h"
 
 #include <curvix/scene.h>
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <utility>
 
 #include "base/median.h"
+#include "base/text_fields.h"
+#include "plugin/base/text.h"
 #include "plugin/poses/bundle.h"
-#include "plugin/run/text.h"
 
 namespace curvix {
 namespace {
@@ -86,9 +85,7 @@ double ShiftOfImage(const Camera& from, const Camera& to) {
 }
 
 std::string Errors(double before_px, double after_px) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.3f to %.3f px", before_px, after_px);
-  return text;
+  return FormatText("%.3f to %.3f px", before_px, after_px);
 }
 
 std::string CamerasText(const std::vector<CameraChange>& cameras) {
@@ -96,13 +93,8 @@ std::string CamerasText(const std::vector<CameraChange>& cameras) {
   std::string text = ", " +
                      GroupDigits(static_cast<std::int64_t>(cameras.size())) +
                      (cameras.size() == 1 ? " camera" : " cameras");
-  char shift[64];
-  std::snprintf(shift,
-                sizeof(shift),
-                " (%s, %.2f px)",
-                std::string(ModelName(cameras.front().to.model)).c_str(),
-                cameras.front().median_shift_px);
-  return text + shift;
+  return text + " (" + std::string(ModelName(cameras.front().to.model)) +
+         FormatText(", %.2f px)", cameras.front().median_shift_px);
 }
 
 }  // namespace
@@ -112,12 +104,10 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
   if (poses.num_views_moved == 0) {
     return poses.num_check_observations == 0 ? "kept" : "kept, " + poses.reason;
   }
-  char shifts[64];
-  std::snprintf(
-      shifts, sizeof(shifts), ", shifts up to %.2f px", poses.max_shift_px);
   return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
          " views, " + Errors(poses.before.median_px, poses.after.median_px) +
-         CamerasText(record.cameras) + shifts +
+         CamerasText(record.cameras) +
+         FormatText(", shifts up to %.2f px", poses.max_shift_px) +
          (poses.accepted ? "" : ", refused");
 }
 

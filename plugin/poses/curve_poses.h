@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 // Poses and cameras refined with curves, for a COLMAP model: the world keeps
 // its place and its unit.
 #pragma once

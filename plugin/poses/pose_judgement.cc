@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/poses/pose_judgement.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "base/median.h"
+#include "base/text_fields.h"
 
 namespace curvix {
 namespace {
@@ -17,7 +16,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct CheckErrors {
-  ErrorSummary summary;
+  ErrorsOfViews summary;
   double mean_square = 0;
   std::size_t count = 0;
 };
@@ -100,12 +99,6 @@ void MeasureMoves(const Bundle& before,
   judgement->median_shift_px = MedianOrNan(shifts);
 }
 
-std::string Number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
 // Why the poses are refused; empty if they are not. NaN is refused.
 std::string Objection(const PoseJudgement& j) {
   if (j.num_check_points < kMinCheckPoints) {
@@ -113,22 +106,22 @@ std::string Objection(const PoseJudgement& j) {
   }
   const std::string fall =
       "the mean error of points that were held out went from " +
-      Number("%.3f", j.before.mean_px) + " to " +
-      Number("%.3f px", j.after.mean_px);
+      FormatText("%.3f", j.before.mean_px) + " to " +
+      FormatText("%.3f px", j.after.mean_px);
   if (!(j.after.mean_px < j.before.mean_px * (1 - kMinGain)) ||
       !(j.after.median_px < j.before.median_px)) {
     return "there is nothing to gain: " + fall;
   }
   if (!(j.max_move <= kMaxMove)) {
-    return "a camera moved by " + Number("%.1f %%", 100 * j.max_move) +
+    return "a camera moved by " + FormatText("%.1f %%", 100 * j.max_move) +
            " of its distance to the points, more than poses are off by";
   }
   if (!(j.max_shift_px <= kMaxShiftPx)) {
-    return "a view shifted by " + Number("%.1f px", j.max_shift_px) +
+    return "a view shifted by " + FormatText("%.1f px", j.max_shift_px) +
            ", more than poses are off by";
   }
   if (!(j.median_shift_px <= kMaxShiftPerExplained * j.explained_px)) {
-    return "the views shifted by " + Number("%.2f px", j.median_shift_px) +
+    return "the views shifted by " + FormatText("%.2f px", j.median_shift_px) +
            ", which the points hardly tell: " + fall;
   }
   return "";

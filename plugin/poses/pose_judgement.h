@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Acceptance of refined poses. Bundle adjustment
+// Acceptance of refined poses. Bundle adjustment
 // always lowers the errors that it sees, on badly spread points by bending the
 // scene. So some points are held out, and shifts must be explained by their
 // errors.
 #pragma once
 
+#include <curvix/refine_poses.h>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -30,18 +31,13 @@ inline constexpr double kMaxMove = 0.05;  // of the median distance to points
 // a larger shift is one that the points hardly observe.
 inline constexpr double kMaxShiftPerExplained = 3;
 
-struct ErrorSummary {
-  double median_px = 0;
-  double mean_px = 0;  // of errors cut at kMaxErrorPx
-};
-
 struct PoseJudgement {
   bool accepted = false;
   std::string reason;  // why, or why not: part of a sentence, no full stop
   std::size_t num_check_points = 0;
   std::size_t num_check_observations = 0;
-  ErrorSummary before;  // of the observations held out
-  ErrorSummary after;
+  ErrorsOfViews before;  // of the observations held out; means of errors cut
+  ErrorsOfViews after;   // at kMaxErrorPx
   // Root of the fall of the mean square error.
   double explained_px = 0;
   // How far a view's points, at their places before, shift in its image when

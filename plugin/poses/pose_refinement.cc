@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "plugin/poses/pose_refinement.h"
 
-#include <cstdio>
 #include <utility>
 
+#include "base/text_fields.h"
 #include "geometry/similarity.h"
+#include "plugin/base/text.h"
 #include "plugin/poses/pose_refiners.h"
-#include "plugin/run/text.h"
 
 namespace curvix {
 namespace {
@@ -145,16 +144,13 @@ void Conclude(const ColmapModel& model,
 
 std::string PoseRefinementText(const PoseRefinementRecord& record) {
   if (!record.judgement) return "kept";
-  char errors[128];
-  std::snprintf(errors,
-                sizeof(errors),
-                "%.3f to %.3f px, shifts up to %.2f px",
-                record.judgement->before.mean_px,
-                record.judgement->after.mean_px,
-                record.judgement->max_shift_px);
   return RefinerName(record) + ", " +
          GroupDigits(static_cast<std::int64_t>(record.num_views)) + " views, " +
-         errors + (record.accepted ? "" : ", refused");
+         FormatText("%.3f to %.3f px, shifts up to %.2f px",
+                    record.judgement->before.mean_px,
+                    record.judgement->after.mean_px,
+                    record.judgement->max_shift_px) +
+         (record.accepted ? "" : ", refused");
 }
 
 FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {

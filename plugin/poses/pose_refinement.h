@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 // Better poses from the sparse points of the model, or the poses as they were:
 // whatever a bundle adjuster does, the world keeps its place and its unit, and
 // poses that are not better are not used.
@@ -17,7 +16,7 @@
 #include <vector>
 
 #include "colmap/colmap_model.h"
-#include "plugin/commands/command_line.h"
+#include "plugin/base/command_line.h"
 #include "plugin/poses/pose_judgement.h"
 
 namespace curvix {

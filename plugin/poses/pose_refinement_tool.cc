@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include <stdlib.h>
 #include <algorithm>
 #include <cstdlib>
@@ -9,9 +8,9 @@
 
 #include "base/median.h"
 #include "colmap/colmap_model.h"
+#include "plugin/base/text.h"
 #include "plugin/poses/child_process.h"
 #include "plugin/poses/pose_refiners.h"
-#include "plugin/run/text.h"
 
 namespace curvix {
 namespace {

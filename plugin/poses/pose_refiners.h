@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 // The bundle adjusters behind RefinePoses. They may move and scale the world.
 #pragma once
 

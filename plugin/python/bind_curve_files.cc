@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "evaluation/evaluate.h"
+#include "plugin/commands/evaluations.h"
 #include "plugin/export/write_results.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"

@@ -84,11 +84,11 @@ std::vector<std::vector<py::array_t<double>>> ProjectAll(
     const PythonCurves& curves,
     const PythonScene& scene,
     std::size_t view_idx) {
-  using Stretches = std::vector<std::vector<Eigen::Vector2d>>;
+  using Segments = std::vector<std::vector<Eigen::Vector2d>>;
   const View& view = ViewAt(*scene.scene, view_idx);
   const Camera& camera =
       scene.scene->cameras[static_cast<std::size_t>(view.camera_idx)];
-  std::vector<Stretches> projected;
+  std::vector<Segments> projected;
   WithoutLock([&] {
     curves.table().ForEach([&](std::size_t, const Curve& curve) {
       projected.push_back(ProjectCurve(curve, view, camera));
@@ -96,11 +96,11 @@ std::vector<std::vector<py::array_t<double>>> ProjectAll(
   });
   std::vector<std::vector<py::array_t<double>>> arrays(projected.size());
   for (std::size_t i = 0; i < projected.size(); ++i) {
-    for (const std::vector<Eigen::Vector2d>& stretch : projected[i]) {
+    for (const std::vector<Eigen::Vector2d>& segment : projected[i]) {
       arrays[i].emplace_back(
-          std::array<py::ssize_t, 2>{static_cast<py::ssize_t>(stretch.size()),
+          std::array<py::ssize_t, 2>{static_cast<py::ssize_t>(segment.size()),
                                      2},
-          stretch.front().data());
+          segment.front().data());
     }
   }
   return arrays;

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "base/option_table.h"
-#include "plugin/commands/command_parts.h"
+#include "plugin/commands/commands.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "fitting/find_structure.h"
+#include "fitting/structure.h"
 
 namespace curvix {
 namespace {

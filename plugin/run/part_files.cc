@@ -13,7 +13,7 @@
 #include "base/file_io.h"
 #include "base/option_table.h"
 #include "io/stage_io.h"
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
 #include "plugin/run/stage_store.h"
 
 namespace curvix {

@@ -6,11 +6,10 @@
 #include <string>
 
 #include "base/stopwatch.h"
-#include "plugin/imports/curves_of_lines.h"
-#include "plugin/run/run_input.h"
-#include "plugin/run/run_output.h"
-#include "plugin/run/staged_output.h"
-#include "plugin/run/text.h"
+#include "plugin/base/staged_output.h"
+#include "plugin/base/text.h"
+#include "plugin/imports/read_lines.h"
+#include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {

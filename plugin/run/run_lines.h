@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "plugin/base/progress.h"
 #include "plugin/imports/read_lines.h"
-#include "plugin/run/progress.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {

@@ -11,11 +11,10 @@
 
 #include "base/stopwatch.h"
 #include "io/stage_io.h"
+#include "plugin/base/staged_output.h"
 #include "plugin/run/part_files.h"
-#include "plugin/run/run_input.h"
-#include "plugin/run/run_output.h"
 #include "plugin/run/run_stages.h"
-#include "plugin/run/staged_output.h"
+#include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {

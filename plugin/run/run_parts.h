@@ -7,7 +7,7 @@
 #include <curvix/status.h>
 
 #include "parts/scene_parts.h"
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/option_table.h"
-#include "plugin/align/alignment_file.h"
-#include "plugin/run/text.h"
+#include "base/text_fields.h"
+#include "plugin/base/text.h"
+#include "plugin/export/alignment_file.h"
 
 namespace curvix {
 namespace {
@@ -65,7 +65,7 @@ Json InputJson(const InputSummary& input) {
   return json;
 }
 
-Json ErrorsJson(const ErrorSummary& errors) {
+Json ErrorsJson(const ErrorsOfViews& errors) {
   return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
 }
 
@@ -99,10 +99,6 @@ Json PosesJson(const PoseRefinementRecord& poses) {
   json.update(JudgementJson(*poses.judgement));
   json["max_shift_image"] = Printable(poses.largest_shift_image);
   return json;
-}
-
-Json ErrorsJson(const ErrorsOfViews& errors) {
-  return {{"median_px", errors.median_px}, {"mean_px", errors.mean_px}};
 }
 
 Json CameraJson(const Camera& camera) {
@@ -191,12 +187,6 @@ Json RunJson(const RunRecord& record) {
     json["stages"].push_back(CostJson(stage));
   }
   return json;
-}
-
-std::string FewDigits(double value) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
 }
 
 std::string Plural(std::int64_t count, const std::string& noun) {
@@ -335,7 +325,7 @@ std::string SummaryText(const RunRecord& record) {
   if (result.num_closed > 0) {
     text += " (" + GroupDigits(result.num_closed) + " closed)";
   }
-  text += ", total length " + FewDigits(result.total_length) +
+  text += ", total length " + FormatText("%.4g", result.total_length) +
           LengthUnit(record.alignment) + "\n";
   text += "  from " + Plural(record.input.num_views, "view");
   if (result.num_edges_3d > 0) {
@@ -346,7 +336,8 @@ std::string SummaryText(const RunRecord& record) {
           DurationText(record.total.cpu_seconds) + ", " +
           GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
   if (result.edge_sigma_px > 0) {
-    text += "  2D edges are " + FewDigits(Milli(result.edge_sigma_px)) +
+    text += "  2D edges are " +
+            FormatText("%.4g", Milli(result.edge_sigma_px)) +
             " px off their 3D edges (standard deviation)\n";
   }
   text += "\n";

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
-#include "plugin/run/text.h"
+#include "plugin/base/text.h"
 
 namespace curvix {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "colmap/colmap_model.h"
+#include "plugin/base/progress.h"
 #include "plugin/poses/curve_poses.h"
-#include "plugin/run/progress.h"
 #include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"
 

@@ -11,12 +11,11 @@
 
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
+#include "plugin/base/staged_output.h"
 #include "plugin/poses/curve_poses.h"
 #include "plugin/poses/pose_refinement.h"
-#include "plugin/run/run_input.h"
-#include "plugin/run/run_output.h"
 #include "plugin/run/run_stages.h"
-#include "plugin/run/staged_output.h"
+#include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {

@@ -9,7 +9,7 @@
 #include <curvix/status.h>
 #include <vector>
 
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Whole files.
 #include "base/file_io.h"
 
 #include <cerrno>

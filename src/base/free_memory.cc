@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "base/free_memory.h"
 
 #include <cstdlib>  // __GLIBC__

@@ -154,9 +154,9 @@ void AddRows(ValidationOptions& o, Section row) {
   row("min_num_support_views", &o.min_num_support_views, AtLeast(1), "",
       "M, Sec. 3",
       "fewest validation views that must support a hypothesis");
-  row("min_evidence", &o.min_evidence, AtLeast(0), "", "",
-      "with every_view: least log-likelihood ratio of a 3D edge");
-  row("min_rival_support", &o.min_rival_support, Between(0, 1), "", "",
+  row("min_log_likelihood_ratio", &o.min_log_likelihood_ratio, AtLeast(0), "",
+      "", "with every_view: least log-likelihood ratio of a 3D edge");
+  row("min_relative_support", &o.min_relative_support, Between(0, 1), "", "",
       "hypotheses of one edge with less than this share of the best one's "
       "support are dropped");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",

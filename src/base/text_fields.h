@@ -5,7 +5,9 @@
 
 #include <array>
 #include <charconv>
+#include <cstdarg>
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +22,17 @@ void AppendNumber(T value, std::string& out) {
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   out.append(text.data(), end);
+}
+
+// What std::printf would print: less than 512 bytes.
+[[gnu::format(printf, 1, 2)]] inline std::string FormatText(const char* format,
+                                                            ...) {
+  std::array<char, 512> text;
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  va_end(arguments);
+  return text.data();
 }
 
 // Appends `value` with so many decimals, at most 60.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "colmap/colmap_model.h"
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model_format.h"
-#include "colmap/image_file.h"
+#include "colmap/links.h"
 
 namespace curvix {
 namespace {
@@ -287,6 +286,37 @@ Scene SceneFromColmapModel(const ColmapModel& model,
     scene.points.push_back(std::move(scene_point));
   }
   return scene;
+}
+
+ColmapModel ModelOfScene(const Scene& scene) {
+  ColmapModel model;
+  for (const Camera& camera : scene.cameras) {
+    const auto id = static_cast<std::uint32_t>(model.cameras.size() + 1);
+    model.cameras.push_back({id, camera});
+  }
+  for (const View& view : scene.views) {
+    model.images.push_back({view.image_id,
+                            view.cam_from_world,
+                            static_cast<std::uint32_t>(view.camera_idx + 1),
+                            view.name,
+                            {}});
+  }
+  for (const ScenePoint& point : scene.points) {
+    ColmapPoint3D made;
+    made.point3D_id = model.points.size() + 1;
+    made.position = point.position;
+    for (std::size_t i = 0; i < point.pixels.size(); ++i) {
+      if (!point.pixels[i].allFinite()) continue;
+      ColmapImage& image =
+          model.images[static_cast<std::size_t>(point.view_idxs[i])];
+      made.track.push_back(
+          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
+      image.points2D.push_back(
+          {point.pixels[i].x(), point.pixels[i].y(), made.point3D_id});
+    }
+    model.points.push_back(std::move(made));
+  }
+  return model;
 }
 
 }  // namespace curvix

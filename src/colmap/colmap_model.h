@@ -110,4 +110,8 @@ Scene SceneFromColmapModel(const ColmapModel& model,
                            const std::filesystem::path& image_folder,
                            const std::vector<std::string>& left_out = {});
 
+// A scene as COLMAP would have it. The id of a camera or a point is its index
+// and one; pixels that are not known are left out.
+ColmapModel ModelOfScene(const Scene& scene);
+
 }  // namespace curvix

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Links that others may have put into a workspace.
+// Paper: none (engineering). Names of images to files, and links that others
+// may have put into a workspace.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
+#include <system_error>
 #include <vector>
 
 namespace curvix {
@@ -15,5 +19,19 @@ bool IsInside(const std::filesystem::path& path,
 // followed. What does not exist lies in its parent folder.
 bool LiesIn(const std::filesystem::path& path,
             const std::vector<std::filesystem::path>& folders);
+
+// The file in `folder` that `name`, relative to it, means: that of this name,
+// or, if there is none, the one with slashes for the backslashes of Windows.
+inline std::filesystem::path ImageFile(const std::filesystem::path& folder,
+                                       std::string name) {
+  std::filesystem::path file = folder / name;
+  std::error_code error;
+  if (name.find('\\') == std::string::npos ||
+      std::filesystem::exists(file, error)) {
+    return file;
+  }
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return folder / name;
+}
 
 }  // namespace curvix

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "colmap/project_file.h"
 
 #include "base/text_fields.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "colmap/workspace.h"
 
 #include <algorithm>
@@ -7,7 +6,6 @@
 #include <utility>
 
 #include "base/file_io.h"
-#include "colmap/image_file.h"
 #include "colmap/links.h"
 #include "colmap/project_file.h"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5.
 #include "curve_drawing/build_graph.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
+#include <utility>
+#include <utility>
 
 #include "base/check.h"
 #include "base/parallel.h"
@@ -113,43 +115,6 @@ std::vector<NeighborLink> HeaviestLinks(const std::vector<Edge3d>& edges,
 
 namespace {
 
-// All links of edge `i`, ascending.
-std::vector<NeighborLink> SharedLinks(const std::vector<Edge3d>& edges,
-                                      const SupportIndex& index,
-                                      std::size_t i) {
-  std::vector<std::int32_t> others;
-  for (const EdgeRef& ref : edges[i].support) {
-    const auto supported = index.SupportedBy(ref);
-    others.insert(others.end(), supported.begin(), supported.end());
-  }
-  std::sort(others.begin(), others.end());
-  std::vector<NeighborLink> row;
-  for (const std::int32_t other : others) {
-    if (static_cast<std::size_t>(other) == i) continue;
-    if (row.empty() || row.back().edge_idx != other) row.push_back({other});
-    ++row.back().num_shared;
-  }
-  return row;
-}
-
-}  // namespace
-
-NeighborhoodGraph BuildGraph(const std::vector<Edge3d>& edges,
-                             const NeighborhoodOptions& options,
-                             int num_threads) {
-  const SupportIndex index(edges);
-  const auto max_num_links = static_cast<std::size_t>(options.max_num_links);
-  std::vector<std::vector<NeighborLink>> rows(edges.size());
-  ParallelFor(edges.size(), num_threads, [&](std::size_t i) {
-    rows[i] =
-        HeaviestLinks(edges, i, SharedLinks(edges, index, i), max_num_links);
-    rows[i].shrink_to_fit();
-  });
-  return NeighborhoodGraph::FromRows(rows, num_threads);
-}
-
-namespace {
-
 const EdgeNeighbors& NeighborsOf(const std::vector<EdgeMap>& edge_maps,
                                  const EdgeRef& ref) {
   const auto view_idx = static_cast<std::size_t>(ref.view_idx);
@@ -160,45 +125,64 @@ const EdgeNeighbors& NeighborsOf(const std::vector<EdgeMap>& edge_maps,
   return edge_maps[view_idx].neighbors[edge_idx];
 }
 
-// The links that start at the 2D edges of edge `i`, ascending.
-std::vector<NeighborLink> LiftedLinks(const std::vector<Edge3d>& edges,
-                                      const std::vector<EdgeMap>& edge_maps,
-                                      const SupportIndex& index,
-                                      std::size_t i) {
-  std::vector<std::int32_t> others;
-  for (const EdgeRef& ref : edges[i].support) {
-    const EdgeNeighbors& neighbors = NeighborsOf(edge_maps, ref);
-    for (const auto& neighbor : {neighbors.previous, neighbors.next}) {
-      if (!neighbor.has_value()) continue;
-      const auto supported = index.SupportedBy({ref.view_idx, *neighbor});
-      others.insert(others.end(), supported.begin(), supported.end());
+// Links each edge with those that the 2D edges `refs_of(ref)` of its supports
+// support; `count` says how often.
+template <typename RefsOf>
+NeighborhoodGraph LinkBySupport(const std::vector<Edge3d>& edges,
+                                const NeighborhoodOptions& options,
+                                int num_threads,
+                                std::int32_t NeighborLink::*count,
+                                const RefsOf& refs_of) {
+  const SupportIndex index(edges);
+  const auto max_num_links = static_cast<std::size_t>(options.max_num_links);
+  std::vector<std::vector<NeighborLink>> rows(edges.size());
+  ParallelFor(edges.size(), num_threads, [&](std::size_t i) {
+    std::vector<std::int32_t> others;
+    for (const EdgeRef& support : edges[i].support) {
+      for (const EdgeRef& ref : refs_of(support)) {
+        const auto supported = index.SupportedBy(ref);
+        others.insert(others.end(), supported.begin(), supported.end());
+      }
     }
-  }
-  std::sort(others.begin(), others.end());
-  std::vector<NeighborLink> row;
-  for (const std::int32_t other : others) {
-    if (static_cast<std::size_t>(other) == i) continue;
-    if (row.empty() || row.back().edge_idx != other) row.push_back({other});
-    ++row.back().num_tangential;
-  }
-  return row;
+    std::sort(others.begin(), others.end());
+    std::vector<NeighborLink> row;  // ascending
+    for (const std::int32_t other : others) {
+      if (static_cast<std::size_t>(other) == i) continue;
+      if (row.empty() || row.back().edge_idx != other) row.push_back({other});
+      ++(row.back().*count);
+    }
+    rows[i] = HeaviestLinks(edges, i, std::move(row), max_num_links);
+    rows[i].shrink_to_fit();
+  });
+  return NeighborhoodGraph::FromRows(rows, num_threads);
 }
 
 }  // namespace
+
+NeighborhoodGraph BuildGraph(const std::vector<Edge3d>& edges,
+                             const NeighborhoodOptions& options,
+                             int num_threads) {
+  return LinkBySupport(edges,
+                       options,
+                       num_threads,
+                       &NeighborLink::num_shared,
+                       [](const EdgeRef& ref) { return std::array{ref}; });
+}
 
 NeighborhoodGraph LinkTangents(const std::vector<Edge3d>& edges,
                                const std::vector<EdgeMap>& edge_maps,
                                const NeighborhoodOptions& options,
                                int num_threads) {
-  const SupportIndex index(edges);
-  const auto max_num_links = static_cast<std::size_t>(options.max_num_links);
-  std::vector<std::vector<NeighborLink>> rows(edges.size());
-  ParallelFor(edges.size(), num_threads, [&](std::size_t i) {
-    rows[i] = HeaviestLinks(
-        edges, i, LiftedLinks(edges, edge_maps, index, i), max_num_links);
-    rows[i].shrink_to_fit();
-  });
-  return NeighborhoodGraph::FromRows(rows, num_threads);
+  const auto refs_of = [&](const EdgeRef& ref) {
+    std::vector<EdgeRef> refs;
+    const EdgeNeighbors& neighbors = NeighborsOf(edge_maps, ref);
+    for (const auto& neighbor : {neighbors.previous, neighbors.next}) {
+      if (neighbor) refs.push_back({ref.view_idx, *neighbor});
+    }
+    return refs;
+  };
+  return LinkBySupport(
+      edges, options, num_threads, &NeighborLink::num_tangential, refs_of);
 }
 
 }  // namespace curvix

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_drawing/claimed_edges.h"
 
 #include <algorithm>
 
-#include "model/along_contour.h"
+#include "model/contours.h"
 
 namespace curvix {
 namespace {

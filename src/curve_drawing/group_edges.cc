@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 6.
 #include "curve_drawing/group_edges.h"
 
 #include <utility>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5, Fig. 6.
 #include "curve_drawing/link_edges.h"
 
 #include <Eigen/Core>

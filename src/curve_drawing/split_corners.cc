@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "curve_drawing/split_corners.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "curve_refinement/curve_ends.h"
 
 #include <Eigen/Dense>
@@ -48,12 +47,12 @@ std::vector<SampleAround> SamplesAround(const Curve& curve,
 Curve BranchTo(const Curve& curve,
                std::size_t last,
                bool with_direction,
-               const BranchSegment& stretch) {
+               const BranchSegment& segment) {
   Curve branch;
   for (const SampleAround& around :
-       SamplesAround(curve, last, stretch.skipped + stretch.length)) {
+       SamplesAround(curve, last, segment.skipped + segment.length)) {
     const double away = with_direction ? -around.along : around.along;
-    if (away < stretch.skipped) continue;
+    if (away < segment.skipped) continue;
     CurveSample& sample =
         branch.samples.emplace_back(curve.samples[around.index]);
     if (!with_direction) sample.tangent = -sample.tangent;
@@ -115,7 +114,7 @@ Eigen::Vector2d ArcBasis(double curvature, double s) {
 
 std::vector<Placed> Take(const Curve& curve,
                          bool front,
-                         const EndStretch& stretch,
+                         const EndSegment& segment,
                          double pixel) {
   const std::size_t size = curve.samples.size();
   const auto sample = [&](std::size_t k) -> const Eigen::Vector3d& {
@@ -125,8 +124,8 @@ std::vector<Placed> Take(const Curve& curve,
   double along = 0;
   for (std::size_t k = 0; k < size; ++k) {
     if (k > 0) along += (sample(k) - sample(k - 1)).norm();
-    if (along > stretch.end_px * pixel) break;
-    if (along < stretch.begin_px * pixel) continue;
+    if (along > segment.end_px * pixel) break;
+    if (along < segment.begin_px * pixel) continue;
     placed.push_back({-along, sample(k) - sample(0), 1});
   }
   return placed;
@@ -221,7 +220,7 @@ double EndFit::ArcLengthTo(const Eigen::Vector3d& point) const {
 
 EndFit FitEnd(const Curve& curve,
               bool front,
-              const EndStretch& stretch,
+              const EndSegment& segment,
               const std::vector<PosedView>& views) {
   const CurveSample& last =
       front ? curve.samples.back() : curve.samples.front();
@@ -229,7 +228,7 @@ EndFit FitEnd(const Curve& curve,
   fit.position = last.position;
   fit.pixel = PixelSize(last.position, last.support, views);
   if (curve.closed || !(fit.pixel > 0)) return fit;
-  std::vector<Placed> placed = Take(curve, front, stretch, fit.pixel);
+  std::vector<Placed> placed = Take(curve, front, segment, fit.pixel);
   if (placed.size() < kMinNumFitted) return fit;
   EndFit arc = fit;
   for (int round = 0; round < kNumRounds; ++round) {

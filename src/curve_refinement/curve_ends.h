@@ -25,7 +25,7 @@ std::vector<SampleAround> SamplesAround(const Curve& curve,
                                         std::size_t index,
                                         double reach);
 
-// Where on a curve a stretch lies, from the sample to which it leads.
+// Where on a curve a segment lies, from the sample to which it leads.
 struct BranchSegment {
   double skipped = 0;  // of what is nearest to it; arc lengths, world units
   double length = 0;   // of what comes before
@@ -37,7 +37,7 @@ struct BranchSegment {
 Curve BranchTo(const Curve& curve,
                std::size_t last,
                bool with_direction,
-               const BranchSegment& stretch);
+               const BranchSegment& segment);
 
 // How far the samples of two branches that lead to each other are from the
 // parabola that fits both best, root mean square, world units. Neither may be
@@ -54,9 +54,9 @@ void CutEnd(Curve& curve, bool front, const Keep& keep) {
   if (!front) std::reverse(samples.begin(), samples.end());
 }
 
-// A stretch of a curve before one of its ends, in pixels (pixel_size.h) from
+// A segment of a curve before one of its ends, in pixels (pixel_size.h) from
 // the last sample.
-struct EndStretch {
+struct EndSegment {
   double begin_px = 0;  // samples nearer to the end are left out
   double end_px = 15;
 };
@@ -77,12 +77,12 @@ struct EndFit {
   double ArcLengthTo(const Eigen::Vector3d& point) const;
 };
 
-// Fits the samples in `stretch`, few outliers aside, by a line, or by an arc of
+// Fits the samples in `segment`, few outliers aside, by a line, or by an arc of
 // any radius where it comes nearer to them than their scatter explains; length
 // is 0 if they are fewer than five or of no extent, or the curve is closed.
 EndFit FitEnd(const Curve& curve,
               bool front,
-              const EndStretch& stretch,
+              const EndSegment& segment,
               const std::vector<PosedView>& views);
 
 // The fit to the last 15, 25, 40 or 60 px, the last three of them aside, which

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_refinement/cut_at_touches.h"
 
 #include <algorithm>
@@ -76,27 +75,27 @@ Neighbors FindNeighbors(const std::vector<Curve>& curves,
   return neighbors;
 }
 
-// The stretch of a curve around a sample that is beside another curve.
-struct Stretch {
+// The segment of a curve around a sample that is beside another curve.
+struct Segment {
   Samples samples;  // with those beyond either end
   std::size_t middle = 0;
 };
 
 // Nullopt if it is too long, or the curve does not go on beyond it.
-std::optional<Stretch> StretchAround(const Curve& curve,
+std::optional<Segment> SegmentAround(const Curve& curve,
                                      std::size_t sample_idx,
                                      const Samples& beside,
                                      double pixel) {
   const auto around = SamplesAround(
       curve, sample_idx, (kMaxLengthPx + 2 * kMinBeyondPx) * pixel);
-  Stretch stretch;
+  Segment segment;
   double reach[2] = {0, 0};  // ahead and behind
   bool goes_on[2] = {false, false};
   for (const SampleAround& place : around) {
     const int side = place.along < 0;
     const double away = std::abs(place.along);
     if (goes_on[side]) continue;
-    stretch.samples.insert(place.index);
+    segment.samples.insert(place.index);
     if (beside.contains(place.index)) {
       reach[side] = away;
     } else {
@@ -108,7 +107,7 @@ std::optional<Stretch> StretchAround(const Curve& curve,
     return std::nullopt;
   }
   const double middle = (reach[0] - reach[1]) / 2;
-  stretch.middle =
+  segment.middle =
       std::min_element(around.begin(),
                        around.end(),
                        [&](const SampleAround& x, const SampleAround& y) {
@@ -116,7 +115,7 @@ std::optional<Stretch> StretchAround(const Curve& curve,
                                 std::abs(y.along - middle);
                        })
           ->index;
-  return stretch;
+  return segment;
 }
 
 bool Overlap(const Samples& a, const Samples& b) {
@@ -139,9 +138,9 @@ std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
     }
     const CurveSample& nearest = curves[a].samples[touch.a.sample_idx];
     const double pixel = PixelSize(nearest.position, nearest.support, views);
-    const auto of_a = StretchAround(
+    const auto of_a = SegmentAround(
         curves[a], touch.a.sample_idx, neighbors.beside.at({a, b}), pixel);
-    const auto of_b = StretchAround(
+    const auto of_b = SegmentAround(
         curves[b], touch.b.sample_idx, neighbors.beside.at({b, a}), pixel);
     if (!of_a || !of_b || Overlap(of_a->samples, taken[a]) ||
         Overlap(of_b->samples, taken[b])) {

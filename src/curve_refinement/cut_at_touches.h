@@ -10,7 +10,7 @@
 namespace curvix {
 
 // Cuts two curves where they touch, so that all four pieces end in one place:
-// amid the stretches of at most 120 px along which either is within 2 px and 10
+// amid the segments of at most 120 px along which either is within 2 px and 10
 // degrees of the other, if they come within 1 px there and both go on for 5 px
 // or more. Nearest pairs first, ties by the order of curves and samples. The
 // pieces take the place of the curve. Pixels as in pixel_size.h.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_refinement/cut_corners.h"
 
 #include <algorithm>
@@ -65,9 +64,9 @@ std::optional<Turn> TurnAt(const Curve& curve,
   if (!(pixel > 0) || TurnAround(curve, k, pixel) < max_turn / 2) {
     return std::nullopt;
   }
-  const BranchSegment stretch{kRoundedPx * pixel, kBranchPx * pixel};
-  const Curve before = BranchTo(curve, k, true, stretch);
-  const Curve after = BranchTo(curve, k, false, stretch);
+  const BranchSegment segment{kRoundedPx * pixel, kBranchPx * pixel};
+  const Curve before = BranchTo(curve, k, true, segment);
+  const Curve after = BranchTo(curve, k, false, segment);
   if (std::min(Length(before), Length(after)) < kMinBranchPx * pixel)
     return std::nullopt;
   const EndFit in = FitEnd(before, true, {0, kBranchPx}, views);

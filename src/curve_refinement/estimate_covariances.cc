@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_refinement/estimate_covariances.h"
 
 #include <Eigen/Dense>
@@ -50,7 +49,7 @@ double ScoreSlope(double distance_px, double sigma_px) {
 }
 
 // How far the views' mean distances scatter, robustly; sums over views, of
-// which those that see only a part of the stretch count as less.
+// which those that see only a part of the segment count as less.
 struct Scatter {
   double scores2_px2 = 0;
   double slopes = 0;

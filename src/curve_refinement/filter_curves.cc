@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_refinement/filter_curves.h"
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 
 #include "base/median.h"
 #include "geometry/pixel_size.h"
-#include "model/sample_runs.h"
+#include "model/sample_ranges.h"
 
 namespace curvix {
 namespace {
@@ -90,7 +89,7 @@ std::vector<Curve> KeepKinds(std::vector<Curve> curves,
     for (const CurveSample& sample : curve.samples) {
       kept.push_back(kinds.Has(sample.kind));
     }
-    for (Curve& piece : KeepRuns(std::move(curve), std::move(kept))) {
+    for (Curve& piece : KeepRanges(std::move(curve), std::move(kept))) {
       pieces.push_back(std::move(piece));
     }
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_refinement/fit_to_images.h"
 
 #include <ceres/ceres.h>
@@ -64,16 +63,16 @@ class EdgeCost : public ceres::SizedCostFunction<1, 2> {
   double sigma_px_;
 };
 
-using Stretch = std::array<Station, 4>;
+using Segment = std::array<Station, 4>;
 
 // The third derivative of four samples in a row.
 class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
  public:
-  BendCost(const Stretch& stretch, double stiffness_px, double pixel)
-      : stretch_(stretch) {
+  BendCost(const Segment& segment, double stiffness_px, double pixel)
+      : segment_(segment) {
     std::array<double, 4> along = {};
     for (std::size_t j = 1; j < along.size(); ++j) {
-      const double step = (stretch[j].start - stretch[j - 1].start).norm();
+      const double step = (segment[j].start - segment[j - 1].start).norm();
       along[j] = along[j - 1] + std::max(kMinStepPx, step / pixel);
     }
     const double scale = std::pow(stiffness_px, 3) * std::sqrt(along[3] / 3) /
@@ -90,18 +89,18 @@ class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
                 double* residuals,
                 double** jacobians) const override {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t j = 0; j < stretch_.size(); ++j) {
-      sum += factors_[j] * (stretch_[j].At(offsets[j]) - stretch_[0].start);
+    for (std::size_t j = 0; j < segment_.size(); ++j) {
+      sum += factors_[j] * (segment_[j].At(offsets[j]) - segment_[0].start);
       if (jacobians == nullptr || jacobians[j] == nullptr) continue;
       Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>{jacobians[j]} =
-          factors_[j] * stretch_[j].axes;
+          factors_[j] * segment_[j].axes;
     }
     Eigen::Map<Eigen::Vector3d>{residuals} = sum;
     return true;
   }
 
  private:
-  Stretch stretch_;
+  Segment segment_;
   std::array<double, 4> factors_ = {};
 };
 
@@ -155,13 +154,13 @@ class CurveFitter {
     const std::size_t size = stations_.size();
     const std::size_t num_bends = curve_.closed ? size : size - 3;
     for (std::size_t k = 0; k < num_bends; ++k) {
-      Stretch stretch;
+      Segment segment;
       std::vector<double*> offsets;
-      for (std::size_t j = 0; j < stretch.size(); ++j) {
-        stretch[j] = stations_[(k + j) % size];
+      for (std::size_t j = 0; j < segment.size(); ++j) {
+        segment[j] = stations_[(k + j) % size];
         offsets.push_back(offsets_[(k + j) % size].data());
       }
-      bend_costs_.emplace_back(stretch, stiffness_px, pixel_);
+      bend_costs_.emplace_back(segment, stiffness_px, pixel_);
       problem_.AddResidualBlock(&bend_costs_.back(), &bend_loss_, offsets);
     }
   }

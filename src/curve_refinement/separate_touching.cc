@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "curve_refinement/separate_touching.h"
 
 #include <Eigen/Core>
@@ -178,9 +177,9 @@ class MeetingFinder {
     const Curve& passing = curves_[meeting.passing_idx];
     if (!LeadsStraight(meeting)) return false;
     const double pixel = std::min(a.pixel, b.pixel);
-    const BranchSegment stretch{0, kMaxBranchPx * pixel};
-    const Curve before = BranchTo(passing, meeting.sample_at_a, true, stretch);
-    const Curve after = BranchTo(passing, meeting.sample_at_b, false, stretch);
+    const BranchSegment segment{0, kMaxBranchPx * pixel};
+    const Curve before = BranchTo(passing, meeting.sample_at_a, true, segment);
+    const Curve after = BranchTo(passing, meeting.sample_at_b, false, segment);
     if (std::min(Length(before), Length(after)) < kMinBranchPx * pixel) {
       return false;
     }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "drawing/sheet.h"
 
 #include <algorithm>
@@ -39,11 +38,7 @@ Eigen::Vector2d PaperSize(const std::string& name) {
   return {size[0], size[1]};
 }
 
-std::string Short(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
+std::string Short(double value) { return FormatText("%.6g", value); }
 
 std::string ScaleText(double denominator) {
   return denominator >= 1 ? "1:" + Short(denominator)

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "geometry/pixel_size.h"
-#include "model/along_contour.h"
+#include "model/contours.h"
 
 namespace curvix {
 namespace {

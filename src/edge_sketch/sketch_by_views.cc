@@ -18,7 +18,7 @@
 #include "edge_sketch/split_along_contours.h"
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_indices.h"
-#include "model/along_contour.h"
+#include "model/contours.h"
 
 namespace curvix {
 namespace {
@@ -190,13 +190,14 @@ class ViewSketcher {
   // All views were queried for the tracked edges already, so another partner
   // would lead to the same 3D edge.
   bool IsSettled(const H1Result& result) const {
-    return std::any_of(result.tracked.begin(),
-                       result.tracked.end(),
-                       [&](const TrackedEdge& edge) {
-                         return edge.evidence >=
-                                kSettledEvidence *
-                                    input_.options.validation.min_evidence;
-                       });
+    return std::any_of(
+        result.tracked.begin(),
+        result.tracked.end(),
+        [&](const TrackedEdge& edge) {
+          return edge.evidence >=
+                 kSettledEvidence *
+                     input_.options.validation.min_log_likelihood_ratio;
+        });
   }
 
   void DropRivals(H1Result& result) const {
@@ -204,7 +205,7 @@ class ViewSketcher {
     for (const TrackedEdge& edge : result.tracked) {
       best = std::max(best, edge.evidence);
     }
-    const double least = input_.options.validation.min_rival_support * best;
+    const double least = input_.options.validation.min_relative_support * best;
     result.rivals += static_cast<std::int64_t>(std::erase_if(
         result.tracked,
         [&](const TrackedEdge& edge) { return edge.evidence < least; }));

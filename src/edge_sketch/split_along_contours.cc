@@ -2,7 +2,7 @@
 // Paper: none (beyond it).
 #include "edge_sketch/split_along_contours.h"
 
-#include "model/along_contour.h"
+#include "model/contours.h"
 
 namespace curvix {
 

@@ -246,7 +246,7 @@ std::optional<TrackedEdge> TrackSupport(
   }
   tracked.evidence = Evidence(
       VotesOf(asked, tracked.support, views, to_ask.all, search), neighbors);
-  if (tracked.evidence < options.min_evidence) return std::nullopt;
+  if (tracked.evidence < options.min_log_likelihood_ratio) return std::nullopt;
   return tracked;
 }
 

@@ -60,8 +60,9 @@ bool MayBeSupported(const SpaceEdge& edge,
 // and ends as soon as too few of them are left, since most hypotheses are
 // wrong. Later rounds query `to_ask.all`. nullopt as soon as fewer than
 // `to_ask.fewest_supports` views support it (in the first round: at most four),
-// or if the log-likelihood ratio at the end is below options.min_evidence.
-// `sigma_px`: standard deviation of an edge's location.
+// or if the log-likelihood ratio at the end is below
+// options.min_log_likelihood_ratio. `sigma_px`: standard deviation of an edge's
+// location.
 std::optional<TrackedEdge> TrackSupport(
     const EdgeEstimate& start,
     const std::vector<ViewIndex>& views,

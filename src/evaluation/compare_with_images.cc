@@ -12,7 +12,6 @@
 #include "edge_detection/load_image.h"
 #include "evaluation/holdout.h"
 #include "evaluation/image_agreement.h"
-#include "evaluation/image_contours.h"
 #include "geometry/pixel_size.h"
 #include "geometry/posed_views.h"
 

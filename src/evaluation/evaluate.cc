@@ -1,22 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 7 (accuracy, completeness, precision, recall, F-score, IoU); the
-// other measures are ours.
 #include "evaluation/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/median.h"
 #include "base/point_tree.h"
-#include "evaluation/comparison.h"
 #include "evaluation/resample_curves.h"
 
 namespace curvix {
 namespace {
+
+inline constexpr double kNearMm = 5;  // what counts as the same place
+
+// Both sets, and distances between them.
+struct Comparison {
+  std::vector<CurveStep> predicted;
+  std::vector<TrueSample> truth;
+  std::vector<bool> visible;           // per true sample
+  std::vector<double> predicted_mm;    // distances predicted -> true
+  std::vector<double> true_mm;         // distances true -> predicted
+  std::vector<std::size_t> true_idxs;  // the nearest, per predicted sample
+  double near = 0;                     // kNearMm in world units
+  double unit_mm = 0;
+};
+
+std::size_t Index(CurveKind kind) { return static_cast<std::size_t>(kind); }
+
+std::optional<double> Percent(double part, double whole) {
+  if (!(whole > 0)) return std::nullopt;
+  return 100 * part / whole;
+}
+
+// Lengths and recall of the truth, for every kind.
+std::array<TrueKind, kNumCurveKinds> MeasureTruth(const Comparison& c,
+                                                  double sample_mm) {
+  std::array<TrueKind, kNumCurveKinds> kinds;
+  std::array<double, kNumCurveKinds> found_mm = {};
+  for (std::size_t i = 0; i < c.truth.size(); ++i) {
+    const std::size_t kind = Index(c.truth[i].kind);
+    kinds[kind].length_mm += sample_mm;
+    if (!c.visible[i]) continue;
+    kinds[kind].visible_length_mm += sample_mm;
+    if (c.true_mm[i] < kNearMm) found_mm[kind] += sample_mm;
+  }
+  for (std::size_t i = 0; i < kNumCurveKinds; ++i) {
+    kinds[i].kind = static_cast<CurveKind>(i);
+    kinds[i].visible_recall_5 =
+        Percent(found_mm[i], kinds[i].visible_length_mm);
+  }
+  return kinds;
+}
 
 constexpr double kMinLengthMm = 10;   // shorter true curves are not counted
 constexpr double kMaxGapMm = 1.5;     // between the ends of touching curves
@@ -216,6 +255,37 @@ std::size_t CountCurves(const std::vector<CurveStep>& steps) {
   std::set<std::size_t> curves;
   for (const CurveStep& step : steps) curves.insert(step.curve_idx);
   return curves.size();
+}
+
+// `step` and `spacing`: the lengths that one predicted and one true sample
+// stand for, world units.
+KindAgreement MeasureKinds(const Comparison& c, double step, double spacing) {
+  auto kinds = MeasureTruth(c, spacing * c.unit_mm);
+  const double step_mm = step * c.unit_mm;
+  KindAgreement result;
+  for (std::size_t i = 0; i < c.predicted.size(); ++i) {
+    const CurveKind true_kind = c.truth[c.true_idxs[i]].kind;
+    LengthPerKind& lengths = c.predicted_mm[i] < kNearMm
+                                 ? kinds[Index(true_kind)].predicted_mm
+                                 : result.elsewhere_mm;
+    lengths[Index(c.predicted[i].kind)] += step_mm;
+  }
+  double all_mm = 0;
+  double right_mm = 0;
+  for (TrueKind& kind : kinds) {
+    if (kind.length_mm == 0) continue;
+    if (kind.kind != CurveKind::kUnknown) {
+      const double near_mm = std::accumulate(
+          kind.predicted_mm.begin(), kind.predicted_mm.end(), 0.0);
+      const double same_mm = kind.predicted_mm[Index(kind.kind)];
+      kind.right = Percent(same_mm, near_mm);
+      all_mm += near_mm;
+      right_mm += same_mm;
+    }
+    result.kinds.push_back(kind);
+  }
+  result.right = Percent(right_mm, all_mm);
+  return result;
 }
 
 }  // namespace

@@ -11,12 +11,12 @@
 #include <curvix/status.h>
 #include <array>
 #include <cstddef>
-#include <filesystem>
-#include <iosfwd>
 #include <optional>
+#include <vector>
 
 #include "evaluation/ground_truth.h"
-#include "evaluation/kind_agreement.h"
+#include "evaluation/resample_curves.h"
+#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 
@@ -28,6 +28,31 @@ struct EvaluationOptions {
   int min_num_views = 4;
   // Millimetres per world unit, > 0: all thresholds are in millimetres.
   double unit_mm = 1000;
+};
+
+// Lengths by the kind that the curves are said to be, mm.
+using LengthPerKind = std::array<double, kNumCurveKinds>;
+
+// The results for the true curves of one kind.
+struct TrueKind {
+  CurveKind kind = CurveKind::kUnknown;
+  double length_mm = 0;          // true
+  double visible_length_mm = 0;  // of it
+  // Percent of the visible length within 5 mm of any curve.
+  std::optional<double> visible_recall_5;
+  // Predicted length whose nearest true sample is within 5 mm and of this kind.
+  LengthPerKind predicted_mm = {};
+  // Percent of that which is said to be of this kind.
+  std::optional<double> right;
+};
+
+struct KindAgreement {
+  std::vector<TrueKind> kinds;  // those of the truth, ascending
+  // Predicted length further than 5 mm from the truth.
+  LengthPerKind elsewhere_mm = {};
+  // Percent of the predicted length near truth of a known kind that is said to
+  // be of that kind; unknown is wrong.
+  std::optional<double> right;
 };
 
 // Shares of samples that are closer than a threshold to the other set, percent.
@@ -81,23 +106,5 @@ struct Evaluation {
 Result<Evaluation> EvaluateCurves(const CurveSet& curves,
                                   const GroundTruth& truth,
                                   const EvaluationOptions& options);
-
-enum class EvaluationFormat { kTable, kJson };
-
-// Prints a table for people, or one JSON object with the keys acc, comp, compv,
-// P5, R5, F5, IoU5 (10, 20 alike), Rv5, Rv10, Fv5, tangent, dup, whole, pure,
-// curves, gt_curves, predicted, gt; what is absent is null. `kinds`, where the
-// truth has them: `right`, percent; `elsewhere`, mm by the kind said; and for
-// each true kind length, length_visible, Rv5, right and `said`, mm by kind.
-void PrintEvaluation(const Evaluation& evaluation,
-                     EvaluationFormat format,
-                     std::ostream& out);
-
-// Reads both files, evaluates and prints.
-Status RunEvaluate(const std::filesystem::path& curves_path,
-                   const std::filesystem::path& truth_path,
-                   const EvaluationOptions& options,
-                   EvaluationFormat format,
-                   std::ostream& out);
 
 }  // namespace curvix

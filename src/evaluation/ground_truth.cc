@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Ground-truth curves as text.
 #include "evaluation/ground_truth.h"
 
 #include <algorithm>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Curves against what one image shows.
+// Paper: none (beyond it). Curves against the contours that one image shows.
 #pragma once
 
 #include <curvix/edges.h>
 #include <vector>
 
+#include "edge_detection/gray_image.h"
 #include "evaluation/holdout.h"
 
 namespace curvix {
@@ -49,5 +50,16 @@ struct ImageTally {
 ImageTally CompareWithImage(const std::vector<DrawnCurve>& drawn,
                             const std::vector<Edge2d>& contours,
                             const std::vector<Edge2d>& long_lines);
+
+// The pixels of contours: Canny's edges with the strongest tenth of all
+// gradients, but at least 4 grey levels per pixel, as upper threshold and half
+// of it as the lower one, in connected pieces of 30 pixels or more. Positions
+// are centres of pixels, angles those of the contour, strengths the gradient in
+// grey levels per pixel; row by row.
+std::vector<Edge2d> FindContours(const GrayImage& image);
+
+// Long straight lines (LSD), 2 % of the image's diagonal and longer, as places
+// one pixel apart with the angle of their line.
+std::vector<Edge2d> FindLongLines(const GrayImage& image);
 
 }  // namespace curvix

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which of many uncertain values are the same.
 #include "fitting/agreement.h"
 
 #include <Eigen/Dense>

@@ -22,6 +22,17 @@ constexpr std::size_t kMinSamples = 10;
 constexpr std::size_t kHopelessArcs = 3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// What describes a primitive with two ends, and what neighbours share.
+constexpr std::size_t kLineParameters = 6;
+constexpr std::size_t kArcParameters = 8;
+constexpr std::size_t kNodeParameters = 3;
+
+struct Chain {
+  std::vector<Primitive> primitives;
+  double residual_cost = 0;
+  std::size_t num_parameters = 0;
+};
+
 struct Link {
   Shape shape;
   double cost = kInfinity;  // of residuals
@@ -158,8 +169,13 @@ FitSamples Unrolled(const FitSamples& curve, std::size_t first) {
   return samples;
 }
 
-}  // namespace
-
+// The chain of lines and arcs with the least cost: residual costs and
+// `parameter_cost` for each parameter. Joints are looked for five samples
+// apart, at most at 80 places along the curve, and then moved to the best
+// sample nearby; ties go to the joint that comes first. No primitive has fewer
+// than 10 samples, so that a few bent samples are outliers and no primitive of
+// their own. A closed curve is a chain of two or more, or of none at infinite
+// cost.
 Chain ChainPrimitives(const FitSamples& curve,
                       bool closed,
                       double parameter_cost) {
@@ -192,6 +208,8 @@ Chain ChainPrimitives(const FitSamples& curve,
   }
   return chain;
 }
+
+}  // namespace
 
 namespace {
 

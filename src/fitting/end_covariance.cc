@@ -1,13 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). How well primitives fix the points where they end.
 #include "fitting/end_covariance.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "fitting/primitive.h"
 
 namespace curvix {
 namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kFixedWeight = 1e4;  // times that of all samples
+
+// A distance from the circle changes with three parameters by `row`: the one in
+// the plane with the centre's x and y and the radius, the one off it with the
+// centre's z and the normal's x and y.
+struct Observation {
+  Vector3d row;
+  double weight = 0;
+  double variance = 0;          // independent of the others
+  Vector3d shared = {0, 0, 0};  // standard deviations, shape by shape
+};
+
+// Of the parameters that least squares gives.
+Matrix3d CovarianceOf(const std::vector<Observation>& observations) {
+  Matrix3d information = Matrix3d::Zero(), spread = Matrix3d::Zero();
+  Matrix3d shared = Matrix3d::Zero();  // a column per shape
+  for (const Observation& o : observations) {
+    const Vector3d gain = o.weight * o.row;
+    information += gain * o.row.transpose();
+    spread += o.variance * gain * gain.transpose();
+    shared += gain * o.shared.transpose();
+  }
+  const Matrix3d inverse = information.inverse();
+  return inverse * (spread + shared * shared.transpose()) * inverse;
+}
+
+// At share x of the way along an arc, from -1 to 1, or at angle t.
+Vector3d Shapes(double x, double t, bool is_whole) {
+  if (is_whole) return {1, std::cos(t), std::sin(t)};
+  return {1, x, (3 * x * x - 1) / 2};
+}
+
+Vector3d RowInPlane(double t) { return {std::cos(t), std::sin(t), 1}; }
+Vector3d RowOffPlane(double t, double radius) {
+  return {1, -radius * std::cos(t), -radius * std::sin(t)};
+}
+
+// The mean squared distance of the samples in squares of their sigmas, which is
+// 2 if these are right.
+double Excess(const Conic& circle, const FitSamples& samples) {
+  const std::vector<double> squared = SquaredDistances(circle, samples);
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sum += ResidualCost(squared[i], samples[i].sigma);
+  }
+  const double free = 2 * static_cast<double>(samples.size()) - 6;
+  return std::max(1.0, sum / std::max(1.0, free));
+}
 
 // Edges this near to each other share pixels, and so do those at a corner.
 constexpr double kSharedPx = 4;
@@ -106,6 +160,50 @@ Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
       num_equations > 0 ? std::max(1.0, missed / num_equations) : 1;
   return factor * information.inverse() +
          common * common * Eigen::Matrix3d::Identity();
+}
+
+Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
+                                          const FitSamples& samples,
+                                          const std::vector<FixedPoint>& points,
+                                          bool is_whole) {
+  const double n = static_cast<double>(samples.size());
+  const double factor = Excess(circle, samples) * n / NumIndependent(samples);
+  const std::vector<double> angles = UnwrappedAngles(circle, samples);
+  const double middle = (angles.front() + angles.back()) / 2;
+  const double half = std::max(std::abs(angles.back() - middle), 1e-9);
+  std::vector<Observation> in_plane, off_plane;
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const FitSample& s = samples[i];
+    const double t = angles[i];
+    const double squared = (s.position - circle.At(t)).squaredNorm();
+    const double weight = RobustWeight(squared, s.sigma, kNumRounds - 1);
+    const double own = s.sigma * s.sigma - s.common * s.common;
+    const Vector3d shared = s.common * Shapes((t - middle) / half, t, is_whole);
+    in_plane.push_back({RowInPlane(t), weight, factor * own, shared});
+    off_plane.push_back(
+        {RowOffPlane(t, circle.a), weight, factor * own, shared});
+    sum += weight;
+  }
+  for (const FixedPoint& p : points) {
+    const double t = NearestParameter(circle, p.position);
+    const Vector3d out = circle.frame * Vector3d(std::cos(t), std::sin(t), 0);
+    const Vector3d normal = circle.frame.col(2);
+    const double weight = kFixedWeight * sum;
+    in_plane.push_back({RowInPlane(t), weight, out.dot(p.covariance * out)});
+    off_plane.push_back(
+        {RowOffPlane(t, circle.a), weight, normal.dot(p.covariance * normal)});
+  }
+  // To the centre, the normal and the radius in the world.
+  Eigen::Matrix<double, 7, 6> world = Eigen::Matrix<double, 7, 6>::Zero();
+  world.block<3, 2>(0, 0) = circle.frame.leftCols<2>();
+  world(6, 2) = 1;
+  world.block<3, 1>(0, 3) = circle.frame.col(2);
+  world.block<3, 2>(3, 4) = circle.frame.leftCols<2>();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance.topLeftCorner<3, 3>() = CovarianceOf(in_plane);
+  covariance.bottomRightCorner<3, 3>() = CovarianceOf(off_plane);
+  return world * covariance * world.transpose();
 }
 
 }  // namespace curvix

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which lines and arcs lie in one plane.
-#include "fitting/find_planes.h"
+// Paper: none (engineering).
+#include "fitting/structure.h"
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "fitting/agreement.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {
@@ -171,7 +172,7 @@ class PlaneFinder {
     const Vector3d normal = first.is_arc()
                                 ? first.along
                                 : first.along.cross(last.along).normalized();
-    plane.frame << BasisAcross(normal), normal;
+    plane.frame << AxesAcross(normal), normal;
     return plane;
   }
 

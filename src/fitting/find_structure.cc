@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What lines and arcs have in common.
-#include "fitting/find_structure.h"
+// Paper: none (engineering).
+#include "fitting/structure.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 #include "base/angles.h"
 #include "fitting/agreement.h"
-#include "fitting/find_planes.h"
 #include "fitting/line_or_arc.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {
@@ -74,14 +74,14 @@ std::vector<Direction> FindDirections(const std::vector<LineOrArc>& features) {
     const double along = features[i].along.dot(axis);
     v.value = Eigen::Vector2d::Constant(2);  // far
     if (std::abs(along) < 0.5) return v;
-    const Basis across = BasisAcross(axis);
+    const AcrossAxes across = AxesAcross(axis);
     v.value = across.transpose() * features[i].along / along;
     v.covariance = across.transpose() * features[i].along_covariance * across;
     return v;
   };
   std::vector<Direction> directions;
   for (const ValueGroup& a : FindAgreements(order, 2, relative)) {
-    const Basis across = BasisAcross(features[a.seed].along);
+    const AcrossAxes across = AxesAcross(features[a.seed].along);
     Vector3d along = (features[a.seed].along + across * a.mean).normalized();
     directions.push_back(
         {a, Upright(along), across * a.covariance * across.transpose()});
@@ -129,7 +129,7 @@ void AddAxes(const Direction& direction,
              double extent,
              const std::vector<LineOrArc>& features,
              std::vector<FitGroup>& groups) {
-  const Basis across = BasisAcross(direction.along);
+  const AcrossAxes across = AxesAcross(direction.along);
   const auto covariance_of = [&](std::size_t i) -> Matrix2d {
     return across.transpose() * features[i].point_covariance * across;
   };

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Circles and ellipses in space.
 #include "fitting/fit_conic.h"
 
 #include <Eigen/Dense>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Lines and arcs, and how well they are known.
 #include "fitting/line_or_arc.h"
 
 #include <Eigen/Geometry>
@@ -65,13 +64,6 @@ double ExtentOf(const std::vector<LineOrArc>& features) {
         {furthest, (f.fit->start - mean).norm(), (f.fit->end - mean).norm()});
   }
   return 2 * furthest;
-}
-
-Basis BasisAcross(const Eigen::Vector3d& axis) {
-  const Eigen::Vector3d first = axis.unitOrthogonal();
-  Basis basis;
-  basis << first, axis.cross(first);
-  return basis;
 }
 
 Eigen::Vector3d Upright(const Eigen::Vector3d& direction) {

@@ -38,10 +38,6 @@ std::vector<LineOrArc> LinesAndArcs(const FittedCurves& fitted);
 // The diameter of a sphere about the mean of all ends that holds them.
 double ExtentOf(const std::vector<LineOrArc>& features);
 
-using Basis = Eigen::Matrix<double, 3, 2>;
-// Two unit vectors perpendicular to `axis` and to each other.
-Basis BasisAcross(const Eigen::Vector3d& axis);
-
 // The direction or its opposite, whichever has its largest component positive.
 Eigen::Vector3d Upright(const Eigen::Vector3d& direction);
 

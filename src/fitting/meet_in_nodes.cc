@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The points in which primitives meet.
 #include "fitting/meet_in_nodes.h"
 
 #include <Eigen/Dense>

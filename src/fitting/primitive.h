@@ -3,17 +3,29 @@
 #pragma once
 
 #include <curvix/fitting.h>
-
 #include <cstddef>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "fitting/fit_conic.h"
-#include "fitting/fit_line.h"
 #include "fitting/fit_samples.h"
 #include "fitting/spline.h"
 
 namespace curvix {
+
+struct FittedLine {
+  Eigen::Vector3d origin;     // on the line
+  Eigen::Vector3d direction;  // unit, from the first sample to the last
+
+  Eigen::Vector3d Closest(const Eigen::Vector3d& point) const {
+    return origin + direction.dot(point - origin) * direction;
+  }
+};
+
+// The line with the least robust sum of squared distances. nullopt: fewer than
+// two samples, or all in one place.
+std::optional<FittedLine> FitLine(const FitSamples& samples);
 
 using Shape = std::variant<FittedLine, Conic, Spline>;
 

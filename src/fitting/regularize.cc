@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Fits that hold the structure found among them.
-#include "fitting/regularize.h"
+// Paper: none (engineering).
+#include "fitting/structure.h"
 
 #include <ceres/ceres.h>
 
@@ -234,55 +234,40 @@ class Adjustment {
         weight * (is_arc ? fit.major.norm() : (fit.end - fit.start).norm());
     if (group.kind == GroupKind::kEqualRadius) {
       Add(Auto<RadiusCost, 1, 6, 1>({weight}), arc, &shared.radius);
-    } else if (group.kind == GroupKind::kCoplanar) {
-      for (double* position : positions) {
-        AddOnPlane(direction, group.point, weight, is_arc, position, shared);
+      return;
+    }
+    const bool is_plane = group.kind == GroupKind::kCoplanar;
+    const bool is_parallel = group.kind == GroupKind::kParallel;
+    for (double* position : positions) {
+      if (is_plane) {
+        AddPlace<OnPlaneCost, 1, 1>(group, weight, is_arc, position, shared);
+      } else if (!is_parallel) {
+        AddPlace<OnAxisCost, 2, 2>(group, weight, is_arc, position, shared);
       }
-      if (is_arc) {
-        Add(Auto<ArcAlongCost, 2, 6, 2>(
-                {arcs_.at(key).normal, direction, turn_weight}),
-            arc,
-            shared.turn.data());
-      }
-    } else if (group.kind == GroupKind::kParallel && is_arc) {
+    }
+    if (is_arc && (is_plane || is_parallel)) {
       Add(Auto<ArcAlongCost, 2, 6, 2>(
               {arcs_.at(key).normal, direction, turn_weight}),
           arc,
           shared.turn.data());
-    } else if (group.kind == GroupKind::kParallel) {
+    } else if (is_parallel) {
       Add(Auto<LineAlongCost, 2, 3, 3, 2>({direction, weight}),
           positions[0],
           positions[1],
           shared.turn.data());
-    } else {
-      for (double* position : positions) {
-        AddOnAxis(direction, group.point, weight, is_arc, position, shared);
-      }
     }
   }
 
-  void AddOnPlane(const Chart& normal,
-                  const Vector3d& point,
-                  double weight,
-                  bool is_arc,
-                  double* position,
-                  Shared& shared) {
-    const OnPlaneCost cost{normal, point, weight};
-    Add(is_arc ? Auto<OnPlaneCost, 1, 6, 2, 1>(cost)
-               : Auto<OnPlaneCost, 1, 3, 2, 1>(cost),
-        position,
-        shared.turn.data(),
-        shared.offset.data());
-  }
-  void AddOnAxis(const Chart& direction,
-                 const Vector3d& point,
-                 double weight,
-                 bool is_arc,
-                 double* position,
-                 Shared& shared) {
-    const OnAxisCost cost{direction, point, weight};
-    Add(is_arc ? Auto<OnAxisCost, 2, 6, 2, 2>(cost)
-               : Auto<OnAxisCost, 2, 3, 2, 2>(cost),
+  // The position of a point or an arc is on the plane or axis of its group.
+  template <typename Cost, int kResiduals, int kOffsets>
+  void AddPlace(const FitGroup& group,
+                double weight,
+                bool is_arc,
+                double* position,
+                Shared& shared) {
+    const Cost cost{Chart(group.direction), group.point, weight};
+    Add(is_arc ? Auto<Cost, kResiduals, 6, 2, kOffsets>(cost)
+               : Auto<Cost, kResiduals, 3, 2, kOffsets>(cost),
         position,
         shared.turn.data(),
         shared.offset.data());

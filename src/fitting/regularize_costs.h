@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "fitting/line_or_arc.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 
@@ -18,10 +19,10 @@ using SquareMatrix = Eigen::Matrix<double, kRows, kRows>;
 // A direction that turns about where it was: base + across * (p, q).
 struct Chart {
   Eigen::Vector3d base;
-  Basis across;
+  AcrossAxes across;
 
   explicit Chart(const Eigen::Vector3d& direction)
-      : base(direction), across(BasisAcross(direction)) {}
+      : base(direction), across(AxesAcross(direction)) {}
   template <typename T>
   Vector3<T> At(const T* turn) const {
     return base.cast<T>() + across.col(0).cast<T>() * turn[0] +

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Clamped cubic B-splines with even knots.
 #include "fitting/spline.h"
 
 #include <Eigen/Dense>
@@ -108,6 +107,18 @@ bool Solve(const FitSamples& samples,
   return true;
 }
 
+// The knots of a spline with `num_control_points`: 0 and 1 four times, even
+// steps between.
+std::vector<double> EvenKnots(std::size_t num_control_points) {
+  std::vector<double> knots(4, 0.0);
+  const std::size_t num_spans = num_control_points - 3;
+  for (std::size_t k = 1; k < num_spans; ++k) {
+    knots.push_back(static_cast<double>(k) / static_cast<double>(num_spans));
+  }
+  knots.insert(knots.end(), 4, 1.0);
+  return knots;
+}
+
 }  // namespace
 
 Eigen::Vector3d Spline::At(double t) const {
@@ -117,16 +128,6 @@ Eigen::Vector3d Spline::At(double t) const {
     point += basis.values[k] * control_points[basis.first + k];
   }
   return point;
-}
-
-std::vector<double> EvenKnots(std::size_t num_control_points) {
-  std::vector<double> knots(4, 0.0);
-  const std::size_t num_spans = num_control_points - 3;
-  for (std::size_t k = 1; k < num_spans; ++k) {
-    knots.push_back(static_cast<double>(k) / static_cast<double>(num_spans));
-  }
-  knots.insert(knots.end(), 4, 1.0);
-  return knots;
 }
 
 std::optional<Spline> FitSpline(

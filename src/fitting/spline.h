@@ -16,10 +16,6 @@ struct Spline {
   Eigen::Vector3d At(double t) const;  // 0 <= t <= 1
 };
 
-// The knots of a spline with `num_control_points`: 0 and 1 four times, even
-// steps between.
-std::vector<double> EvenKnots(std::size_t num_control_points);
-
 // The spline with the least robust sum of squared distances at parameters that
 // begin as shares of the samples' length and then slide to the nearest points.
 // With `ends`, it starts and ends there exactly. nullopt: fewer samples than

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, Fig. 3(a).
 #include "geometry/epipolar_wedge.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "geometry/pixel_size.h"
 
 #include <algorithm>

@@ -29,24 +29,24 @@ std::optional<Eigen::Vector2d> ProjectPoint(const Eigen::Vector3d& point,
 std::vector<std::vector<Eigen::Vector2d>> ProjectCurve(const Curve& curve,
                                                        const View& view,
                                                        const Camera& camera) {
-  std::vector<std::vector<Eigen::Vector2d>> stretches;
-  std::vector<Eigen::Vector2d> stretch;
+  std::vector<std::vector<Eigen::Vector2d>> segments;
+  std::vector<Eigen::Vector2d> segment;
   const auto finish = [&] {
-    if (stretch.size() > 1) stretches.push_back(std::move(stretch));
-    stretch.clear();
+    if (segment.size() > 1) segments.push_back(std::move(segment));
+    segment.clear();
   };
   const std::size_t size = curve.samples.size();
   for (std::size_t i = 0; i < size + (curve.closed ? 1 : 0); ++i) {
     const auto pixel =
         ProjectPoint(curve.samples[i % size].position, view, camera);
     if (pixel) {
-      stretch.push_back(*pixel);
+      segment.push_back(*pixel);
     } else {
       finish();
     }
   }
   finish();
-  return stretches;
+  return segments;
 }
 
 }  // namespace curvix

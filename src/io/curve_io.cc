@@ -6,15 +6,10 @@
 #include <string_view>
 
 #include "base/file_io.h"
+#include "io/curve_formats.h"
 #include "io/dxf_drawing.h"
-#include "io/glb_curves.h"
-#include "io/obj_lines.h"
 #include "io/pcl_lines.h"
 #include "io/ply_lines.h"
-#include "io/step_drawing.h"
-#include "io/svg_curves.h"
-#include "io/txt_curves.h"
-#include "io/vtp_curves.h"
 
 namespace curvix {
 namespace {

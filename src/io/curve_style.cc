@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What the files say about a curve beyond geometry.
 #include "io/curve_style.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Curves for programs that show glTF.
-#include "io/glb_curves.h"
+#include "io/curve_formats.h"
 
 #include <Eigen/Geometry>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Line sets as Wavefront OBJ.
-#include "io/obj_lines.h"
+#include "io/curve_formats.h"
 
 #include <cmath>
 #include <cstdint>

@@ -21,16 +21,6 @@ namespace {
 
 constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48 + 5;
 
-Eigen::Matrix3d TakeSymmetric(ByteReader& in) {
-  Eigen::Matrix3d matrix;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = row; column < 3; ++column) {
-      matrix(row, column) = matrix(column, row) = in.Take<double>();
-    }
-  }
-  return matrix;
-}
-
 namespace fs = std::filesystem;
 
 // Up to so many of the bytes that come next.
@@ -55,37 +45,35 @@ bool HasContent(std::istream& in, const StageHead& head) {
   return num_bytes == head.num_bytes && hash == head.checksum;
 }
 
-void Put(const TracedCurve& traced, ByteWriter& out) {
-  const Curve& curve = traced.curve;
-  out.Put(static_cast<std::uint8_t>(curve.closed));
-  out.PutCount(curve.samples.size());
-  for (const CurveSample& sample : curve.samples) {
-    PutEdge(sample, out);
-    for (const double entry : Triangle(sample.covariance)) out.Put(entry);
-    out.Put(static_cast<std::uint8_t>(sample.kind));
-    out.Put(sample.kind_probability);
-  }
-  out.PutCount(traced.edges.size());
-  for (const Edge2d& edge : traced.edges) Put(edge, out);
-}
-
-TracedCurve TakeTracedCurve(ByteReader& in) {
-  TracedCurve traced;
-  traced.curve.closed = in.Take<std::uint8_t>() != 0;
-  traced.curve.samples.resize(in.TakeCount(kCurveSampleBytes));
-  for (CurveSample& sample : traced.curve.samples) {
-    sample = TakeEdge<CurveSample>(in);
-    sample.covariance = TakeSymmetric(in);
-    sample.kind = static_cast<CurveKind>(
-        std::min<int>(in.Take<std::uint8_t>(), kNumCurveKinds - 1));
-    sample.kind_probability = in.Take<float>();
-  }
-  traced.edges.resize(in.TakeCount(kEdge2dBytes));
-  for (Edge2d& edge : traced.edges) edge = TakeEdge2d(in);
-  return traced;
-}
-
 }  // namespace
+
+// Found by List(), so in the namespace of what they describe.
+template <typename Archive>
+void Fields(Archive& archive, CurveSample& sample) {
+  EdgeFields(archive, sample);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = row; column < 3; ++column) {
+      archive(sample.covariance(row, column));
+    }
+  }
+  auto kind = static_cast<std::uint8_t>(sample.kind);
+  archive(kind, sample.kind_probability);
+  if constexpr (Archive::kReads) {
+    sample.covariance =
+        Eigen::Matrix3d(sample.covariance.selfadjointView<Eigen::Upper>());
+    sample.kind =
+        static_cast<CurveKind>(std::min<int>(kind, kNumCurveKinds - 1));
+  }
+}
+
+template <typename Archive>
+void Fields(Archive& archive, TracedCurve& traced) {
+  auto closed = static_cast<std::uint8_t>(traced.curve.closed);
+  archive(closed);
+  if constexpr (Archive::kReads) traced.curve.closed = closed != 0;
+  List(archive, traced.curve.samples, kCurveSampleBytes);
+  List(archive, traced.edges, kEdge2dBytes);
+}
 
 Status WritePartResult(const fs::path& path,
                        std::uint64_t key,
@@ -94,10 +82,10 @@ Status WritePartResult(const fs::path& path,
   head.Put(part.num_own_edges_2d);
   head.Put(part.num_core_edges_3d);
   head.PutCount(part.curves.size());
-  ByteWriter curves;
+  StageWriter curves;
   for (const TracedCurve& curve : part.curves) {
     const std::size_t begin = curves.bytes().size();
-    Put(curve, curves);
+    Fields(curves, const_cast<TracedCurve&>(curve));
     head.PutCount(curves.bytes().size() - begin);
   }
   return WriteStage(
@@ -150,8 +138,9 @@ Result<TracedCurve> PartFile::Read(std::size_t curve_idx) {
   const std::uint64_t end = offsets_.at(curve_idx + 1);
   stream_.seekg(static_cast<std::streamoff>(begin));
   const std::string bytes = ReadSome(stream_, end - begin);
-  ByteReader in(bytes);
-  TracedCurve curve = TakeTracedCurve(in);
+  StageReader in(bytes);
+  TracedCurve curve;
+  Fields(in, curve);
   if (bytes.size() != end - begin || !in.AtEnd()) return BrokenStage(path_);
   return curve;
 }

@@ -17,10 +17,10 @@ namespace curvix {
 // Binary little endian. Vertex: float x y z tx ty tz, uchar red green blue (one
 // colour per curve), float curve_id confidence support, and if the kind
 // of any sample is known, uchar kind (CurveKind), float kind_probability. Edge:
-// int vertex1 vertex2. Only float and uchar in vertices: COLMAP aborts on anything else.
-// Each curve has its own consecutive vertices, in order, and its edges follow
-// in order too, the closing edge last. More than 2^31 - 1 vertices are
-// kUnsupported.
+// int vertex1 vertex2. Only float and uchar in vertices: COLMAP aborts on
+// anything else. Each curve has its own consecutive vertices, in order, and its
+// edges follow in order too, the closing edge last. More than 2^31 - 1 vertices
+// are kUnsupported.
 Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink);
 
 // The same with another comment about the frame, of one line.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Any PLY file as columns of numbers.
 #include "io/ply_reader.h"
 
 #include <algorithm>

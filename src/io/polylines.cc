@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Curves from the segments of a file.
 #include "io/polylines.h"
 
 #include <algorithm>

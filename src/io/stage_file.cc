@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "io/stage_file.h"
 
 #include "base/file_io.h"

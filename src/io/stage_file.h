@@ -16,6 +16,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "base/bytes.h"
 
@@ -58,63 +60,82 @@ Result<std::string> ReadStage(const std::filesystem::path& path,
 // kDataLoss.
 Status BrokenStage(const std::filesystem::path& path);
 
-inline void Put(const Eigen::Vector3d& x, ByteWriter& out) {
-  for (int i = 0; i < 3; ++i) out.Put(x[i]);
+// A list of fields serves both ways: Fields(archive, value) writes `value` with
+// a StageWriter, which leaves it as it is, and reads it with a StageReader.
+struct StageWriter : ByteWriter {
+  static constexpr bool kReads = false;
+
+  // Numbers.
+  template <typename... T>
+  void operator()(const T&... values) {
+    (Put(values), ...);
+  }
+  // How many things of at least `min_bytes` each follow.
+  void Count(const std::size_t& count, std::size_t /*min_bytes*/ = 1) {
+    PutCount(count);
+  }
+};
+
+struct StageReader : ByteReader {
+  static constexpr bool kReads = true;
+  using ByteReader::ByteReader;
+
+  template <typename... T>
+  void operator()(T&... values) {
+    ((values = Take<T>()), ...);
+  }
+  void Count(std::size_t& count, std::size_t min_bytes) {
+    count = TakeCount(min_bytes);
+  }
+};
+
+template <typename Archive>
+void Fields(Archive& archive, Eigen::Vector3d& x) {
+  archive(x[0], x[1], x[2]);
 }
 
-inline Eigen::Vector3d TakeVector3(ByteReader& in) {
-  Eigen::Vector3d x;
-  for (int i = 0; i < 3; ++i) x[i] = in.Take<double>();
-  return x;
+template <typename Archive>
+void Fields(Archive& archive, Edge2d& edge) {
+  archive(edge.position[0],
+          edge.position[1],
+          edge.angle,
+          edge.strength,
+          edge.sharpness,
+          edge.level);
 }
 
-inline void Put(const Edge2d& edge, ByteWriter& out) {
-  out.Put(edge.position.x());
-  out.Put(edge.position.y());
-  out.Put(edge.angle);
-  out.Put(edge.strength);
-  out.Put(edge.sharpness);
-  out.Put(edge.level);
+// A number of things of at least `min_bytes` each, and these.
+template <typename Archive, typename T>
+void List(Archive& archive, std::vector<T>& values, std::size_t min_bytes) {
+  std::size_t count = values.size();
+  archive.Count(count, min_bytes);
+  values.resize(count);
+  for (T& value : values) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      archive(value);
+    } else {
+      Fields(archive, value);
+    }
+  }
 }
 
-inline Edge2d TakeEdge2d(ByteReader& in) {
-  Edge2d edge;
-  edge.position.x() = in.Take<double>();
-  edge.position.y() = in.Take<double>();
-  edge.angle = in.Take<float>();
-  edge.strength = in.Take<float>();
-  edge.sharpness = in.Take<float>();
-  edge.level = in.Take<float>();
-  return edge;
+template <typename Archive>
+void Fields(Archive& archive, EdgeRef& ref) {
+  archive(ref.view_idx, ref.edge_idx);
 }
 
 // What Edge3d and CurveSample have in common.
-template <typename Edge>
-void PutEdge(const Edge& edge, ByteWriter& out) {
-  Put(edge.position, out);
-  Put(edge.tangent, out);
-  out.Put(edge.sigma);
-  out.Put(edge.evidence);
-  out.PutCount(edge.support.size());
-  for (const EdgeRef& ref : edge.support) {
-    out.Put(ref.view_idx);
-    out.Put(ref.edge_idx);
-  }
+template <typename Archive, typename Edge>
+void EdgeFields(Archive& archive, Edge& edge) {
+  Fields(archive, edge.position);
+  Fields(archive, edge.tangent);
+  archive(edge.sigma, edge.evidence);
+  List(archive, edge.support, kEdgeRefBytes);
 }
 
-template <typename Edge>
-Edge TakeEdge(ByteReader& in) {
-  Edge edge;
-  edge.position = TakeVector3(in);
-  edge.tangent = TakeVector3(in);
-  edge.sigma = in.Take<double>();
-  edge.evidence = in.Take<double>();
-  edge.support.resize(in.TakeCount(kEdgeRefBytes));
-  for (EdgeRef& ref : edge.support) {
-    ref.view_idx = in.Take<std::int32_t>();
-    ref.edge_idx = in.Take<std::int32_t>();
-  }
-  return edge;
+template <typename Archive>
+void Fields(Archive& archive, Edge3d& edge) {
+  EdgeFields(archive, edge);
 }
 
 }  // namespace curvix

@@ -14,7 +14,7 @@
 //     translation (7 doubles); number of cameras; per camera: model, width,
 //     height (int32 each), number of parameters, these (doubles); accepted (1
 //     byte); length of the reason, its text; counts and doubles in the order of
-//     WriteCurvePoses
+//     Fields()
 #include "io/stage_io.h"
 
 #include <cstddef>
@@ -32,88 +32,128 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
 constexpr std::size_t kEdgeMapBytes = 36;  // without edges
 constexpr std::size_t kPoseBytes = 56;
-
-void Put(const Rigid3& pose, ByteWriter& out) {
-  for (int i = 0; i < 4; ++i) out.Put(pose.rotation.coeffs()[i]);
-  Put(pose.translation, out);
-}
-
-Rigid3 TakePose(ByteReader& in) {
-  Rigid3 pose;
-  for (int i = 0; i < 4; ++i) pose.rotation.coeffs()[i] = in.Take<double>();
-  pose.translation = TakeVector3(in);
-  return pose;
-}
-
 constexpr std::size_t kMinCameraBytes = 20;
 
-void Put(const Camera& camera, ByteWriter& out) {
-  out.Put(static_cast<std::int32_t>(camera.model));
-  out.Put(static_cast<std::int32_t>(camera.width));
-  out.Put(static_cast<std::int32_t>(camera.height));
-  out.PutCount(camera.params.size());
-  for (const double param : camera.params) out.Put(param);
+}  // namespace
+
+// Found by List(), so in the namespace of what they describe.
+template <typename Archive>
+void Fields(Archive& archive, Rigid3& pose) {
+  auto& q = pose.rotation.coeffs();
+  archive(q[0], q[1], q[2], q[3]);
+  Fields(archive, pose.translation);
 }
 
-Camera TakeCamera(ByteReader& in) {
-  Camera camera;
-  camera.model = static_cast<CameraModel>(in.Take<std::int32_t>());
-  camera.width = in.Take<std::int32_t>();
-  camera.height = in.Take<std::int32_t>();
-  camera.params.resize(in.TakeCount(sizeof(double)));
-  for (double& param : camera.params) param = in.Take<double>();
-  return camera;
+template <typename Archive>
+void Fields(Archive& archive, Camera& camera) {
+  static_assert(sizeof(CameraModel) == sizeof(std::int32_t));
+  auto model = static_cast<std::int32_t>(camera.model);
+  archive(model, camera.width, camera.height);
+  if constexpr (Archive::kReads) camera.model = static_cast<CameraModel>(model);
+  List(archive, camera.params, sizeof(double));
 }
 
-void Put(const std::string& text, ByteWriter& out) {
-  out.PutCount(text.size());
-  for (const char c : text) out.Put(c);
-}
-
-std::string TakeText(ByteReader& in) {
-  std::string text(in.TakeCount(1), '\0');
-  for (char& c : text) c = in.Take<char>();
-  return text;
-}
-
-// -1: none.
-std::optional<std::int32_t> TakeNeighbor(ByteReader& in) {
-  const auto edge_idx = in.Take<std::int32_t>();
-  if (edge_idx == -1) return std::nullopt;
-  return edge_idx;
-}
-
-void Put(const EdgeMap& map, ByteWriter& out) {
-  out.PutCount(map.edges.size());
-  out.Put(map.noise);
-  out.Put(map.spacing_px);
-  out.Put(map.num_dropped_masked);
-  out.Put(map.num_dropped_isolated);
-  out.Put(map.num_dropped_over_limit);
-  for (std::size_t i = 0; i < map.edges.size(); ++i) {
-    const Edge2d& edge = map.edges[i];
-    Put(edge, out);
-    out.Put(map.neighbors[i].previous.value_or(-1));
-    out.Put(map.neighbors[i].next.value_or(-1));
+template <typename Archive>
+void Fields(Archive& archive, std::optional<std::int32_t>& neighbor) {
+  std::int32_t edge_idx = neighbor.value_or(-1);  // -1: none
+  archive(edge_idx);
+  if constexpr (Archive::kReads) {
+    if (edge_idx != -1) neighbor = edge_idx;
   }
 }
 
-EdgeMap TakeEdgeMap(ByteReader& in) {
-  EdgeMap map;
-  const std::size_t num_edges = in.TakeCount(kLinkedEdge2dBytes);
-  map.noise = in.Take<double>();
-  map.spacing_px = in.Take<double>();
-  map.num_dropped_masked = in.Take<std::int32_t>();
-  map.num_dropped_isolated = in.Take<std::int32_t>();
-  map.num_dropped_over_limit = in.Take<std::int32_t>();
+template <typename Archive>
+void Fields(Archive& archive, EdgeMap& map) {
+  std::size_t num_edges = map.edges.size();
+  archive.Count(num_edges, kLinkedEdge2dBytes);
+  archive(map.noise,
+          map.spacing_px,
+          map.num_dropped_masked,
+          map.num_dropped_isolated,
+          map.num_dropped_over_limit);
   map.edges.resize(num_edges);
   map.neighbors.resize(num_edges);
   for (std::size_t i = 0; i < num_edges; ++i) {
-    map.edges[i] = TakeEdge2d(in);
-    map.neighbors[i].previous = TakeNeighbor(in);
-    map.neighbors[i].next = TakeNeighbor(in);
+    Fields(archive, map.edges[i]);
+    Fields(archive, map.neighbors[i].previous);
+    Fields(archive, map.neighbors[i].next);
   }
-  return map;
+}
+
+template <typename Archive>
+void Fields(Archive& archive, std::vector<EdgeMap>& edge_maps) {
+  List(archive, edge_maps, kEdgeMapBytes);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, EdgeSketch& sketch) {
+  SketchCounts& counts = sketch.counts;
+  archive(counts.view_pairs,
+          counts.h1_edges,
+          counts.hypotheses,
+          counts.unsupported,
+          counts.rivals,
+          counts.used_edges,
+          sketch.edge_sigma_px);
+  List(archive, sketch.edges, kEdge3dBytes);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, ErrorsOfViews& errors) {
+  archive(errors.mean_px, errors.median_px);
+}
+
+template <typename Archive>
+void Fields(Archive& archive, CurvePoses& poses) {
+  List(archive, poses.cam_from_world, kPoseBytes);
+  List(archive, poses.cameras, kMinCameraBytes);
+  auto accepted = static_cast<std::uint8_t>(poses.accepted);
+  std::vector<char> reason(poses.reason.begin(), poses.reason.end());
+  archive(accepted);
+  List(archive, reason, 1);
+  if constexpr (Archive::kReads) {
+    poses.accepted = accepted != 0;
+    poses.reason.assign(reason.begin(), reason.end());
+  }
+  archive(poses.num_samples,
+          poses.num_check_samples,
+          poses.num_check_observations,
+          poses.num_points,
+          poses.num_check_points,
+          poses.num_views_moved,
+          poses.max_shift_view_idx);
+  for (ErrorsOfViews* errors : {&poses.before,
+                                &poses.after,
+                                &poses.points_before,
+                                &poses.points_after}) {
+    Fields(archive, *errors);
+  }
+  archive(poses.significance, poses.median_shift_px, poses.max_shift_px);
+}
+
+namespace {
+
+template <typename T>
+Status Write(const fs::path& path,
+             StageKind kind,
+             std::uint64_t key,
+             const T& value,
+             std::size_t num_bytes = 0) {
+  StageWriter out;
+  out.Reserve(num_bytes);
+  Fields(out, const_cast<T&>(value));
+  return WriteStage(path, kind, key, out.bytes());
+}
+
+template <typename T>
+Result<T> Read(const fs::path& path, StageKind kind, std::uint64_t key) {
+  const Result<std::string> content = ReadStage(path, kind, key);
+  if (!content.ok()) return content.status();
+  StageReader in(*content);
+  T value;
+  Fields(in, value);
+  if (!in.AtEnd()) return BrokenStage(path);
+  return value;
 }
 
 }  // namespace
@@ -121,140 +161,38 @@ EdgeMap TakeEdgeMap(ByteReader& in) {
 Status WriteEdgeMaps(const fs::path& path,
                      std::uint64_t key,
                      const std::vector<EdgeMap>& edge_maps) {
-  ByteWriter out;
   std::size_t num_bytes = sizeof(std::uint64_t);
   for (const EdgeMap& map : edge_maps) {
     num_bytes += kEdgeMapBytes + kLinkedEdge2dBytes * map.edges.size();
   }
-  out.Reserve(num_bytes);
-  out.PutCount(edge_maps.size());
-  for (const EdgeMap& map : edge_maps) Put(map, out);
-  return WriteStage(path, StageKind::kEdgeMaps, key, out.bytes());
+  return Write(path, StageKind::kEdgeMaps, key, edge_maps, num_bytes);
 }
 
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const fs::path& path,
                                           std::uint64_t key) {
-  const Result<std::string> content =
-      ReadStage(path, StageKind::kEdgeMaps, key);
-  if (!content.ok()) return content.status();
-  ByteReader in(*content);
-  std::vector<EdgeMap> edge_maps(in.TakeCount(kEdgeMapBytes));
-  for (EdgeMap& map : edge_maps) map = TakeEdgeMap(in);
-  if (!in.AtEnd()) return BrokenStage(path);
-  return edge_maps;
+  return Read<std::vector<EdgeMap>>(path, StageKind::kEdgeMaps, key);
 }
 
 Status WriteEdgeSketch(const fs::path& path,
                        std::uint64_t key,
                        const EdgeSketch& sketch) {
-  ByteWriter out;
-  const SketchCounts& counts = sketch.counts;
-  for (const std::int64_t count : {counts.view_pairs,
-                                   counts.h1_edges,
-                                   counts.hypotheses,
-                                   counts.unsupported,
-                                   counts.rivals,
-                                   counts.used_edges}) {
-    out.Put(count);
-  }
-  out.Put(sketch.edge_sigma_px);
-  out.PutCount(sketch.edges.size());
-  for (const Edge3d& edge : sketch.edges) PutEdge(edge, out);
-  return WriteStage(path, StageKind::kEdgeSketch, key, out.bytes());
+  return Write(path, StageKind::kEdgeSketch, key, sketch);
 }
 
 Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
-  const Result<std::string> content =
-      ReadStage(path, StageKind::kEdgeSketch, key);
-  if (!content.ok()) return content.status();
-  ByteReader in(*content);
-  EdgeSketch sketch;
-  SketchCounts& counts = sketch.counts;
-  for (std::int64_t* count : {&counts.view_pairs,
-                              &counts.h1_edges,
-                              &counts.hypotheses,
-                              &counts.unsupported,
-                              &counts.rivals,
-                              &counts.used_edges}) {
-    *count = in.Take<std::int64_t>();
-  }
-  sketch.edge_sigma_px = in.Take<double>();
-  sketch.edges.resize(in.TakeCount(kEdge3dBytes));
-  for (Edge3d& edge : sketch.edges) edge = TakeEdge<Edge3d>(in);
-  if (!in.AtEnd()) return BrokenStage(path);
-  return sketch;
+  return Read<EdgeSketch>(path, StageKind::kEdgeSketch, key);
 }
 
 Status WriteCurvePoses(const fs::path& path,
                        std::uint64_t key,
                        const CurvePoses& poses) {
-  ByteWriter out;
-  out.PutCount(poses.cam_from_world.size());
-  for (const Rigid3& pose : poses.cam_from_world) Put(pose, out);
-  out.PutCount(poses.cameras.size());
-  for (const Camera& camera : poses.cameras) Put(camera, out);
-  out.Put(static_cast<std::uint8_t>(poses.accepted));
-  Put(poses.reason, out);
-  for (const std::size_t count : {poses.num_samples,
-                                  poses.num_check_samples,
-                                  poses.num_check_observations,
-                                  poses.num_points,
-                                  poses.num_check_points,
-                                  poses.num_views_moved,
-                                  poses.max_shift_view_idx}) {
-    out.PutCount(count);
-  }
-  for (const double error : {poses.before.mean_px,
-                             poses.before.median_px,
-                             poses.after.mean_px,
-                             poses.after.median_px,
-                             poses.points_before.mean_px,
-                             poses.points_before.median_px,
-                             poses.points_after.mean_px,
-                             poses.points_after.median_px,
-                             poses.significance,
-                             poses.median_shift_px,
-                             poses.max_shift_px}) {
-    out.Put(error);
-  }
-  return WriteStage(path, StageKind::kCurvePoses, key, out.bytes());
+  return Write(path, StageKind::kCurvePoses, key, poses);
 }
 
 Result<CurvePoses> ReadCurvePoses(const fs::path& path, std::uint64_t key) {
-  const Result<std::string> content =
-      ReadStage(path, StageKind::kCurvePoses, key);
-  if (!content.ok()) return content.status();
-  ByteReader in(*content);
-  CurvePoses poses;
-  poses.cam_from_world.resize(in.TakeCount(kPoseBytes));
-  for (Rigid3& pose : poses.cam_from_world) pose = TakePose(in);
-  poses.cameras.resize(in.TakeCount(kMinCameraBytes));
-  for (Camera& camera : poses.cameras) camera = TakeCamera(in);
-  poses.accepted = in.Take<std::uint8_t>() != 0;
-  poses.reason = TakeText(in);
-  for (std::size_t* count : {&poses.num_samples,
-                             &poses.num_check_samples,
-                             &poses.num_check_observations,
-                             &poses.num_points,
-                             &poses.num_check_points,
-                             &poses.num_views_moved,
-                             &poses.max_shift_view_idx}) {
-    *count = static_cast<std::size_t>(in.Take<std::uint64_t>());
-  }
-  for (double* error : {&poses.before.mean_px,
-                        &poses.before.median_px,
-                        &poses.after.mean_px,
-                        &poses.after.median_px,
-                        &poses.points_before.mean_px,
-                        &poses.points_before.median_px,
-                        &poses.points_after.mean_px,
-                        &poses.points_after.median_px,
-                        &poses.significance,
-                        &poses.median_shift_px,
-                        &poses.max_shift_px}) {
-    *error = in.Take<double>();
-  }
-  if (!in.AtEnd() || poses.max_shift_view_idx >= poses.cam_from_world.size()) {
+  Result<CurvePoses> poses =
+      Read<CurvePoses>(path, StageKind::kCurvePoses, key);
+  if (poses.ok() && poses->max_shift_view_idx >= poses->cam_from_world.size()) {
     return BrokenStage(path);
   }
   return poses;

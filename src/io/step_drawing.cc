@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Fitted curves for CAD.
-#include "io/step_drawing.h"
+#include "io/curve_formats.h"
 
 #include <Eigen/Geometry>
 #include <cctype>
@@ -14,6 +14,7 @@
 
 #include "base/angles.h"
 #include "base/text_fields.h"
+#include "io/drawing_layers.h"
 
 namespace curvix {
 namespace {

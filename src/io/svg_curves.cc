@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Curves as a view sees them.
-#include "io/svg_curves.h"
+#include "io/curve_formats.h"
 
 #include <curvix/curves.h>
 #include <string>
@@ -40,9 +40,9 @@ void EncodeSvgCurves(const CurveSource& curves,
                       "\" stroke=\"";
     AppendHexColor(CurveColor(id), out);
     out += "\" d=\"";
-    for (const auto& stretch : ProjectCurve(curve, view, camera)) {
+    for (const auto& segment : ProjectCurve(curve, view, camera)) {
       char command = 'M';
-      for (const Eigen::Vector2d& point : stretch) {
+      for (const Eigen::Vector2d& point : segment) {
         out += command;
         AppendFixed(point.x(), kDecimals, out);
         out += ' ';

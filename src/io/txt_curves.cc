@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Curves as text.
-#include "io/txt_curves.h"
+#include "io/curve_formats.h"
 
 #include <algorithm>
 #include <array>

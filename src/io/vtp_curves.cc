@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Curves for VTK and ParaView.
-#include "io/vtp_curves.h"
+#include "io/curve_formats.h"
 
 #include <cstddef>
 #include <string>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "measuring/main_axes.h"
 
 #include <Eigen/Dense>

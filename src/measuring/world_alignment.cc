@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "measuring/world_alignment.h"
 
 #include <Eigen/Dense>
@@ -7,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <utility>
+
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {
@@ -21,12 +22,6 @@ using Vector7d = Eigen::Matrix<double, 7, 1>;
 
 Status Unusable(std::string message) {
   return {StatusCode::kInvalidArgument, std::move(message)};
-}
-
-Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
 }
 
 // A step by (s, w, t) of WorldAlignment::covariance.
@@ -216,7 +211,7 @@ Equations Estimator::Linearise() const {
     const double sigma = SigmaOf(p);
     const Eigen::Vector3d turned = now.scale * (now.rotation * p.model);
     Eigen::Matrix<double, 3, 7> rows;
-    rows << turned, -Cross(turned), Eigen::Matrix3d::Identity();
+    rows << turned, -CrossMatrix(turned), Eigen::Matrix3d::Identity();
     equations.Add(Eigen::Matrix<double, 3, 7>(rows / sigma),
                   Eigen::Vector3d((World(p) - now * p.model) / sigma));
   }

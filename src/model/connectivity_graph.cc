@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 6.
 #include "model/connectivity_graph.h"
 
 #include "base/check.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5 (the contours of images).
 #include "model/contours.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include <curvix/edges.h>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,5 +30,24 @@ class Contours {
   std::vector<std::int32_t> edges_;  // contour by contour
   std::vector<std::size_t> begins_;  // of each contour, and the end
 };
+
+// Calls `visit` with the index of every edge to which at most `num_links` links
+// lead from `edge_idx` along its contour, on either side, nearest first.
+template <typename F>
+void ForEachAlongContour(const std::vector<EdgeNeighbors>& neighbors,
+                         std::int32_t edge_idx,
+                         int num_links,
+                         const F& visit) {
+  for (const auto side : {&EdgeNeighbors::previous, &EdgeNeighbors::next}) {
+    std::int32_t at = edge_idx;
+    for (int k = 0; k < num_links; ++k) {
+      const std::optional<std::int32_t> next =
+          neighbors[static_cast<std::size_t>(at)].*side;
+      if (!next) break;
+      at = *next;
+      visit(at);
+    }
+  }
+}
 
 }  // namespace curvix

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 6.
 #include "model/curve_chains.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5, Fig. 7.
 #include "paper/align_edges.h"
 
 #include <algorithm>

@@ -68,8 +68,8 @@ class PairSketcher {
                                   std::move(support),
                                   {members.begin(), members.end()}});
     }
-    const double least =
-        input_.options.validation.min_rival_support * static_cast<double>(most);
+    const double least = input_.options.validation.min_relative_support *
+                         static_cast<double>(most);
     result.rivals += static_cast<std::int64_t>(
         std::erase_if(result.validated, [&](const Validated& v) {
           return static_cast<double>(v.support.size()) < least;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, Fig. 3(c).
 #include "paper/wedge_support.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "parts/joined_curves.h"
 
 #include <Eigen/Core>
@@ -11,9 +10,8 @@
 
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
-#include "model/sample_runs.h"
-#include "parts/cut_curves.h"
-#include "parts/regions.h"
+#include "model/sample_ranges.h"
+#include "parts/partition_views.h"
 
 namespace curvix {
 namespace {
@@ -75,17 +73,17 @@ JoinedCurves::JoinedCurves(const ScenePartition& partition,
                            std::vector<PosedView> views,
                            const Options& options)
     : partition_(partition), parts_(parts), views_(std::move(views)) {
-  pieces_ = ReadPieces();
+  part_curves_ = ReadPartCurves();
   if (!status_.ok()) return;
-  tied_ = TieStretches(partition, pieces_, options.connectivity);
-  for (Piece& piece : pieces_) piece.border_samples = {};
+  tied_ = TieSegments(partition, part_curves_, options.connectivity);
+  for (PartCurve& part_curve : part_curves_) part_curve.border_samples = {};
   chains_ = FollowEnds(tied_.ties);
   DropLooseShortCurves(options.curve_refinement.min_length_px);
 }
 
-std::vector<Piece> JoinedCurves::ReadPieces() const {
+std::vector<PartCurve> JoinedCurves::ReadPartCurves() const {
   const auto cores = CoresOf(partition_);
-  std::vector<Piece> pieces;
+  std::vector<PartCurve> part_curves;
   for (std::size_t i = 0; i < partition_.parts.size(); ++i) {
     const int part_idx = static_cast<int>(i);
     for (std::size_t k = 0; k < parts_.NumCurves(part_idx); ++k) {
@@ -94,11 +92,11 @@ std::vector<Piece> JoinedCurves::ReadPieces() const {
         status_ = traced.status();
         return {};
       }
-      pieces.push_back(MakePiece(
+      part_curves.push_back(MakePartCurve(
           part_idx, k, traced->curve, cores[i], partition_.overlap, views_));
     }
   }
-  return pieces;
+  return part_curves;
 }
 
 // A curve of a part, which names views of the scene.
@@ -132,11 +130,12 @@ Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
   TracedCurve joined;
   std::vector<Curve> curves;
   for (const std::size_t item : items) {
-    const Stretch& stretch = tied_.stretches[item];
-    const Piece& piece = pieces_[stretch.piece];
-    Result<TracedCurve> traced = Read(piece.part_idx, piece.curve_idx);
+    const CurveSegment& segment = tied_.segments[item];
+    const PartCurve& part_curve = part_curves_[segment.curve];
+    Result<TracedCurve> traced =
+        Read(part_curve.part_idx, part_curve.curve_idx);
     if (!traced.ok()) return traced;
-    curves.push_back(TakeOut(traced->curve, stretch.run));
+    curves.push_back(TakeOut(traced->curve, segment.range));
     joined.edges.reserve(joined.edges.size() + traced->edges.size());
     ForEachSupport(curves.back(), [&](EdgeRef& ref) {
       joined.edges.push_back(

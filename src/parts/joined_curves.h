@@ -18,7 +18,7 @@ namespace curvix {
 // holds the border samples (tie_curves.h) in memory; afterwards there are a
 // table of segments, and one curve while it is shown.
 //
-// Tied segments (TieStretches) become one curve. First samples of the next
+// Tied segments (TieSegments) become one curve. First samples of the next
 // segment that would step back are dropped.
 class JoinedCurves final : public CurveSource {
  public:
@@ -38,14 +38,14 @@ class JoinedCurves final : public CurveSource {
  private:
   Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) const;
   Result<TracedCurve> Join(const EndChain& chain) const;
-  std::vector<Piece> ReadPieces() const;
+  std::vector<PartCurve> ReadPartCurves() const;
   void DropLooseShortCurves(double min_length_px);
 
   const ScenePartition& partition_;
   PartResults& parts_;
   std::vector<PosedView> views_;
-  std::vector<Piece> pieces_;  // without border samples
-  TiedStretches tied_;
+  std::vector<PartCurve> part_curves_;  // without border samples
+  TiedSegments tied_;
   std::vector<EndChain> chains_;  // one per curve
   mutable Status status_;
   mutable std::vector<Edge2d> edges_;  // of the curve that is shown

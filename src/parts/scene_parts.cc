@@ -13,10 +13,8 @@
 #include "edge_sketch/view_overlap.h"
 #include "geometry/posed_views.h"
 #include "model/check_input.h"
-#include "parts/cut_curves.h"
 #include "parts/joined_curves.h"
 #include "parts/partition_views.h"
-#include "parts/regions.h"
 
 namespace curvix {
 namespace {

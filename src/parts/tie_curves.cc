@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "parts/tie_curves.h"
 
 #include <Eigen/Core>
@@ -13,56 +12,57 @@
 #include "base/angles.h"
 #include "base/point_tree.h"
 #include "geometry/pixel_size.h"
-#include "model/sample_runs.h"
-#include "parts/regions.h"
+#include "model/sample_ranges.h"
+#include "parts/partition_views.h"
 
 namespace curvix {
 
-Piece MakePiece(int part_idx,
-                std::size_t curve_idx,
-                const Curve& curve,
-                const std::vector<Border>& core,
-                double overlap,
-                const std::vector<PosedView>& views) {
-  Piece piece{part_idx,
-              curve_idx,
-              curve.samples.size(),
-              curve.closed,
-              MainKind(curve) == CurveKind::kOccludingContour,
-              {}};
+PartCurve MakePartCurve(int part_idx,
+                        std::size_t curve_idx,
+                        const Curve& curve,
+                        const std::vector<Border>& core,
+                        double overlap,
+                        const std::vector<PosedView>& views) {
+  PartCurve part_curve{part_idx,
+                       curve_idx,
+                       curve.samples.size(),
+                       curve.closed,
+                       MainKind(curve) == CurveKind::kOccludingContour,
+                       {}};
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];
     if (DistanceBeyond(core, sample.position) < -overlap) continue;
-    piece.border_samples.push_back(
+    part_curve.border_samples.push_back(
         {k,
          sample.position,
          sample.tangent,
          PixelSize(sample.position, sample.support, views)});
   }
-  return piece;
+  return part_curve;
 }
 
 namespace {
 
-const BorderSample& At(const std::vector<Piece>& pieces, const SampleRef& ref) {
-  return pieces[ref.piece].border_samples[ref.border_sample];
+const BorderSample& At(const std::vector<PartCurve>& curves,
+                       const SampleRef& ref) {
+  return curves[ref.curve].border_samples[ref.border_sample];
 }
 
-std::vector<SampleRef> AllOf(const std::vector<Piece>& pieces) {
+std::vector<SampleRef> AllOf(const std::vector<PartCurve>& curves) {
   std::vector<SampleRef> refs;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (std::size_t k = 0; k < pieces[i].border_samples.size(); ++k) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (std::size_t k = 0; k < curves[i].border_samples.size(); ++k) {
       refs.push_back({i, k});
     }
   }
   return refs;
 }
 
-std::vector<Eigen::Vector3d> Positions(const std::vector<Piece>& pieces,
+std::vector<Eigen::Vector3d> Positions(const std::vector<PartCurve>& curves,
                                        const std::vector<SampleRef>& refs) {
   std::vector<Eigen::Vector3d> positions;
   for (const SampleRef& ref : refs) {
-    positions.push_back(At(pieces, ref).position);
+    positions.push_back(At(curves, ref).position);
   }
   return positions;
 }
@@ -70,23 +70,23 @@ std::vector<Eigen::Vector3d> Positions(const std::vector<Piece>& pieces,
 }  // namespace
 
 DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
-                                   const std::vector<Piece>& pieces,
+                                   const std::vector<PartCurve>& curves,
                                    const ConnectivityOptions& options)
-    : partition_(partition), pieces_(pieces) {
-  for (const Piece& piece : pieces) {
-    duplicates_.emplace_back(piece.border_samples.size());
+    : partition_(partition), part_curves_(curves) {
+  for (const PartCurve& curve : curves) {
+    duplicates_.emplace_back(curve.border_samples.size());
   }
-  const std::vector<SampleRef> refs = AllOf(pieces);
-  const PointTree tree(Positions(pieces, refs));
+  const std::vector<SampleRef> refs = AllOf(curves);
+  const PointTree tree(Positions(curves, refs));
   const double min_cosine = std::cos(DegToRad(options.max_angle_deg));
   for (const SampleRef& ref : refs) {
-    const BorderSample& sample = At(pieces, ref);
-    const int own_part = pieces[ref.piece].part_idx;
+    const BorderSample& sample = At(curves, ref);
+    const int own_part = curves[ref.curve].part_idx;
     const double reach = options.max_normal_distance_px * sample.pixel;
     std::map<int, std::pair<double, SampleRef>> nearest;  // by part
     for (const std::size_t k : tree.Within(sample.position, reach)) {
-      const int part_idx = pieces[refs[k].piece].part_idx;
-      const BorderSample& other = At(pieces, refs[k]);
+      const int part_idx = curves[refs[k].curve].part_idx;
+      const BorderSample& other = At(curves, refs[k]);
       if (part_idx == own_part ||
           std::abs(sample.tangent.dot(other.tangent)) < min_cosine) {
         continue;
@@ -99,7 +99,7 @@ DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
       }
     }
     for (const auto& [part_idx, duplicate] : nearest) {
-      duplicates_[ref.piece][ref.border_sample].push_back(duplicate.second);
+      duplicates_[ref.curve][ref.border_sample].push_back(duplicate.second);
     }
   }
 }
@@ -108,11 +108,11 @@ bool DuplicateSamples::Stays(const SampleRef& ref) const {
   const std::vector<SampleRef>& duplicates = Of(ref);
   if (duplicates.empty()) return true;
   const auto part = [&](const SampleRef& r) {
-    return pieces_[r.piece].part_idx;
+    return part_curves_[r.curve].part_idx;
   };
   const SampleRef& first =
       part(ref) < part(duplicates.front()) ? ref : duplicates.front();
-  const int owner = OwnerOf(partition_, At(pieces_, first).position);
+  const int owner = OwnerOf(partition_, At(part_curves_, first).position);
   const bool owner_is_there =
       part(ref) == owner || std::any_of(duplicates.begin(),
                                         duplicates.end(),
@@ -130,97 +130,100 @@ constexpr std::size_t kMaxSkipped = 10;
 class Tier {
  public:
   Tier(const ScenePartition& partition,
-       const std::vector<Piece>& pieces,
+       const std::vector<PartCurve>& curves,
        const ConnectivityOptions& options)
-      : pieces_(pieces), duplicates_(partition, pieces, options) {
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      first_stretches_.push_back(stretches_.size());
-      std::vector<bool> stays(pieces[i].num_samples, true);
-      for (std::size_t k = 0; k < pieces[i].border_samples.size(); ++k) {
-        stays[pieces[i].border_samples[k].sample] = duplicates_.Stays({i, k});
+      : part_curves_(curves), duplicates_(partition, curves, options) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      first_segments_.push_back(segments_.size());
+      std::vector<bool> stays(curves[i].num_samples, true);
+      for (std::size_t k = 0; k < curves[i].border_samples.size(); ++k) {
+        stays[curves[i].border_samples[k].sample] = duplicates_.Stays({i, k});
       }
-      for (const Run& run : RunsOf(stays)) stretches_.push_back({i, run});
+      for (const SampleRange& range : RangesOf(stays))
+        segments_.push_back({i, range});
     }
-    first_stretches_.push_back(stretches_.size());
+    first_segments_.push_back(segments_.size());
   }
 
   // Once.
-  TiedStretches Tie() {
+  TiedSegments Tie() {
     std::vector<EndPair> pairs;
-    for (EndIdx end = 0; end < 2 * stretches_.size(); ++end) {
+    for (EndIdx end = 0; end < 2 * segments_.size(); ++end) {
       if (const auto pair = Continuation(end)) pairs.push_back(*pair);
     }
-    EndTies ties = TieCheapestFirst(std::move(pairs), stretches_.size());
-    return {std::move(stretches_), std::move(ties)};
+    EndTies ties = TieCheapestFirst(std::move(pairs), segments_.size());
+    return {std::move(segments_), std::move(ties)};
   }
 
  private:
   const BorderSample& At(const SampleRef& ref) const {
-    return pieces_[ref.piece].border_samples[ref.border_sample];
+    return part_curves_[ref.curve].border_samples[ref.border_sample];
   }
 
-  // The segment that holds a sample of a piece.
-  std::optional<std::size_t> StretchOf(std::size_t piece,
+  // The segment that holds a sample of a curve.
+  std::optional<std::size_t> SegmentOf(std::size_t curve,
                                        std::size_t sample) const {
     const auto at = [&](std::size_t idx) {
-      return stretches_.begin() +
-             static_cast<std::ptrdiff_t>(first_stretches_[idx]);
+      return segments_.begin() +
+             static_cast<std::ptrdiff_t>(first_segments_[idx]);
     };
-    const auto stretch =
-        std::partition_point(at(piece), at(piece + 1), [&](const Stretch& s) {
-          return s.run.end <= sample;
+    const auto segment = std::partition_point(
+        at(curve), at(curve + 1), [&](const CurveSegment& s) {
+          return s.range.end <= sample;
         });
-    if (stretch == at(piece + 1) || sample < stretch->run.begin) {
+    if (segment == at(curve + 1) || sample < segment->range.begin) {
       return std::nullopt;
     }
-    return static_cast<std::size_t>(stretch - stretches_.begin());
+    return static_cast<std::size_t>(segment - segments_.begin());
   }
 
-  // A sample of a piece that does not stay, and so is a border sample.
-  SampleRef RefTo(std::size_t piece, std::size_t sample) const {
-    const std::vector<BorderSample>& border = pieces_[piece].border_samples;
+  // A sample of a curve that does not stay, and so is a border sample.
+  SampleRef RefTo(std::size_t curve, std::size_t sample) const {
+    const std::vector<BorderSample>& border =
+        part_curves_[curve].border_samples;
     const auto found = std::partition_point(
         border.begin(), border.end(), [&](const BorderSample& s) {
           return s.sample < sample;
         });
-    return {piece, static_cast<std::size_t>(found - border.begin())};
+    return {curve, static_cast<std::size_t>(found - border.begin())};
   }
 
   // The tie from an end of a segment to the segment that continues it.
   std::optional<EndPair> Continuation(EndIdx end) const {
-    const Stretch& from = stretches_[ItemOf(end)];
-    const Piece& piece = pieces_[from.piece];
-    const std::size_t size = piece.num_samples;
-    const std::size_t last = IsFront(end) ? from.run.end - 1 : from.run.begin;
+    const CurveSegment& from = segments_[ItemOf(end)];
+    const PartCurve& curve = part_curves_[from.curve];
+    const std::size_t size = curve.num_samples;
+    const std::size_t last =
+        IsFront(end) ? from.range.end - 1 : from.range.begin;
     std::size_t num_beyond = IsFront(end) ? size - 1 - last : last;
-    if (piece.closed) num_beyond = size - (from.run.end - from.run.begin);
+    if (curve.closed) num_beyond = size - (from.range.end - from.range.begin);
     for (std::size_t k = 1; k <= num_beyond; ++k) {
       const std::size_t step = IsFront(end) ? k : size - k;
       const std::size_t sample = (last + step) % size;
-      if (const auto own = StretchOf(from.piece, sample)) {
+      if (const auto own = SegmentOf(from.curve, sample)) {
         return EndPair{
             static_cast<double>(k), end, 2 * *own + (IsFront(end) ? 1 : 0)};
       }
-      const auto across = TieAcross(end, k, RefTo(from.piece, sample));
+      const auto across = TieAcross(end, k, RefTo(from.curve, sample));
       if (across) return across;
     }
     return std::nullopt;
   }
 
-  // The tie to a segment of another piece, which has a duplicate of the k-th
+  // The tie to a segment of another curve, which has a duplicate of the k-th
   // sample beyond `end`.
   std::optional<EndPair> TieAcross(EndIdx end,
                                    std::size_t k,
                                    const SampleRef& beyond) const {
     for (const SampleRef& duplicate : duplicates_.Of(beyond)) {
       const std::size_t sample = At(duplicate).sample;
-      const auto to = StretchOf(duplicate.piece, sample);
-      if (!to || IsOfOtherKind(beyond.piece, duplicate.piece)) continue;
+      const auto to = SegmentOf(duplicate.curve, sample);
+      if (!to || IsOfOtherKind(beyond.curve, duplicate.curve)) continue;
       const bool runs_on =
           (At(beyond).tangent.dot(At(duplicate).tangent) > 0) == IsFront(end);
-      const Run& run = stretches_[*to].run;
+      const SampleRange& range = segments_[*to].range;
       const std::size_t skipped =
-          runs_on ? sample - run.begin : run.end - 1 - sample;
+          runs_on ? sample - range.begin : range.end - 1 - sample;
       if (skipped > kMaxSkipped) continue;
       return EndPair{
           static_cast<double>(k + skipped), end, 2 * *to + (runs_on ? 1 : 0)};
@@ -229,22 +232,23 @@ class Tier {
   }
 
   bool IsOfOtherKind(std::size_t a, std::size_t b) const {
-    return pieces_[a].is_occluding_contour != pieces_[b].is_occluding_contour;
+    return part_curves_[a].is_occluding_contour !=
+           part_curves_[b].is_occluding_contour;
   }
 
-  const std::vector<Piece>& pieces_;
+  const std::vector<PartCurve>& part_curves_;
   const DuplicateSamples duplicates_;
-  std::vector<Stretch> stretches_;
-  // Of each piece, and the end.
-  std::vector<std::size_t> first_stretches_;
+  std::vector<CurveSegment> segments_;
+  // Of each curve, and the end.
+  std::vector<std::size_t> first_segments_;
 };
 
 }  // namespace
 
-TiedStretches TieStretches(const ScenePartition& partition,
-                           const std::vector<Piece>& pieces,
-                           const ConnectivityOptions& options) {
-  return Tier(partition, pieces, options).Tie();
+TiedSegments TieSegments(const ScenePartition& partition,
+                         const std::vector<PartCurve>& curves,
+                         const ConnectivityOptions& options) {
+  return Tier(partition, curves, options).Tie();
 }
 
 }  // namespace curvix

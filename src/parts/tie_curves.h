@@ -11,22 +11,22 @@
 
 #include "model/curve_chains.h"
 #include "model/posed_view.h"
-#include "model/sample_runs.h"
-#include "parts/regions.h"
+#include "model/sample_ranges.h"
+#include "parts/partition_views.h"
 #include "parts/scene_parts.h"
 
 namespace curvix {
 
-// A sample of a piece of which another part may have a duplicate.
+// A sample of a curve of which another part may have a duplicate.
 struct BorderSample {
-  std::size_t sample = 0;                              // of the piece
+  std::size_t sample = 0;                              // of the curve
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
   double pixel = 0;  // PixelSize there, world units
 };
 
 // A curve of a part.
-struct Piece {
+struct PartCurve {
   int part_idx = 0;
   std::size_t curve_idx = 0;  // in its part
   std::size_t num_samples = 0;
@@ -37,17 +37,17 @@ struct Piece {
 
 // `core`: of the part. Border samples are those within `overlap` on either side
 // of a border.
-Piece MakePiece(int part_idx,
-                std::size_t curve_idx,
-                const Curve& curve,
-                const std::vector<Border>& core,
-                double overlap,
-                const std::vector<PosedView>& views);
+PartCurve MakePartCurve(int part_idx,
+                        std::size_t curve_idx,
+                        const Curve& curve,
+                        const std::vector<Border>& core,
+                        double overlap,
+                        const std::vector<PosedView>& views);
 
-// A border sample of a piece.
+// A border sample of a curve.
 struct SampleRef {
-  std::size_t piece = 0;
-  std::size_t border_sample = 0;  // index into Piece::border_samples
+  std::size_t curve = 0;
+  std::size_t border_sample = 0;  // index into PartCurve::border_samples
 };
 
 // For border samples, their duplicate in each other part: the nearest sample,
@@ -55,14 +55,14 @@ struct SampleRef {
 // direction. Ties: the earlier sample.
 class DuplicateSamples {
  public:
-  // Partition and pieces outlive it.
+  // Partition and curves outlive it.
   DuplicateSamples(const ScenePartition& partition,
-                   const std::vector<Piece>& pieces,
+                   const std::vector<PartCurve>& curves,
                    const ConnectivityOptions& options);
 
   // In the order of the parts.
   const std::vector<SampleRef>& Of(const SampleRef& ref) const {
-    return duplicates_[ref.piece][ref.border_sample];
+    return duplicates_[ref.curve][ref.border_sample];
   }
 
   // Whether the sample stays, of it and its duplicates. The sample in the part
@@ -73,29 +73,29 @@ class DuplicateSamples {
 
  private:
   const ScenePartition& partition_;
-  const std::vector<Piece>& pieces_;
-  // Of each border sample of each piece.
+  const std::vector<PartCurve>& part_curves_;
+  // Of each border sample of each curve.
   std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
 };
 
-// A segment of a piece: successive samples that stay.
-struct Stretch {
-  std::size_t piece = 0;
-  Run run;
+// A segment of a curve: successive samples that stay.
+struct CurveSegment {
+  std::size_t curve = 0;
+  SampleRange range;
 };
 
-// The segments in the order of the pieces, and the ties of their ends.
-struct TiedStretches {
-  std::vector<Stretch> stretches;
+// The segments in the order of the curves, and the ties of their ends.
+struct TiedSegments {
+  std::vector<CurveSegment> segments;
   EndTies ties;
 };
 
-// Of duplicates one stays (DuplicateSamples), so pieces are split into
+// Of duplicates one stays (DuplicateSamples), so curves are split into
 // segments. Beyond the end of a segment, its part has more samples. The first
 // of these of which a duplicate stays gives the segment to which the end is
 // tied. The nearest ends are tied first.
-TiedStretches TieStretches(const ScenePartition& partition,
-                           const std::vector<Piece>& pieces,
-                           const ConnectivityOptions& options);
+TiedSegments TieSegments(const ScenePartition& partition,
+                         const std::vector<PartCurve>& curves,
+                         const ConnectivityOptions& options);
 
 }  // namespace curvix

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "pipeline/run_recorder.h"
 
 #include "base/free_memory.h"

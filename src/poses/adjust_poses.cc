@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "poses/adjust_poses.h"
 
 #include <curvix/scene.h>
@@ -54,9 +53,7 @@ Rigid3 FromIncrement(const PoseIncrement& increment) {
 // by J d.
 Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& turn) {
   const double angle2 = turn.squaredNorm();
-  Eigen::Matrix3d cross;
-  cross << 0, -turn.z(), turn.y(), turn.z(), 0, -turn.x(), -turn.y(), turn.x(),
-      0;
+  const Eigen::Matrix3d cross = CrossMatrix(turn);
   if (angle2 < 1e-8) return Eigen::Matrix3d::Identity() + cross / 2;
   const double angle = std::sqrt(angle2);
   return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * cross +

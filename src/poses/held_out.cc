@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "poses/held_out.h"
 
 #include <curvix/scene.h>

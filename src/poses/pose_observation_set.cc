@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "poses/pose_observation_set.h"
 
 #include <curvix/scene.h>
@@ -39,12 +38,13 @@ std::optional<PointSample> SampleOf(const ScenePoint& point,
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> PositionsOf(const PoseObservationSet& evidence) {
+std::vector<Eigen::Vector3d> PositionsOf(
+    const PoseObservationSet& observations) {
   std::vector<Eigen::Vector3d> positions;
-  for (const auto& place : evidence.places) {
+  for (const auto& place : observations.places) {
     positions.push_back(PositionOf(place));
   }
-  for (const auto& point : evidence.points) {
+  for (const auto& point : observations.points) {
     positions.push_back(PositionOf(point));
   }
   return positions;

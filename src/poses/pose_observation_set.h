@@ -29,20 +29,21 @@ inline Eigen::Vector3d PositionOf(const PointSample& point) {
 }
 
 // Of the places, then of the points.
-std::vector<Eigen::Vector3d> PositionsOf(const PoseObservationSet& evidence);
+std::vector<Eigen::Vector3d> PositionsOf(
+    const PoseObservationSet& observations);
 
 // Calls f(view_idx, position) for each place and point and each of its views.
 template <typename F>
-void VisitSeen(const PoseObservationSet& evidence, const F& f) {
+void VisitSeen(const PoseObservationSet& observations, const F& f) {
   const auto visit = [&f](const auto& seen, const Eigen::Vector3d& position) {
     for (const auto& at : seen) {
       f(static_cast<std::size_t>(at.view_idx), position);
     }
   };
-  for (const CurvePlace& place : evidence.places) {
+  for (const CurvePlace& place : observations.places) {
     visit(place.support, PositionOf(place));
   }
-  for (const PointSample& point : evidence.points) {
+  for (const PointSample& point : observations.points) {
     visit(point.observations, point.position);
   }
 }

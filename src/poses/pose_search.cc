@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "poses/pose_search.h"
 
 #include <curvix/scene.h>
@@ -161,24 +160,25 @@ void PoseSearch::UpdateSigmas(const std::vector<CurvePlace>& places) {
   });
 }
 
-void PoseSearch::AdjustInTurns(PoseObservationSet* evidence) {
+void PoseSearch::AdjustInTurns(PoseObservationSet* observations) {
   double error_px = kMaxSigmaPx;
   for (int turn = 0; turn < kMaxNumTurns && !is_stopped_; ++turn) {
-    FindEdges(&evidence->places);
-    UpdateSigmas(evidence->places);
-    Adjust(evidence);
+    FindEdges(&observations->places);
+    UpdateSigmas(observations->places);
+    Adjust(observations);
     const double previous = std::exchange(
-        error_px, MedianOr(0, Concatenate(DistancesByView(evidence->places))));
+        error_px,
+        MedianOr(0, Concatenate(DistancesByView(observations->places))));
     if (turn > 1 && error_px > previous * (1 - kMinGainOfTurn)) break;
   }
 }
 
-AdjustedPoses PoseSearch::Solve(const PoseObservationSet& evidence,
+AdjustedPoses PoseSearch::Solve(const PoseObservationSet& observations,
                                 double prior_px,
                                 const std::vector<bool>& free_lenses,
                                 double min_gain) {
   std::vector<PoseSample> samples;
-  for (const CurvePlace& place : evidence.places) {
+  for (const CurvePlace& place : observations.places) {
     PoseSample& sample = samples.emplace_back();
     sample.contour = place.contour;
     for (const EdgeRef& ref : place.support) {
@@ -187,7 +187,7 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& evidence,
   }
   return AdjustPoses({scene_,
                       samples,
-                      evidence.points,
+                      observations.points,
                       sigmas_px_,
                       point_sigma_px_,
                       prior_px,
@@ -200,47 +200,48 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& evidence,
 
 // Points constrain poses better than a narrow prior, which would keep a common
 // drift.
-double PoseSearch::PriorFor(const PoseObservationSet& evidence) const {
+double PoseSearch::PriorFor(const PoseObservationSet& observations) const {
   if (!free_lenses_.empty()) return kPriorOfFreeLensesPx;
-  return evidence.points.empty() ? prior_px_ : kFirstPriorPx;
+  return observations.points.empty() ? prior_px_ : kFirstPriorPx;
 }
 
-void PoseSearch::Adjust(PoseObservationSet* evidence, double min_gain) {
+void PoseSearch::Adjust(PoseObservationSet* observations, double min_gain) {
   const AdjustedPoses adjusted =
-      Solve(*evidence, PriorFor(*evidence), free_lenses_, min_gain);
+      Solve(*observations, PriorFor(*observations), free_lenses_, min_gain);
   edges_.Move(adjusted.moved);
-  for (std::size_t i = 0; i < evidence->points.size(); ++i) {
-    evidence->points[i].position = adjusted.points[i];
+  for (std::size_t i = 0; i < observations->points.size(); ++i) {
+    observations->points[i].position = adjusted.points[i];
   }
-  ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
-    CurvePlace& place = evidence->places[i];
+  ParallelFor(observations->places.size(), num_threads_, [&](std::size_t i) {
+    CurvePlace& place = observations->places[i];
     place.contour = adjusted.contours[i];
     place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
   });
   prior_px_ = std::clamp(
-      MedianShift(*evidence, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
+      MedianShift(*observations, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }
 
-void PoseSearch::Fit(PoseObservationSet* evidence) const {
-  ParallelFor(evidence->places.size(), num_threads_, [&](std::size_t i) {
-    CurvePlace& place = evidence->places[i];
+void PoseSearch::Fit(PoseObservationSet* observations) const {
+  ParallelFor(observations->places.size(), num_threads_, [&](std::size_t i) {
+    CurvePlace& place = observations->places[i];
     place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
   });
-  ParallelFor(evidence->points.size(), num_threads_, [&](std::size_t i) {
-    evidence->points[i].position = Fitted(evidence->points[i]);
+  ParallelFor(observations->points.size(), num_threads_, [&](std::size_t i) {
+    observations->points[i].position = Fitted(observations->points[i]);
   });
 }
 
-std::vector<double> PoseSearch::LossesOf(const PoseObservationSet& evidence) {
-  PoseObservationSet fitted = evidence;
+std::vector<double> PoseSearch::LossesOf(
+    const PoseObservationSet& observations) {
+  PoseObservationSet fitted = observations;
   Fit(&fitted);
   return Solve(fitted, kFirstPriorPx, {}, kRoughGain).costs;
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(
-    const PoseObservationSet& evidence, const MovedCameras& before) const {
+    const PoseObservationSet& observations, const MovedCameras& before) const {
   std::vector<std::vector<double>> shifts(scene_.views.size());
-  VisitSeen(evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
+  VisitSeen(observations, [&](std::size_t i, const Eigen::Vector3d& x) {
     if (const auto shift = edges_.ShiftIn(i, x, before)) {
       shifts[i].push_back(*shift);
     }
@@ -254,10 +255,10 @@ std::vector<std::optional<double>> PoseSearch::Shifts(
   return medians;
 }
 
-double PoseSearch::MedianShift(const PoseObservationSet& evidence,
+double PoseSearch::MedianShift(const PoseObservationSet& observations,
                                const MovedCameras& before) const {
   std::vector<double> medians;
-  for (const std::optional<double>& shift : Shifts(evidence, before)) {
+  for (const std::optional<double>& shift : Shifts(observations, before)) {
     if (shift) medians.push_back(*shift);
   }
   return MedianOr(0, std::move(medians));
@@ -268,25 +269,26 @@ Eigen::Vector3d PoseSearch::Fitted(const PointSample& point) const {
 }
 
 std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
-    const PoseObservationSet& evidence) {
+    const PoseObservationSet& observations) {
   const MovedCameras moved = edges_.moved();
   edges_.Move(edges_.Unmoved());
-  const std::size_t num_places = evidence.places.size();
-  std::vector<Eigen::Vector3d> positions(num_places + evidence.points.size());
+  const std::size_t num_places = observations.places.size();
+  std::vector<Eigen::Vector3d> positions(num_places +
+                                         observations.points.size());
   ParallelFor(positions.size(), num_threads_, [&](std::size_t i) {
     positions[i] =
         i < num_places
-            ? MiddleOf(edges_.Adjusted(evidence.places[i], kPlaceSigmaPx))
-            : Fitted(evidence.points[i - num_places]);
+            ? MiddleOf(edges_.Adjusted(observations.places[i], kPlaceSigmaPx))
+            : Fitted(observations.points[i - num_places]);
   });
   edges_.Move(moved);
   return positions;
 }
 
 // Not from camera centres, which depend on the focal length.
-void PoseSearch::RestoreScale(PoseObservationSet* evidence) {
+void PoseSearch::RestoreScale(PoseObservationSet* observations) {
   const double unit =
-      MedianRatio(PositionsByInput(*evidence), PositionsOf(*evidence));
+      MedianRatio(PositionsByInput(*observations), PositionsOf(*observations));
   MovedCameras moved = edges_.moved();
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     Rigid3 pose = edges_.PoseOf(i);
@@ -294,17 +296,17 @@ void PoseSearch::RestoreScale(PoseObservationSet* evidence) {
     moved.new_cam_from_cam[i] = pose * scene_.views[i].cam_from_world.Inverse();
   }
   edges_.Move(moved);
-  for (CurvePlace& place : evidence->places) {
+  for (CurvePlace& place : observations->places) {
     place.contour.axis.position *= unit;
     place.contour.radius *= unit;
   }
-  for (PointSample& point : evidence->points) point.position *= unit;
+  for (PointSample& point : observations->points) point.position *= unit;
 }
 
-void PoseSearch::HoldTheWorld(PoseObservationSet* evidence) {
-  RestoreScale(evidence);
+void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
+  RestoreScale(observations);
   std::vector<SeenPlace> seen;
-  VisitSeen(*evidence, [&](std::size_t i, const Eigen::Vector3d& x) {
+  VisitSeen(*observations, [&](std::size_t i, const Eigen::Vector3d& x) {
     if (const auto pixel = edges_.PixelByInputCamera(i, x)) {
       seen.push_back({i, x, *pixel});
     }

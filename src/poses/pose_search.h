@@ -48,31 +48,31 @@ class PoseSearch {
 
   // Adjusts poses, free cameras, places and points jointly, until a step lowers
   // the loss by a share of less than `min_gain`.
-  void Adjust(PoseObservationSet* evidence, double min_gain = kRoughGain);
+  void Adjust(PoseObservationSet* observations, double min_gain = kRoughGain);
 
   // Alternates FindEdges() and Adjust() until edges come no nearer.
-  void AdjustInTurns(PoseObservationSet* evidence);
+  void AdjustInTurns(PoseObservationSet* observations);
 
   // Matches places with edges again; drops places with few.
   void FindEdges(std::vector<CurvePlace>* places) const;
 
   // Fits places and points to the present poses and cameras.
-  void Fit(PoseObservationSet* evidence) const;
+  void Fit(PoseObservationSet* observations) const;
 
   // The loss of each place, then of each point, after an adjustment of poses to
-  // `evidence` alone with fixed cameras. The state does not change.
-  std::vector<double> LossesOf(const PoseObservationSet& evidence);
+  // `observations` alone with fixed cameras. The state does not change.
+  std::vector<double> LossesOf(const PoseObservationSet& observations);
 
   // Restores the gauge: scale and frame that places and points have with the
   // poses of the scene.
-  void HoldTheWorld(PoseObservationSet* evidence);
+  void RestoreGauge(PoseObservationSet* observations);
 
   // Shift of each image since `before`: median over the places and points of
-  // `evidence` in the view; nothing where these are too few.
-  std::vector<std::optional<double>> Shifts(const PoseObservationSet& evidence,
-                                            const MovedCameras& before) const;
+  // `observations` in the view; nothing where these are too few.
+  std::vector<std::optional<double>> Shifts(
+      const PoseObservationSet& observations, const MovedCameras& before) const;
   // Median over the views.
-  double MedianShift(const PoseObservationSet& evidence,
+  double MedianShift(const PoseObservationSet& observations,
                      const MovedCameras& before) const;
 
  private:
@@ -81,14 +81,14 @@ class PoseSearch {
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;
   void UpdateSigmas(const std::vector<CurvePlace>& places);
-  double PriorFor(const PoseObservationSet& evidence) const;
-  AdjustedPoses Solve(const PoseObservationSet& evidence,
+  double PriorFor(const PoseObservationSet& observations) const;
+  AdjustedPoses Solve(const PoseObservationSet& observations,
                       double prior_px,
                       const std::vector<bool>& free_lenses,
                       double min_gain);
   std::vector<Eigen::Vector3d> PositionsByInput(
-      const PoseObservationSet& evidence);
-  void RestoreScale(PoseObservationSet* evidence);
+      const PoseObservationSet& observations);
+  void RestoreScale(PoseObservationSet* observations);
 
   const Scene& scene_;
   const int num_threads_;

@@ -6,6 +6,7 @@
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
+#include <curvix/status.h>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -119,5 +120,11 @@ class PosedEdges {
   std::vector<std::vector<ViewNeighbor>> neighbors_;
   MovedCameras moved_;
 };
+
+// Whether EdgesWithCameras() has a result; else kInvalidArgument and the first
+// view that has none. Input as there, and not checked.
+Status CanCarryEdges(const Scene& scene,
+                     const std::vector<EdgeMap>& edge_maps,
+                     const std::vector<Camera>& cameras);
 
 }  // namespace curvix

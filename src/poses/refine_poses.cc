@@ -3,18 +3,18 @@
 // accepted; see docs/stages/poses.md.
 #include <curvix/refine_poses.h>
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include "base/median.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
+#include "base/text_fields.h"
 #include "geometry/lens.h"
 #include "model/check_input.h"
 #include "pipeline/run_recorder.h"
-#include "poses/edges_with_cameras.h"
 #include "poses/held_out.h"
 #include "poses/pose_search.h"
+#include "poses/posed_edges.h"
 
 namespace curvix {
 namespace {
@@ -57,22 +57,22 @@ class Refiner {
     if (DoPointsFit()) {
       return AsTheyAre("the points are where the poses put them");
     }
-    const bool has_shifted = search_.ShiftViews(evidence_.places);
+    const bool has_shifted = search_.ShiftViews(observations_.places);
     if (!has_shifted && DoEdgesFit()) {
       return AsTheyAre("the edges are where the poses put them");
     }
-    if (!evidence_.points.empty()) AdjustToPoints();
-    search_.AdjustInTurns(&evidence_);
-    if (evidence_.points.empty() && HasMovedSinceSketch()) {
+    if (!observations_.points.empty()) AdjustToPoints();
+    search_.AdjustInTurns(&observations_);
+    if (observations_.points.empty() && HasMovedSinceSketch()) {
       SketchAgain();
-      search_.ShiftViews(evidence_.places);
-      search_.AdjustInTurns(&evidence_);
+      search_.ShiftViews(observations_.places);
+      search_.AdjustInTurns(&observations_);
     }
     if (TryLenses()) {
       SketchAgain();
-      search_.AdjustInTurns(&evidence_);
+      search_.AdjustInTurns(&observations_);
     }
-    search_.HoldTheWorld(&evidence_);
+    search_.RestoreGauge(&observations_);
     CurvePoses result = Judge();
     if (result.accepted) Finish(&result);
     return result;
@@ -83,22 +83,22 @@ class Refiner {
   void Begin() {
     ChosenPoints points =
         ChoosePoints(UsablePoints(scene_), scene_.views.size());
-    evidence_ = {search_.Sketch(), std::move(points.chosen)};
-    cells_ = SpaceCells(PositionsOf(evidence_));
-    held_out_ = {TakeHeldOut(cells_, &evidence_.places),
+    observations_ = {search_.Sketch(), std::move(points.chosen)};
+    cells_ = SpaceCells(PositionsOf(observations_));
+    held_out_ = {TakeHeldOut(cells_, &observations_.places),
                  std::move(points.held_out)};
     last_held_out_ = held_out_.places;
     before_ = Measure();
   }
 
   void SketchAgain() {
-    evidence_.places = search_.Sketch();
-    last_held_out_ = TakeHeldOut(cells_, &evidence_.places);
+    observations_.places = search_.Sketch();
+    last_held_out_ = TakeHeldOut(cells_, &observations_.places);
     at_sketch_ = search_.edges().moved();
   }
 
   bool HasMovedSinceSketch() const {
-    return search_.MedianShift(evidence_, at_sketch_) >= kSmallShiftPx;
+    return search_.MedianShift(observations_, at_sketch_) >= kSmallShiftPx;
   }
 
   HeldOutErrors Measure() const {
@@ -138,8 +138,8 @@ class Refiner {
 
   // Poses from points alone; then places by these.
   void AdjustToPoints() {
-    evidence_.places.clear();
-    search_.Adjust(&evidence_);
+    observations_.places.clear();
+    search_.Adjust(&observations_);
     SketchAgain();
   }
 
@@ -173,11 +173,11 @@ class Refiner {
     }
     struct Lenses {
       MovedCameras moved;
-      PoseObservationSet evidence;
+      PoseObservationSet observations;
       std::vector<bool> free_lenses;
     };
     const Lenses without{
-        search_.edges().moved(), evidence_, search_.free_lenses()};
+        search_.edges().moved(), observations_, search_.free_lenses()};
     // The same edges for all, since more edges have a larger loss.
     PoseObservationSet held_out = held_out_;
     search_.Fit(&held_out);
@@ -186,14 +186,14 @@ class Refiner {
     Lenses best = without;
     std::vector<Camera> cameras = without.moved.cameras;
     while (!search_.is_stopped()) {
-      evidence_ = without.evidence;
+      observations_ = without.observations;
       search_.Move({without.moved.new_cam_from_cam, cameras});
       search_.FreeLenses(shared_lenses_);
-      search_.Adjust(&evidence_);
+      search_.Adjust(&observations_);
       std::vector<double> losses = search_.LossesOf(held_out);
       if (IsProven(held_out, best_losses, losses)) {
         best_losses = std::move(losses);
-        best = {search_.edges().moved(), evidence_, shared_lenses_};
+        best = {search_.edges().moved(), observations_, shared_lenses_};
       }
       std::vector<Camera> longer = Extended(cameras);
       if (longer == cameras) break;
@@ -201,7 +201,7 @@ class Refiner {
     }
     search_.Move(best.moved);
     search_.FreeLenses(best.free_lenses);
-    evidence_ = std::move(best.evidence);
+    observations_ = std::move(best.observations);
     return best.moved.cameras != without.moved.cameras;
   }
 
@@ -234,8 +234,8 @@ class Refiner {
 
   CurvePoses Judge() {
     CurvePoses result;
-    result.num_samples = evidence_.places.size() + held_out_.places.size();
-    result.num_points = evidence_.points.size() + held_out_.points.size();
+    result.num_samples = observations_.places.size() + held_out_.places.size();
+    result.num_points = observations_.points.size() + held_out_.points.size();
     result.num_check_samples = held_out_.places.size();
     result.num_check_points = held_out_.points.size();
     RestoreWorseViews(Measure());
@@ -264,18 +264,15 @@ class Refiner {
   // Cameras that are proven better are enough: the poses of the scene were made
   // for the old ones.
   void Decide(const SignificanceOfGain& gain, CurvePoses* result) const {
-    char text[256];
-    std::snprintf(text,
-                  sizeof(text),
-                  "what was held out comes nearer by %.1f standard deviations "
-                  "(edges %.1f, points %.1f)",
-                  gain.all,
-                  gain.places,
-                  gain.points);
     result->significance = gain.all;
     const bool has_new_cameras = !search_.free_lenses().empty();
     result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
-    result->reason = text;
+    result->reason = FormatText(
+        "what was held out comes nearer by %.1f standard deviations "
+        "(edges %.1f, points %.1f)",
+        gain.all,
+        gain.places,
+        gain.points);
     if (!result->accepted) result->reason = "may be chance: " + result->reason;
     if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
       result->accepted = false;
@@ -288,20 +285,20 @@ class Refiner {
   void Finish(CurvePoses* result) {
     held_out_.places = std::move(last_held_out_);
     search_.Fit(&held_out_);
-    evidence_.places.insert(evidence_.places.end(),
-                            held_out_.places.begin(),
-                            held_out_.places.end());
-    evidence_.points.insert(evidence_.points.end(),
-                            held_out_.points.begin(),
-                            held_out_.points.end());
+    observations_.places.insert(observations_.places.end(),
+                                held_out_.places.begin(),
+                                held_out_.places.end());
+    observations_.points.insert(observations_.points.end(),
+                                held_out_.points.begin(),
+                                held_out_.points.end());
     for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
-      search_.FindEdges(&evidence_.places);
+      search_.FindEdges(&observations_.places);
       const bool is_last = i + 1 == kNumFinalRounds;
-      search_.Adjust(&evidence_,
+      search_.Adjust(&observations_,
                      is_last ? PoseSearch::kFineGain : PoseSearch::kRoughGain);
     }
-    search_.HoldTheWorld(&evidence_);
-    PutPoses(evidence_, result);
+    search_.RestoreGauge(&observations_);
+    PutPoses(observations_, result);
   }
 
   std::size_t NumViewsMoved() const {
@@ -319,10 +316,11 @@ class Refiner {
     return count;
   }
 
-  void PutPoses(const PoseObservationSet& evidence, CurvePoses* result) const {
+  void PutPoses(const PoseObservationSet& observations,
+                CurvePoses* result) const {
     std::vector<double> shifts;
     for (const std::optional<double>& shift :
-         search_.Shifts(evidence, search_.edges().Unmoved())) {
+         search_.Shifts(observations, search_.edges().Unmoved())) {
       shifts.push_back(shift.value_or(0));
     }
     const auto largest = std::max_element(shifts.begin(), shifts.end());
@@ -345,7 +343,7 @@ class Refiner {
   const int num_threads_;
   PoseSearch search_;
   std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
-  PoseObservationSet evidence_;
+  PoseObservationSet observations_;
   PoseObservationSet held_out_;
   MovedCameras at_sketch_;                 // the last
   std::vector<CurvePlace> last_held_out_;  // of that sketch

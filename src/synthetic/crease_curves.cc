@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "synthetic/crease_curves.h"
+#include "synthetic/synthetic_truth.h"
 
 #include "base/angles.h"
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "synthetic/face_pattern.h"
 
 #include "base/angles.h"

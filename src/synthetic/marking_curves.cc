@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
-#include "synthetic/marking_curves.h"
+#include "synthetic/synthetic_truth.h"
 
 #include "synthetic/face_frame.h"
 
@@ -213,7 +213,7 @@ std::vector<std::vector<TrueSample>> EdgeShadow::Sample(double step) const {
   for (const int face : faces) {
     const auto on_face = [&](double s) { return EdgeAt(s) == face; };
     for (const auto& [begin, end] :
-         Stretches(caster_.length, caster_.length / num_steps, on_face)) {
+         IntervalsWhere(caster_.length, caster_.length / num_steps, on_face)) {
       std::vector<TrueSample> samples = Sample(begin, end, step);
       if (samples.size() > 1) shadows.push_back(std::move(samples));
     }

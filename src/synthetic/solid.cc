@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "synthetic/solid.h"
 
 #include <algorithm>
@@ -8,9 +7,7 @@
 #include <utility>
 
 #include "base/check.h"
-#include "synthetic/furnished.h"
-#include "synthetic/parts.h"
-#include "synthetic/street.h"
+#include "synthetic/scenes.h"
 
 namespace curvix {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "synthetic/synthetic_scene.h"
 
 #include <algorithm>
@@ -10,11 +9,9 @@
 #include "base/parallel.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
-#include "synthetic/crease_curves.h"
-#include "synthetic/marking_curves.h"
 #include "synthetic/render.h"
+#include "synthetic/scenes.h"
 #include "synthetic/solid.h"
-#include "synthetic/street.h"
 #include "synthetic/surfaces.h"
 #include "synthetic/synthetic_truth.h"
 
@@ -128,12 +125,12 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
   SyntheticScene scene;
   scene.scene.cameras = {*camera};
   scene.truth = SampleTruth(solid, surfaces, options.scale / 500);
-  scene.points = FindTruePoints(solid,
-                                *camera,
-                                poses,
-                                options.points_per_view,
-                                Mix(options.seed, kPoints),
-                                options.num_threads);
+  scene.scene.points = FindPoints(solid,
+                                  *camera,
+                                  poses,
+                                  options.points_per_view,
+                                  Mix(options.seed, kPoints),
+                                  options.num_threads);
   const auto places = EveryFiftieth(scene.truth);
   scene.scene.views.resize(poses.size());
   scene.images.resize(poses.size());

@@ -70,21 +70,10 @@ struct TrueSample {
   CurveKind kind = CurveKind::kUnknown;
 };
 
-// A point of the surface, where exact cameras see it.
-struct TruePoint {
-  struct Sight {
-    int view_idx = 0;
-    Eigen::Vector2d pixel;  // in the image, distortion included
-  };
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
-  std::vector<Sight> sights;                           // ascending by view
-};
-
 struct SyntheticScene {
   // Poses as written, views named view_000.png ..., along the facade in order;
-  // the points are in `points`.
+  // points of the surface that two exact cameras or more see.
   Scene scene;
-  std::vector<TruePoint> points;  // seen by two views at least
   std::vector<RgbImage> images;   // one per view, rendered with the exact poses
   std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
 };

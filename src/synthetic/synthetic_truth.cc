@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "synthetic/synthetic_truth.h"
 
 #include "base/parallel.h"
@@ -112,14 +111,14 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
   return looks;
 }
 
-std::vector<TruePoint> FindTruePoints(const Solid& solid,
-                                      const Camera& camera,
-                                      const std::vector<Rigid3>& poses,
-                                      int num_per_view,
-                                      std::uint64_t seed,
-                                      int num_threads) {
+std::vector<ScenePoint> FindPoints(const Solid& solid,
+                                   const Camera& camera,
+                                   const std::vector<Rigid3>& poses,
+                                   int num_per_view,
+                                   std::uint64_t seed,
+                                   int num_threads) {
   const auto num_points = static_cast<std::size_t>(num_per_view);
-  std::vector<TruePoint> points(poses.size() * num_points);
+  std::vector<ScenePoint> points(poses.size() * num_points);
   ParallelFor(points.size(), num_threads, [&](std::size_t i) {
     const Vector2d pixel(camera.width * Uniform(Mix(seed, 2 * i)),
                          camera.height * Uniform(Mix(seed, 2 * i + 1)));
@@ -129,12 +128,13 @@ std::vector<TruePoint> FindTruePoints(const Solid& solid,
     points[i].position = *position;
     for (std::size_t view = 0; view < poses.size(); ++view) {
       if (const auto at = Sight(*position, solid, camera, poses[view])) {
-        points[i].sights.push_back({static_cast<int>(view), *at});
+        points[i].view_idxs.push_back(static_cast<int>(view));
+        points[i].pixels.push_back(*at);
       }
     }
   });
   std::erase_if(points,
-                [](const TruePoint& point) { return point.sights.size() < 2; });
+                [](const ScenePoint& p) { return p.view_idxs.size() < 2; });
   return points;
 }
 

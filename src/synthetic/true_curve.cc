@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "synthetic/true_curve.h"
 
 #include "base/angles.h"
@@ -64,9 +63,9 @@ TrueCurve Circle(const Vector3d& centre,
   return circle;
 }
 
-std::vector<std::pair<double, double>> Stretches(double length,
-                                                 double step,
-                                                 const OnStretch& holds) {
+std::vector<std::pair<double, double>> IntervalsWhere(double length,
+                                                      double step,
+                                                      const OnCurve& holds) {
   const auto boundary = [&](double in, double out) {
     for (int i = 0; i < 60; ++i) {
       const double middle = (in + out) / 2;
@@ -74,39 +73,39 @@ std::vector<std::pair<double, double>> Stretches(double length,
     }
     return in;
   };
-  std::vector<std::pair<double, double>> stretches;
+  std::vector<std::pair<double, double>> intervals;
   const int num_steps = std::max(8, static_cast<int>(length / step));
   bool held = holds(0);
-  if (held) stretches.push_back({0, length});
+  if (held) intervals.push_back({0, length});
   for (int i = 1; i <= num_steps; ++i) {
     const double s = length * i / num_steps;
     const double previous = length * (i - 1) / num_steps;
     const bool holds_here = holds(s);
     if (holds_here && !held) {
-      stretches.push_back({boundary(s, previous), length});
+      intervals.push_back({boundary(s, previous), length});
     }
-    if (!holds_here && held) stretches.back().second = boundary(previous, s);
+    if (!holds_here && held) intervals.back().second = boundary(previous, s);
     held = holds_here;
   }
-  return stretches;
+  return intervals;
 }
 
 std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
                                   double step,
                                   double min_length,
-                                  const OnStretch& holds) {
-  auto stretches = Stretches(whole.length, step, holds);
-  if (stretches.empty()) return {};
+                                  const OnCurve& holds) {
+  auto intervals = IntervalsWhere(whole.length, step, holds);
+  if (intervals.empty()) return {};
   if (whole.is_closed) {
-    if (stretches.front() == std::pair(0.0, whole.length)) return {whole};
-    if (stretches.front().first == 0 &&
-        stretches.back().second == whole.length) {
-      stretches.back().second += stretches.front().second;
-      stretches.erase(stretches.begin());
+    if (intervals.front() == std::pair(0.0, whole.length)) return {whole};
+    if (intervals.front().first == 0 &&
+        intervals.back().second == whole.length) {
+      intervals.back().second += intervals.front().second;
+      intervals.erase(intervals.begin());
     }
   }
   std::vector<TrueCurve> parts;
-  for (const auto& [begin, end] : stretches) {
+  for (const auto& [begin, end] : intervals) {
     if (end - begin >= min_length) parts.push_back(Part(whole, begin, end));
   }
   return parts;

@@ -37,19 +37,19 @@ TrueCurve Circle(const Eigen::Vector3d& centre,
                  double radius,
                  CurveKind kind);
 
-using OnStretch = std::function<bool(double s)>;
+using OnCurve = std::function<bool(double s)>;
 
 // The intervals of [0, length] in which `holds`, ascending. It is tested at
 // steps of `step` or less; their ends are found by bisection.
-std::vector<std::pair<double, double>> Stretches(double length,
-                                                 double step,
-                                                 const OnStretch& holds);
+std::vector<std::pair<double, double>> IntervalsWhere(double length,
+                                                      double step,
+                                                      const OnCurve& holds);
 
 // The parts of `whole` where `holds`, of `min_length` or more. A part of a
 // circle through its first point is one curve.
 std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
                                   double step,
                                   double min_length,
-                                  const OnStretch& holds);
+                                  const OnCurve& holds);
 
 }  // namespace curvix

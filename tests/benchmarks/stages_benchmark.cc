@@ -15,7 +15,7 @@
 #include "curve_drawing/link_edges.h"
 #include "curve_refinement/refine_curves.h"
 #include "geometry/posed_views.h"
-#include "plugin/commands/synthesize.h"
+#include "plugin/commands/command_synthesize.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {

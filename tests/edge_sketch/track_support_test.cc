@@ -110,7 +110,8 @@ TEST_F(TrackSupportTest, FindsExactCurvesInEveryView) {
       ASSERT_TRUE(tracked) << share;
       EXPECT_GE(tracked->support.size(), 14u);
       EXPECT_LT(ErrorOf(tracked->estimate, curve).norm(), 2e-4);
-      EXPECT_GT(tracked->evidence, ValidationOptions().min_evidence);
+      EXPECT_GT(tracked->evidence,
+                ValidationOptions().min_log_likelihood_ratio);
     }
   }
 }
@@ -170,9 +171,9 @@ TEST(FewestSupports, AreNoMoreThanJustOverHalfOfTheViewsOnOneSide) {
 TEST_F(TrackSupportTest, RejectsTooLittleEvidence) {
   const EdgeEstimate start = Start(curves_[0], 1, 0);
   ValidationOptions options;
-  options.min_evidence = Track(start)->evidence + 0.1;
+  options.min_log_likelihood_ratio = Track(start)->evidence + 0.1;
   EXPECT_FALSE(Track(start, options));
-  options.min_evidence -= 0.2;
+  options.min_log_likelihood_ratio -= 0.2;
   EXPECT_TRUE(Track(start, options));
 }
 

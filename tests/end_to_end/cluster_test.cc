@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "plugin/commands/synthesize.h"
+#include "plugin/commands/command_synthesize.h"
 #include "tests/end_to_end/run_program.h"
 #include "tests/support/temporary_folder.h"
 

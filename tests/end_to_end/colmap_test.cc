@@ -19,7 +19,7 @@
 #include "geometry/similarity.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/commands/synthesize.h"
+#include "plugin/commands/command_synthesize.h"
 #include "plugin/poses/child_process.h"
 #include "synthetic/synthetic_scene.h"
 #include "tests/plugin/posed_points.h"

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "gmock/gmock.h"
-#include "plugin/run/staged_output.h"
+#include "plugin/base/staged_output.h"
 #include "tests/end_to_end/run_program.h"
 #include "tests/end_to_end/small_workspace.h"
 #include "tests/plugin/posed_points.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "colmap/colmap_model_format.h"
-#include "plugin/commands/synthesize.h"
+#include "plugin/commands/command_synthesize.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {

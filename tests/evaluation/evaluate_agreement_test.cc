@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "evaluation/evaluate.h"
-#include "plugin/commands/evaluate_holdout.h"
+#include "plugin/commands/evaluations.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "evaluation/evaluate.h"
+#include "plugin/commands/evaluations.h"
 
 namespace curvix {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/evaluate.h"
+#include "plugin/commands/evaluations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

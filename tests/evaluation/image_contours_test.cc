@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/image_contours.h"
+#include "evaluation/image_agreement.h"
 
 #include <gtest/gtest.h>
 

@@ -40,7 +40,7 @@ UNDO = [  # what is taken back (docs/paper_map.md, departures), flags
     ('nothing', []),
     ('every view, tracked support, log-likelihood',
      ['--Hypotheses.view_selection', 'unused_edges']),
-    ('log-likelihood of an edge', ['--Validation.min_evidence', '0']),
+    ('log-likelihood of an edge', ['--Validation.min_log_likelihood_ratio', '0']),
     ('no alignment', ['--Alignment.num_iterations', '1000']),
     ('thinning', ['--Connectivity.sample_spacing_px', '0']),
     ('duplicates dropped', ['--Connectivity.max_duplicate_distance_px', '0']),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // DTU's calibration, pos_001.txt: a projection matrix as text.
 
-#include "plugin/imports/import_dtu.h"
+#include "plugin/imports/importers.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/plugin/import_fixtures.h"
 #include "tests/support/temporary_folder.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Middlebury's *_par.txt.
 
-#include "plugin/imports/import_middlebury.h"
+#include "plugin/imports/importers.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/two_photographs.h"
 

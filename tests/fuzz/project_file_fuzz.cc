@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The project file with the options of a run.
 
-#include "plugin/commands/command_line.h"
+#include "plugin/base/command_line.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The curves.txt that the program writes.
 
-#include "io/txt_curves.h"
+#include "io/curve_formats.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/io/test_curves.h"
 

@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "base/file_io.h"
-#include "io/obj_lines.h"
+#include "io/curve_formats.h"
 #include "io/pcl_lines.h"
 #include "io/ply_lines.h"
-#include "io/txt_curves.h"
 #include "tests/io/test_curves.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/txt_curves.h"
+#include "io/curve_formats.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

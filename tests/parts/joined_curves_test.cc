@@ -11,8 +11,7 @@
 
 #include "base/angles.h"
 #include "model/curve_chains.h"
-#include "parts/cut_curves.h"
-#include "parts/regions.h"
+#include "parts/partition_views.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "parts/regions.h"
-
 namespace curvix {
 namespace {
 

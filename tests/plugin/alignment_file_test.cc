@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `align` reads and writes.
-#include "plugin/align/alignment_file.h"
+#include "plugin/export/alignment_file.h"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/commands/command_line.h"
+#include "plugin/base/command_line.h"
 
 #include <sstream>
 
@@ -136,6 +136,11 @@ TEST_F(CommandLine, SuggestsTheNearestName) {
   EXPECT_THAT(Error({"--completely_different_thing", "3"}),
               AllOf(HasSubstr("--completely_different_thing"),
                     Not(HasSubstr("did you mean"))));
+}
+
+TEST_F(CommandLine, NamesTheNewNameOfARenamedOption) {
+  EXPECT_THAT(Error({"--Validation.min_evidence", "3"}),
+              HasSubstr("is now '--Validation.min_log_likelihood_ratio'"));
 }
 
 TEST_F(CommandLine, DoesNotGuessAbbreviations) {

@@ -8,10 +8,7 @@
 #include <iostream>
 #include <map>
 
-#include "plugin/imports/import_colmap.h"
-#include "plugin/imports/import_dtu.h"
-#include "plugin/imports/import_middlebury.h"
-#include "plugin/imports/import_nerf.h"
+#include "plugin/imports/importers.h"
 #include "tests/support/data_folder.h"
 
 namespace curvix {

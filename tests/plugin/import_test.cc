@@ -4,10 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/file_io.h"
-#include "plugin/imports/import_colmap.h"
-#include "plugin/imports/import_dtu.h"
-#include "plugin/imports/import_middlebury.h"
-#include "plugin/imports/import_nerf.h"
+#include "plugin/imports/importers.h"
 #include "tests/plugin/import_fixtures.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/run/progress.h"
+#include "plugin/base/progress.h"
 
 #include <algorithm>
 #include <csignal>

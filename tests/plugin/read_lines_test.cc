@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string>
 
-#include "plugin/imports/curves_of_lines.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_views.h"
 

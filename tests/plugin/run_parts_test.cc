@@ -12,7 +12,7 @@
 
 #include "base/file_io.h"
 #include "evaluation/evaluate.h"
-#include "plugin/commands/synthesize.h"
+#include "plugin/commands/command_synthesize.h"
 #include "plugin/run/part_files.h"
 #include "plugin/run/run_workspace.h"
 #include "tests/support/temporary_folder.h"

@@ -6,7 +6,7 @@
 #include "base/option_table.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/commands/command_line.h"
+#include "plugin/base/command_line.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {

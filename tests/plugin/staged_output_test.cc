@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/run/staged_output.h"
+#include "plugin/base/staged_output.h"
 
 #include <sys/stat.h>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/commands/synthesize.h"
+#include "plugin/commands/command_synthesize.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

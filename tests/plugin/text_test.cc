@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/run/text.h"
+#include "plugin/base/text.h"
 
 #include <sstream>
 

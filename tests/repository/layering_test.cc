@@ -82,7 +82,7 @@ const std::map<std::string, Rule>& Rules() {
   return rules;
 }
 
-// "src/base/check.h" is in "base", "plugin/run/text.h" in "plugin".
+// "src/base/check.h" is in "base", "plugin/base/text.h" in "plugin".
 std::string FolderOf(const std::string& file) {
   if (file.rfind("plugin/", 0) == 0) return "plugin";
   const std::string folder = file.substr(0, file.rfind('/'));
@@ -140,6 +140,30 @@ std::optional<std::string> WhyNotAngled(const std::string& file,
   return "this folder does not own that library";
 }
 
+// The folder of plugin/ that a file is in; "" for others.
+std::string PluginFolderOf(const std::string& file) {
+  static const std::regex pattern(R"(plugin/(\w+)/.*)");
+  std::smatch match;
+  return std::regex_match(file, match, pattern) ? match[1].str() : "";
+}
+
+// In the order of the data: each may use those before it.
+bool MayUseInPlugin(const std::string& folder, const std::string& other) {
+  static const std::vector<std::string> folders = {"base",
+                                                   "imports",
+                                                   "export",
+                                                   "poses",
+                                                   "run",
+                                                   "align",
+                                                   "draw",
+                                                   "commands",
+                                                   "python"};
+  const auto at = std::find(folders.begin(), folders.end(), folder);
+  return folder.empty() ||
+         (at != folders.end() &&
+          std::find(folders.begin(), at + 1, other) != at + 1);
+}
+
 std::optional<std::string> WhyNotQuoted(const std::string& file,
                                         const std::string& path,
                                         const Rule& rule) {
@@ -149,6 +173,10 @@ std::optional<std::string> WhyNotQuoted(const std::string& file,
   const std::string other = FolderOf(path);
   if (!ExistsInTree((other == "plugin" ? "" : "src/") + path)) {
     return "includes name the file from src/, those of plugin/ from the root";
+  }
+  if (own == "plugin" && other == "plugin" &&
+      !MayUseInPlugin(PluginFolderOf(file), PluginFolderOf(path))) {
+    return "plugin/" + PluginFolderOf(file) + " comes before what it uses";
   }
   if (other == own || rule.folders.contains(other)) return std::nullopt;
   return own + " may not use " + other;
@@ -209,7 +237,7 @@ TEST(Layering, AllowsWhatTheTableAllows) {
       {"src/io/x.cc", "<pcl/point_types.h>"},
       {"plugin/run/x.cc", "\"base/check.h\""},
       {"plugin/run/x.cc", "<boost/program_options.hpp>"},
-      {"plugin/run/x.cc", "\"plugin/run/text.h\""},
+      {"plugin/run/x.cc", "\"plugin/base/text.h\""},
       {"examples/x.cc", "<curvix/curvix.h>"}};
   for (const Use& use : uses) {
     EXPECT_EQ(WhyNot(use.file, use.include), std::nullopt)
@@ -235,9 +263,11 @@ TEST(Layering, RefusesWhatTheTableDoesNotAllow) {
       {"src/new_folder/x.cc", "<vector>"},
       {"plugin/run/x.cc", "\"curve_drawing/group_edges.h\""},
       {"plugin/run/x.cc", "<pcl/point_types.h>"},
+      {"plugin/base/x.cc", "\"plugin/run/run_report.h\""},
+      {"plugin/new_folder/x.cc", "\"plugin/base/text.h\""},
       {"include/curvix/x.h", "\"base/check.h\""},
       {"include/curvix/x.h", "<opencv2/core.hpp>"},
-      {"examples/x.cc", "\"plugin/run/text.h\""}};
+      {"examples/x.cc", "\"plugin/base/text.h\""}};
   for (const Use& use : uses) {
     EXPECT_NE(WhyNot(use.file, use.include), std::nullopt)
         << use.file << ' ' << use.include;

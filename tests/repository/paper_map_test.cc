@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every file says what it is of the paper, and docs/paper_map.md knows the
-// files, and only files that exist.
+// Every file says what it is of the paper, itself or in its header, and
+// docs/paper_map.md knows the files, and only files that exist.
 #include <algorithm>
 #include <regex>
 #include <set>
@@ -69,7 +69,9 @@ TEST(PaperMap, EverySourceFileSaysWhatItIsOfThePaper) {
   const auto files = FilesBelow({"src"}, {".h", ".cc"});
   ASSERT_GT(files.size(), 100u);
   for (const std::string& file : files) {
-    const std::string paper = PaperLine(file);
+    std::string paper = PaperLine(file);
+    const std::string header = file.substr(0, file.rfind('.')) + ".h";
+    if (paper.empty() && ExistsInTree(header)) paper = PaperLine(header);
     EXPECT_TRUE(NamesASection(paper) || IsOutsideThePaper(paper) ||
                 IsBeyondThePaper(paper))
         << file << ", line 2, is '// Paper: " << paper

@@ -7,8 +7,8 @@
 
 #include "base/angles.h"
 #include "synthetic/bodies.h"
-#include "synthetic/crease_curves.h"
 #include "synthetic/solid.h"
+#include "synthetic/synthetic_truth.h"
 
 namespace curvix {
 namespace {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/marking_curves.h"
+#include "synthetic/synthetic_truth.h"
 
 #include "base/angles.h"
 #include "synthetic/bodies.h"
 #include "synthetic/camera_rig.h"
-#include "synthetic/crease_curves.h"
 #include "synthetic/render.h"
-#include "synthetic/synthetic_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -166,17 +166,18 @@ TEST(SyntheticSceneTest, PointsAreWhereTheirViewsSeeThem) {
   SyntheticOptions options = SmallOptions();
   options.points_per_view = 50;
   const SyntheticScene scene = Make(options);
-  ASSERT_GT(scene.points.size(), 20u);
-  ASSERT_LE(scene.points.size(), 300u);
-  for (const TruePoint& point : scene.points) {
-    EXPECT_GE(point.sights.size(), 2u);
+  ASSERT_GT(scene.scene.points.size(), 20u);
+  ASSERT_LE(scene.scene.points.size(), 300u);
+  for (const ScenePoint& point : scene.scene.points) {
+    EXPECT_GE(point.view_idxs.size(), 2u);
+    ASSERT_EQ(point.view_idxs.size(), point.pixels.size());
     int last = -1;
-    for (const TruePoint::Sight& sight : point.sights) {
-      EXPECT_LT(last, sight.view_idx);
-      last = sight.view_idx;
-      const auto view = static_cast<std::size_t>(sight.view_idx);
+    for (std::size_t i = 0; i < point.view_idxs.size(); ++i) {
+      EXPECT_LT(last, point.view_idxs[i]);
+      last = point.view_idxs[i];
+      const auto view = static_cast<std::size_t>(last);
       EXPECT_LT(
-          (Project(scene.scene, view, point.position) - sight.pixel).norm(),
+          (Project(scene.scene, view, point.position) - point.pixels[i]).norm(),
           1e-6);
     }
   }
@@ -194,10 +195,11 @@ TEST(SyntheticSceneTest, AFacadeGrowsWithItsViewsWhichSeeAPartOfIt) {
     EXPECT_NEAR(box.sizes().x(), 0.06 * num_views, 0.3);
     EXPECT_NEAR(box.sizes().z(), 1, 1e-9);
     double num_sights = 0;
-    for (const TruePoint& point : scene.points) {
-      num_sights += static_cast<double>(point.sights.size());
+    for (const ScenePoint& point : scene.scene.points) {
+      num_sights += static_cast<double>(point.view_idxs.size());
     }
-    const double mean = num_sights / static_cast<double>(scene.points.size());
+    const double mean =
+        num_sights / static_cast<double>(scene.scene.points.size());
     EXPECT_GT(mean, 10);
     EXPECT_LT(mean, 30);
   }

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/base/command_line.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/program_options.hpp>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "base/file_io.h"
+#include "colmap/project_file.h"
+
+namespace curvix {
+namespace {
+
+namespace po = boost::program_options;
+
+using Values = std::map<std::string, std::string>;
+
+Status BadArgument(std::string message) {
+  return {StatusCode::kInvalidArgument, std::move(message)};
+}
+
+po::options_description Describe(const std::vector<FlagSection>& sections) {
+  po::options_description description;
+  description.add_options()("help,h", po::bool_switch())("help_all",
+                                                         po::bool_switch());
+  for (const FlagSection& section : sections) {
+    for (const Flag& flag : section.flags) {
+      auto* value = po::value<std::string>();
+      if (flag.is_switch) value->implicit_value("1");
+      description.add_options()(flag.name.c_str(), value);
+    }
+  }
+  return description;
+}
+
+// Options that had other names: old, new.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2>
+    kRenamed = {
+        {{"Validation.min_evidence", "Validation.min_log_likelihood_ratio"},
+         {"Validation.min_rival_support", "Validation.min_relative_support"}}};
+
+Status UnknownFlag(std::string token,
+                   const std::vector<FlagSection>& sections) {
+  token = token.substr(0, token.find('='));
+  for (const auto& [old_name, new_name] : kRenamed) {
+    if (!token.ends_with(old_name)) continue;
+    return BadArgument("The option '--" + std::string(old_name) +
+                       "' is now '--" + std::string(new_name) + "'");
+  }
+  std::vector<std::string> names = {"help", "help_all"};
+  for (const FlagSection& section : sections) {
+    for (const Flag& flag : section.flags) names.push_back(flag.name);
+  }
+  const std::size_t dashes = token.find_first_not_of('-');
+  const std::string nearest = NearestName(
+      dashes == std::string::npos ? token : token.substr(dashes), names);
+  return BadArgument("There is no option '" + token + "'" +
+                     (nearest.empty() ? "; --help_all lists all options"
+                                      : "; did you mean '--" + nearest + "'?"));
+}
+
+Status GivenTwice(const std::string& name) {
+  return BadArgument("The option '--" + name + "' is given twice");
+}
+
+// What Boost found, as one value per name.
+Result<Values> Collect(const po::parsed_options& parsed,
+                       const std::vector<FlagSection>& sections) {
+  Values values;
+  for (const po::option& option : parsed.options) {
+    const std::string token = option.original_tokens.empty()
+                                  ? option.string_key
+                                  : option.original_tokens.front();
+    if (option.position_key >= 0) {
+      return BadArgument("'" + token +
+                         "' is not expected here; options start with --");
+    }
+    if (option.unregistered) return UnknownFlag(token, sections);
+    // Only a switch may come without a value.
+    const std::string value = option.value.empty() ? "1" : option.value.front();
+    if (!values.emplace(option.string_key, value).second) {
+      return GivenTwice(option.string_key);
+    }
+  }
+  return values;
+}
+
+Result<Values> ReadArguments(const std::vector<std::string>& arguments,
+                             const std::vector<FlagSection>& sections) {
+  using Style = po::command_line_style::style_t;
+  const int style =
+      Style::unix_style & ~Style::allow_guessing & ~Style::allow_sticky;
+  const po::options_description description = Describe(sections);
+  try {
+    return Collect(po::command_line_parser(arguments)
+                       .options(description)
+                       .style(style)
+                       .allow_unregistered()
+                       .run(),
+                   sections);
+  } catch (const po::error& error) {
+    return BadArgument(error.what());
+  }
+}
+
+bool IsFlag(const std::string& name, const std::vector<FlagSection>& sections) {
+  for (const FlagSection& section : sections) {
+    for (const Flag& flag : section.flags) {
+      if (flag.name == name) return true;
+    }
+  }
+  return false;
+}
+
+// The entries as one value per name.
+Result<Values> Collect(std::vector<ProjectEntry> entries,
+                       const std::vector<FlagSection>& sections) {
+  Values values;
+  for (ProjectEntry& entry : entries) {
+    if (!IsFlag(entry.name, sections)) return UnknownFlag(entry.name, sections);
+    if (!values.emplace(entry.name, std::move(entry.value)).second) {
+      return GivenTwice(entry.name);
+    }
+  }
+  return values;
+}
+
+Result<Values> ReadProjectFile(const std::filesystem::path& path,
+                               const std::vector<FlagSection>& sections) {
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  Result<std::vector<ProjectEntry>> entries = ParseProjectFile(*text);
+  Result<Values> values = entries.ok() ? Collect(*std::move(entries), sections)
+                                       : Result<Values>(entries.status());
+  if (values.ok()) return values;
+  return BadArgument(values.status().message() + " (in " + path.string() + ")");
+}
+
+Status SetFlags(const std::vector<FlagSection>& sections,
+                const Values& values) {
+  for (const FlagSection& section : sections) {
+    for (const Flag& flag : section.flags) {
+      const auto value = values.find(flag.name);
+      if (value == values.end()) continue;
+      Status status = flag.set(value->second);
+      if (!status.ok()) return status;
+    }
+  }
+  return {};
+}
+
+Status CheckRequired(const std::vector<FlagSection>& sections,
+                     const Values& values) {
+  for (const FlagSection& section : sections) {
+    for (const Flag& flag : section.flags) {
+      if (flag.is_required && !values.contains(flag.name)) {
+        return BadArgument("The option '--" + flag.name +
+                           "' is required but missing");
+      }
+    }
+  }
+  return {};
+}
+
+// Levenshtein's distance, blind to case.
+std::size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const auto lower = [](char c) {
+        return std::tolower(static_cast<unsigned char>(c));
+      };
+      const bool differs = lower(a[i - 1]) != lower(b[j - 1]);
+      const std::size_t replaced = diagonal + (differs ? 1 : 0);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string WithoutSection(const std::string& name) {
+  return name.substr(name.find('.') + 1);
+}
+
+}  // namespace
+
+Flag PathFlag(std::string name, std::filesystem::path* path, std::string help) {
+  Flag flag;
+  flag.name = std::move(name);
+  flag.help = std::move(help);
+  flag.default_value = path->string();
+  flag.set = [path](const std::string& text) {
+    *path = text;
+    return Status();
+  };
+  return flag;
+}
+
+Flag TextFlag(std::string name, std::string* value, std::string help) {
+  Flag flag;
+  flag.name = std::move(name);
+  flag.help = std::move(help);
+  flag.default_value = *value;
+  flag.set = [value](const std::string& text) {
+    *value = text;
+    return Status();
+  };
+  return flag;
+}
+
+Flag RowFlag(const OptionRow& row) {
+  Flag flag;
+  flag.name = row.name;
+  flag.help = row.help;
+  flag.default_value = ValueText(row);
+  flag.range = RangeText(row);
+  flag.unit = row.unit;
+  flag.symbol = row.symbol;
+  flag.row = row;
+  flag.set = [row](const std::string& text) { return SetFromText(row, text); };
+  return flag;
+}
+
+Flag ChoiceFlag(std::string name,
+                std::vector<std::string> choices,
+                std::string* choice,
+                std::string help) {
+  Flag flag;
+  flag.name = std::move(name);
+  flag.help = std::move(help);
+  flag.default_value = *choice;
+  for (const std::string& text : choices) {
+    flag.range += (flag.range.empty() ? "" : ", ") + text;
+  }
+  flag.set = [choice,
+              choices = std::move(choices),
+              name = flag.name,
+              range = flag.range](const std::string& text) -> Status {
+    if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+      return BadArgument(name + " is " + text + "; it must be one of " + range);
+    }
+    *choice = text;
+    return {};
+  };
+  return flag;
+}
+
+Flag Switch(std::string name, bool* value, std::string help) {
+  OptionRow row;
+  row.name = std::move(name);
+  row.field = value;
+  row.max = 1;
+  row.help = std::move(help);
+  Flag flag = RowFlag(row);
+  flag.is_switch = true;
+  return flag;
+}
+
+Flag Required(Flag flag) {
+  flag.is_required = true;
+  return flag;
+}
+
+Flag Advanced(Flag flag) {
+  flag.is_advanced = true;
+  return flag;
+}
+
+std::vector<FlagSection> OptionSections(Options& options) {
+  std::vector<FlagSection> sections;
+  for (const OptionRow& row : OptionTable(options)) {
+    const std::size_t dot = row.name.find('.');
+    const std::string title =
+        dot == std::string::npos ? "Runtime" : row.name.substr(0, dot);
+    if (sections.empty() || sections.back().title != title) {
+      sections.push_back({title, {}});
+    }
+    const bool is_everyday = title == "CurveFilter" || title == "Runtime";
+    sections.back().flags.push_back(is_everyday ? RowFlag(row)
+                                                : Advanced(RowFlag(row)));
+  }
+  return sections;
+}
+
+Result<Request> ParseFlags(const std::vector<std::string>& arguments,
+                           const std::vector<FlagSection>& sections) {
+  for (const std::string& token : arguments) {
+    if (token == "--help_all") return Request::kHelpAll;
+    if (token == "-h" || token == "--help") return Request::kHelp;
+  }
+  Result<Values> values = ReadArguments(arguments, sections);
+  if (!values.ok()) return values.status();
+  const auto project = values->find("project_path");
+  if (project != values->end()) {
+    Result<Values> more = ReadProjectFile(project->second, sections);
+    if (!more.ok()) return more.status();
+    values->merge(*more);  // keeps what is there already
+  }
+  Status missing = CheckRequired(sections, *values);
+  if (!missing.ok()) return missing;
+  Status status = SetFlags(sections, *values);
+  if (!status.ok()) return status;
+  return Request::kRun;
+}
+
+std::string NearestName(const std::string& name,
+                        const std::vector<std::string>& candidates) {
+  std::string nearest;
+  // At most a third of the letters may differ.
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    std::size_t distance = EditDistance(name, candidate);
+    const std::string field = WithoutSection(candidate);
+    const std::string start = WithoutSection(name);
+    distance = std::min(distance, EditDistance(start, field));
+    if (start.size() > 2 && field.starts_with(start)) {
+      distance = std::min<std::size_t>(distance, 1);
+    }
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace curvix

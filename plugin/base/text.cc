@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/text_fields.h"
+
+namespace curvix {
+std::string WrapText(const std::string& text, std::size_t indent) {
+  std::istringstream words(text);
+  std::string wrapped;
+  std::string line;
+  for (std::string word; words >> word;) {
+    if (!line.empty() && indent + line.size() + 1 + word.size() > kColumns) {
+      wrapped += std::string(indent, ' ') + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  wrapped += std::string(indent, ' ') + line + "\n";
+  std::replace(wrapped.begin(), wrapped.end(), kNoBreak, ' ');
+  return wrapped;
+}
+
+std::string GroupDigits(std::int64_t number) {
+  std::string text = std::to_string(number);
+  const int first = number < 0 ? 1 : 0;
+  for (int i = static_cast<int>(text.size()) - 3; i > first; i -= 3) {
+    text.insert(static_cast<std::size_t>(i), 1, ' ');
+  }
+  return text;
+}
+
+std::string DurationText(double seconds) {
+  if (seconds < 59.95) {
+    return FormatText("%.1f s", std::max(seconds, 0.0));
+  }
+  const int whole = static_cast<int>(std::min(std::round(seconds), 1e9));
+  if (whole < 3600) return FormatText("%d min %02d s", whole / 60, whole % 60);
+  return FormatText("%d h %02d min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace curvix

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/commands/evaluations.h"
+
+#include <curvix/curve_io.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/text_fields.h"
+#include "colmap/workspace.h"
+#include "plugin/base/text.h"
+
+namespace curvix {
+namespace {
+
+std::string Fixed(const std::optional<double>& value) {
+  return value ? FormatText("%9.3f", *value) : "        -";
+}
+
+void PrintRow(const char* name,
+              const std::optional<double>& value,
+              const char* unit,
+              std::ostream& out) {
+  std::string padded(name);
+  padded.resize(24, ' ');
+  out << padded << Fixed(value) << ' ' << unit << '\n';
+}
+
+void PrintAgreement(const Evaluation& e, std::ostream& out) {
+  out << "within                       5 mm    10 mm    20 mm\n";
+  const auto row = [&](std::string name, double Agreement::*member) {
+    name.resize(24, ' ');
+    out << name;
+    for (const Agreement& a : e.agreement) out << Fixed(a.*member);
+    out << " %\n";
+  };
+  row("precision", &Agreement::precision);
+  row("recall", &Agreement::recall);
+  row("F-score", &Agreement::f_score);
+  row("IoU", &Agreement::iou);
+  out << "recall of visible       " << Fixed(e.visible_recall_5)
+      << Fixed(e.visible_recall_10) << Fixed(std::nullopt) << " %\n";
+  out << "F-score of visible      " << Fixed(e.visible_f_score_5)
+      << Fixed(std::nullopt) << Fixed(std::nullopt) << " %\n";
+}
+
+// "unknown", "crease", "boundary", ...
+std::string NameOf(std::size_t kind) {
+  return std::string(KindName(static_cast<CurveKind>(kind)));
+}
+
+void PrintLengths(std::string title,
+                  const LengthPerKind& lengths_mm,
+                  std::ostream& out) {
+  title.resize(24, ' ');
+  out << title;
+  for (const double length : lengths_mm) out << FormatText(" %9.0f", length);
+}
+
+// Lengths in millimetres: rows by the true kind, columns by the kind said.
+void PrintKinds(const KindAgreement& kinds, std::ostream& out) {
+  out << "true kind, mm              length   visible   recall\n";
+  for (const TrueKind& kind : kinds.kinds) {
+    std::string name(KindName(kind.kind));
+    name.resize(24, ' ');
+    out << name << FormatText(" %9.0f", kind.length_mm)
+        << FormatText(" %9.0f", kind.visible_length_mm)
+        << Fixed(kind.visible_recall_5) << " %\n";
+  }
+  out << "said to be, mm             unknown    crease  boundary   marking   "
+         "contour    right\n";
+  for (const TrueKind& kind : kinds.kinds) {
+    PrintLengths(std::string(KindName(kind.kind)), kind.predicted_mm, out);
+    out << Fixed(kind.right) << " %\n";
+  }
+  PrintLengths("none within 5 mm", kinds.elsewhere_mm, out);
+  out << "\n";
+  PrintRow("of the right kind", kinds.right, "%", out);
+}
+
+void PrintTable(const Evaluation& e, std::ostream& out) {
+  PrintAgreement(e, out);
+  PrintRow("accuracy", e.accuracy_mm, "mm", out);
+  PrintRow("completeness", e.completeness_mm, "mm", out);
+  PrintRow("completeness of visible", e.visible_completeness_mm, "mm", out);
+  PrintRow("tangent error, median", e.tangent_deg, "deg", out);
+  PrintRow("duplication", e.duplication, "(1 is best)", out);
+  PrintRow("recall of whole curves", e.whole, "%", out);
+  PrintRow("purity of curves", e.pure, "%", out);
+  out << "curves                  " << e.num_curves << " found, "
+      << (e.num_true_curves ? std::to_string(*e.num_true_curves) : "-")
+      << " true\n"
+      << "samples compared        " << e.num_predicted << " found, "
+      << e.num_true << " true\n";
+  if (e.kinds) PrintKinds(*e.kinds, out);
+}
+
+nlohmann::ordered_json ToJson(const std::optional<double>& value) {
+  if (!value) return nullptr;
+  return *value;
+}
+
+nlohmann::ordered_json ToJson(const LengthPerKind& lengths_mm) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < kNumCurveKinds; ++i)
+    json[NameOf(i)] = lengths_mm[i];
+  return json;
+}
+
+nlohmann::ordered_json ToJson(const KindAgreement& kinds) {
+  nlohmann::ordered_json json;
+  json["right"] = ToJson(kinds.right);
+  for (const TrueKind& kind : kinds.kinds) {
+    json[std::string(KindName(kind.kind))] = {
+        {"length", kind.length_mm},
+        {"length_visible", kind.visible_length_mm},
+        {"Rv5", ToJson(kind.visible_recall_5)},
+        {"right", ToJson(kind.right)},
+        {"said", ToJson(kind.predicted_mm)}};
+  }
+  json["elsewhere"] = ToJson(kinds.elsewhere_mm);
+  return json;
+}
+
+void PrintJson(const Evaluation& e, std::ostream& out) {
+  nlohmann::ordered_json json;
+  json["predicted"] = e.num_predicted;
+  json["gt"] = e.num_true;
+  json["acc"] = ToJson(e.accuracy_mm);
+  json["comp"] = ToJson(e.completeness_mm);
+  for (const Agreement& a : e.agreement) {
+    const std::string mm = std::to_string(std::lround(a.threshold_mm));
+    json["P" + mm] = a.precision;
+    json["R" + mm] = a.recall;
+    json["F" + mm] = a.f_score;
+    json["IoU" + mm] = a.iou;
+  }
+  json["compv"] = ToJson(e.visible_completeness_mm);
+  json["Rv5"] = ToJson(e.visible_recall_5);
+  json["Rv10"] = ToJson(e.visible_recall_10);
+  json["Fv5"] = ToJson(e.visible_f_score_5);
+  json["tangent"] = ToJson(e.tangent_deg);
+  json["dup"] = ToJson(e.duplication);
+  json["whole"] = ToJson(e.whole);
+  json["pure"] = ToJson(e.pure);
+  json["curves"] = e.num_curves;
+  json["gt_curves"] = nullptr;
+  if (e.num_true_curves) json["gt_curves"] = *e.num_true_curves;
+  json["kinds"] = nullptr;
+  if (e.kinds) json["kinds"] = ToJson(*e.kinds);
+  out << json.dump() << '\n';
+}
+
+struct HoldoutResult {
+  int num_held_out = 0;  // views
+  ResultSummary curves;
+  ImageAgreement agreement;
+};
+
+void PrintRow(std::string name,
+              const ShareAboveChance& share,
+              std::ostream& out) {
+  name.resize(40, ' ');
+  out << name << FormatText("%9.1f", 100 * share.share)
+      << FormatText("%9.1f", 100 * share.chance)
+      << FormatText("%9.1f", 100 * share.Lift()) << '\n';
+}
+
+void PrintTable(const HoldoutResult& result, std::ostream& out) {
+  const ImageAgreement& agreement = result.agreement;
+  std::string head = "in the images held out, %";
+  head.resize(40, ' ');
+  out << result.num_held_out << " views held out, "
+      << GroupDigits(result.curves.num_curves) << " curves of total length "
+      << result.curves.total_length << "\n\n"
+      << head << "    share   chance     lift\n";
+  PrintRow("curves on a contour (precision)", agreement.precision, out);
+  PrintRow(
+      "the same where they should be seen", agreement.expected_precision, out);
+  PrintRow("strong contours with a curve", agreement.strong_contours, out);
+  PrintRow("long lines with a curve", agreement.long_lines, out);
+  out << "median length of a curve: "
+      << FormatText("%9.1f", agreement.median_piece_px).substr(2)
+      << " px\n\nChance: the same after moving by 12 pixels across. Lift: what "
+         "is above chance, of\nwhat can be. Hidden curves count as being on no "
+         "contour.\n";
+}
+
+void PrintJson(const HoldoutResult& result, std::ostream& out) {
+  const ImageAgreement& agreement = result.agreement;
+  nlohmann::ordered_json json;
+  json["held_out"] = result.num_held_out;
+  json["curves"] = result.curves.num_curves;
+  json["length"] = result.curves.total_length;
+  json["piece_px"] = agreement.median_piece_px;
+  const auto add = [&json](const std::string& name,
+                           const ShareAboveChance& share) {
+    json[name] = 100 * share.share;
+    json[name + "_chance"] = 100 * share.chance;
+    json[name + "_lift"] = 100 * share.Lift();
+  };
+  add("precision", agreement.precision);
+  add("expected_precision", agreement.expected_precision);
+  add("strong", agreement.strong_contours);
+  add("lines", agreement.long_lines);
+  out << json.dump() << '\n';
+}
+
+Result<CurveSet> ReconstructOthers(const Scene& scene,
+                                   const Options& options,
+                                   int every,
+                                   RunProgress& progress) {
+  const Result<std::vector<EdgeMap>> edge_maps =
+      DetectEdges(scene, options, progress.Callback());
+  if (!edge_maps.ok()) return edge_maps.status();
+  Result<Holdout> holdout = ReconstructWithHoldout(
+      scene, *edge_maps, options, every, progress.Callback());
+  if (!holdout.ok()) return holdout.status();
+  return std::move(holdout->reconstruction.curves);
+}
+
+void PrintHoldout(const HoldoutResult& result,
+                  EvaluationFormat format,
+                  std::ostream& out) {
+  if (format == EvaluationFormat::kJson) return PrintJson(result, out);
+  PrintTable(result, out);
+}
+
+}  // namespace
+
+void PrintEvaluation(const Evaluation& evaluation,
+                     EvaluationFormat format,
+                     std::ostream& out) {
+  if (format == EvaluationFormat::kJson) return PrintJson(evaluation, out);
+  PrintTable(evaluation, out);
+}
+
+Status RunEvaluate(const std::filesystem::path& curves_path,
+                   const std::filesystem::path& truth_path,
+                   const EvaluationOptions& options,
+                   EvaluationFormat format,
+                   std::ostream& out) {
+  const Result<CurveSet> curves = ReadCurves(curves_path, {});
+  if (!curves.ok()) return curves.status();
+  const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
+  if (!truth.ok()) return truth.status();
+  const Result<Evaluation> evaluation =
+      EvaluateCurves(*curves, *truth, options);
+  if (!evaluation.ok()) return evaluation.status();
+  PrintEvaluation(*evaluation, format, out);
+  return {};
+}
+
+Status RunHoldout(const RunSettings& settings,
+                  const std::filesystem::path& curves_path,
+                  int every,
+                  EvaluationFormat format,
+                  RunProgress& progress,
+                  std::ostream& out) {
+  const Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
+                                                     settings.input_path,
+                                                     settings.image_path,
+                                                     settings.output_path,
+                                                     settings.mask_path});
+  if (!workspace.ok()) return workspace.status();
+  const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
+  if (!input.ok()) return input.status();
+  const Scene& scene = input->scene;
+  const Result<std::vector<int>> view_idxs =
+      ViewsHeldOut(scene.views.size(), every);
+  if (!view_idxs.ok()) return view_idxs.status();
+  for (const std::string& note : input->notes) progress.Note(note);
+  const Result<CurveSet> curves =
+      curves_path.empty()
+          ? ReconstructOthers(scene, settings.options, every, progress)
+          : ReadCurves(curves_path, scene);
+  if (!curves.ok()) return curves.status();
+  const Result<ImageAgreement> agreement = CompareWithImages(
+      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
+  if (!agreement.ok()) return agreement.status();
+  progress.Finish();
+  PrintHoldout({static_cast<int>(view_idxs->size()),
+                SummarizeCurves(*curves),
+                *agreement},
+               format,
+               out);
+  return {};
+}
+
+}  // namespace curvix

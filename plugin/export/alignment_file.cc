@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/export/alignment_file.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+
+#include "base/file_io.h"
+
+namespace curvix {
+namespace {
+
+template <typename Vector>
+Json NumbersJson(const Vector& v) {
+  Json json = Json::array();
+  for (Eigen::Index i = 0; i < v.size(); ++i) json.push_back(v(i));
+  return json;
+}
+
+// `numbers` has as many entries as `size`, all finite.
+template <typename Vector>
+bool TakeNumbers(const Json& json, Vector& numbers) {
+  if (json.size() != static_cast<std::size_t>(numbers.size())) return false;
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    numbers(i) = json.at(static_cast<std::size_t>(i)).template get<double>();
+  }
+  return numbers.allFinite();
+}
+
+bool TakeCovariance(const Json& json, Matrix7d& covariance) {
+  if (json.size() != 7) return false;
+  for (int i = 0; i < 7; ++i) {
+    Eigen::Matrix<double, 7, 1> row = Eigen::Matrix<double, 7, 1>::Zero();
+    if (!TakeNumbers(json.at(static_cast<std::size_t>(i)), row)) return false;
+    covariance.row(i) = row.transpose();
+  }
+  return (covariance.diagonal().array() >= 0).all();
+}
+
+bool TakeSimilarity(const Json& json, Similarity3& similarity) {
+  Eigen::Vector4d rotation = Eigen::Vector4d::Zero();  // w, x, y, z
+  similarity.scale = json.at("scale").get<double>();
+  const bool is_read =
+      TakeNumbers(json.at("rotation"), rotation) &&
+      TakeNumbers(json.at("translation"), similarity.translation);
+  similarity.rotation =
+      Eigen::Quaterniond(rotation(0), rotation(1), rotation(2), rotation(3));
+  const bool is_unit = std::abs(rotation.norm() - 1) < 1e-6;
+  similarity.rotation.normalize();
+  return is_read && is_unit && std::isfinite(similarity.scale) &&
+         similarity.scale > 0;
+}
+
+Status Broken(const std::string& what) { return {StatusCode::kDataLoss, what}; }
+
+}  // namespace
+
+Json AlignmentJson(const WorldAlignment& alignment) {
+  const Similarity3& s = alignment.world_from_model;
+  Json known = Json::array();
+  if (alignment.has_scale) known.push_back("scale");
+  if (alignment.has_rotation) known.push_back("rotation");
+  if (alignment.has_translation) known.push_back("translation");
+  Json covariance = Json::array();
+  for (int i = 0; i < 7; ++i) {
+    covariance.push_back(
+        NumbersJson(alignment.covariance.row(i).transpose().eval()));
+  }
+  return {{"format", "curvix alignment"},
+          {"version", 1},
+          {"unit", alignment.unit},
+          {"crs", alignment.crs},
+          {"offset", NumbersJson(alignment.offset)},
+          {"world_from_model",
+           {{"scale", s.scale},
+            {"rotation",
+             {s.rotation.w(), s.rotation.x(), s.rotation.y(), s.rotation.z()}},
+            {"translation", NumbersJson(s.translation)}}},
+          {"known", known},
+          {"covariance", covariance}};
+}
+
+Result<WorldAlignment> AlignmentFromJson(const Json& json) {
+  WorldAlignment a;
+  try {
+    if (json.at("format") != "curvix alignment" || json.at("version") != 1) {
+      return Broken("it is not an alignment of version 1");
+    }
+    a.unit = json.at("unit").get<std::string>();
+    a.crs = json.at("crs").get<std::string>();
+    for (const Json& name : json.at("known")) {
+      a.has_scale = a.has_scale || name == "scale";
+      a.has_rotation = a.has_rotation || name == "rotation";
+      a.has_translation = a.has_translation || name == "translation";
+    }
+    if (!TakeNumbers(json.at("offset"), a.offset)) {
+      return Broken("\"offset\" is not three numbers");
+    }
+    if (!TakeSimilarity(json.at("world_from_model"), a.world_from_model)) {
+      return Broken("\"world_from_model\" is not a similarity");
+    }
+    if (!TakeCovariance(json.at("covariance"), a.covariance)) {
+      return Broken("\"covariance\" is not a 7 x 7 covariance");
+    }
+  } catch (const nlohmann::json::exception& error) {
+    return Broken(error.what());
+  }
+  return a;
+}
+
+Result<std::optional<WorldAlignment>> ReadAlignment(
+    const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kAlignmentName;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    return std::optional<WorldAlignment>();
+  }
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  const Json json = Json::parse(*text, nullptr, false);
+  Result<WorldAlignment> alignment =
+      json.is_discarded() ? Result<WorldAlignment>(Broken("it is not JSON"))
+                          : AlignmentFromJson(json);
+  if (alignment.ok()) {
+    return std::optional<WorldAlignment>(*std::move(alignment));
+  }
+  return Status(StatusCode::kDataLoss,
+                path.string() +
+                    " cannot be used: " + alignment.status().message() +
+                    "; run 'colmap_curvix align' again, or remove it");
+}
+
+}  // namespace curvix

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/run_steps.h"
+
+#include <curvix/curve_io.h>
+#include <curvix/scene.h>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/file_io.h"
+#include "base/stopwatch.h"
+#include "measuring/moved_curves.h"
+#include "plugin/base/text.h"
+#include "plugin/export/alignment_file.h"
+#include "plugin/export/write_results.h"
+#include "plugin/run/run_stages.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// An output folder in which results would lie among the inputs, project.ini
+// over COLMAP's.
+Status CheckOutputPath(const Workspace& workspace) {
+  const fs::path output = fs::weakly_canonical(workspace.output_path);
+  for (const fs::path& input :
+       {workspace.model_path, workspace.image_path, workspace.mask_path}) {
+    if (!input.empty() && output == fs::weakly_canonical(input)) {
+      return {StatusCode::kInvalidArgument,
+              "the results would be written among the inputs in " +
+                  output.string() +
+                  "; choose another folder with --output_path"};
+    }
+  }
+  return {};
+}
+
+InputSummary SummarizeInput(const Workspace& workspace,
+                            const WorkspaceScene& input) {
+  InputSummary summary;
+  summary.model_path = fs::absolute(workspace.model_path);
+  summary.image_path = fs::absolute(workspace.image_path);
+  summary.mask_path = workspace.mask_path;
+  for (const Camera& camera : input.scene.cameras) {
+    summary.camera_models.emplace_back(ModelName(camera.model));
+  }
+  summary.num_views = static_cast<std::int64_t>(input.scene.views.size());
+  summary.num_points = static_cast<std::int64_t>(input.scene.points.size());
+  summary.missing_images = input.missing_images;
+  return summary;
+}
+
+FittedCurves Fit(const Scene& scene,
+                 const CurveSource& curves,
+                 RunRecord& record) {
+  const Stopwatch stopwatch;
+  const Options& options = record.settings.options;
+  FittedCurves fitted = FitCurves(
+      curves, scene, options.curve_fitting, options.runtime.num_threads);
+  record.stages.push_back(stopwatch.Read("fit_curves"));
+  record.stages.back().counts = CountFits(fitted);
+  return fitted;
+}
+
+// In the world, if it is known.
+Result<std::vector<std::string>> WriteInFrame(const CurveRecord& curves,
+                                              const fs::path& folder,
+                                              const RunRecord& record) {
+  const OutputSettings& output = record.settings.output;
+  const int num_threads = record.settings.options.runtime.num_threads;
+  if (!record.alignment) {
+    return WriteResults(curves, output, num_threads, folder);
+  }
+  const Similarity3& world_from_model = record.alignment->world_from_model;
+  const Scene moved_scene = MoveScene(world_from_model, curves.scene);
+  const MovedCurves moved_curves(curves.curves, world_from_model);
+  const FittedCurves moved = MoveFits(world_from_model, curves.fitted);
+  return WriteResults({moved_scene, moved_curves, moved, &*record.alignment},
+                      output,
+                      num_threads,
+                      folder);
+}
+
+Status WriteCurveFiles(const CurveRecord& curves,
+                       bool is_repeatable,
+                       const fs::path& folder,
+                       RunRecord& record) {
+  Result<std::vector<std::string>> written =
+      WriteInFrame(curves, folder, record);
+  if (!written.ok()) return written.status();
+  std::vector<std::string>& files = record.result.files;
+  files.insert(files.end(), written->begin(), written->end());
+  if (!is_repeatable) return {};
+  files.push_back("project.ini");
+  return WriteFileAtomically(folder / "project.ini",
+                             ProjectFile(record.settings));
+}
+
+}  // namespace
+
+Result<Workspace> FindInput(const RunSettings& settings) {
+  Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
+                                               settings.input_path,
+                                               settings.image_path,
+                                               settings.output_path,
+                                               settings.mask_path});
+  if (!workspace.ok()) return workspace;
+  Status usable = CheckOutputPath(*workspace);
+  if (!usable.ok()) return usable;
+  return workspace;
+}
+
+Workspace WithRefinedModel(Workspace workspace) {
+  const fs::path refined = workspace.output_path / "sparse";
+  if (fs::exists(refined)) workspace.model_path = refined;
+  return workspace;
+}
+
+Result<WorkspaceScene> ReadInput(const Workspace& workspace,
+                                 RunProgress& progress,
+                                 RunRecord& record) {
+  const Stopwatch stopwatch;
+  progress.Update("read_model", 0, 0);
+  Result<WorkspaceScene> input = LoadWorkspaceScene(workspace);
+  if (!input.ok()) return input.status();
+
+  Result<std::optional<WorldAlignment>> alignment =
+      ReadAlignment(workspace.output_path);
+  if (!alignment.ok()) return alignment.status();
+  record.alignment = *std::move(alignment);
+
+  RunSettings& settings = record.settings;
+  settings.workspace_path = fs::absolute(settings.workspace_path);
+  settings.input_path = fs::absolute(workspace.model_path);
+  settings.image_path = fs::absolute(workspace.image_path);
+  settings.output_path = fs::absolute(workspace.output_path);
+  settings.mask_path = workspace.mask_path;
+  record.input = SummarizeInput(workspace, *input);
+  record.result.output_path = workspace.output_path;
+  record.stages.push_back(stopwatch.Read("read_model"));
+  record.stages.back().counts = {
+      {"views", record.input.num_views},
+      {"missing images",
+       static_cast<std::int64_t>(record.input.missing_images.size())},
+      {"points", record.input.num_points}};
+  progress.Finish(GroupDigits(record.input.num_views) + " views, " +
+                  GroupDigits(record.input.num_points) + " points");
+  for (const std::string& note : workspace.notes) progress.Note(note);
+  for (const std::string& note : input->notes) progress.Note(note);
+  if (record.alignment) {
+    progress.Note("The results are in the frame of " +
+                  (workspace.output_path / kAlignmentName).string());
+  }
+  return input;
+}
+
+Result<FittedCurves> WriteFindings(const Scene& scene,
+                                   const Findings& findings,
+                                   const fs::path& folder,
+                                   RunRecord& record) {
+  ResultSummary& result = record.result;
+  findings.curves.ForEach(
+      [&](std::size_t, const Curve& curve) { Count(curve, result); });
+  if (record.alignment) {
+    result.total_length *= record.alignment->world_from_model.scale;
+  }
+  result.num_edges_3d = findings.num_edges_3d;
+  result.why_empty = findings.why_empty;
+  FittedCurves fitted;
+  if (result.num_curves > 0) fitted = Fit(scene, findings.curves, record);
+  Status status = findings.curves.status();
+  const Stopwatch stopwatch;
+  if (status.ok() && result.num_curves > 0) {
+    status = WriteCurveFiles({scene, findings.curves, fitted},
+                             findings.is_repeatable,
+                             folder,
+                             record);
+  }
+  if (status.ok() && result.num_edges_3d > 0) {
+    result.files.push_back("edges.ply");
+    status = findings.write_edges(folder / "edges.ply");
+  }
+  if (!status.ok()) return status;
+  record.stages.push_back(stopwatch.Read("write_files"));
+  return fitted;
+}
+
+Status WriteReport(const Stopwatch& since_start,
+                   const fs::path& folder,
+                   RunProgress& progress,
+                   RunRecord& record) {
+  record.result.files.push_back("report.json");
+  record.total = since_start.Read("total");
+  progress.Finish();
+  return WriteFileAtomically(folder / "report.json", ReportJson(record));
+}
+
+}  // namespace curvix

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). What lines and arcs have in common, and fits that
+// hold it.
+#pragma once
+
+#include <curvix/fitting.h>
+#include <vector>
+
+#include "fitting/line_or_arc.h"
+
+namespace curvix {
+
+// Groups of lines and arcs that are parallel, collinear, concentric, coplanar
+// or of one radius, and which directions are perpendicular.
+//
+// A fit belongs to a group if it lies within the 99.7 % quantile of chi-square
+// of the group's weighted mean, with the covariances of both, and within 1.5
+// degrees or a hundredth of the length of a line or the radius of an arc.
+// Directions that are not known to 1.5 degrees have no part. The surest fits
+// come first; each joins the nearest group or begins one. Groups whose sum of
+// squares is above its quantile lose the fits that are furthest off. Collinear
+// and concentric fits are parallel, too; concentric arcs share an axis.
+// Coplanar fits have, at least, three points of the plane and as many more as
+// chance does not explain.
+//
+// Many fits are compared with many: of all that agree, those that do so least
+// are left out until one in a hundred of what is found comes of unrelated ones,
+// whose directions, places and radii are anywhere (LargestChance). The result
+// moves with similarity transforms of the world.
+FitStructure FindStructure(const FittedCurves& fitted);
+
+// Adds the groups of coplanar fits, as FindStructure describes them. Candidates
+// are the planes of arcs and of pairs of lines that meet in a node, the largest
+// first; a pair that is in a plane already is none. A group stays if the number
+// of candidates times the chance that so many points lie in one of them by
+// accident is below a hundredth: of each point but three, the share of `extent`
+// that its uncertainty covers, times the points of the group, one of which it
+// could be attached to.
+void AddPlanes(const std::vector<LineOrArc>& features,
+               const FittedCurves& fitted,
+               double extent,
+               std::vector<FitGroup>& groups);
+
+// Moves nodes, free ends of lines, and arcs, as little as their covariances
+// allow (least squares), so that the structure of `fitted` holds: groups share
+// what they share, perpendicular directions are at right angles. Lines stay
+// between their ends, arcs stay on their nodes. All hold to far below a
+// standard deviation.
+//
+// Nothing moves by more than three standard deviations: fits that would, or end
+// where a node would, leave their groups, and all is solved again. Groups that
+// are left with one fit are dropped, but for directions that are perpendicular
+// to others. Covariances, and those of ellipses and splines, which the caller
+// fits to their nodes again, stay.
+void Regularize(FittedCurves& fitted);
+
+}  // namespace curvix

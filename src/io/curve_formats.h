@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Curves in the formats of other programs;
+// docs/output_format.md.
+#pragma once
+
+#include <curvix/curves.h>
+#include <curvix/fitting.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
+#include <string_view>
+
+#include "base/file_io.h"
+
+namespace curvix {
+
+// VTK XML PolyData, text: one polyline per curve (a closed one returns to its
+// first point), with point arrays tangent, sigma, support and confidence, and
+// cell arrays curve_id and length.
+void EncodeVtpCurves(const CurveSource& curves, const ByteSink& sink);
+
+// Binary glTF 2.0: a mesh of one primitive per curve, a line strip, or a line
+// loop if it is closed, with positions and colours, unlit; node "curves", and
+// the id of a curve in the primitive's extras. Positions are 32-bit floats
+// relative to the node's translation, the middle of the curves, so that far
+// origins lose no digits. kUnsupported beyond 4 GB.
+Status EncodeGlbCurves(const CurveSource& curves, const ByteSink& sink);
+
+// SVG in the pixels of the view: one path per curve in its colour, class
+// "curve", id "curve_<id>"; empty where the view does not see the curve.
+void EncodeSvgCurves(const CurveSource& curves,
+                     const View& view,
+                     const Camera& camera,
+                     const ByteSink& sink);
+
+// Per curve `o curve_<id>`, `v x y z r g b` per sample (colours in 0..1) and
+// `l a b` per segment, the closing one last. Segments and not polylines:
+// Blender and MeshLab show only the first segment of a longer `l`.
+void EncodeObjLines(const CurveSource& curves, const ByteSink& sink);
+
+// The curves of any OBJ with `v` and `l` (also `l` of many vertices, negative
+// numbers, "a/b" texture references); other statements are skipped. Curves as
+// JoinPolylines makes them. kDataLoss for a broken file, kUnsupported for an
+// OBJ without lines.
+Result<CurveSet> DecodeObjLines(std::string_view bytes);
+
+// Four comment lines, then per curve one line
+//   CURVE_ID CLOSED NUM_SAMPLES
+// and NUM_SAMPLES lines
+//   X Y Z TX TY TZ SIGMA KIND IMAGE_ID...
+// with numbers as short as they can be and still read back exactly, whatever
+// the locale, and KindName(). `scene` turns views into image ids; of an empty
+// one no ids are written, of another support must name its views.
+void EncodeTxtCurves(const CurveSource& curves,
+                     const Scene& scene,
+                     const ByteSink& sink);
+
+// Reads that back. Curves keep their order, whatever ids they carry. An image
+// id becomes support {view, edge 0}; ids that `scene` does not have are left
+// out, so an empty scene reads the geometry alone. kDataLoss if a line is not
+// as above; memory stays in proportion to bytes.size().
+Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene);
+
+// STEP (ISO 10303-21) of AP242: the product "curves", a geometrically bounded
+// wireframe. Lines and arcs are TRIMMED_CURVEs of LINE, CIRCLE and ELLIPSE,
+// whole ones CIRCLE and ELLIPSE, splines B_SPLINE_CURVE_WITH_KNOTS; each is
+// named after its curve, "curve_<id>". There is one GEOMETRIC_CURVE_SET per
+// kind, in the order of the curves, on a layer of the name that it has in DXF.
+// Coordinates are those of the model. STEP must declare a unit: millimetres.
+void EncodeStepDrawing(const FittedCurves& fitted, const ByteSink& sink);
+
+}  // namespace curvix

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Scenes like machine parts, houses, rooms and
+// streets.
+#pragma once
+
+#include <curvix/scene.h>
+#include <cstdint>
+#include <vector>
+
+#include "synthetic/primitive.h"
+
+namespace curvix {
+
+// See SyntheticSolid.
+std::vector<SolidPrimitive> Block();
+std::vector<SolidPrimitive> UprightCylinder();
+std::vector<SolidPrimitive> Cone();
+std::vector<SolidPrimitive> CutSphere();
+std::vector<SolidPrimitive> Part();
+
+// See SyntheticSolid. Each piece has the pattern that suits it.
+std::vector<SolidPrimitive> House();
+std::vector<SolidPrimitive> Table();
+std::vector<SolidPrimitive> Knobs();
+
+// The front of a row of houses, of height one: it looks along -y and is as long
+// as a walk along it with `num_views` photographs. Ledges run along all of it;
+// doors and windows change from bay to bay.
+std::vector<SolidPrimitive> Facade(int num_views);
+
+// cam_from_world of a walk along a facade of this `height`, centred on the
+// origin: two photographs from each place, one from below and one from above,
+// that look ahead, across and back in turns. A place of the facade is in some
+// 20 of them.
+std::vector<Rigid3> MakeStreetPoses(int num_views,
+                                    double height,
+                                    std::uint64_t seed);
+
+}  // namespace curvix
