@@ -95,7 +95,7 @@ struct ValidationOptions {
   // M: fewest supporting validation views; >= 1. With kEveryView, more than
   // half of the views on one side will do, hypothesis views included.
   int min_num_support_views = 4;
-  // With kEveryView: least evidence, see docs/stages/validation.md; natural
+  // With kEveryView: least evidence, see docs/stages/sketch.md; natural
   // logarithm units, >= 0.
   double min_evidence = 10.0;
   // Hypotheses of one H1 edge with fewer than this share of the best one's
