@@ -75,13 +75,14 @@ constexpr char kMarkdownHead[] =
     "\n"
     "<!-- Written by `colmap_curvix help --markdown`; a test compares. -->\n"
     "\n"
-    "Options with their defaults, and *paper*: the value with\n"
-    "`--preset paper`, where it differs. `colmap_curvix --help` lists those\n"
-    "that matter most, `--help_all` also ranges and the paper's symbols. They\n"
-    "are given on the command line (`--Validation.max_angle_deg 10`) or in a\n"
-    "file (`--project_path x.ini`, `max_angle_deg=10` below `[Validation]`).\n"
+    "[Poses](#poses), [CurveFilter](#curvefilter) and [Runtime](#runtime)\n"
+    "matter most; `colmap_curvix --help` lists them. `--help_all` has the\n"
+    "ranges and the paper's symbols of all. *Paper*: the value with\n"
+    "`--preset paper`, where it differs from the default. Options are given\n"
+    "on the command line (`--Validation.max_angle_deg 10`) or in a file\n"
+    "(`--project_path x.ini`, `max_angle_deg=10` below `[Validation]`).\n"
     "Pixels are those of the original images. Switches: 1 is on, 0 is off.\n"
-    "[Words](glossary.md).\n";
+    "[Glossary](glossary.md).\n";
 
 }  // namespace
 
