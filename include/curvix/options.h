@@ -96,7 +96,7 @@ struct ValidationOptions {
   // half of the views on one side will do, hypothesis views included.
   int min_num_support_views = 4;
   // With kEveryView: least log-likelihood ratio, see
-  // docs/stages/validation.md; natural logarithm, >= 0.
+  // docs/stages/sketch.md; natural logarithm, >= 0.
   double min_log_likelihood_ratio = 10.0;
   // Hypotheses of one H1 edge with fewer than this share of the best one's
   // support are dropped. 0..1.

@@ -59,7 +59,7 @@ std::string MarkdownItem(const Flag& flag, const std::string& paper_value) {
     value = With(value, value.empty() ? "" : "; ", "paper " + paper_value);
   }
   return "- `--" + flag.name + "`" + With("", " (", value, ")") + ": " +
-         With(flag.help, " (", flag.symbol, ")") + "\n";
+         flag.help + "\n";
 }
 
 std::string MarkdownList(const FlagSection& section, const FlagSection& paper) {
@@ -75,12 +75,14 @@ constexpr char kMarkdownHead[] =
     "\n"
     "<!-- Written by `colmap_curvix help --markdown`; a test compares. -->\n"
     "\n"
-    "Options of the reconstruction with their defaults, in the order of the\n"
-    "paper; `colmap_curvix --help_all` adds their ranges. They are given on\n"
-    "the command line (`--Validation.max_angle_deg 10`) or in a project file\n"
-    "(`--project_path x.ini`, with `max_angle_deg=10` below `[Validation]`).\n"
-    "*Paper*: the value with `--preset paper`, where it differs. Pixels are\n"
-    "those of the original images. Switches: 1 is on, 0 is off.\n";
+    "[Poses](#poses), [CurveFilter](#curvefilter) and [Runtime](#runtime)\n"
+    "matter most; `colmap_curvix --help` lists them. `--help_all` has the\n"
+    "ranges and the paper's symbols of all. *Paper*: the value with\n"
+    "`--preset paper`, where it differs from the default. Options are given\n"
+    "on the command line (`--Validation.max_angle_deg 10`) or in a file\n"
+    "(`--project_path x.ini`, `max_angle_deg=10` below `[Validation]`).\n"
+    "Pixels are those of the original images. Switches: 1 is on, 0 is off.\n"
+    "[Glossary](glossary.md).\n";
 
 }  // namespace
 

@@ -156,21 +156,21 @@ std::string PoseRefinementText(const PoseRefinementRecord& record) {
 FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
   return {
       "Poses",
-      {ChoiceFlag("refiner",
-                  {"colmap", "ceres", "none"},
-                  &settings->refiner,
-                  "bundle adjustment with the model's points: by the installed "
-                  "COLMAP (colmap), by Ceres (ceres) or none (as with --preset "
-                  "paper); used only if held-out errors fall"),
+      {ChoiceFlag(
+           "refiner",
+           {"colmap", "ceres", "none"},
+           &settings->refiner,
+           "bundle adjustment with the model's points by COLMAP, by Ceres "
+           "or none (--preset paper); used if held-out errors fall"),
        Advanced(PathFlag("colmap_path",
                          &settings->colmap_path,
-                         "the program colmap, when it is neither in "
-                         "$COLMAP_EXE_PATH nor in $PATH")),
+                         "the program colmap, if not in $COLMAP_EXE_PATH or "
+                         "$PATH")),
        RowFlag({.name = "refine_intrinsics",
                 .field = &settings->refine_intrinsics,
                 .max = 1,
-                .help = "refine cameras that five views or more share, and add "
-                        "terms of distortion if held-out errors fall"}),
+                .help = "refine cameras that five views or more share, if "
+                        "held-out errors fall"}),
        Advanced(RowFlag({.name = "refiner_timeout_s",
                          .field = &settings->refiner_timeout_s,
                          .min_is_excluded = true,
@@ -179,9 +179,8 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
        RowFlag({.name = "refine_poses_with_curves",
                 .field = &settings->refine_poses_with_curves,
                 .max = 1,
-                .help = "refine poses and curves together, with or without "
-                        "points (0 with --preset paper); used only if "
-                        "held-out errors fall"})}};
+                .help = "refine poses and curves together, used if held-out "
+                        "errors fall (0 with --preset paper)"})}};
 }
 
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,

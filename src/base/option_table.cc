@@ -77,24 +77,22 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "Sec. 3, ref. [15]",
       "weakest gradient kept");
   row("noise_factor", &o.noise_factor, AtLeast(0), "", "",
-      "weakest gradient kept, in standard deviations of the noise's "
-      "gradient");
+      "weakest gradient kept, in sigmas of the noise");
   row("border_px", &o.border_px, AtLeast(0), "px", "",
-      "edges nearer to the border of the image are dropped");
+      "border without edges");
   row("max_neighbor_distance_px", &o.max_neighbor_distance_px,
       AboveUpTo(0, 100), "px", "Sec. 5",
-      "longest step to the next edge along a contour");
+      "longest step along a contour");
   row("max_neighbor_angle_deg", &o.max_neighbor_angle_deg, AboveUpTo(0, 90),
       "deg", "Sec. 5",
-      "largest angle between an edge, its neighbor and the chord");
+      "largest angle between neighbors and their chord");
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
-      "contours with fewer edges are short; weak ones of these are dropped");
+      "contours with fewer edges are short; weak ones are dropped");
   row("short_contour_factor", &o.short_contour_factor, AtLeast(0), "", "",
-      "short contours are weak below this many times the weakest gradient "
-      "kept");
+      "short contours are weak below so many times the weakest gradient");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
-      "most edges of an image per million pixels, at least 10,000 in all; "
-      "others are thinned, strong and straight contours kept first");
+      "most edges of an image, at least 10,000; strong and straight contours "
+      "are kept first");
   row.Switch("separate_edges", &o.separate_edges,
       "correct the shift of parallel edges by blur");
 }
@@ -102,117 +100,112 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
 void AddRows(HypothesisOptions& o, Section row) {
   row.Choice("view_selection", &o.view_selection,
       {"unused_edges", "every_view"}, "Sec. 3",
-      "pairs of views: by unused edges, or every view with its best "
-      "partners");
+      "pairs of views: by unused edges, or every view with its partners");
   row("location_tolerance_px", &o.location_tolerance_px, AboveUpTo(0, 100),
       "px", "Delta gamma, Sec. 3",
-      "localization error of an edge, which opens the epipolar wedges");
+      "localization error of an edge");
   row("num_partners", &o.num_partners, AtLeast(1), "", "",
-      "partners of each view with every_view");
+      "with every_view: partners of a view");
   row("min_ray_angle_deg", &o.min_ray_angle_deg, Between(0, 180), "deg", "",
-      "smallest angle between the rays of a pair of views");
+      "smallest angle between the rays of two views");
   row("max_ray_angle_deg", &o.max_ray_angle_deg, AboveUpTo(0, 180), "deg", "",
-      "largest angle between the rays of a pair of views");
+      "largest angle between the rays of two views");
   row("depth_margin", &o.depth_margin, AtLeast(0), "", "",
-      "depths searched beyond those of a view's sparse points, as a share "
-      "of their range; 0: all depths");
+      "depths searched beyond the sparse points, as a share of their range; "
+      "0: all depths");
   row("min_epipolar_angle_deg", &o.min_epipolar_angle_deg, Between(0, 90),
       "deg", "",
       "smallest angle between an edge and its epipolar line");
   row("used_edges_to_stop", &o.used_edges_to_stop, Between(0, 1), "",
       "P, Sec. 3",
-      "with unused_edges: stop when this share of every view's edges is "
-      "used");
+      "with unused_edges: share of used edges that ends the search");
   row("max_num_view_pairs", &o.max_num_view_pairs, AtLeast(1), "", "",
-      "with unused_edges: stop after so many pairs of views");
+      "with unused_edges: most pairs of views");
 }
 
 void AddRows(ConsolidationOptions& o, Section row) {
   row("max_tangent_shift_px", &o.max_tangent_shift_px, AboveUpTo(0, 100), "px",
       "tau_t, Sec. 4",
-      "longest slide of an edge along its tangent onto the epipolar line");
+      "longest slide of an edge onto the epipolar line");
   row("max_turn_deg", &o.max_turn_deg, Between(0, 90), "deg",
       "Delta theta, Sec. 4",
-      "largest turn that makes an edge meet the epipolar line");
+      "largest turn of an edge that misses the line");
   row("max_cluster_distance_px", &o.max_cluster_distance_px, AboveUpTo(0, 100),
       "px", "tau_c, Sec. 4",
-      "clusters further apart are not merged");
+      "largest distance of merged clusters");
   row("max_cluster_angle_deg", &o.max_cluster_angle_deg, AboveUpTo(0, 90),
       "deg", "tau_theta, Sec. 4",
-      "clusters that differ more in direction are not merged");
+      "largest angle of merged clusters");
   row("angle_weight_sigma_px", &o.angle_weight_sigma_px, Above(0), "px",
       "Sec. 4",
-      "standard deviation of the weights of a cluster's mean direction");
+      "sigma of the weights of the mean direction");
 }
 
 void AddRows(ValidationOptions& o, Section row) {
   row("max_distance_px", &o.max_distance_px, AboveUpTo(0, 100), "px", "",
-      "with every_view: largest normal distance of a supporting edge");
+      "with every_view: largest distance of a supporting edge");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg",
       "Delta theta_p, Sec. 3",
-      "largest angle between a supporting edge and the projection");
+      "largest angle of a supporting edge to the projection");
   row("min_num_support_views", &o.min_num_support_views, AtLeast(1), "",
       "M, Sec. 3",
-      "fewest validation views that must support a hypothesis");
+      "fewest supporting validation views");
   row("min_log_likelihood_ratio", &o.min_log_likelihood_ratio, AtLeast(0), "",
       "", "with every_view: least log-likelihood ratio of a 3D edge");
   row("min_relative_support", &o.min_relative_support, Between(0, 1), "", "",
-      "hypotheses of one edge with less than this share of the best one's "
-      "support are dropped");
+      "least support of a hypothesis, as a share of the best of its edge");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
-      "with every_view: fewest views whose supporting edge supports no "
-      "stronger 3D edge");
+      "with every_view: fewest views of exclusive support");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {
   row("max_spread", &o.max_spread, Above(0), "", "lambda, Sec. 5",
-      "links beyond mean + max_spread * standard deviation are pruned");
+      "links are pruned beyond mean + max_spread * sigma");
   row("max_projection_distance_px", &o.max_projection_distance_px, Above(0),
       "px", "tau_gamma, Sec. 5",
-      "longest distance between the projections of linked edges");
+      "largest distance between projections of linked edges");
   row("max_num_links", &o.max_num_links, AtLeast(1), "", "",
-      "most links that an edge asks for, heaviest first; limits memory");
+      "most links of an edge, heaviest first");
 }
 
 void AddRows(AlignmentOptions& o, Section row) {
   row("num_iterations", &o.num_iterations, AtLeast(0), "", "Sec. 5",
-      "alignment steps; 0 leaves the edges where they are");
+      "alignment steps; 0: no alignment");
   row("step_size", &o.step_size, AboveUpTo(0, 1), "", "Sec. 5",
-      "share of the mean force and torque applied in a step");
+      "share of the mean force and torque applied");
   row.Switch("use_mean_direction", &o.use_mean_direction,
-      "pull towards the mean direction of both edges; 0: the neighbor's");
+      "pull towards the mean direction of both edges");
 }
 
 void AddRows(ConnectivityOptions& o, Section row) {
   row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
-      "edges closer along a curve are merged; 0 keeps all");
+      "edges closer along a curve are merged; 0: none");
   row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
-      "largest distance across the tangent of merged or connected edges");
+      "largest distance across the tangent");
   row("max_step_px", &o.max_step_px, Above(0), "px", "Sec. 6",
-      "longest step along the tangent to the next edge");
+      "longest step to the next edge");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
       "largest angle between connected edges");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
-      "longest gap closed between ends that continue each other; 0: none");
+      "longest gap closed; 0: none");
   row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0),
       "px", "",
-      "parts of a curve closer to a longer one are dropped; 0 keeps all");
+      "parts of curves closer to a longer one are dropped; 0: none");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
-      "curves are cut where they turn by more; 180 cuts none");
+      "curves are cut at corners of more; 180: none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "Sec. 6",
-      "shortest curve kept, in the view that sees it largest");
+      "shortest curve, where a view sees it largest");
 }
 
 void AddRows(CurveGrowthOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
-      "grow curves along the contours of the images, instead of Secs. 5 and 6");
+      "grow curves along contours in crowded images, instead of Secs. 5 and 6");
   row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
-      "curves end where the log-likelihood ratio falls below this share of "
-      "its mean");
+      "log-likelihood ratio at which curves end, as a share of its mean");
   row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
       "longest unsupported gap");
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
-      "smallest significance of a curve (docs/glossary.md)");
+      "smallest significance of a curve");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {
@@ -221,24 +214,23 @@ void AddRows(CurveRefinementOptions& o, Section row) {
   row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
       "largest dilution of precision of a curve; 0: any");
   row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
-      "curves with this share of blurred edges are dropped as shading "
-      "edges; 1: none");
+      "share of blurred edges that makes a shading edge of a curve; 1: none");
   row.Switch("keep_occluding_contours", &o.keep_occluding_contours,
-      "keep and label curves over max_dilution: occluding contours, mostly");
+      "keep and label curves over max_dilution");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
-      "standard deviation of the weights of local fits; 0: no smoothing");
+      "sigma of the weights of local fits; 0: no smoothing");
   row.Switch("undo_response_curve", &o.undo_response_curve,
-      "estimate the response curve of the images and correct edges for it");
+      "correct edges for the response curve of the images");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
-      "longest gap closed between ends that continue each other in a bend");
+      "longest gap closed in a bend");
   row.Switch("separate_touching", &o.separate_touching,
-      "separate curves that touch; they end in a junction");
+      "separate curves that touch");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
-      "fitted curves are cut where they turn by more; 180 cuts none");
+      "fitted curves are cut at corners of more; 180: none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
-      "shortest curve kept, except between junctions");
+      "shortest curve, except between junctions");
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",
-      "how far ends are extended to a corner; 0: not at all");
+      "longest extension of an end to a corner");
   row("max_junction_gap_px", &o.max_junction_gap_px, Above(0), "px", "",
       "largest distance of an extended end from its corner");
 }
@@ -250,31 +242,31 @@ void AddRows(CurveKindOptions& o, Section row) {
 
 void AddRows(CurveFilterOptions& o, Section row) {
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
-      "shortest curve, in the views that see it largest");
+      "shortest curve");
   row("min_num_views", &o.min_num_views, AtLeast(0), "", "",
-      "least median number of views that support a sample");
+      "fewest views that support a sample (median)");
   row("min_contrast", &o.min_contrast, AtLeast(0), "", "",
-      "least median gradient of the edges, grey levels per pixel");
+      "weakest gradient (median), grey levels per pixel");
   row("max_sigma_px", &o.max_sigma_px, AtLeast(0), "px", "",
-      "largest median standard deviation across the curve; 0: any");
+      "largest sigma across the curve (median); 0: any");
   row("min_straightness", &o.min_straightness, Between(0, 1), "", "",
-      "least mean cosine between tangents 10 px apart: 1 for lines, 0.995 "
-      "for a circle of radius 100 px");
+      "least mean cosine of tangents 10 px apart: 1 for lines, 0.995 for a "
+      "circle of radius 100 px");
   row.Choice("kinds", &o.kinds,
       {"crease", "boundary", "marking", "occluding_contour"}, "",
-      "kinds to keep, with commas between; others are cut out");
+      "kinds to keep, with commas between");
 }
 
 void AddRows(CurveFittingOptions& o, Section row) {
   row("common_error_px", &o.common_error_px, AtLeast(0), "px", "",
-      "error that neighbouring samples share, besides the sigma of each");
+      "error that neighbouring samples share, besides sigma");
   row.Switch("regularize", &o.regularize,
-      "move fits so that the structure found among them holds exactly");
+      "make nearly parallel, perpendicular or concentric fits exactly so");
 }
 
 void AddRows(RuntimeOptions& o, Section row) {
   row("num_threads", &o.num_threads, Between(-1, 4096), "", "",
-      "threads; -1 or 0 means one per core");
+      "threads; -1 or 0: one per core");
 }
 
 // clang-format on
