@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/file_io.h"
-#include "base/text_fields.h"
-#include "drawing/cut_fit.h"
 #include "drawing/drawing_plane.h"
 #include "drawing/flat_fit.h"
 #include "drawing/sheet.h"
@@ -19,6 +16,7 @@
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
 #include "plugin/draw/choose_plane.h"
+#include "plugin/draw/draw_window.h"
 #include "plugin/draw/rectified_photograph.h"
 #include "plugin/draw/seen_from.h"
 #include "plugin/run/run_input.h"
@@ -29,34 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Between views on one sheet, of the extent of the largest.
 constexpr double kGapOfViews = 0.15;
 
 Status Bad(std::string message) {
   return {StatusCode::kInvalidArgument, std::move(message)};
-}
-
-struct Slice {
-  double from = -kInfinity;
-  double to = kInfinity;
-};
-
-Result<Slice> ParseSlice(const std::string& text) {
-  if (text.empty()) return Slice{};
-  const std::size_t comma = text.find(',');
-  const auto from =
-      ParseNumber<double>(std::string_view(text).substr(0, comma));
-  const auto to =
-      comma == std::string::npos
-          ? std::nullopt
-          : ParseNumber<double>(std::string_view(text).substr(comma + 1));
-  if (!from || !to || !(*from < *to)) {
-    return Bad("--slice is \"" + text +
-               "\"; it takes the lower and the higher depth, as in --slice "
-               "0.9,1.1");
-  }
-  return Slice{*from, *to};
 }
 
 std::string Short(double value, int digits = 4) {
@@ -106,7 +81,7 @@ class Drafter {
   Workspace workspace_;
   Scene scene_;  // in the frame of the curves
   CurvesFile curves_;
-  Slice slice_;
+  DrawWindow window_;
   std::vector<DrawnView> views_;
   std::string name_;
   std::string photograph_;  // its name
@@ -132,9 +107,10 @@ Status Drafter::Read() {
   if (curves_.alignment) {
     scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
   }
-  const Result<Slice> slice = ParseSlice(settings_.slice);
-  if (!slice.ok()) return slice.status();
-  slice_ = *slice;
+  const Result<DrawWindow> window =
+      ParseWindow(settings_.slice, settings_.crop);
+  if (!window.ok()) return window.status();
+  window_ = *window;
   return {};
 }
 
@@ -143,8 +119,9 @@ Status Drafter::TakePlanes() {
       ChoosePlanes(settings_.plane, curves_, scene_);
   if (!planes.ok()) return planes.status();
   if (planes->size() > 1 &&
-      !(settings_.slice.empty() && settings_.photograph.empty())) {
-    return Bad("--slice and --photograph need a single --plane");
+      !(settings_.slice.empty() && settings_.crop.empty() &&
+        settings_.photograph.empty())) {
+    return Bad("--slice, --crop and --photograph need a single --plane");
   }
   for (DrawingPlane& plane : *planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
@@ -185,16 +162,14 @@ std::optional<bool> Drafter::IsHidden(std::size_t curve_idx,
   return true;
 }
 
-// What the plane shows of the slice.
+// What the plane shows of the window.
 void Drafter::Fill(DrawnView& view) const {
   const DrawingPlane& plane = view.plane;
   view.curves.clear();
   view.num_unknown = 0;
-  const double at_0 = plane.depth_axis.dot(plane.origin);
   for (std::size_t c = 0; c < curves_.fitted.curves.size(); ++c) {
     for (const CurveFit& fit : curves_.fitted.curves[c].fits) {
-      const std::vector<CurveFit> parts = PartsWithin(
-          fit, plane.depth_axis, slice_.from + at_0, slice_.to + at_0);
+      const std::vector<CurveFit> parts = PartsInWindow(fit, plane, window_);
       if (parts.empty()) continue;
       const std::optional<bool> is_hidden = IsHidden(c, fit, view);
       if (!is_hidden) continue;
@@ -241,12 +216,13 @@ Status Drafter::TakePhotograph() {
   const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
   if (bounds.isEmpty()) return {};
   const bool through_nodes = view.plane.name.starts_with("nodes");
-  const PictureArea area{
-      view.plane,
-      through_nodes
-          ? 0
-          : MainDepth(curves_.fitted, view.plane, slice_.from, slice_.to),
-      bounds};
+  const PictureArea area{view.plane,
+                         through_nodes ? 0
+                                       : MainDepth(curves_.fitted,
+                                                   view.plane,
+                                                   window_.depth.from,
+                                                   window_.depth.to),
+                         bounds};
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);
@@ -279,7 +255,7 @@ std::string Drafter::Subtitle() const {
   if (settings_.from_behind) text += ", from behind";
   if (!settings_.slice.empty()) {
     text += ", " + views_.front().plane.depth_name + " from " +
-            Short(slice_.from) + " to " + Short(slice_.to);
+            Short(window_.depth.from) + " to " + Short(window_.depth.to);
   }
   if (!photograph_.empty()) text += ", photograph " + photograph_;
   if (curves_.alignment && curves_.alignment->has_scale) {

@@ -18,6 +18,7 @@ struct DrawSettings {
   bool from_behind = false;
   std::string hidden = "dashed";  // or "omitted" or "solid"
   std::string slice;              // "FROM,TO", along the normal; "": all
+  std::string crop;               // "LEFT,BOTTOM,RIGHT,TOP", as drawn; "": all
   std::string scale;              // "1:50"; "": as fits
   std::string paper = "a3";
   std::string title;       // "": the name of the workspace

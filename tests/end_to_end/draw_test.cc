@@ -175,6 +175,8 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--scale big", "1:50"),
         std::pair("--slice 2,1", "lower and the higher"),
         std::pair("--plane xy --slice 1000,1001", "nothing to draw"),
+        std::pair("--plane xy --crop 1000,0,1001,1", "nothing to draw"),
+        std::pair("--plane xy --crop 0,0,1", "left, bottom, right"),
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
         std::pair("--photograph none.jpg", "no image of the model"),
         std::pair("--name a/b", "--name")}) {
