@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/file_io.h"
+#include "drawing/dimension_marks.h"
 #include "drawing/drawing_plane.h"
 #include "drawing/flat_fit.h"
 #include "drawing/sheet.h"
@@ -15,6 +16,7 @@
 #include "io/svg_sheet.h"
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
+#include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
 #include "plugin/draw/rectified_photograph.h"
@@ -53,6 +55,7 @@ std::string ViewName(const std::string& plane) {
 struct DrawnView {
   DrawingPlane plane;
   std::vector<SheetCurve> curves = {};
+  std::vector<MeasuredDimension> measured = {};  // of whole primitives
   int num_unknown = 0;  // primitives that may be hidden or not
 };
 
@@ -69,6 +72,7 @@ class Drafter {
   std::optional<bool> IsHidden(std::size_t curve_idx,
                                const CurveFit& fit,
                                DrawnView& view) const;
+  double ScaleSigma() const;
   void Fill(DrawnView& view) const;
   Status PlaceViews();
   Status TakePhotograph();
@@ -162,10 +166,15 @@ std::optional<bool> Drafter::IsHidden(std::size_t curve_idx,
   return true;
 }
 
+double Drafter::ScaleSigma() const {
+  return curves_.alignment ? curves_.alignment->scale_sigma() : 0;
+}
+
 // What the plane shows of the window.
 void Drafter::Fill(DrawnView& view) const {
   const DrawingPlane& plane = view.plane;
   view.curves.clear();
+  view.measured.clear();
   view.num_unknown = 0;
   for (std::size_t c = 0; c < curves_.fitted.curves.size(); ++c) {
     for (const CurveFit& fit : curves_.fitted.curves[c].fits) {
@@ -175,7 +184,16 @@ void Drafter::Fill(DrawnView& view) const {
       if (!is_hidden) continue;
       for (const CurveFit& part : parts) {
         std::optional<CurveFit> flat = FlatFit(part, plane);
-        if (flat) view.curves.push_back({*std::move(flat), *is_hidden});
+        if (!flat) continue;
+        const bool is_whole = part.start == fit.start && part.end == fit.end &&
+                              (fit.kind == FitKind::kLine ||
+                               (curves_.fitted.curves[c].fits.size() == 1 &&
+                                part.closed == fit.closed));
+        if (settings_.dimensions && is_whole && !*is_hidden) {
+          const auto measured = DimensionOf(fit, *flat, ScaleSigma());
+          if (measured) view.measured.push_back(*measured);
+        }
+        view.curves.push_back({*std::move(flat), *is_hidden});
       }
     }
   }
@@ -277,6 +295,7 @@ Status Drafter::LayOut() {
   }
   sheet.subtitle = Subtitle();
   sheet.paper = settings_.paper;
+  sheet.has_dimensions = settings_.dimensions;
   if (curves_.alignment) sheet.unit = curves_.alignment->unit;
   sheet.millimetres = MillimetresPer(sheet.unit).value_or(0);
   if (!settings_.scale.empty()) {
@@ -294,6 +313,12 @@ Status Drafter::LayOut() {
   Result<Sheet> laid = LaySheet(sheet, std::move(curves), picture_);
   if (!laid.ok()) return laid.status();
   sheet_ = *std::move(laid);
+  for (const DrawnView& view : views_) {
+    if (view.measured.empty()) continue;
+    PlaceDimensions(ChooseDimensions(view.measured),
+                    BoundsOf(view.curves).center(),
+                    sheet_);
+  }
   return {};
 }
 

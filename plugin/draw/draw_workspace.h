@@ -21,6 +21,7 @@ struct DrawSettings {
   std::string crop;               // "LEFT,BOTTOM,RIGHT,TOP", as drawn; "": all
   std::string scale;              // "1:50"; "": as fits
   std::string paper = "a3";
+  bool dimensions = false;
   std::string title;       // "": the name of the workspace
   std::string photograph;  // the name of an image, or "auto"; "": none
   std::string name;        // of the files; "": drawing_<plane>

@@ -105,14 +105,7 @@ double DistanceSigma(const Eigen::Vector3d& between,
 
 void AddLines(const std::vector<Named>& lines, Table& table) {
   for (const Named& line : lines) {
-    const CurveFit& fit = *line.fit;
-    table.AddLength(
-        "length",
-        line.name,
-        "",
-        line.size,
-        DistanceSigma(
-            fit.end - fit.start, fit.start_covariance, fit.end_covariance));
+    table.AddLength("length", line.name, "", line.size, LengthSigma(*line.fit));
   }
 }
 

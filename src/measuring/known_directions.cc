@@ -64,6 +64,12 @@ double DirectionVariance(const CurveFit& line) {
   return (sum.trace() - along.dot(sum * along)) / (2 * chord.squaredNorm());
 }
 
+double LengthSigma(const CurveFit& line) {
+  const Eigen::Vector3d along = (line.end - line.start).normalized();
+  return std::sqrt(
+      along.dot((line.start_covariance + line.end_covariance) * along));
+}
+
 std::vector<KnownDirection> DirectionsOf(const FittedCurves& fitted) {
   std::vector<KnownDirection> directions;
   std::vector<const CurveFit*> circles;

@@ -18,6 +18,9 @@ struct KnownDirection {
 // Of the direction of a line, as KnownDirection::variance.
 double DirectionVariance(const CurveFit& line);
 
+// Standard deviation of the length of a line, from the covariances of its ends.
+double LengthSigma(const CurveFit& line);
+
 // Of lines, of the axes of arcs, and from each circle to the nearest one of its
 // size in its plane, all known to 1.5 degrees; longest first, ties as in
 // `fitted`. Arcs without an arc_covariance are left out.

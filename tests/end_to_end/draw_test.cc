@@ -68,6 +68,17 @@ std::vector<double> LineLengths(const std::string& dxf) {
   return lengths;
 }
 
+// What the DIMENSION entities of a DXF say to measure.
+std::vector<std::string> StatedLengths(const std::string& dxf) {
+  std::vector<std::string> lengths;
+  for (std::size_t at = dxf.find("AcDbDimension\n"); at != std::string::npos;
+       at = dxf.find("AcDbDimension\n", at + 1)) {
+    const std::size_t value = dxf.find("\n42\n", at) + 4;
+    lengths.push_back(dxf.substr(value, dxf.find('\n', value) - value));
+  }
+  return lengths;
+}
+
 TEST_F(Draw, DistancesAreThoseOfTheDimensions) {
   json longest;
   const json before = Curves();
@@ -90,12 +101,20 @@ TEST_F(Draw, DistancesAreThoseOfTheDimensions) {
   const json curves = Curves();
   std::size_t num_compared = 0;
   for (const auto& [plane, depth] : depth_of) {
-    const Outcome outcome = Run("draw --scale 1:2 --plane " + plane);
+    const Outcome outcome =
+        Run("draw --dimensions 1 --scale 1:2 --plane " + plane);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("1:2 on A3"));
     const auto drawn =
         LineLengths(Read(results_ / ("drawing_" + plane + ".dxf")));
-    std::istringstream dimensions(Read(results_ / "dimensions.csv"));
+    const std::string table = Read(results_ / "dimensions.csv");
+    const auto stated =
+        StatedLengths(Read(results_ / ("drawing_" + plane + ".dxf")));
+    EXPECT_GE(stated.size(), 2u) << plane;
+    for (const std::string& value : stated) {
+      EXPECT_THAT(table, HasSubstr("," + value + ","));
+    }
+    std::istringstream dimensions(table);
     for (std::string row; std::getline(dimensions, row);) {
       std::size_t curve = 0, fit = 0;
       double length = 0, sigma = 0;
