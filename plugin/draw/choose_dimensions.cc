@@ -45,6 +45,7 @@ std::optional<MeasuredDimension> DimensionOf(const CurveFit& fit,
                                              double scale_sigma) {
   MeasuredDimension m;
   if (fit.kind == FitKind::kLine) {
+    if (fit.start_node < 0 || fit.end_node < 0) return std::nullopt;
     m.value = Length(fit);
     m.sigma = std::hypot(LengthSigma(fit), scale_sigma * m.value);
     m.drawn.a = flat.start.head<2>();

@@ -16,10 +16,10 @@ struct MeasuredDimension {
   double sigma = 0;      // > 0
 };
 
-// The length of a line or the radius of an arc, if the drawing shows it as it
-// is: `flat` is FlatFit of `fit` and, by less than a standard deviation, as
-// long. `scale_sigma` as of WorldAlignment. The value is written as well as it
-// is known.
+// The length of a line from node to node or the radius of an arc, if the
+// drawing shows it as it is: `flat` is FlatFit of `fit` and, by less than a
+// standard deviation, as long. `scale_sigma` as of WorldAlignment. The value is
+// written as well as it is known.
 std::optional<MeasuredDimension> DimensionOf(const CurveFit& fit,
                                              const CurveFit& flat,
                                              double scale_sigma);

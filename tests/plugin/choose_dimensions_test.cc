@@ -18,6 +18,8 @@ std::optional<MeasuredDimension> OfLine(const Vector3d& start,
   CurveFit line;
   line.start = start;
   line.end = end;
+  line.start_node = 0;
+  line.end_node = 1;
   line.start_covariance = line.end_covariance =
       4e-4 * Eigen::Matrix3d::Identity();
   const auto flat = FlatFit(line, *AxisPlane("xz"));
@@ -42,6 +44,17 @@ TEST(DimensionOf, WritesWhatIsKnown) {
   const auto flat = FlatFit(circle, *AxisPlane("xz"));
   ASSERT_TRUE(flat.has_value());
   EXPECT_EQ(DimensionOf(circle, *flat, 0)->drawn.text, "R12.5");
+}
+
+TEST(DimensionOf, NothingThatEndsNowhere) {
+  CurveFit line;
+  line.end = {60, 0, 0};
+  line.start_covariance = Eigen::Matrix3d::Identity();
+  EXPECT_FALSE(DimensionOf(line, line, 0).has_value());
+  line.start_node = 0;
+  EXPECT_FALSE(DimensionOf(line, line, 0).has_value());
+  line.end_node = 1;
+  EXPECT_TRUE(DimensionOf(line, line, 0).has_value());
 }
 
 TEST(DimensionOf, NothingThatTheDrawingShortens) {
