@@ -19,6 +19,7 @@
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
+#include "plugin/draw/geopackage.h"
 #include "plugin/draw/rectified_photograph.h"
 #include "plugin/draw/seen_from.h"
 #include "plugin/run/run_input.h"
@@ -336,6 +337,16 @@ Status Drafter::Write() {
     Status written = WriteFileAtomically(output->folder() / file, bytes);
     if (!written.ok()) return written;
     text_ += " " + file;
+  }
+  if (settings_.geopackage) {
+    const bool is_plan = settings_.plane == "xy" && curves_.alignment;
+    Status written = WriteGeoPackage(output->folder() / (name_ + ".dxf"),
+                                     is_plan ? curves_.alignment->crs : "",
+                                     output->folder() / (name_ + ".gpkg"));
+    if (!written.ok()) return written;
+    text_ += " " + name_ + ".gpkg";
+  } else {
+    obsolete.emplace_back(name_ + ".gpkg");
   }
   text_ += "\n";
   return output->Publish(obsolete);

@@ -184,6 +184,36 @@ TEST_F(Draw, APhotographLiesBeneath) {
   EXPECT_FALSE(fs::exists(results_ / "drawing_auto.jpg"));
 }
 
+TEST_F(Draw, GeoPackageHasTheCurves) {
+  if (RunInShell("command -v ogrinfo").exit_code != 0) {
+    GTEST_SKIP() << "no gdal-bin";
+  }
+  const std::string words = "draw --plane xy --dimensions 1 --geopackage 1";
+  const Outcome outcome = Run(words);
+  const fs::path path = results_ / "drawing_xy.gpkg";
+#ifdef CURVIX_HAS_GDAL
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const Outcome seen =
+      RunInShell("ogrinfo -q " + Quoted(path) +
+                 " -sql \"SELECT COUNT(*) AS n FROM curves\" 2>&1");
+  std::size_t num_drawn = 0;
+  ASSERT_EQ(std::sscanf(outcome.output.c_str() + outcome.output.find("Drew "),
+                        "Drew %zu",
+                        &num_drawn),
+            1);
+  EXPECT_THAT(seen.output,
+              HasSubstr("n (Integer) = " + std::to_string(num_drawn)));
+  const std::string bytes = Read(path);
+  ASSERT_EQ(Run(words).exit_code, 0);
+  EXPECT_EQ(Read(path), bytes);
+  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
+#else
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("built without GDAL"));
+#endif
+  EXPECT_FALSE(fs::exists(path));
+}
+
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
   const auto before = Contents(results_);
   for (const auto& [words, why] :
