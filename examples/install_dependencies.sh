@@ -8,7 +8,8 @@
 #   examples/install_dependencies.sh --tests    and for all tests
 set -euo pipefail
 
-# libopencv-dev holds OpenCV's CMake configuration, libpcl-dev PCL's. dpkg-dev
+# libopencv-dev holds OpenCV's CMake configuration, libpcl-dev PCL's, and brings
+# libgdal-dev with it. dpkg-dev
 # and file are for the target `package`.
 packages=(
   cmake dpkg-dev file g++ git ninja-build

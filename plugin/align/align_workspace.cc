@@ -153,23 +153,24 @@ Status Aligner::TakeAxes() {
     return {StatusCode::kInvalidArgument, "--up has no direction"};
   }
   const Result<MainAxes> axes =
-      FindMainAxes(structures_.lines, up, MeanViewDirection(scene_.views));
+      FindMainAxes(structures_.fitted, up, MeanViewDirection(scene_.views));
   if (!axes.ok()) return axes.status();
   input_.axes = axes->axes;
   const char* const names[3] = {"y to z", "z to x", "x to y"};
   Json& json = sources_["axes"];
   std::string counts, angles;
   for (std::size_t i = 0; i < 3; ++i) {
-    counts += (i > 0 ? ", " : "") + std::to_string(axes->num_lines[i]);
+    counts += (i > 0 ? ", " : "") + std::to_string(axes->num_directions[i]);
     if (std::isnan(axes->angle_deg[i])) continue;
     angles += (angles.empty() ? "" : ", ") + std::string(names[i]) + " " +
               WithSigma(axes->angle_deg[i], axes->angle_sigma_deg[i]);
   }
-  json["num_lines"] = axes->num_lines;
+  json["num_directions"] = axes->num_directions;
   json["total_length"] = axes->total_length;
   json["angle_deg"] = axes->angle_deg;
   json["angle_sigma_deg"] = axes->angle_sigma_deg;
-  Say("Axes shared by " + counts + " lines (x, y, z)");
+  Say("Axes shared by " + counts +
+      " lines, axes of arcs and rows of circles (x, y, z)");
   if (!angles.empty()) Say("  angles, fitted one by one, deg: " + angles);
   return {};
 }
@@ -246,8 +247,10 @@ Result<AlignSummary> Aligner::Run() {
   if (alignment.has_rotation) {
     const Eigen::Vector3d variances =
         alignment.covariance.diagonal().segment<3>(1);
-    Say("Axes known to " + Text(RadToDeg(std::sqrt(variances.maxCoeff()))) +
-        " deg");
+    const double of_up = std::max(variances.x(), variances.y());
+    Say("Up known to " + Text(RadToDeg(std::sqrt(of_up))) +
+        " deg, x and y about it to " +
+        Text(RadToDeg(std::sqrt(variances.z()))) + " deg");
   }
   if (!alignment.offset.isZero(0)) {
     Say("Coordinates are those given less " + Text(alignment.offset.x()) + " " +

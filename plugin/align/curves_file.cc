@@ -61,18 +61,26 @@ FitKind FitKindOf(const std::string& name) {
   return name == "ellipse" ? FitKind::kEllipse : FitKind::kSpline;
 }
 
+// 0: not known.
+double SigmaOf(const Json& json, const char* name) {
+  const Json sigma = json.value(name, Json());
+  return sigma.is_number() ? sigma.get<double>() : 0;
+}
+
 void TakeShape(const Json& json, CurveFit& fit) {
-  if (fit.kind == FitKind::kArc) {
-    fit.radius_sigma = json.value("radius_sigma", Json()).is_number()
-                           ? json.at("radius_sigma").get<double>()
-                           : 0;
-  }
   if (fit.kind == FitKind::kArc || fit.kind == FitKind::kEllipse) {
     fit.center = VectorOf(json.at("center"));
     fit.major = VectorOf(json.at("major"));
     fit.minor = VectorOf(json.at("minor"));
     fit.start_angle = json.at("start_angle").get<double>();
     fit.end_angle = json.at("end_angle").get<double>();
+  }
+  if (fit.kind == FitKind::kArc) {
+    fit.radius_sigma = SigmaOf(json, "radius_sigma");
+    const Eigen::Vector3d axis = fit.major.cross(fit.minor).normalized();
+    const double sigma = SigmaOf(json, "axis_sigma");
+    fit.arc_covariance.block<3, 3>(3, 3) =
+        sigma * sigma * (Eigen::Matrix3d::Identity() - axis * axis.transpose());
   }
   if (fit.kind == FitKind::kSpline) {
     for (const Json& point : json.at("control_points")) {

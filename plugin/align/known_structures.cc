@@ -97,17 +97,9 @@ Result<KnownStructures> ReadStructures(const fs::path& folder) {
   if (file->alignment) {
     result.model_from_world = file->alignment->world_from_model.Inverse();
   }
-  const FittedCurves fitted =
-      MoveFits(result.model_from_world, std::move(file->fitted));
-  for (const CurveNode& node : fitted.nodes) {
+  result.fitted = MoveFits(result.model_from_world, std::move(file->fitted));
+  for (const CurveNode& node : result.fitted.nodes) {
     result.nodes.push_back({node.position, node.covariance});
-  }
-  for (const FittedCurve& curve : fitted.curves) {
-    for (const CurveFit& fit : curve.fits) {
-      if (fit.kind != FitKind::kLine) continue;
-      result.lines.push_back(
-          {fit.start, fit.end, fit.start_covariance, fit.end_covariance});
-    }
   }
   return result;
 }

@@ -21,7 +21,7 @@ struct KnownPoint {
 
 struct KnownStructures {
   std::vector<KnownPoint> nodes;
-  std::vector<DirectedLine> lines;
+  FittedCurves fitted;  // in the model's frame
   // Of the frame in which curves.json is; the identity without an alignment.
   Similarity3 model_from_world;
 };

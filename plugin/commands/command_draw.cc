@@ -13,10 +13,11 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
   return {
       PathsSection(&s->run),
       {"View",
-       {TextFlag("plane",
-                 &s->plane,
-                 "xy (plan), xz (front), yz (side), several with commas "
-                 "between, 'nodes A B C', or auto: where most lines are"),
+       {TextFlag(
+            "plane",
+            &s->plane,
+            "xy (plan), xz (front), yz (side), several with commas "
+            "between, 'nodes A B C', or auto: which most photographs face"),
         Switch("from_behind", &s->from_behind, "seen from the other side"),
         ChoiceFlag("hidden",
                    {"dashed", "omitted", "solid"},
@@ -26,6 +27,10 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
                  &s->slice,
                  "FROM,TO: draw only what lies between, along the third axis "
                  "or, of nodes, from their plane towards the viewer"),
+        TextFlag("crop",
+                 &s->crop,
+                 "LEFT,BOTTOM,RIGHT,TOP: draw only what lies between, in the "
+                 "coordinates of the drawing"),
         TextFlag("photograph",
                  &s->photograph,
                  "name of an image to put beneath, rectified; auto: the one "
@@ -38,6 +43,12 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
                    {"a4", "a3", "a2", "a1", "a0"},
                    &s->paper,
                    "size of the sheet, broad side down"),
+        Switch("dimensions",
+               &s->dimensions,
+               "1: with the main lengths and radii, as well as they are known"),
+        Switch("geopackage",
+               &s->geopackage,
+               "1: write a GeoPackage, too, for QGIS"),
         TextFlag("title", &s->title, "default: the name of the workspace"),
         TextFlag("name",
                  &s->name,

@@ -20,18 +20,9 @@ bool AxesAreKnown(const CurvesFile& curves) {
 
 Result<DrawingPlane> AutoPlane(const CurvesFile& curves, const Scene& scene) {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d look = MeanViewDirection(scene.views);
   if (!AxesAreKnown(curves)) {
-    std::vector<DirectedLine> lines;
-    for (const FittedCurve& curve : curves.fitted.curves) {
-      for (const CurveFit& fit : curve.fits) {
-        if (fit.kind != FitKind::kLine) continue;
-        lines.push_back(
-            {fit.start, fit.end, fit.start_covariance, fit.end_covariance});
-      }
-    }
-    const Result<MainAxes> found =
-        FindMainAxes(lines, MeanUp(scene.views), look);
+    const Result<MainAxes> found = FindMainAxes(
+        curves.fitted, MeanUp(scene.views), MeanViewDirection(scene.views));
     if (!found.ok()) {
       return Status(found.status().code(),
                     found.status().message() +
@@ -39,7 +30,7 @@ Result<DrawingPlane> AutoPlane(const CurvesFile& curves, const Scene& scene) {
     }
     axes = found->axes.world_from_model.toRotationMatrix().transpose();
   }
-  return MainPlane(curves.fitted, axes, look);
+  return MainPlane(curves.fitted, axes, scene.views);
 }
 
 Result<DrawingPlane> PlaneOfNodes(const std::string& text,

@@ -15,7 +15,7 @@ namespace curvix {
 // "xy", "xz", "yz", "auto" (MainPlane, of the axes of the alignment or else of
 // those that lines share), "nodes A B C", or several with commas between.
 // `scene` is in the frame of the curves. kInvalidArgument: it is none of these;
-// kUnsupported: "auto", and no two lines are perpendicular.
+// kUnsupported: "auto", and no two directions are perpendicular.
 Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
                                                const CurvesFile& curves,
                                                const Scene& scene);

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/file_io.h"
-#include "base/text_fields.h"
-#include "drawing/cut_fit.h"
+#include "drawing/dimension_marks.h"
 #include "drawing/drawing_plane.h"
 #include "drawing/flat_fit.h"
 #include "drawing/sheet.h"
@@ -19,7 +17,10 @@
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
 #include "plugin/base/staged_output.h"
+#include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
+#include "plugin/draw/draw_window.h"
+#include "plugin/draw/geopackage.h"
 #include "plugin/draw/rectified_photograph.h"
 #include "plugin/draw/seen_from.h"
 #include "plugin/run/run_steps.h"
@@ -29,34 +30,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Between views on one sheet, of the extent of the largest.
 constexpr double kGapOfViews = 0.15;
 
 Status Bad(std::string message) {
   return {StatusCode::kInvalidArgument, std::move(message)};
-}
-
-struct Slice {
-  double from = -kInfinity;
-  double to = kInfinity;
-};
-
-Result<Slice> ParseSlice(const std::string& text) {
-  if (text.empty()) return Slice{};
-  const std::size_t comma = text.find(',');
-  const auto from =
-      ParseNumber<double>(std::string_view(text).substr(0, comma));
-  const auto to =
-      comma == std::string::npos
-          ? std::nullopt
-          : ParseNumber<double>(std::string_view(text).substr(comma + 1));
-  if (!from || !to || !(*from < *to)) {
-    return Bad("--slice is \"" + text +
-               "\"; it takes the lower and the higher depth, as in --slice "
-               "0.9,1.1");
-  }
-  return Slice{*from, *to};
 }
 
 std::string Short(double value, int digits = 4) {
@@ -78,6 +56,7 @@ std::string ViewName(const std::string& plane) {
 struct DrawnView {
   DrawingPlane plane;
   std::vector<SheetCurve> curves = {};
+  std::vector<MeasuredDimension> measured = {};  // of whole primitives
   int num_unknown = 0;  // primitives that may be hidden or not
 };
 
@@ -94,6 +73,7 @@ class Drafter {
   std::optional<bool> IsHidden(std::size_t curve_idx,
                                const CurveFit& fit,
                                DrawnView& view) const;
+  double ScaleSigma() const;
   void Fill(DrawnView& view) const;
   Status PlaceViews();
   Status TakePhotograph();
@@ -106,7 +86,7 @@ class Drafter {
   Workspace workspace_;
   Scene scene_;  // in the frame of the curves
   CurvesFile curves_;
-  Slice slice_;
+  DrawWindow window_;
   std::vector<DrawnView> views_;
   std::string name_;
   std::string photograph_;  // its name
@@ -132,9 +112,10 @@ Status Drafter::Read() {
   if (curves_.alignment) {
     scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
   }
-  const Result<Slice> slice = ParseSlice(settings_.slice);
-  if (!slice.ok()) return slice.status();
-  slice_ = *slice;
+  const Result<DrawWindow> window =
+      ParseWindow(settings_.slice, settings_.crop);
+  if (!window.ok()) return window.status();
+  window_ = *window;
   return {};
 }
 
@@ -143,8 +124,9 @@ Status Drafter::TakePlanes() {
       ChoosePlanes(settings_.plane, curves_, scene_);
   if (!planes.ok()) return planes.status();
   if (planes->size() > 1 &&
-      !(settings_.slice.empty() && settings_.photograph.empty())) {
-    return Bad("--slice and --photograph need a single --plane");
+      !(settings_.slice.empty() && settings_.crop.empty() &&
+        settings_.photograph.empty())) {
+    return Bad("--slice, --crop and --photograph need a single --plane");
   }
   for (DrawingPlane& plane : *planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
@@ -185,22 +167,34 @@ std::optional<bool> Drafter::IsHidden(std::size_t curve_idx,
   return true;
 }
 
-// What the plane shows of the slice.
+double Drafter::ScaleSigma() const {
+  return curves_.alignment ? curves_.alignment->scale_sigma() : 0;
+}
+
+// What the plane shows of the window.
 void Drafter::Fill(DrawnView& view) const {
   const DrawingPlane& plane = view.plane;
   view.curves.clear();
+  view.measured.clear();
   view.num_unknown = 0;
-  const double at_0 = plane.depth_axis.dot(plane.origin);
   for (std::size_t c = 0; c < curves_.fitted.curves.size(); ++c) {
     for (const CurveFit& fit : curves_.fitted.curves[c].fits) {
-      const std::vector<CurveFit> parts = PartsWithin(
-          fit, plane.depth_axis, slice_.from + at_0, slice_.to + at_0);
+      const std::vector<CurveFit> parts = PartsInWindow(fit, plane, window_);
       if (parts.empty()) continue;
       const std::optional<bool> is_hidden = IsHidden(c, fit, view);
       if (!is_hidden) continue;
       for (const CurveFit& part : parts) {
         std::optional<CurveFit> flat = FlatFit(part, plane);
-        if (flat) view.curves.push_back({*std::move(flat), *is_hidden});
+        if (!flat) continue;
+        const bool is_whole = part.start == fit.start && part.end == fit.end &&
+                              (fit.kind == FitKind::kLine ||
+                               (curves_.fitted.curves[c].fits.size() == 1 &&
+                                part.closed == fit.closed));
+        if (settings_.dimensions && is_whole && !*is_hidden) {
+          const auto measured = DimensionOf(fit, *flat, ScaleSigma());
+          if (measured) view.measured.push_back(*measured);
+        }
+        view.curves.push_back({*std::move(flat), *is_hidden});
       }
     }
   }
@@ -241,12 +235,13 @@ Status Drafter::TakePhotograph() {
   const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
   if (bounds.isEmpty()) return {};
   const bool through_nodes = view.plane.name.starts_with("nodes");
-  const PictureArea area{
-      view.plane,
-      through_nodes
-          ? 0
-          : MainDepth(curves_.fitted, view.plane, slice_.from, slice_.to),
-      bounds};
+  const PictureArea area{view.plane,
+                         through_nodes ? 0
+                                       : MainDepth(curves_.fitted,
+                                                   view.plane,
+                                                   window_.depth.from,
+                                                   window_.depth.to),
+                         bounds};
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);
@@ -279,7 +274,7 @@ std::string Drafter::Subtitle() const {
   if (settings_.from_behind) text += ", from behind";
   if (!settings_.slice.empty()) {
     text += ", " + views_.front().plane.depth_name + " from " +
-            Short(slice_.from) + " to " + Short(slice_.to);
+            Short(window_.depth.from) + " to " + Short(window_.depth.to);
   }
   if (!photograph_.empty()) text += ", photograph " + photograph_;
   if (curves_.alignment && curves_.alignment->has_scale) {
@@ -301,6 +296,7 @@ Status Drafter::LayOut() {
   }
   sheet.subtitle = Subtitle();
   sheet.paper = settings_.paper;
+  sheet.has_dimensions = settings_.dimensions;
   if (curves_.alignment) sheet.unit = curves_.alignment->unit;
   sheet.millimetres = MillimetresPer(sheet.unit).value_or(0);
   if (!settings_.scale.empty()) {
@@ -318,6 +314,12 @@ Status Drafter::LayOut() {
   Result<Sheet> laid = LaySheet(sheet, std::move(curves), picture_);
   if (!laid.ok()) return laid.status();
   sheet_ = *std::move(laid);
+  for (const DrawnView& view : views_) {
+    if (view.measured.empty()) continue;
+    PlaceDimensions(ChooseDimensions(view.measured),
+                    BoundsOf(view.curves).center(),
+                    sheet_);
+  }
   return {};
 }
 
@@ -335,6 +337,16 @@ Status Drafter::Write() {
     Status written = WriteFileAtomically(output->folder() / file, bytes);
     if (!written.ok()) return written;
     text_ += " " + file;
+  }
+  if (settings_.geopackage) {
+    const bool is_plan = settings_.plane == "xy" && curves_.alignment;
+    Status written = WriteGeoPackage(output->folder() / (name_ + ".dxf"),
+                                     is_plan ? curves_.alignment->crs : "",
+                                     output->folder() / (name_ + ".gpkg"));
+    if (!written.ok()) return written;
+    text_ += " " + name_ + ".gpkg";
+  } else {
+    obsolete.emplace_back(name_ + ".gpkg");
   }
   text_ += "\n";
   return output->Publish(obsolete);

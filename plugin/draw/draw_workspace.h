@@ -18,8 +18,11 @@ struct DrawSettings {
   bool from_behind = false;
   std::string hidden = "dashed";  // or "omitted" or "solid"
   std::string slice;              // "FROM,TO", along the normal; "": all
+  std::string crop;               // "LEFT,BOTTOM,RIGHT,TOP", as drawn; "": all
   std::string scale;              // "1:50"; "": as fits
   std::string paper = "a3";
+  bool dimensions = false;
+  bool geopackage = false;
   std::string title;       // "": the name of the workspace
   std::string photograph;  // the name of an image, or "auto"; "": none
   std::string name;        // of the files; "": drawing_<plane>
@@ -29,8 +32,8 @@ struct DrawSummary {
   std::string text;  // what was drawn and where it is, for people
 };
 
-// Writes <name>.dxf and <name>.svg, and <name>.jpg if a photograph is asked
-// for, into the folder of results, all or none. kInvalidArgument: settings that
+// Writes <name>.dxf and <name>.svg, and <name>.jpg and <name>.gpkg if a
+// photograph or a GeoPackage is asked for, into the folder of results, all or none. kInvalidArgument: settings that
 // cannot work; errors of what is read.
 Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress);

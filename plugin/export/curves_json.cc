@@ -42,6 +42,8 @@ Json FitJson(const CurveFit& fit) {
   if (fit.kind == FitKind::kArc) {
     json["radius"] = fit.major.norm();
     json["radius_sigma"] = fit.radius_sigma;
+    json["axis_sigma"] =
+        std::sqrt(fit.arc_covariance.block<3, 3>(3, 3).trace() / 2);
   }
   if (fit.kind == FitKind::kArc || fit.kind == FitKind::kEllipse) {
     json["center"] = VectorJson(fit.center);

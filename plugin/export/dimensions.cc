@@ -10,7 +10,7 @@
 
 #include "base/angles.h"
 #include "base/text_fields.h"
-#include "measuring/main_axes.h"
+#include "measuring/known_directions.h"
 
 namespace curvix {
 namespace {
@@ -93,10 +93,6 @@ std::vector<Named> Largest(const FittedCurves& fitted,
   return named;
 }
 
-DirectedLine LineOf(const CurveFit& fit) {
-  return {fit.start, fit.end, fit.start_covariance, fit.end_covariance};
-}
-
 // Standard deviation of a distance between points with these covariances.
 double DistanceSigma(const Eigen::Vector3d& between,
                      const Eigen::Matrix3d& a,
@@ -109,14 +105,7 @@ double DistanceSigma(const Eigen::Vector3d& between,
 
 void AddLines(const std::vector<Named>& lines, Table& table) {
   for (const Named& line : lines) {
-    const CurveFit& fit = *line.fit;
-    table.AddLength(
-        "length",
-        line.name,
-        "",
-        line.size,
-        DistanceSigma(
-            fit.end - fit.start, fit.start_covariance, fit.end_covariance));
+    table.AddLength("length", line.name, "", line.size, LengthSigma(*line.fit));
   }
 }
 
@@ -141,7 +130,8 @@ void AddPairsOfLines(const std::vector<Named>& lines, Table& table) {
   const std::size_t n = std::min(lines.size(), kMaxPartners);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
-      const DirectedLine a = LineOf(*lines[i].fit), b = LineOf(*lines[j].fit);
+      const CurveFit& a = *lines[i].fit;
+      const CurveFit& b = *lines[j].fit;
       const Eigen::Vector3d first = (a.end - a.start).normalized();
       const Eigen::Vector3d second = (b.end - b.start).normalized();
       const double angle =

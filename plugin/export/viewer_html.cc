@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/median.h"
+#include "measuring/main_axes.h"
 #include "plugin/export/small_images.h"
 
 namespace curvix {
@@ -20,6 +21,7 @@ namespace {
 constexpr int kNumPhotos = 16;
 constexpr int kPhotoSize = 640;  // pixels
 constexpr int kDigits = 6;       // of coordinates, with respect to the scene
+constexpr std::size_t kNumPoints = 10000;  // of the model
 
 std::string Base64(std::string_view bytes) {
   constexpr char kLetters[] =
@@ -83,14 +85,44 @@ std::string_view KindOf(const FittedCurve& fitted) {
   return fitted.fits.size() > 1 ? "chain" : KindName(fitted.fits.front());
 }
 
+Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// The upper triangle, by rows; five digits are enough.
+Json CovarianceJson(const Eigen::Matrix3d& m) {
+  const auto rounded = [](double value) {
+    return value == 0 ? 0 : Rounded(value, 4 - std::ilogb(value) * 3 / 10);
+  };
+  return {rounded(m(0, 0)),
+          rounded(m(0, 1)),
+          rounded(m(0, 2)),
+          rounded(m(1, 1)),
+          rounded(m(1, 2)),
+          rounded(m(2, 2))};
+}
+
+Json FitJson(const CurveFit& fit) {
+  Json json = {{"k", KindName(fit)},
+               {"i", {fit.first_sample, fit.num_samples}},
+               {"l", Length(fit)},
+               {"e", fit.rms_residual},
+               {"s", fit.sigma}};
+  if (fit.kind == FitKind::kLine) {
+    json["a"] = VectorJson(fit.start);
+    json["b"] = VectorJson(fit.end);
+    json["qa"] = CovarianceJson(fit.start_covariance);
+    json["qb"] = CovarianceJson(fit.end_covariance);
+  } else if (fit.kind == FitKind::kArc) {
+    json["r"] = fit.major.norm();
+    json["rs"] = fit.radius_sigma;
+    json["o"] = VectorJson(fit.center);
+    json["n"] = VectorJson(fit.major.cross(fit.minor).normalized());
+  }
+  return json;
+}
+
 Json FitsJson(const FittedCurve& fitted) {
   Json fits = Json::array();
-  for (const CurveFit& fit : fitted.fits) {
-    Json json = {{"k", KindName(fit)}, {"l", Length(fit)}};
-    if (fit.kind == FitKind::kArc) json["r"] = fit.major.norm();
-    json["e"] = fit.rms_residual;
-    fits.push_back(std::move(json));
-  }
+  for (const CurveFit& fit : fitted.fits) fits.push_back(FitJson(fit));
   return fits;
 }
 
@@ -128,6 +160,73 @@ int NumDecimals(const CurveSource& curves) {
       kDigits - static_cast<int>(std::floor(std::log10(size))), 0, 15);
 }
 
+Json NodesJson(const std::vector<CurveNode>& nodes) {
+  Json json = Json::array();
+  for (const CurveNode& node : nodes) {
+    json.push_back(
+        {VectorJson(node.position), CovarianceJson(node.covariance)});
+  }
+  return json;
+}
+
+// Of a point that all its views see to one pixel.
+Eigen::Matrix3d CovarianceOf(const ScenePoint& point, const Scene& scene) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (const int view_idx : point.view_idxs) {
+    const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+    const Eigen::Matrix3d k = PinholeCalibration(
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)]);
+    const Eigen::Vector3d seen = view.cam_from_world * point.position;
+    Eigen::Matrix<double, 2, 3> of_seen;
+    of_seen << 1, 0, -seen.x() / seen.z(), 0, 1, -seen.y() / seen.z();
+    const Eigen::Matrix<double, 2, 3> jacobian =
+        k.topLeftCorner<2, 2>() * of_seen / seen.z() *
+        view.cam_from_world.rotation.toRotationMatrix();
+    information += jacobian.transpose() * jacobian;
+  }
+  return information.inverse();
+}
+
+// Some of the points of the model, evenly by number, with their covariances.
+Json PointsJson(const Scene& scene, int num_decimals) {
+  Json json = Json::array();
+  const std::size_t step = scene.points.size() / kNumPoints + 1;
+  for (std::size_t i = 0; i < scene.points.size(); i += step) {
+    const ScenePoint& point = scene.points[i];
+    const Eigen::Matrix3d covariance = CovarianceOf(point, scene);
+    if (!covariance.allFinite()) continue;
+    Json position = Json::array();
+    for (const double x : point.position) {
+      position.push_back(Rounded(x, num_decimals));
+    }
+    json.push_back({position, CovarianceJson(covariance)});
+  }
+  return json;
+}
+
+// What the coordinates are: the axes are those that `align` found or else, if
+// there are any, those that most lines share.
+Json FrameJson(const CurveRecord& record) {
+  Json json = {{"unit", ""}, {"scaleSigma", 0}};
+  if (record.alignment != nullptr) {
+    json["unit"] = record.alignment->unit;
+    json["scaleSigma"] = record.alignment->scale_sigma();
+  }
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (record.alignment == nullptr || !record.alignment->has_rotation) {
+    const Result<MainAxes> found =
+        FindMainAxes(record.fitted,
+                     MeanUp(record.scene.views),
+                     MeanViewDirection(record.scene.views));
+    if (!found.ok()) return json;
+    axes = found->axes.world_from_model.toRotationMatrix();
+  }
+  for (int i = 0; i < 3; ++i) {
+    json["axes"].push_back(VectorJson(axes.row(i).transpose()));
+  }
+  return json;
+}
+
 }  // namespace
 
 void EncodeViewerHtml(const CurveRecord& record,
@@ -154,12 +253,11 @@ void EncodeViewerHtml(const CurveRecord& record,
                   scene.cameras[static_cast<std::size_t>(view.camera_idx)],
                   jpegs[i])));
   }
-  Json nodes = Json::array();
-  for (const CurveNode& node : record.fitted.nodes) {
-    nodes.push_back({node.position.x(), node.position.y(), node.position.z()});
-  }
-  sink("],\"nodes\":" + JsonText(nodes) + ",\"curves\":[");
   const int num_decimals = NumDecimals(record.curves);
+  sink("],\"frame\":" + JsonText(FrameJson(record)) +
+       ",\"nodes\":" + JsonText(NodesJson(record.fitted.nodes)) +
+       ",\"points\":" + JsonText(PointsJson(scene, num_decimals)) +
+       ",\"curves\":[");
   record.curves.ForEach([&](std::size_t i, const Curve& curve) {
     if (i > 0) sink(",\n");
     sink(JsonText(CurveJson(curve, record.fitted.curves[i], num_decimals)));

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -15,8 +16,6 @@ namespace {
 
 constexpr double kInPlaneDeg = 1.5;
 constexpr double kLevelDeg = 10;
-// Cameras whose mean direction is longer than this look at a front.
-constexpr double kLookingOneWay = 0.3;
 
 // The length of a line, if it lies across `normal`; else 0.
 double LengthAcross(const CurveFit& fit, const Eigen::Vector3d& normal) {
@@ -77,28 +76,41 @@ Result<DrawingPlane> PlaneThrough(const Eigen::Vector3d& a,
 
 DrawingPlane MainPlane(const FittedCurves& fitted,
                        const Eigen::Matrix3d& axes,
-                       const Eigen::Vector3d& views_direction) {
-  DrawingPlane best;
-  double most = -1;
+                       const std::vector<View>& views) {
+  std::vector<DrawingPlane> planes;
   for (const char* name : {"xz", "xy", "yz"}) {
-    DrawingPlane plane = *AxisPlane(name);
+    DrawingPlane& plane = planes.emplace_back(*AxisPlane(name));
     for (Eigen::Vector3d* const v :
          {&plane.right, &plane.up, &plane.toward, &plane.depth_axis}) {
       *v = axes * *v;
     }
-    double length = 0;
+  }
+  // In front of each, less those behind, and all.
+  std::array<int, 3> balance = {}, count = {};
+  for (const View& view : views) {
+    const Eigen::Vector3d along =
+        view.cam_from_world.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+    std::size_t faced = 0;
+    for (std::size_t i = 1; i < planes.size(); ++i) {
+      const double cosine = std::abs(planes[i].toward.dot(along));
+      if (cosine > std::abs(planes[faced].toward.dot(along))) faced = i;
+    }
+    ++count[faced];
+    balance[faced] += planes[faced].toward.dot(along) < 0 ? 1 : -1;
+  }
+  std::array<double, 3> length = {};
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
     for (const FittedCurve& curve : fitted.curves) {
       for (const CurveFit& fit : curve.fits) {
-        length += LengthAcross(fit, plane.toward);
+        length[i] += LengthAcross(fit, planes[i].toward);
       }
     }
-    if (views_direction.norm() > kLookingOneWay) {
-      length *= std::abs(plane.toward.dot(views_direction));
+    if (std::pair(count[i], length[i]) > std::pair(count[best], length[best])) {
+      best = i;
     }
-    if (length > most) best = std::move(plane);
-    most = std::max(most, length);
   }
-  return best.toward.dot(views_direction) > 0 ? FromBehind(best) : best;
+  return balance[best] < 0 ? FromBehind(planes[best]) : planes[best];
 }
 
 double MainDepth(const FittedCurves& fitted,

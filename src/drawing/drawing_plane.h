@@ -3,11 +3,13 @@
 #pragma once
 
 #include <curvix/fitting.h>
+#include <curvix/scene.h>
 #include <curvix/status.h>
 #include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace curvix {
 
@@ -51,12 +53,12 @@ Result<DrawingPlane> PlaneThrough(const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& views_direction);
 
 // Of the planes "xz", "xy" and "yz" of the frame whose axes are the columns of
-// `axes`, the one in which most of the length of lines lies, to 1.5 degrees, as
-// `views_direction` sees it: times the cosine of its angle to the normal, if it
-// is longer than 0.3. Ties go to the first. Seen against `views_direction`.
+// `axes`, the one that most views face: those whose optical axes are nearest to
+// its normal. Ties go to the one in which more length of lines lies, to 1.5
+// degrees, then to the first. Seen from the side of most of these views.
 DrawingPlane MainPlane(const FittedCurves& fitted,
                        const Eigen::Matrix3d& axes,
-                       const Eigen::Vector3d& views_direction);
+                       const std::vector<View>& views);
 
 // The depth at which most lines in the plane lie: the median, by length, of
 // those from `low` to `high`. 0: there is none.

@@ -13,8 +13,9 @@ namespace curvix {
 namespace {
 
 // mm on the paper.
-constexpr double kMargin = 10;       // around the frame
-constexpr double kGap = 8;           // between frame and drawing
+constexpr double kMargin = 10;  // around the frame
+constexpr double kGap = 8;      // between frame and drawing
+constexpr double kDimensionRoom = 16;
 constexpr double kTitleHeight = 18;  // of the strip at the bottom
 constexpr double kScaleWidth = 80;   // of the scale's part of it
 constexpr double kLongestBar = 60;
@@ -142,9 +143,10 @@ Result<Sheet> LaySheet(const SheetSettings& settings,
   Sheet sheet;
   sheet.size = PaperSize(settings.paper);
   sheet.unit = settings.unit;
+  const double around =
+      kMargin + kGap + (settings.has_dimensions ? kDimensionRoom : 0);
   const Eigen::Vector2d room =
-      sheet.size - Eigen::Vector2d(2 * (kMargin + kGap),
-                                   2 * (kMargin + kGap) + kTitleHeight);
+      sheet.size - Eigen::Vector2d(2 * around, 2 * around + kTitleHeight);
   const double fitting = (room.array() / bounds.sizes().array()).minCoeff();
   double denominator = settings.denominator;
   if (mm > 0) {

@@ -39,11 +39,23 @@ struct SheetText {
   std::string text;       // UTF-8
 };
 
+// A length, or the radius of an arc. Drawing units.
+struct SheetDimension {
+  bool is_radius = false;
+  Eigen::Vector2d a = Eigen::Vector2d::Zero();  // an end, or the centre
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();  // the other, or a point of it
+  double value = 0;
+  std::string text;
+  // Of the dimension line from a to b, to the left, mm on the paper.
+  double shift = 0;
+};
+
 struct Sheet {
   std::vector<SheetCurve> curves;       // drawing units are those of the curves
   std::optional<SheetPicture> picture;  // beneath
   std::vector<SheetLine> lines;         // frame and scale bar
   std::vector<SheetText> texts;
+  std::vector<SheetDimension> dimensions;
   Eigen::Vector2d size = Eigen::Vector2d::Zero();    // of the paper, mm
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // its lower left one,
                                                      // drawing units
@@ -70,6 +82,7 @@ struct SheetSettings {
   // 50 for 1:50, 0.5 for 2:1; 0: the largest of 1, 2 and 5 times powers of ten
   // with which the drawing fits.
   double denominator = 0;
+  bool has_dimensions = false;  // which take room around the drawing
 };
 
 // 50 of "1:50" or "50", 0.5 of "2:1". nullopt: no scale.
@@ -78,6 +91,8 @@ std::optional<double> ParseScale(std::string_view text);
 // Dashes and the gaps between them, mm.
 constexpr double kDash = 3;
 constexpr double kDashGap = 1.5;
+// Height of the capitals of dimensions, mm.
+constexpr double kDimensionText = 2.5;
 
 // What the curves fill, drawing units. Empty without curves.
 Eigen::AlignedBox2d BoundsOf(const std::vector<SheetCurve>& curves);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "drawing/dimension_marks.h"
 #include "io/drawing_layers.h"
 #include "io/dxf_writer.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr char kFrameLayer[] = "FRAME";
 constexpr char kPhotographLayer[] = "PHOTOGRAPH";
+constexpr char kDimensionsLayer[] = "DIMENSIONS";
 
 // What an entity is drawn with.
 struct Pen {
@@ -169,16 +171,85 @@ void PutText(const Sheet& sheet, const SheetText& text, DxfWriter& w) {
   w.Put(100, "AcDbText");
 }
 
+void PutLine(const Sheet& sheet,
+             const SheetLine& line,
+             const char* layer,
+             DxfWriter& w) {
+  w.BeginEntity("LINE", layer);
+  w.Put(100, "AcDbLine");
+  w.Put(10, OnSheet(sheet.FromPaper(line.start)));
+  w.Put(11, OnSheet(sheet.FromPaper(line.end)));
+}
+
+// What programs that do not draw dimensions themselves show of them.
+std::vector<DxfBlock> BlocksOf(const Sheet& sheet, DxfWriter& w) {
+  std::vector<DxfBlock> blocks;
+  for (const SheetDimension& dimension : sheet.dimensions) {
+    const DimensionMarks marks = MarksOf(dimension, sheet);
+    const std::string handle = w.NewHandle();
+    w.SetBlock(handle);
+    for (const SheetLine& line : marks.lines) {
+      PutLine(sheet, line, kDimensionsLayer, w);
+    }
+    w.BeginEntity("TEXT", kDimensionsLayer);
+    w.Put(100, "AcDbText");
+    const Eigen::Vector3d at = OnSheet(sheet.FromPaper(marks.text.start));
+    w.Put(10, at);
+    w.Put(40, marks.text.height / sheet.scale);
+    w.Put(1, DxfText(marks.text.text));
+    w.Put(50, RadToDeg(marks.angle));
+    w.Put(72, 1);
+    w.Put(11, at);
+    w.Put(100, "AcDbText");
+    blocks.push_back(
+        {"*D" + std::to_string(blocks.size() + 1), handle, w.Take()});
+  }
+  w.SetBlock("");
+  return blocks;
+}
+
+void PutDimension(const Sheet& sheet,
+                  const SheetDimension& dimension,
+                  const std::string& block,
+                  DxfWriter& w) {
+  const DimensionMarks marks = MarksOf(dimension, sheet);
+  const bool is_radius = dimension.is_radius;
+  w.BeginEntity("DIMENSION", kDimensionsLayer);
+  w.Put(100, "AcDbDimension");
+  w.Put(2, block);
+  // The centre, or where the dimension line ends.
+  w.Put(10,
+        OnSheet(is_radius ? dimension.a : sheet.FromPaper(marks.lines[0].end)));
+  // Its middle.
+  const Eigen::Vector2d up(-std::sin(marks.angle), std::cos(marks.angle));
+  w.Put(
+      11,
+      OnSheet(sheet.FromPaper(marks.text.start + marks.text.height / 2 * up)));
+  w.Put(70, (is_radius ? 4 : 1) + 32);
+  w.Put(1, DxfText(dimension.text));
+  w.Put(71, 5);
+  w.Put(42, dimension.value);
+  w.Put(3, "Standard");
+  w.Put(100, is_radius ? "AcDbRadialDimension" : "AcDbAlignedDimension");
+  if (is_radius) {
+    w.Put(15, OnSheet(dimension.b));
+    w.Put(40, (marks.lines[0].end - marks.lines[0].start).norm() / sheet.scale);
+  } else {
+    w.Put(13, OnSheet(dimension.a));
+    w.Put(14, OnSheet(dimension.b));
+  }
+}
+
 }  // namespace
 
 void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink) {
   DxfWriter w;
-  PutDxfTables(KindLayers(), {}, kDash, kDashGap, w);
+  PutDxfTables(KindLayers(), {}, 1, {}, w);
   int next_handle = w.next_handle();
   for (const FittedCurve& curve : fitted.curves) {
     next_handle += static_cast<int>(curve.fits.size());
   }
-  sink(DxfHeader(next_handle, "", nullptr));
+  sink(DxfHeader(next_handle, "", 1, nullptr));
   w.Put(0, "SECTION");
   w.Put(2, "ENTITIES");
   for (const FittedCurve& curve : fitted.curves) {
@@ -195,11 +266,14 @@ std::string EncodeDxfSheet(const Sheet& sheet) {
   std::vector<DrawingLayer> layers = KindLayers();
   layers.push_back({kFrameLayer, 7, 0.25});
   layers.push_back({kPhotographLayer, 7, 0});
+  layers.push_back({kDimensionsLayer, 1, 0.18});
+  const double mm = 1 / sheet.scale;
+  const std::vector<DxfBlock> blocks = BlocksOf(sheet, w);
   PutDxfTables(
       layers,
       {sheet.FromPaper(sheet.size / 2), sheet.size.maxCoeff() / sheet.scale},
-      kDash / sheet.scale,
-      kDashGap / sheet.scale,
+      mm,
+      blocks,
       w);
   w.Put(0, "SECTION");
   w.Put(2, "ENTITIES");
@@ -211,10 +285,10 @@ std::string EncodeDxfSheet(const Sheet& sheet) {
   }
   for (const auto& [fit, is_hidden] : sheet.curves) PutFit(fit, is_hidden, w);
   for (const SheetLine& line : sheet.lines) {
-    w.BeginEntity("LINE", kFrameLayer);
-    w.Put(100, "AcDbLine");
-    w.Put(10, OnSheet(sheet.FromPaper(line.start)));
-    w.Put(11, OnSheet(sheet.FromPaper(line.end)));
+    PutLine(sheet, line, kFrameLayer, w);
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    PutDimension(sheet, sheet.dimensions[i], blocks[i].name, w);
   }
   for (const SheetText& text : sheet.texts) PutText(sheet, text, w);
   w.Put(0, "ENDSEC");
@@ -226,6 +300,7 @@ std::string EncodeDxfSheet(const Sheet& sheet) {
                        1 / sheet.denominator};
   return DxfHeader(w.next_handle(),
                    sheet.unit,
+                   mm,
                    sheet.denominator > 0 ? &paper : nullptr) +
          w.Take();
 }

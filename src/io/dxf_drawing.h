@@ -18,7 +18,8 @@ void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink);
 
 // The same of a sheet, in drawing units, which are declared. Frame, scale bar
 // and texts are on the layer FRAME, the picture, an IMAGE that refers to its
-// file, on PHOTOGRAPH.
+// file, on PHOTOGRAPH; DIMENSION entities, whose texts are given, on
+// DIMENSIONS.
 std::string EncodeDxfSheet(const Sheet& sheet);
 
 }  // namespace curvix

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text_fields.h"
+#include "drawing/sheet.h"
 
 namespace curvix {
 namespace {
@@ -140,7 +141,20 @@ void PutStyles(DxfWriter& w) {
   w.Put(0, "ENDTAB");
 }
 
-void PutDimensionStyles(DxfWriter& w) {
+// Sizes of dimensions: of text and ticks, gaps and ends of lines.
+struct DimensionSize {
+  const char* variable;
+  int code;
+  double mm;
+};
+constexpr std::array<DimensionSize, 5> kDimensionSizes = {
+    {{"$DIMTXT", 140, kDimensionText},
+     {"$DIMASZ", 41, 2},
+     {"$DIMEXO", 42, 1.5},
+     {"$DIMEXE", 44, 1.5},
+     {"$DIMGAP", 147, 1}}};
+
+void PutDimensionStyles(double mm, DxfWriter& w) {
   BeginTable("DIMSTYLE", "A", 1, w);
   w.Put(100, "AcDbDimStyleTable");
   w.Put(0, "DIMSTYLE");
@@ -150,33 +164,41 @@ void PutDimensionStyles(DxfWriter& w) {
   w.Put(100, "AcDbDimStyleTableRecord");
   w.Put(2, "Standard");
   w.Put(70, 0);
+  for (const DimensionSize& size : kDimensionSizes) {
+    w.Put(size.code, size.mm * mm);
+  }
   w.Put(340, "11");
   w.Put(0, "ENDTAB");
 }
 
-void PutBlocks(DxfWriter& w) {
+std::vector<DxfBlock> AndSpaces(const std::vector<DxfBlock>& blocks) {
+  std::vector<DxfBlock> all = {{"*Model_Space", kModelSpace, ""},
+                               {"*Paper_Space", kPaperSpace, ""}};
+  all.insert(all.end(), blocks.begin(), blocks.end());
+  return all;
+}
+
+void PutBlocks(const std::vector<DxfBlock>& blocks, DxfWriter& w) {
   w.Put(0, "SECTION");
   w.Put(2, "BLOCKS");
-  for (const auto& [name, record] : {std::pair{"*Model_Space", kModelSpace},
-                                     std::pair{"*Paper_Space", kPaperSpace}}) {
-    w.Put(0, "BLOCK");
+  const auto begin = [&](const char* type, const std::string& record) {
+    w.Put(0, type);
     w.PutHandle();
     w.Put(330, record);
     w.Put(100, "AcDbEntity");
-    if (std::string_view(record) == kPaperSpace) w.Put(67, 1);
+    if (record == kPaperSpace) w.Put(67, 1);
     w.Put(8, "0");
+  };
+  for (const auto& [name, record, entities] : AndSpaces(blocks)) {
+    begin("BLOCK", record);
     w.Put(100, "AcDbBlockBegin");
     w.Put(2, name);
-    w.Put(70, 0);
+    w.Put(70, name.starts_with("*D") ? 1 : 0);
     w.Put(10, Eigen::Vector3d(0, 0, 0));
     w.Put(3, name);
     w.Put(1, "");
-    w.Put(0, "ENDBLK");
-    w.PutHandle();
-    w.Put(330, record);
-    w.Put(100, "AcDbEntity");
-    if (std::string_view(record) == kPaperSpace) w.Put(67, 1);
-    w.Put(8, "0");
+    w.PutAll(entities);
+    begin("ENDBLK", record);
     w.Put(100, "AcDbBlockEnd");
   }
   w.Put(0, "ENDSEC");
@@ -246,10 +268,12 @@ void DxfWriter::Put(int code, double value) {
 }
 
 std::string DxfWriter::PutHandle() {
-  std::string handle = Hex(next_handle_++);
+  std::string handle = NewHandle();
   Put(5, handle);
   return handle;
 }
+
+std::string DxfWriter::NewHandle() { return Hex(next_handle_++); }
 
 void DxfWriter::BeginEntity(const char* type, const char* layer, bool dashed) {
   Put(0, type);
@@ -259,7 +283,7 @@ void DxfWriter::BeginEntity(const char* type, const char* layer, bool dashed) {
 }
 
 void DxfWriter::PutOwner(const char* layer) {
-  Put(330, kModelSpace);
+  Put(330, block_.empty() ? kModelSpace : block_);
   Put(100, "AcDbEntity");
   Put(8, layer);
 }
@@ -268,13 +292,13 @@ std::string DxfWriter::Take() { return std::exchange(out_, {}); }
 
 void PutDxfTables(const std::vector<DrawingLayer>& layers,
                   const DxfView& view,
-                  double dash,
-                  double gap,
+                  double mm,
+                  const std::vector<DxfBlock>& blocks,
                   DxfWriter& w) {
   w.Put(0, "SECTION");
   w.Put(2, "TABLES");
   PutViewport(view, w);
-  PutLineTypes(dash, gap, w);
+  PutLineTypes(kDash * mm, kDashGap * mm, w);
   PutLayers(layers, w);
   PutStyles(w);
   for (const auto& [name, handle] :
@@ -286,17 +310,21 @@ void PutDxfTables(const std::vector<DrawingLayer>& layers,
   BeginRecord("APPID", "12", "9", "AcDbRegAppTableRecord", "ACAD", w);
   w.Put(70, 0);
   w.Put(0, "ENDTAB");
-  PutDimensionStyles(w);
-  BeginTable("BLOCK_RECORD", kBlockRecords, 2, w);
-  for (const auto& [name, handle] : {std::pair{"*Model_Space", kModelSpace},
-                                     std::pair{"*Paper_Space", kPaperSpace}}) {
-    BeginRecord(
-        "BLOCK_RECORD", handle, kBlockRecords, "AcDbBlockTableRecord", name, w);
+  PutDimensionStyles(mm, w);
+  const std::vector<DxfBlock> all = AndSpaces(blocks);
+  BeginTable("BLOCK_RECORD", kBlockRecords, static_cast<int>(all.size()), w);
+  for (const DxfBlock& block : all) {
+    BeginRecord("BLOCK_RECORD",
+                block.handle.c_str(),
+                kBlockRecords,
+                "AcDbBlockTableRecord",
+                block.name.c_str(),
+                w);
     w.Put(340, "0");
   }
   w.Put(0, "ENDTAB");
   w.Put(0, "ENDSEC");
-  PutBlocks(w);
+  PutBlocks(blocks, w);
 }
 
 void PutDxfObjects(const DxfPicture* picture, DxfWriter& w) {
@@ -331,6 +359,7 @@ void PutDxfObjects(const DxfPicture* picture, DxfWriter& w) {
 
 std::string DxfHeader(int next_handle,
                       std::string_view unit,
+                      double mm,
                       const DxfPaper* paper) {
   DxfWriter w;
   w.Put(0, "SECTION");
@@ -341,6 +370,10 @@ std::string DxfHeader(int next_handle,
   w.Put(5, Hex(next_handle));
   w.Put(9, "$INSUNITS");
   w.Put(70, UnitCode(unit));
+  for (const DimensionSize& size : kDimensionSizes) {
+    w.Put(9, size.variable);
+    w.Put(40, size.mm * mm);
+  }
   if (paper != nullptr) {
     w.Put(9, "$PINSBASE");
     w.Put(10, Eigen::Vector3d(paper->origin.x(), paper->origin.y(), 0));

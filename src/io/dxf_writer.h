@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/drawing_layers.h"
@@ -30,12 +31,18 @@ class DxfWriter {
   // The same in steps: type, handle (a new one), owner and layer.
   std::string PutHandle();
   void PutOwner(const char* layer);
+  // A handle that is not put, and the block of the entities from here on; "":
+  // model space.
+  std::string NewHandle();
+  void SetBlock(std::string handle) { block_ = std::move(handle); }
+  void PutAll(const std::string& entities) { out_ += entities; }
   // What was put since the last time.
   std::string Take();
   int next_handle() const { return next_handle_; }
 
  private:
   std::string out_;
+  std::string block_;
   int next_handle_ = 0x100;  // below are those that are fixed
 };
 
@@ -47,6 +54,13 @@ struct DxfPicture {
 };
 constexpr char kDxfPictureHandle[] = "20";
 constexpr char kDxfReactorHandle[] = "21";
+
+// A block beside those of model and paper space.
+struct DxfBlock {
+  std::string name;  // "*D1"
+  std::string handle;
+  std::string entities;
+};
 
 // What a program shows first.
 struct DxfView {
@@ -64,15 +78,15 @@ struct DxfPaper {
 
 // The sections before the entities. `next_handle`: the first that the entities
 // do not use. `unit` is "mm", "cm", "m", "in", "ft" or none of these. `paper`
-// may be null.
+// may be null. `mm`: drawing units on a millimetre of paper, here and below.
 std::string DxfHeader(int next_handle,
                       std::string_view unit,
+                      double mm,
                       const DxfPaper* paper);
-// A dash and the gap behind it are `dash` and `gap` long, drawing units.
 void PutDxfTables(const std::vector<DrawingLayer>& layers,
                   const DxfView& view,
-                  double dash,
-                  double gap,
+                  double mm,
+                  const std::vector<DxfBlock>& blocks,
                   DxfWriter& w);
 // The section behind them, and the end. `picture` may be null.
 void PutDxfObjects(const DxfPicture* picture, DxfWriter& w);

@@ -4,16 +4,19 @@
 
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include "base/angles.h"
 #include "base/text_fields.h"
 #include "drawing/cut_fit.h"
+#include "drawing/dimension_marks.h"
 #include "io/drawing_layers.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kFrameWidth = 0.25;      // mm
+constexpr double kFrameWidth = 0.25;  // mm
+constexpr double kDimensionWidth = 0.18;
 constexpr double kCapitalHeight = 0.716;  // of a font's size
 constexpr char kPaleness[] = "0.5";
 
@@ -112,18 +115,41 @@ std::string PictureText(const Sheet& sheet, const Page& page) {
          "\" preserveAspectRatio=\"none\" opacity=\"" + kPaleness + "\"/>\n";
 }
 
-std::string FrameText(const Sheet& sheet, const Page& page) {
-  std::string out = BeginLayer("FRAME", kFrameWidth);
-  for (const SheetLine& line : sheet.lines) {
+std::string LinesText(const std::vector<SheetLine>& lines, const Page& page) {
+  std::string out;
+  for (const SheetLine& line : lines) {
     out += "<path d=\"M" + page.OfPaper(line.start) + "L" +
            page.OfPaper(line.end) + "\"/>\n";
   }
-  for (const SheetText& text : sheet.texts) {
-    const double y = sheet.size.y() - text.start.y();
-    out += "<text x=\"" + Number(text.start.x()) + "\" y=\"" + Number(y) +
-           "\" font-size=\"" + Number(text.height / kCapitalHeight) +
-           "\" font-family=\"sans-serif\" stroke=\"none\" fill=\"black\">" +
-           Escaped(text.text) + "</text>\n";
+  return out;
+}
+
+// `attributes` go into the element.
+std::string TextText(const Sheet& sheet,
+                     const SheetText& text,
+                     const std::string& attributes) {
+  const double y = sheet.size.y() - text.start.y();
+  return "<text x=\"" + Number(text.start.x()) + "\" y=\"" + Number(y) +
+         "\" font-size=\"" + Number(text.height / kCapitalHeight) +
+         "\" font-family=\"sans-serif\" stroke=\"none\" fill=\"black\"" +
+         attributes + ">" + Escaped(text.text) + "</text>\n";
+}
+
+std::string FrameText(const Sheet& sheet, const Page& page) {
+  std::string out =
+      BeginLayer("FRAME", kFrameWidth) + LinesText(sheet.lines, page);
+  for (const SheetText& text : sheet.texts) out += TextText(sheet, text, "");
+  return out + "</g>\n";
+}
+
+std::string DimensionsText(const Sheet& sheet, const Page& page) {
+  std::string out = BeginLayer("DIMENSIONS", kDimensionWidth);
+  for (const SheetDimension& dimension : sheet.dimensions) {
+    const DimensionMarks marks = MarksOf(dimension, sheet);
+    const std::string turn = " text-anchor=\"middle\" transform=\"rotate(" +
+                             Number(-RadToDeg(marks.angle)) + ' ' +
+                             page.OfPaper(marks.text.start) + ")\"";
+    out += LinesText(marks.lines, page) + TextText(sheet, marks.text, turn);
   }
   return out + "</g>\n";
 }
@@ -160,6 +186,7 @@ std::string EncodeSvgSheet(const Sheet& sheet) {
     }
     out += "</g>\n";
   }
+  if (!sheet.dimensions.empty()) out += DimensionsText(sheet, page);
   return out + FrameText(sheet, page) + "</svg>\n";
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "base/median.h"
+#include "measuring/known_directions.h"
 
 namespace curvix {
 namespace {
@@ -19,56 +20,33 @@ constexpr int kNumRounds = 12;
 // Cameras whose mean direction is longer than this look at a front.
 constexpr double kLookingOneWay = 0.3;
 
-struct Direction {
-  Eigen::Vector3d along;  // unit
-  double length = 0;
-  double variance = 0;
-};
+using Directions = std::vector<KnownDirection>;
 
 // Columns: the axes in the model.
 using Frame = Eigen::Matrix3d;
 
-std::vector<Direction> DirectionsOf(const std::vector<DirectedLine>& lines) {
-  std::vector<Direction> directions;
-  for (const DirectedLine& line : lines) {
-    const Eigen::Vector3d chord = line.end - line.start;
-    const double length = chord.norm();
-    const double variance = DirectionVariance(line);
-    const double tolerance = DegToRad(kToleranceDeg);
-    if (!(length > 0) || !(variance < tolerance * tolerance)) continue;
-    directions.push_back({chord / length, length, variance});
-  }
-  std::stable_sort(directions.begin(),
-                   directions.end(),
-                   [](const Direction& a, const Direction& b) {
-                     return a.length > b.length;
-                   });
-  return directions;
-}
-
 // The square of the sine between a direction and an axis.
-double SquaredSine(const Direction& d, const Eigen::Vector3d& axis) {
+double SquaredSine(const KnownDirection& d, const Eigen::Vector3d& axis) {
   return d.along.cross(axis).squaredNorm();
 }
 
-// Within which a line counts as one of an axis.
-double SquaredTolerance(const Direction& d) {
+// Within which a direction counts as one of an axis.
+double SquaredTolerance(const KnownDirection& d) {
   const double tolerance = std::sin(DegToRad(kToleranceDeg));
   return tolerance * tolerance + d.variance;
 }
 
-// The axis that a line shares, or -1.
-int AxisOf(const Direction& d, const Frame& frame) {
+// The axis that a direction shares, or -1.
+int AxisOf(const KnownDirection& d, const Frame& frame) {
   for (int i = 0; i < 3; ++i) {
     if (SquaredSine(d, frame.col(i)) < SquaredTolerance(d)) return i;
   }
   return -1;
 }
 
-double LengthAlong(const std::vector<Direction>& directions,
-                   const Frame& frame) {
+double LengthAlong(const Directions& directions, const Frame& frame) {
   double sum = 0;
-  for (const Direction& d : directions) {
+  for (const KnownDirection& d : directions) {
     const int axis = AxisOf(d, frame);
     if (axis < 0) continue;
     sum +=
@@ -77,7 +55,7 @@ double LengthAlong(const std::vector<Direction>& directions,
   return sum;
 }
 
-std::optional<Frame> BestFrame(const std::vector<Direction>& directions) {
+std::optional<Frame> BestFrame(const Directions& directions) {
   const std::size_t n = std::min(directions.size(), kMaxCandidates);
   const double limit = std::sin(DegToRad(kPerpendicularDeg));
   std::optional<Frame> best;
@@ -99,20 +77,20 @@ std::optional<Frame> BestFrame(const std::vector<Direction>& directions) {
   return best;
 }
 
-// A line along an axis, and its weight.
+// A direction along an axis, and its weight.
 struct Member {
-  const Direction* direction;
+  const KnownDirection* direction;
   int axis;
   double weight;
 };
 
-// Errors are those of the lines and the scatter of real ones, which is the
+// Errors are those of the directions and the scatter of real ones, which is the
 // median of what is left.
-std::vector<Member> MembersOf(const std::vector<Direction>& directions,
+std::vector<Member> MembersOf(const Directions& directions,
                               const Frame& frame) {
   std::vector<Member> members;
   std::vector<double> left;
-  for (const Direction& d : directions) {
+  for (const KnownDirection& d : directions) {
     const int axis = AxisOf(d, frame);
     if (axis < 0) continue;
     members.push_back({&d, axis, 0});
@@ -158,7 +136,7 @@ Turn BestTurn(const std::vector<Member>& members, const Frame& frame) {
   return turn;
 }
 
-Frame Refined(const std::vector<Direction>& directions, Frame frame) {
+Frame Refined(const Directions& directions, Frame frame) {
   for (int round = 0; round < kNumRounds; ++round) {
     const Turn turn = BestTurn(MembersOf(directions, frame), frame);
     const double angle = turn.angles.norm();
@@ -172,7 +150,7 @@ Frame Refined(const std::vector<Direction>& directions, Frame frame) {
 Frame Ordered(const Frame& frame,
               const Eigen::Vector3d& up,
               const Eigen::Vector3d& views_direction,
-              const std::vector<Direction>& directions) {
+              const Directions& directions) {
   Eigen::Index z = 0;
   (frame.transpose() * up).cwiseAbs().maxCoeff(&z);
   Frame ordered;
@@ -189,7 +167,7 @@ Frame Ordered(const Frame& frame,
     return ordered;
   }
   double along_a = 0, along_b = 0;
-  for (const Direction& d : directions) {
+  for (const KnownDirection& d : directions) {
     if (SquaredSine(d, a) < SquaredTolerance(d)) along_a += d.length;
     if (SquaredSine(d, b) < SquaredTolerance(d)) along_b += d.length;
   }
@@ -243,22 +221,16 @@ void JudgeAngles(const std::vector<Member>& members,
 
 }  // namespace
 
-double DirectionVariance(const DirectedLine& line) {
-  const Eigen::Vector3d chord = line.end - line.start;
-  const Eigen::Vector3d along = chord.normalized();
-  const Eigen::Matrix3d sum = line.start_covariance + line.end_covariance;
-  return (sum.trace() - along.dot(sum * along)) / (2 * chord.squaredNorm());
-}
-
-Result<MainAxes> FindMainAxes(const std::vector<DirectedLine>& lines,
+Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
                               const Eigen::Vector3d& up,
                               const Eigen::Vector3d& views_direction) {
-  const std::vector<Direction> directions = DirectionsOf(lines);
+  const Directions directions = DirectionsOf(fitted);
   const std::optional<Frame> best = BestFrame(directions);
   if (!best) {
     return Status(StatusCode::kUnsupported,
-                  "No two of the " + std::to_string(lines.size()) +
-                      " lines are perpendicular, so that axes cannot be found");
+                  "No two of " + std::to_string(directions.size()) +
+                      " lines, axes of arcs and rows of circles are "
+                      "perpendicular, so that axes cannot be found");
   }
   const Frame frame =
       Ordered(Refined(directions, *best), up, views_direction, directions);
@@ -270,7 +242,7 @@ Result<MainAxes> FindMainAxes(const std::vector<DirectedLine>& lines,
   result.axes.covariance = BestTurn(members, frame).covariance;
   for (const Member& m : members) {
     const auto axis = static_cast<std::size_t>(m.axis);
-    ++result.num_lines[axis];
+    ++result.num_directions[axis];
     result.total_length[axis] += m.direction->length;
   }
   JudgeAngles(members, frame, result);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 // Up and two horizontals: the three perpendicular directions that most lines
-// share, as those of houses, rooms and machined parts.
+// share, and axes of arcs and rows of holes, as those of houses, rooms and
+// machined parts.
 #pragma once
 
 #include <curvix/fitting.h>
@@ -15,26 +16,14 @@
 
 namespace curvix {
 
-// A straight line of the model, from end to end.
-struct DirectedLine {
-  Eigen::Vector3d start = Eigen::Vector3d::Zero();
-  Eigen::Vector3d end = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d end_covariance = Eigen::Matrix3d::Zero();
-};
-
-// Variance of the direction of `line` across it, radians^2: the mean of both
-// ways.
-double DirectionVariance(const DirectedLine& line);
-
 struct MainAxes {
   // x: to the right of the cameras' mean view or, if they look all ways, along
   // most lines; z: up.
   KnownAxes axes;
   // Of x, y, z:
-  std::array<int, 3> num_lines = {};        // that share it
+  std::array<int, 3> num_directions = {};   // that share it
   std::array<double, 3> total_length = {};  // of these, model units
-  // Angles between the mean directions of the lines of (y, z), (z, x), (x, y),
+  // Angles between the mean directions of those of (y, z), (z, x), (x, y),
   // each fitted by itself, and their standard deviations: how near to 90
   // degrees they come tells how good the axes are. NaN: no line in one of the
   // two.
@@ -42,16 +31,15 @@ struct MainAxes {
   std::array<double, 3> angle_sigma_deg = {};
 };
 
-// Lines count whose directions are known to 1.5 degrees. Candidates are pairs
-// of perpendicular ones, of the 150 longest; the pair wins along whose three
-// axes, to 1.5 degrees and the uncertainty of each line, most length lies; ties
-// go to the longer lines. Then least squares over these lines, weighted by
-// covariance, down-weighted by Cauchy's loss. The covariance is that of least
-// squares with the scatter that is left. Up is the axis nearest to `up`, a
-// direction of the model. `views_direction`: mean direction in which cameras
-// look, of length 1 if all look the same way. kUnsupported: no two lines are
-// perpendicular.
-Result<MainAxes> FindMainAxes(const std::vector<DirectedLine>& lines,
+// Of DirectionsOf(fitted). Candidates are pairs of perpendicular ones, of the
+// 150 longest; the pair wins along whose three axes, to 1.5 degrees and the
+// uncertainty of each direction, most length lies; ties go to the longer ones.
+// Then least squares over these directions, weighted by their variances,
+// down-weighted by Cauchy's loss. The covariance is that of least squares with
+// the scatter that is left. Up is the axis nearest to `up`, a direction of the
+// model. `views_direction`: mean direction in which cameras look, of length 1
+// if all look the same way. kUnsupported: no two directions are perpendicular.
+Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
                               const Eigen::Vector3d& up,
                               const Eigen::Vector3d& views_direction);
 

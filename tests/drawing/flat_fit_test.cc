@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "gtest/gtest.h"
 #include "tests/support/random.h"
+#include "tests/support/test_views.h"
 
 namespace curvix {
 namespace {
@@ -141,7 +142,8 @@ TEST(DrawingPlane, ThroughPointsFacesTheCameras) {
   EXPECT_FALSE(PlaneThrough(a, b, 2 * b - a, up, up).ok());
 }
 
-TEST(DrawingPlane, MainPlaneIsThatOfTheFacade) {
+// Windows in the plane x = 7, whose reveals go 0.2 deep.
+FittedCurves Facade() {
   FittedCurves facade;
   const auto add = [&](const Vector3d& from, const Vector3d& to) {
     CurveFit line;
@@ -149,18 +151,48 @@ TEST(DrawingPlane, MainPlaneIsThatOfTheFacade) {
     line.end = to;
     facade.curves.push_back({{line}});
   };
-  // Windows in the plane x = 7, whose reveals go 0.2 deep.
   for (int i = 0; i < 5; ++i) {
     add({7, 3.0 * i, 0}, {7, 3.0 * i + 1, 0});
     add({7, 3.0 * i, 0}, {7, 3.0 * i, 2});
     add({7, 3.0 * i, 0}, {7.2, 3.0 * i, 0});
   }
+  return facade;
+}
+
+std::vector<View> Toward(const Vector3d& target,
+                         const std::vector<Vector3d>& centers) {
+  std::vector<PosedView> views;
+  for (const Vector3d& center : centers)
+    views.push_back(LookAt(center, target));
+  return ToScene(views).views;
+}
+
+TEST(DrawingPlane, MainPlaneIsThatWhichMostViewsFace) {
+  const FittedCurves facade = Facade();
   const DrawingPlane plane =
-      MainPlane(facade, Eigen::Matrix3d::Identity(), {1, 0, 0});
+      MainPlane(facade,
+                Eigen::Matrix3d::Identity(),
+                Toward({7, 7, 1}, {{-9, 9, 1}, {0, 1, 5}, {7, 40, 1}}));
   EXPECT_EQ(plane.name, "yz");
   EXPECT_EQ(plane.toward, Vector3d(-1, 0, 0));
   EXPECT_EQ(plane.up, Vector3d(0, 0, 1));
   EXPECT_EQ(MainDepth(facade, plane, -1e9, 1e9), 7);
+  // From above and the other side.
+  const DrawingPlane plan =
+      MainPlane(facade,
+                Eigen::Matrix3d::Identity(),
+                Toward({7, 7, 1}, {{6, 7, 40}, {7, 6, 30}, {20, 7, 1}}));
+  EXPECT_EQ(plan.name, "xy");
+  EXPECT_EQ(plan.toward, Vector3d(0, 0, 1));
+}
+
+TEST(DrawingPlane, LinesDecideBetweenPlanesThatAsManyViewsFace) {
+  const DrawingPlane plane =
+      MainPlane(Facade(),
+                Eigen::Matrix3d::Identity(),
+                Toward({7, 7, 1}, {{20, 7, 1}, {7, 20, 1}, {6, 7, 40}}));
+  EXPECT_EQ(plane.name, "yz");
+  EXPECT_EQ(plane.toward, Vector3d(1, 0, 0));
 }
 
 }  // namespace

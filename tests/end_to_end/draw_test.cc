@@ -68,6 +68,17 @@ std::vector<double> LineLengths(const std::string& dxf) {
   return lengths;
 }
 
+// What the DIMENSION entities of a DXF say to measure.
+std::vector<std::string> StatedLengths(const std::string& dxf) {
+  std::vector<std::string> lengths;
+  for (std::size_t at = dxf.find("AcDbDimension\n"); at != std::string::npos;
+       at = dxf.find("AcDbDimension\n", at + 1)) {
+    const std::size_t value = dxf.find("\n42\n", at) + 4;
+    lengths.push_back(dxf.substr(value, dxf.find('\n', value) - value));
+  }
+  return lengths;
+}
+
 TEST_F(Draw, DistancesAreThoseOfTheDimensions) {
   json longest;
   const json before = Curves();
@@ -90,12 +101,20 @@ TEST_F(Draw, DistancesAreThoseOfTheDimensions) {
   const json curves = Curves();
   std::size_t num_compared = 0;
   for (const auto& [plane, depth] : depth_of) {
-    const Outcome outcome = Run("draw --scale 1:2 --plane " + plane);
+    const Outcome outcome =
+        Run("draw --dimensions 1 --scale 1:2 --plane " + plane);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("1:2 on A3"));
     const auto drawn =
         LineLengths(Read(results_ / ("drawing_" + plane + ".dxf")));
-    std::istringstream dimensions(Read(results_ / "dimensions.csv"));
+    const std::string table = Read(results_ / "dimensions.csv");
+    const auto stated =
+        StatedLengths(Read(results_ / ("drawing_" + plane + ".dxf")));
+    EXPECT_GE(stated.size(), 2u) << plane;
+    for (const std::string& value : stated) {
+      EXPECT_THAT(table, HasSubstr("," + value + ","));
+    }
+    std::istringstream dimensions(table);
     for (std::string row; std::getline(dimensions, row);) {
       std::size_t curve = 0, fit = 0;
       double length = 0, sigma = 0;
@@ -165,6 +184,36 @@ TEST_F(Draw, APhotographLiesBeneath) {
   EXPECT_FALSE(fs::exists(results_ / "drawing_auto.jpg"));
 }
 
+TEST_F(Draw, GeoPackageHasTheCurves) {
+  if (RunInShell("command -v ogrinfo").exit_code != 0) {
+    GTEST_SKIP() << "no gdal-bin";
+  }
+  const std::string words = "draw --plane xy --dimensions 1 --geopackage 1";
+  const Outcome outcome = Run(words);
+  const fs::path path = results_ / "drawing_xy.gpkg";
+#ifdef CURVIX_HAS_GDAL
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const Outcome seen =
+      RunInShell("ogrinfo -q " + Quoted(path) +
+                 " -sql \"SELECT COUNT(*) AS n FROM curves\" 2>&1");
+  std::size_t num_drawn = 0;
+  ASSERT_EQ(std::sscanf(outcome.output.c_str() + outcome.output.find("Drew "),
+                        "Drew %zu",
+                        &num_drawn),
+            1);
+  EXPECT_THAT(seen.output,
+              HasSubstr("n (Integer) = " + std::to_string(num_drawn)));
+  const std::string bytes = Read(path);
+  ASSERT_EQ(Run(words).exit_code, 0);
+  EXPECT_EQ(Read(path), bytes);
+  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
+#else
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("built without GDAL"));
+#endif
+  EXPECT_FALSE(fs::exists(path));
+}
+
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
   const auto before = Contents(results_);
   for (const auto& [words, why] :
@@ -175,6 +224,8 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--scale big", "1:50"),
         std::pair("--slice 2,1", "lower and the higher"),
         std::pair("--plane xy --slice 1000,1001", "nothing to draw"),
+        std::pair("--plane xy --crop 1000,0,1001,1", "nothing to draw"),
+        std::pair("--plane xy --crop 0,0,1", "left, bottom, right"),
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
         std::pair("--photograph none.jpg", "no image of the model"),
         std::pair("--name a/b", "--name")}) {

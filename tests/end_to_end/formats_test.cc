@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Every file that the program writes, opened by readers of others.
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -50,7 +51,7 @@ class Formats : public testing::Test {
         Quoted(workspace) + " --output_path " + Quoted(results_) +
         " --refiner none --write_overlays 3"
         " --output_formats "
-        "ply,obj,pcd,txt,json,dxf,step,vtp,glb,svg,colmap,html 2>&1");
+        "ply,obj,pcd,txt,json,csv,dxf,step,vtp,glb,svg,colmap,html 2>&1");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     report_ = json::parse(Read(results_ / "report.json"));
   }
@@ -221,6 +222,42 @@ TEST_F(Formats, ViewerWorksInABrowser) {
   EXPECT_EQ(seen["objects"], 1);
   EXPECT_EQ(seen["plyHead"], "ply\n");
   EXPECT_EQ(seen["jsonCurves"], 1);
+}
+
+TEST_F(Formats, ViewerMeasuresWhatDimensionsHave) {
+  if (!IsInstalled("chromium")) GTEST_SKIP() << "no chromium";
+  const json seen = ProbeViewer(
+      "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader");
+  ASSERT_EQ(seen["error"], "");
+  std::ifstream rows(results_ / "dimensions.csv");
+  std::string row;
+  std::getline(rows, row);
+  int count = 0;
+  while (std::getline(rows, row)) {
+    std::size_t end = 0;  // of the first three fields
+    for (int i = 0; i < 3; ++i) end = row.find(',', i > 0 ? end + 1 : 0);
+    const json& measured = seen["measures"][row.substr(0, end)];
+    ASSERT_FALSE(measured.is_null()) << row;
+    double value = 0, sigma = 0;
+    ASSERT_EQ(std::sscanf(row.c_str() + end, ",%lf,%lf", &value, &sigma), 2);
+    EXPECT_NEAR(measured[0].get<double>(), value, 1e-6 * value + 1e-5) << row;
+    EXPECT_NEAR(measured[1].get<double>(), sigma, 1e-3 * sigma) << row;
+    ++count;
+  }
+  EXPECT_GT(count, 20);
+  EXPECT_NEAR(seen["lookingDown"], 1, 1e-6);
+  EXPECT_LT(seen["rises"], 0.1);
+  EXPECT_NEAR(seen["scaleBar"], 1, 1e-3);
+  EXPECT_EQ(seen["nodesPicked"], true);
+  EXPECT_EQ(seen["command"], true);
+  EXPECT_THAT(seen["label"].get<std::string>(), HasSubstr(" \u00b1 "));
+  EXPECT_EQ(seen["linesPicked"], 2);
+  EXPECT_EQ(seen["coordinates"], true);
+  EXPECT_LT(seen["square"], 1e-6);
+  EXPECT_EQ(seen["measuringAfterEscape"], false);
+  EXPECT_EQ(seen["pictureSize"], 3000);
+  EXPECT_GT(seen["pictureDark"], 3000);
+  EXPECT_EQ(seen["pictureCorner"], json({255, 255, 255, 255}));
 }
 
 TEST_F(Formats, ViewerSaysThatWebGlIsMissing) {

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "base/angles.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "measuring/moved_curves.h"
 #include "tests/support/random.h"
 #include "tests/support/test_views.h"
 
@@ -18,18 +20,49 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
+// With an error of `sigma` at both ends.
+void AddLine(const Vector3d& start,
+             const Vector3d& end,
+             double sigma,
+             FittedCurves& fitted) {
+  CurveFit line;
+  line.start = start;
+  line.end = end;
+  line.start_covariance = line.end_covariance =
+      sigma * sigma * Matrix3d::Identity();
+  fitted.curves.push_back({{line}});
+}
+
+// A circle around an axis that is known to `axis_sigma`.
+void AddCircle(const Vector3d& center,
+               const Matrix3d& frame,
+               double radius,
+               double axis_sigma,
+               FittedCurves& fitted) {
+  CurveFit circle;
+  circle.kind = FitKind::kArc;
+  circle.closed = true;
+  circle.center = center;
+  circle.major = radius * frame.col(0);
+  circle.minor = radius * frame.col(1);
+  circle.end_angle = 2 * kPi;
+  circle.radius_sigma = 1e-3 * radius;
+  circle.arc_covariance.block<3, 3>(3, 3) =
+      axis_sigma * axis_sigma *
+      (Matrix3d::Identity() - frame.col(2) * frame.col(2).transpose());
+  fitted.curves.push_back({{circle}});
+}
+
 // Edges of boxes along the columns of `frame`, with errors of `sigma` at their
 // ends, and some lines along nothing.
-std::vector<DirectedLine> Boxes(const Matrix3d& frame,
-                                double sigma,
-                                Random& random) {
-  std::vector<DirectedLine> lines;
+FittedCurves Boxes(const Matrix3d& frame, double sigma, Random& random) {
+  FittedCurves lines;
   const auto add = [&](const Vector3d& along) {
     const Vector3d start = 5 * random.NormalVector();
-    lines.push_back({start + sigma * random.NormalVector(),
-                     start + along + sigma * random.NormalVector(),
-                     sigma * sigma * Matrix3d::Identity(),
-                     sigma * sigma * Matrix3d::Identity()});
+    AddLine(start + sigma * random.NormalVector(),
+            start + along + sigma * random.NormalVector(),
+            sigma,
+            lines);
   };
   for (int i = 0; i < 30; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -65,7 +98,7 @@ TEST(FindMainAxes, FindsThoseOfATurnedBox) {
     sum += error.dot(axes->axes.covariance.inverse() * error) / 3;
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      EXPECT_GE(axes->num_lines[k], 30);
+      EXPECT_GE(axes->num_directions[k], 30);
       EXPECT_NEAR(axes->angle_deg[k], 90, 5 * axes->angle_sigma_deg[k]);
     }
   }
@@ -77,13 +110,8 @@ TEST(FindMainAxes, TurnsWithTheModel) {
   Random random(7);
   const auto lines = Boxes(Matrix3d::Identity(), 0.002, random);
   const Matrix3d turn = random.Rotation();
-  std::vector<DirectedLine> turned;
-  for (const DirectedLine& line : lines) {
-    turned.push_back({3 * (turn * line.start),
-                      3 * (turn * line.end),
-                      9 * turn * line.start_covariance * turn.transpose(),
-                      9 * turn * line.end_covariance * turn.transpose()});
-  }
+  const FittedCurves turned =
+      MoveFits({3, Eigen::Quaterniond(turn), {1, 2, 3}}, lines);
   const Vector3d up(0.1, 0.1, 1), view(0, 1, -0.1);
   const auto one = FindMainAxes(lines, up, view);
   const auto two = FindMainAxes(turned, turn * up, turn * view);
@@ -108,20 +136,43 @@ TEST(FindMainAxes, LinesOfNoKnownDirectionDoNotCount) {
   const Vector3d up(0, 0, 1), view(0, 1, 0);
   const auto without = FindMainAxes(lines, up, view);
   for (int i = 0; i < 50; ++i) {
-    lines.push_back({{0, 0, 0},
-                     random.UnitVector(),
-                     0.1 * Matrix3d::Identity(),
-                     0.1 * Matrix3d::Identity()});
+    AddLine({0, 0, 0}, random.UnitVector(), std::sqrt(0.1), lines);
   }
   const auto with = FindMainAxes(lines, up, view);
   ASSERT_TRUE(with.ok() && without.ok());
   EXPECT_EQ(FrameOf(*with), FrameOf(*without));
-  EXPECT_EQ(with->num_lines, without->num_lines);
+  EXPECT_EQ(with->num_directions, without->num_directions);
 }
 
-TEST(FindMainAxes, SaysThatNoLinesArePerpendicular) {
-  std::vector<DirectedLine> lines(3);
-  for (DirectedLine& line : lines) line.end = {1, 0, 0};
+// A turned part with a ring of six holes, and a short line across nothing.
+TEST(FindMainAxes, FlangesHaveAnAxisAndRowsOfHoles) {
+  Random random(10);
+  const Matrix3d frame = random.Rotation();
+  FittedCurves flange;
+  for (const double radius : {5.0, 4.0, 2.0}) {
+    AddCircle(radius * frame.col(2), frame, radius, 1e-3, flange);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const double angle = kPi / 3 * i;
+    const Vector3d center =
+        frame * Vector3d(4.5 * std::cos(angle), 4.5 * std::sin(angle), 0);
+    AddCircle(center, frame, 0.3, 1e-2, flange);
+    AddCircle(center + 0.4 * frame.col(2), frame, 0.3, 1e-2, flange);
+  }
+  AddLine({0, 0, 0}, random.UnitVector(), 1e-3, flange);
+  const auto axes = FindMainAxes(flange, frame.col(2), {0, 0, 0});
+  ASSERT_TRUE(axes.ok()) << axes.status().message();
+  const Matrix3d found = frame.transpose() * FrameOf(*axes);
+  EXPECT_LT((found.col(2) - Vector3d::UnitZ()).norm(), 1e-9);
+  // x is along a side of the hexagon, or across one.
+  const double turn = std::atan2(found(1, 0), found(0, 0)) / (kPi / 6);
+  EXPECT_NEAR(turn, std::round(turn), 1e-6);
+  EXPECT_EQ(axes->num_directions[2], 15);
+}
+
+TEST(FindMainAxes, SaysThatNothingIsPerpendicular) {
+  FittedCurves lines;
+  for (int i = 0; i < 3; ++i) AddLine({0, 0, 0}, {1, 0, 0}, 0, lines);
   const auto axes = FindMainAxes(lines, {0, 0, 1}, {0, 1, 0});
   ASSERT_FALSE(axes.ok());
   EXPECT_THAT(axes.status().message(), HasSubstr("perpendicular"));

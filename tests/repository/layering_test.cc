@@ -73,6 +73,8 @@ const std::map<std::string, Rule>& Rules() {
          "synthetic"},
         {"boost",
          "ceres",
+         "cpl_conv.h",
+         "gdal_utils.h",
          "glog",
          "nlohmann",
          "opencv2",

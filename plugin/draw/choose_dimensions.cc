@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/draw/choose_dimensions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/angles.h"
+#include "base/text_fields.h"
+#include "measuring/known_directions.h"
+
+namespace curvix {
+namespace {
+
+constexpr int kMost = 10;
+constexpr double kSigmas = 3;
+constexpr double kParallelDeg = 1;
+
+std::string Text(const MeasuredDimension& m) {
+  const double digits = -std::floor(std::log10(m.sigma));
+  std::string text = m.drawn.is_radius ? "R" : "";
+  AppendFixed(m.value, static_cast<int>(std::clamp(digits, 0.0, 9.0)), text);
+  return text;
+}
+
+bool AreAlike(const MeasuredDimension& a, const MeasuredDimension& b) {
+  const Eigen::Vector2d u = (a.drawn.b - a.drawn.a).normalized();
+  const Eigen::Vector2d v = (b.drawn.b - b.drawn.a).normalized();
+  const bool are_parallel = std::abs(u.x() * v.y() - u.y() * v.x()) <
+                            std::sin(DegToRad(kParallelDeg));
+  return a.drawn.is_radius == b.drawn.is_radius &&
+         (a.drawn.is_radius || are_parallel) &&
+         std::abs(a.value - b.value) < kSigmas * std::hypot(a.sigma, b.sigma);
+}
+
+Eigen::Vector2d MiddleOf(const MeasuredDimension& m) {
+  return (m.drawn.a + m.drawn.b) / 2;
+}
+
+}  // namespace
+
+std::optional<MeasuredDimension> DimensionOf(const CurveFit& fit,
+                                             const CurveFit& flat,
+                                             double scale_sigma) {
+  MeasuredDimension m;
+  if (fit.kind == FitKind::kLine) {
+    if (fit.start_node < 0 || fit.end_node < 0) return std::nullopt;
+    m.value = Length(fit);
+    m.sigma = std::hypot(LengthSigma(fit), scale_sigma * m.value);
+    m.drawn.a = flat.start.head<2>();
+    m.drawn.b = flat.end.head<2>();
+    if (m.value - Length(flat) > m.sigma) return std::nullopt;
+  } else if (fit.kind == FitKind::kArc && flat.kind == FitKind::kArc) {
+    m.value = fit.major.norm();
+    m.sigma = std::hypot(fit.radius_sigma, scale_sigma * m.value);
+    m.drawn.is_radius = true;
+    m.drawn.a = flat.center.head<2>();
+    m.drawn.b = PointAt(flat, flat.closed ? 0.125 : 0.5).head<2>();
+  } else {
+    return std::nullopt;
+  }
+  if (!(m.sigma > 0) || !std::isfinite(m.sigma)) return std::nullopt;
+  m.drawn.value = m.value;
+  m.drawn.text = Text(m);
+  return m;
+}
+
+std::vector<SheetDimension> ChooseDimensions(
+    const std::vector<MeasuredDimension>& measured) {
+  Eigen::AlignedBox2d bounds;
+  for (const MeasuredDimension& m : measured) bounds.extend(MiddleOf(m));
+  std::vector<MeasuredDimension> sorted = measured;
+  std::stable_sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) {
+    return a.value > b.value;
+  });
+  std::vector<MeasuredDimension> chosen;
+  for (const MeasuredDimension& m : sorted) {
+    const auto alike = std::find_if(
+        chosen.begin(), chosen.end(), [&](auto& c) { return AreAlike(c, m); });
+    if (alike == chosen.end()) {
+      const auto count =
+          std::count_if(chosen.begin(), chosen.end(), [&](auto& c) {
+            return c.drawn.is_radius == m.drawn.is_radius;
+          });
+      if (count < kMost) chosen.push_back(m);
+    } else if (!m.drawn.is_radius &&
+               (MiddleOf(m) - bounds.center()).norm() >
+                   (MiddleOf(*alike) - bounds.center()).norm()) {
+      *alike = m;
+    }
+  }
+  std::vector<SheetDimension> dimensions;
+  for (MeasuredDimension& m : chosen) dimensions.push_back(std::move(m.drawn));
+  return dimensions;
+}
+
+}  // namespace curvix

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of space that a drawing shows.
+#pragma once
+
+#include <curvix/fitting.h>
+#include <curvix/status.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "drawing/drawing_plane.h"
+
+namespace curvix {
+
+struct DrawRange {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+};
+
+// Coordinates of the drawing, and depths.
+struct DrawWindow {
+  DrawRange depth;
+  DrawRange across;
+  DrawRange upwards;
+};
+
+// Of --slice, "FROM,TO", and --crop, "LEFT,BOTTOM,RIGHT,TOP"; empty: all.
+// kInvalidArgument: they are neither.
+Result<DrawWindow> ParseWindow(const std::string& slice,
+                               const std::string& crop);
+
+// The parts of `fit` that are in the window, in their order; `fit` itself if
+// that is all of it.
+std::vector<CurveFit> PartsInWindow(const CurveFit& fit,
+                                    const DrawingPlane& plane,
+                                    const DrawWindow& window);
+
+}  // namespace curvix

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/draw/geopackage.h"
+
+#ifdef CURVIX_HAS_GDAL
+#include <cpl_conv.h>
+#include <gdal_utils.h>
+
+#include <memory>
+#include <vector>
+#endif
+
+namespace curvix {
+
+#ifdef CURVIX_HAS_GDAL
+namespace {
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, CloseDataset>;
+
+Status Failed() {
+  return {
+      StatusCode::kExternalTool,
+      "GDAL cannot write the GeoPackage: " + std::string(CPLGetLastErrorMsg())};
+}
+
+}  // namespace
+
+Status WriteGeoPackage(const std::filesystem::path& dxf,
+                       const std::string& crs,
+                       const std::filesystem::path& geopackage) {
+  GDALAllRegister();
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  // Else it has the time of writing.
+  CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
+  std::vector<std::string> words = {"-f",
+                                    "GPKG",
+                                    "-nln",
+                                    "curves",
+                                    "-where",
+                                    "Layer NOT IN ('FRAME', 'DIMENSIONS')"};
+  if (!crs.empty()) words.insert(words.end(), {"-a_srs", crs});
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const std::unique_ptr<GDALVectorTranslateOptions,
+                        decltype(&GDALVectorTranslateOptionsFree)>
+      options(GDALVectorTranslateOptionsNew(arguments.data(), nullptr),
+              GDALVectorTranslateOptionsFree);
+  const Dataset source(GDALOpenEx(dxf.c_str(),
+                                  GDAL_OF_VECTOR | GDAL_OF_READONLY,
+                                  nullptr,
+                                  nullptr,
+                                  nullptr));
+  Status status;
+  if (source == nullptr || options == nullptr) {
+    status = Failed();
+  } else {
+    GDALDatasetH input = source.get();
+    int has_failed = 0;
+    const Dataset written(GDALVectorTranslate(
+        geopackage.c_str(), nullptr, 1, &input, options.get(), &has_failed));
+    if (written == nullptr || has_failed != 0) status = Failed();
+  }
+  CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
+  CPLPopErrorHandler();
+  return status;
+}
+#else
+Status WriteGeoPackage(const std::filesystem::path& dxf,
+                       const std::string& crs,
+                       const std::filesystem::path& geopackage) {
+  return {StatusCode::kUnsupported,
+          "--geopackage: this program was built without GDAL; draw without it, "
+          "then 'ogr2ogr " +
+              (crs.empty() ? "" : "-a_srs " + crs + " ") +
+              geopackage.filename().string() + " " + dxf.filename().string() +
+              "' does the same"};
+}
+#endif
+
+}  // namespace curvix

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering).
+// Directions that fitted curves tell of: lines, axes of arcs, rows of holes.
+#pragma once
+
+#include <curvix/fitting.h>
+#include <Eigen/Core>
+#include <vector>
+
+namespace curvix {
+
+struct KnownDirection {
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX();  // unit, of either sign
+  double length = 0;    // of the line or arc, world units, > 0
+  double variance = 0;  // across, radians^2: the mean of both ways
+};
+
+// Of the direction of a line, as KnownDirection::variance.
+double DirectionVariance(const CurveFit& line);
+
+// Standard deviation of the length of a line, from the covariances of its ends.
+double LengthSigma(const CurveFit& line);
+
+// Of lines, of the axes of arcs, and from each circle to the nearest one of its
+// size in its plane, all known to 1.5 degrees; longest first, ties as in
+// `fitted`. Arcs without an arc_covariance are left out.
+std::vector<KnownDirection> DirectionsOf(const FittedCurves& fitted);
+
+}  // namespace curvix
