@@ -17,6 +17,7 @@
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
 #include "edge_detection/curvelets.h"
+#include "measuring/moved_curves.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/evaluations.h"
 #include "plugin/poses/curve_poses.h"
@@ -175,8 +176,24 @@ RunSettings SettingsOf(const PythonOptions& options, const Paths& paths) {
   return settings;
 }
 
+// In the frame of alignment.json, if there is one, as the files are.
+void MoveToWorld(WorkspaceRun& run) {
+  if (!run.record.alignment) return;
+  const Similarity3& world_from_model = run.record.alignment->world_from_model;
+  run.scene = MoveScene(world_from_model, std::move(run.scene));
+  for (Curve& curve : run.curves.curves) {
+    curve = MoveCurve(world_from_model, std::move(curve));
+  }
+  for (CurveJunction& junction : run.curves.junctions) {
+    junction.position = world_from_model * junction.position;
+    junction.sigma *= world_from_model.scale;
+  }
+  run.fitted = MoveFits(world_from_model, std::move(run.fitted));
+}
+
 std::unique_ptr<PythonCurves> CurvesOf(WorkspaceRun run) {
   return WithoutLock([&] {
+    MoveToWorld(run);
     // Writers ask for edges, not for their neighbours.
     for (EdgeMap& map : run.edge_maps) map.neighbors = {};
     auto curves = std::make_unique<PythonCurves>(

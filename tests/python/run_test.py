@@ -68,6 +68,16 @@ class Reconstruct(WorkspaceTest):
         self.assertEqual(contents(self.folder / 'b' / 'curves.ply'), contents(self.folder / 'a' / 'curves.ply'))
         self.assertFalse((self.folder / 'b' / 'curves.obj').exists())
 
+    def test_curves_are_in_the_frame_of_align(self):
+        output = self.folder / 'out'
+        before = pycurvix.reconstruct(self.workspace, output_path=output)
+        run_program('align', '--workspace_path', self.workspace, '--output_path', output,
+                    '--distance', '0,0,0', '1,0,0', 60)
+        aligned = pycurvix.reconstruct(self.workspace, output_path=output)
+        np.testing.assert_allclose(aligned.positions, 60 * before.positions, rtol=1e-9)
+        aligned.write(self.folder / 'a.ply')
+        self.assertEqual(contents(self.folder / 'a.ply'), contents(output / 'curves.ply'))
+
     def test_no_curves_say_why(self):
         curves = pycurvix.reconstruct(self.workspace, output_path=self.folder / 'none',
                                       options={'CurveFilter.min_num_views': 1000})
