@@ -44,24 +44,27 @@ struct Link {
 };
 
 // The better of a line and an arc. The search is content with rough arcs.
-Link FitLink(const FitSamples& samples, double parameter_cost, bool is_rough) {
+Link FitLink(FitSpan samples, double parameter_cost, bool is_rough) {
   Link best;
   if (const auto line = FitLine(samples)) {
     best = {*line, CostOf(*line, samples), kLineParameters};
     if (Explains(*line, samples)) return best;
   }
+  const double least = best.Total(parameter_cost);
+  if (!(parameter_cost * kArcParameters < least)) return best;
   const auto arc = is_rough ? RoughCircle(samples) : FitCircle(samples);
-  if (!arc || GoesRound(*arc, samples)) return best;
-  const Conic directed = Directed(*arc, samples);
-  Link link = {directed, CostOf(directed, samples), kArcParameters};
-  if (link.Total(parameter_cost) < best.Total(parameter_cost)) best = link;
-  return best;
+  if (!arc) return best;
+  Link link = {*arc, CostOf(*arc, samples), kArcParameters};
+  if (!(link.Total(parameter_cost) < least) || GoesRound(*arc, samples)) {
+    return best;
+  }
+  link.shape = Directed(*arc, samples);
+  return link;
 }
 
 // Samples first to last of an unrolled curve.
-FitSamples Part(const FitSamples& curve, std::size_t first, std::size_t last) {
-  const auto begin = curve.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(last - first + 1)};
+FitSpan Part(FitSpan curve, std::size_t first, std::size_t last) {
+  return curve.subspan(first, last - first + 1);
 }
 
 // Places for joints, first and last sample included.
@@ -94,13 +97,17 @@ std::vector<std::size_t> SearchJoints(const FitSamples& curve,
   const std::size_t min_samples = (kMinSamples + stride - 1) / stride;
   const double hopeless =
       parameter_cost * static_cast<double>(kHopelessArcs * kArcParameters);
+  const double line_cost = parameter_cost * kLineParameters;
   std::vector<double> least(places.size(), kInfinity);
   std::vector<std::size_t> from(places.size(), 0);
   least[0] = 0;
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     if (!(least[i] < kInfinity)) continue;
     for (std::size_t j = i + 1; j < places.size(); ++j) {
-      if (places[j] - places[i] + 1 < min_samples) continue;
+      if (places[j] - places[i] + 1 < min_samples ||
+          least[i] + line_cost >= least[j]) {
+        continue;
+      }
       const Link link = FitLink(
           Part(thin, places[i], places[j]), parameter_cost / scale, true);
       const double cost = least[i] + scale * link.Total(parameter_cost / scale);

@@ -208,6 +208,11 @@ class PlaneFinder {
   }
 
   bool IsIn(const Plane& plane, const LineOrArc& feature) const {
+    // Most are far off: this is the bound of the first observation.
+    const Vector3d& first =
+        feature.is_arc() ? feature.point : feature.fit->start;
+    const double off = plane.frame.col(2).dot(first - plane.point);
+    if (std::abs(off) > (1 + 1e-9) * kNear * feature.size) return false;
     const double limit = ChiSquaredLimit(1);
     for (const Observation& o : Of(plane, feature, nullptr)) {
       const double variance = o.variance + o.row.dot(plane.covariance * o.row);

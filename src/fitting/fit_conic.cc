@@ -29,8 +29,9 @@ double NearestParameter(const Conic& conic, const Eigen::Vector3d& point) {
   Eigen::Array2d unit = Eigen::Array2d::Constant(std::sqrt(0.5));
   for (int step = 0; step < kNumSteps; ++step) {
     const double difference = conic.a * conic.a - conic.b * conic.b;
-    const Eigen::Array2d e(difference * std::pow(unit.x(), 3) / conic.a,
-                           -difference * std::pow(unit.y(), 3) / conic.b);
+    const Eigen::Array2d cube = unit * unit * unit;
+    const Eigen::Array2d e(difference * cube.x() / conic.a,
+                           -difference * cube.y() / conic.b);
     const double radius = (axes * unit - e).matrix().norm();
     const double distance = (p - e).matrix().norm();
     if (!(distance > 0)) break;
@@ -42,6 +43,15 @@ double NearestParameter(const Conic& conic, const Eigen::Vector3d& point) {
                     std::copysign(unit.x(), local.x()));
 }
 
+double SquaredDistance(const Conic& conic, const Eigen::Vector3d& point) {
+  if (conic.a == conic.b) {
+    const Eigen::Vector3d local = conic.Local(point);
+    const double off = local.head<2>().norm() - conic.a;
+    return off * off + local.z() * local.z();
+  }
+  return (point - conic.At(NearestParameter(conic, point))).squaredNorm();
+}
+
 namespace {
 
 constexpr double kMaxAxisRatio = 20;
@@ -50,7 +60,7 @@ constexpr std::size_t kMinCircleSamples = 4;
 constexpr std::size_t kMinEllipseSamples = 6;
 
 // The plane of the samples: its frame (z is the normal) and their mean.
-Conic PlaneOf(const FitSamples& samples, const std::vector<double>& weights) {
+Conic PlaneOf(FitSpan samples, const std::vector<double>& weights) {
   Conic plane;
   double sum = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -70,15 +80,9 @@ Conic PlaneOf(const FitSamples& samples, const std::vector<double>& weights) {
   return plane;
 }
 
-std::vector<double> EqualWeights(const FitSamples& samples) {
-  std::vector<double> weights;
-  for (const FitSample& s : samples) weights.push_back(1 / (s.sigma * s.sigma));
-  return weights;
-}
-
 // The circle x^2 + y^2 = 2 u x + 2 v y + w with the least squares of the
 // difference of both sides.
-std::optional<Conic> WeightedCircle(const FitSamples& samples,
+std::optional<Conic> WeightedCircle(FitSpan samples,
                                     const std::vector<double>& weights) {
   Conic circle = PlaneOf(samples, weights);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -98,10 +102,6 @@ std::optional<Conic> WeightedCircle(const FitSamples& samples,
   circle.center += circle.frame.leftCols<2>() * uvw.head<2>();
   circle.a = circle.b = std::sqrt(squared_radius);
   return circle;
-}
-
-double SquaredDistance(const Conic& conic, const Eigen::Vector3d& point) {
-  return (point - conic.At(NearestParameter(conic, point))).squaredNorm();
 }
 
 // The conic after a step: 3 for the centre, 3 for the turn (in the frame), and
@@ -125,6 +125,9 @@ Conic Moved(const Conic& conic, const Eigen::VectorXd& step, bool is_circle) {
 Eigen::Vector2d SignedDistances(const Conic& conic,
                                 const Eigen::Vector3d& point) {
   const Eigen::Vector3d local = conic.Local(point);
+  if (conic.a == conic.b) {
+    return {local.head<2>().norm() - conic.a, local.z()};
+  }
   const double t = NearestParameter(conic, point);
   const Eigen::Vector2d normal =
       Eigen::Vector2d(conic.b * std::cos(t), conic.a * std::sin(t))
@@ -229,9 +232,7 @@ Conic Ordered(Conic conic) {
   return conic;
 }
 
-std::optional<Conic> Refine(Conic conic,
-                            const FitSamples& samples,
-                            bool is_circle) {
+std::optional<Conic> Refine(Conic conic, FitSpan samples, bool is_circle) {
   std::vector<Target> targets(samples.size());
   for (int round = 0; round < kNumRounds; ++round) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -254,7 +255,7 @@ std::optional<Conic> Refine(Conic conic,
 
 // The direct least-squares ellipse of Fitzgibbon, Pilu and Fisher in the form
 // of Halir and Flusser, in the plane of the samples.
-std::optional<Conic> DirectEllipse(const FitSamples& samples) {
+std::optional<Conic> DirectEllipse(FitSpan samples) {
   Conic plane = PlaneOf(samples, EqualWeights(samples));
   double scale = 0;
   for (const FitSample& s : samples) {
@@ -302,7 +303,7 @@ std::optional<Conic> DirectEllipse(const FitSamples& samples) {
 
 }  // namespace
 
-std::optional<Conic> RoughCircle(const FitSamples& samples) {
+std::optional<Conic> RoughCircle(FitSpan samples) {
   if (samples.size() < 3) return std::nullopt;
   std::vector<double> weights = EqualWeights(samples);
   std::optional<Conic> circle = WeightedCircle(samples, weights);
@@ -317,14 +318,14 @@ std::optional<Conic> RoughCircle(const FitSamples& samples) {
   return circle;
 }
 
-std::optional<Conic> FitCircle(const FitSamples& samples) {
+std::optional<Conic> FitCircle(FitSpan samples) {
   if (samples.size() < kMinCircleSamples) return std::nullopt;
   const std::optional<Conic> rough = RoughCircle(samples);
   if (!rough) return std::nullopt;
   return Refine(*rough, samples, true);
 }
 
-std::optional<Conic> FitEllipse(const FitSamples& samples) {
+std::optional<Conic> FitEllipse(FitSpan samples) {
   if (samples.size() < kMinEllipseSamples) return std::nullopt;
   const std::optional<Conic> rough = DirectEllipse(samples);
   if (!rough) return std::nullopt;
@@ -332,7 +333,7 @@ std::optional<Conic> FitEllipse(const FitSamples& samples) {
 }
 
 std::optional<Conic> FitThrough(const Conic& conic,
-                                const FitSamples& samples,
+                                FitSpan samples,
                                 const std::optional<Eigen::Vector3d>& start,
                                 const std::optional<Eigen::Vector3d>& end) {
   constexpr double kConstraint = 1e4;  // times the weight of all samples

@@ -30,23 +30,26 @@ struct Conic {
 // below one part in a million near the ellipse.
 double NearestParameter(const Conic& conic, const Eigen::Vector3d& point);
 
+// Of the point from the conic.
+double SquaredDistance(const Conic& conic, const Eigen::Vector3d& point);
+
 // The circle with the least robust algebraic error in the plane of the samples:
 // quick, and where FitCircle starts. nullopt: fewer than three samples, or they
 // lie on a line.
-std::optional<Conic> RoughCircle(const FitSamples& samples);
+std::optional<Conic> RoughCircle(FitSpan samples);
 
 // The circle or ellipse with the least robust sum of squared distances.
 // nullopt: fewer samples than 4 or 6, all nearly on a line, an ellipse with
 // axes more than 20 to 1, or no convergence.
-std::optional<Conic> FitCircle(const FitSamples& samples);
-std::optional<Conic> FitEllipse(const FitSamples& samples);
+std::optional<Conic> FitCircle(FitSpan samples);
+std::optional<Conic> FitEllipse(FitSpan samples);
 
 // `conic` moved to fit `samples` as well as it can while its ends, those next
 // to the first and the last sample, lie on `start` and `end` where these are
 // given, to about a hundredth of a standard deviation. A circle stays one.
 // nullopt: no circle does, but a straight line.
 std::optional<Conic> FitThrough(const Conic& conic,
-                                const FitSamples& samples,
+                                FitSpan samples,
                                 const std::optional<Eigen::Vector3d>& start,
                                 const std::optional<Eigen::Vector3d>& end);
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace curvix {
@@ -18,8 +19,9 @@ struct FitSample {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-// Part of a curve, in order.
+// A curve or a part of one, in order; and a view of it.
 using FitSamples = std::vector<FitSample>;
+using FitSpan = std::span<const FitSample>;
 
 // Standard deviation of a bent primitive from what its samples share, which
 // does not fall with their number: a circle whose edges all lie inside is too
@@ -37,6 +39,14 @@ constexpr double kOutlierSigmas = 3;
 inline double ResidualCost(double squared_distance, double sigma) {
   return std::min(squared_distance / (sigma * sigma),
                   kOutlierSigmas * kOutlierSigmas);
+}
+
+// Of every sample, as if none were an outlier.
+inline std::vector<double> EqualWeights(FitSpan samples) {
+  std::vector<double> weights;
+  weights.reserve(samples.size());
+  for (const FitSample& s : samples) weights.push_back(1 / (s.sigma * s.sigma));
+  return weights;
 }
 
 // Rounds of reweighting in which the limit for outliers comes down to

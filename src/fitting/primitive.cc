@@ -10,7 +10,7 @@
 namespace curvix {
 namespace {
 
-std::optional<FittedLine> WeightedLine(const FitSamples& samples,
+std::optional<FittedLine> WeightedLine(FitSpan samples,
                                        const std::vector<double>& weights) {
   double sum = 0;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -22,7 +22,11 @@ std::optional<FittedLine> WeightedLine(const FitSamples& samples,
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Eigen::Vector3d offset = samples[i].position - mean;
-    scatter += weights[i] * offset * offset.transpose();
+    for (int row = 0; row < 3; ++row) {
+      for (int col = 0; col <= row; ++col) {  // the solver reads no more
+        scatter(row, col) += weights[i] * offset(row) * offset(col);
+      }
+    }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
   if (!(eigen.eigenvalues()(2) > 0)) return std::nullopt;
@@ -34,10 +38,11 @@ std::optional<FittedLine> WeightedLine(const FitSamples& samples,
 }
 
 struct DistancesFrom {
-  const FitSamples& samples;
+  FitSpan samples;
 
   std::vector<double> operator()(const FittedLine& line) const {
     std::vector<double> squared;
+    squared.reserve(samples.size());
     for (const FitSample& s : samples) {
       squared.push_back((s.position - line.Closest(s.position)).squaredNorm());
     }
@@ -45,9 +50,9 @@ struct DistancesFrom {
   }
   std::vector<double> operator()(const Conic& conic) const {
     std::vector<double> squared;
+    squared.reserve(samples.size());
     for (const FitSample& s : samples) {
-      const double t = NearestParameter(conic, s.position);
-      squared.push_back((s.position - conic.At(t)).squaredNorm());
+      squared.push_back(SquaredDistance(conic, s.position));
     }
     return squared;
   }
@@ -66,12 +71,11 @@ FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve) {
   return samples;
 }
 
-std::vector<double> SquaredDistances(const Shape& shape,
-                                     const FitSamples& samples) {
+std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples) {
   return std::visit(DistancesFrom{samples}, shape);
 }
 
-double CostOf(const Shape& shape, const FitSamples& samples) {
+double CostOf(const Shape& shape, FitSpan samples) {
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double cost = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -80,7 +84,7 @@ double CostOf(const Shape& shape, const FitSamples& samples) {
   return cost;
 }
 
-bool Explains(const Shape& shape, const FitSamples& samples) {
+bool Explains(const Shape& shape, FitSpan samples) {
   constexpr double kMinInlierShare = 0.9;
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double sum = 0, num_inliers = 0;
@@ -94,9 +98,9 @@ bool Explains(const Shape& shape, const FitSamples& samples) {
          num_inliers >= kMinInlierShare * static_cast<double>(samples.size());
 }
 
-std::vector<double> UnwrappedAngles(const Conic& conic,
-                                    const FitSamples& samples) {
+std::vector<double> UnwrappedAngles(const Conic& conic, FitSpan samples) {
   std::vector<double> angles;
+  angles.reserve(samples.size());
   for (const FitSample& s : samples) {
     const double t = NearestParameter(conic, s.position);
     const double last = angles.empty() ? t : angles.back();
@@ -105,14 +109,14 @@ std::vector<double> UnwrappedAngles(const Conic& conic,
   return angles;
 }
 
-Conic Directed(const Conic& conic, const FitSamples& samples) {
+Conic Directed(const Conic& conic, FitSpan samples) {
   const std::vector<double> angles = UnwrappedAngles(conic, samples);
   Conic directed = conic;
   if (angles.back() < angles.front()) directed.frame.rightCols<2>() *= -1;
   return directed;
 }
 
-bool GoesRound(const Conic& conic, const FitSamples& samples) {
+bool GoesRound(const Conic& conic, FitSpan samples) {
   const std::vector<double> angles = UnwrappedAngles(conic, samples);
   const double sweep = std::abs(angles.back() - angles.front());
   const double step = sweep / static_cast<double>(samples.size() - 1);
@@ -178,10 +182,9 @@ double Length(const CurveFit& fit) {
   return length;
 }
 
-std::optional<FittedLine> FitLine(const FitSamples& samples) {
+std::optional<FittedLine> FitLine(FitSpan samples) {
   if (samples.size() < 2) return std::nullopt;
-  std::vector<double> weights;
-  for (const FitSample& s : samples) weights.push_back(1 / (s.sigma * s.sigma));
+  std::vector<double> weights = EqualWeights(samples);
   std::optional<FittedLine> line = WeightedLine(samples, weights);
   for (int round = 0; line && round < kNumRounds; ++round) {
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -25,7 +25,7 @@ struct FittedLine {
 
 // The line with the least robust sum of squared distances. nullopt: fewer than
 // two samples, or all in one place.
-std::optional<FittedLine> FitLine(const FitSamples& samples);
+std::optional<FittedLine> FitLine(FitSpan samples);
 
 using Shape = std::variant<FittedLine, Conic, Spline>;
 
@@ -42,27 +42,25 @@ struct Primitive {
 FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve);
 
 // Squared distances of the samples from the shape.
-std::vector<double> SquaredDistances(const Shape& shape,
-                                     const FitSamples& samples);
+std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples);
 
 // Sum of ResidualCost.
-double CostOf(const Shape& shape, const FitSamples& samples);
+double CostOf(const Shape& shape, FitSpan samples);
 
 // Whether the shape explains the samples within their uncertainty: nine in ten
 // are no outliers, and those are off by a standard deviation or less, root mean
 // square.
-bool Explains(const Shape& shape, const FitSamples& samples);
+bool Explains(const Shape& shape, FitSpan samples);
 
 // Angles of the samples on a conic, each within half a turn of the one before.
-std::vector<double> UnwrappedAngles(const Conic& conic,
-                                    const FitSamples& samples);
+std::vector<double> UnwrappedAngles(const Conic& conic, FitSpan samples);
 
 // The same conic, its angles rising along the samples.
-Conic Directed(const Conic& conic, const FitSamples& samples);
+Conic Directed(const Conic& conic, FitSpan samples);
 
 // Whether samples of an open curve leave less of a conic open than four of
 // their steps or a tenth of a radian.
-bool GoesRound(const Conic& conic, const FitSamples& samples);
+bool GoesRound(const Conic& conic, FitSpan samples);
 
 // Sets the centre, the axes and the angles of a fit whose `closed`, `start` and
 // `end` are known.

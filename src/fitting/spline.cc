@@ -36,7 +36,7 @@ Basis BasisAt(const std::vector<double>& knots, double t) {
   return basis;
 }
 
-std::vector<double> LengthShares(const FitSamples& samples) {
+std::vector<double> LengthShares(FitSpan samples) {
   std::vector<double> shares(samples.size(), 0.0);
   for (std::size_t i = 1; i < samples.size(); ++i) {
     shares[i] =
@@ -51,7 +51,7 @@ std::vector<double> LengthShares(const FitSamples& samples) {
 
 // Moves each parameter to the foot of its sample, by Newton's method.
 void Slide(const Spline& spline,
-           const FitSamples& samples,
+           FitSpan samples,
            std::vector<double>& parameters) {
   constexpr double kDelta = 1e-5;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -68,7 +68,7 @@ void Slide(const Spline& spline,
 
 // The control points that minimise the weighted squares; those of fixed ends
 // are given.
-bool Solve(const FitSamples& samples,
+bool Solve(FitSpan samples,
            const std::vector<double>& parameters,
            const std::vector<double>& weights,
            bool ends_are_fixed,
@@ -131,7 +131,7 @@ Eigen::Vector3d Spline::At(double t) const {
 }
 
 std::optional<Spline> FitSpline(
-    const FitSamples& samples,
+    FitSpan samples,
     std::size_t num_control_points,
     const std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& ends) {
   if (samples.size() < num_control_points) return std::nullopt;
@@ -143,8 +143,7 @@ std::optional<Spline> FitSpline(
     spline.control_points.back() = ends->second;
   }
   std::vector<double> parameters = LengthShares(samples);
-  std::vector<double> weights;
-  for (const FitSample& s : samples) weights.push_back(1 / (s.sigma * s.sigma));
+  std::vector<double> weights = EqualWeights(samples);
   for (int slide = 0; slide <= kNumSlides; ++slide) {
     if (!Solve(samples, parameters, weights, ends.has_value(), spline)) {
       return std::nullopt;
@@ -160,8 +159,7 @@ std::optional<Spline> FitSpline(
   return spline;
 }
 
-std::vector<double> SquaredDistances(const Spline& spline,
-                                     const FitSamples& samples) {
+std::vector<double> SquaredDistances(const Spline& spline, FitSpan samples) {
   std::vector<double> parameters = LengthShares(samples);
   for (int slide = 0; slide < kNumSlides; ++slide) {
     Slide(spline, samples, parameters);

@@ -21,13 +21,12 @@ struct Spline {
 // With `ends`, it starts and ends there exactly. nullopt: fewer samples than
 // control points, or no solution.
 std::optional<Spline> FitSpline(
-    const FitSamples& samples,
+    FitSpan samples,
     std::size_t num_control_points,
     const std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& ends =
         std::nullopt);
 
 // Squared distances of the samples from the spline, each near its own place.
-std::vector<double> SquaredDistances(const Spline& spline,
-                                     const FitSamples& samples);
+std::vector<double> SquaredDistances(const Spline& spline, FitSpan samples);
 
 }  // namespace curvix
