@@ -96,7 +96,8 @@ TEST(FitThrough, ReachesNodesThatAreFarFromAShallowArc) {
   arc.a = arc.b = kRadius;
   FitSamples samples;
   for (int i = 0; i <= 50; ++i) {
-    samples.push_back({arc.At(0.01 * i), kSigma, 0, 0, {}});
+    samples.push_back(
+        {arc.At(0.01 * i), kSigma, 0, 0, Eigen::Matrix3d::Zero()});
   }
   for (const double move : {-0.02, -0.012, 0.005, 0.02}) {
     for (const Vector3d& aside : {Vector3d(0, 0, 0), Vector3d(0, 0, 0.01)}) {
