@@ -46,11 +46,13 @@ void Write(const PythonCurves& curves,
   Check(WithoutLock([&] {
     const Scene none;
     const FittedCurves no_fits;
-    const bool needs_fits =
-        format == "json" || format == "html" || format == "dxf";
+    const bool needs_fits = format == "json" || format == "html" ||
+                            format == "dxf" || format == "step" ||
+                            format == "csv";
     return WriteFormat({curves.scene() == nullptr ? none : *curves.scene(),
                         curves.table(),
-                        needs_fits ? curves.Fits().fitted : no_fits},
+                        needs_fits ? curves.Fits().fitted : no_fits,
+                        curves.alignment()},
                        settings,
                        0,
                        format,

@@ -25,6 +25,7 @@ std::unique_ptr<PythonCurves> PythonCurves::Select(
     const std::vector<std::size_t>& ids) const {
   auto selected = std::make_unique<PythonCurves>(
       table_.Select(ids), scene_, table_.edge_maps(), options_);
+  selected->set_alignment(alignment_);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (fits_) selected->set_fits(SelectFits(fits_->fitted, ids));
   return selected;

@@ -203,6 +203,7 @@ std::unique_ptr<PythonCurves> CurvesOf(WorkspaceRun run) {
         run.record.settings.options.curve_fitting);
     curves->set_fits(std::move(run.fitted));
     curves->set_report(ReportJson(run.record));
+    curves->set_alignment(std::move(run.record.alignment));
     return curves;
   });
 }

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "measuring/world_alignment.h"
 #include "plugin/python/curve_table.h"
 #include "plugin/run/run_report.h"
 
@@ -50,6 +51,14 @@ class PythonCurves {
   const std::string& report() const { return report_; }
   void set_report(std::string report) { report_ = std::move(report); }
 
+  // Null: the frame is the model's.
+  const WorldAlignment* alignment() const {
+    return alignment_ ? &*alignment_ : nullptr;
+  }
+  void set_alignment(std::optional<WorldAlignment> alignment) {
+    alignment_ = std::move(alignment);
+  }
+
   // Fitted at the first call, unless they were given. For any thread, without
   // Python's lock.
   const FitTable& Fits() const;
@@ -64,6 +73,7 @@ class PythonCurves {
   std::shared_ptr<const Scene> scene_;
   CurveFittingOptions options_;
   std::string report_;
+  std::optional<WorldAlignment> alignment_;
   mutable std::mutex mutex_;  // of fits_
   mutable std::optional<FitTable> fits_;
 };

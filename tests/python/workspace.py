@@ -10,7 +10,7 @@ PROGRAM = os.environ['CURVIX_PROGRAM']
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FORMATS = {'ply': 'curves.ply', 'obj': 'curves.obj', 'pcd': 'curves.pcd', 'txt': 'curves.txt', 'json': 'curves.json',
            'dxf': 'curves.dxf', 'vtp': 'curves.vtp', 'glb': 'curves.glb', 'svg': 'curves.svg', 'colmap': 'curves_model',
-           'html': 'viewer.html'}
+           'html': 'viewer.html', 'step': 'curves.step', 'csv': 'dimensions.csv'}
 
 
 def run_program(*arguments):
