@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMinViewsOfPoint = 2;
 constexpr std::size_t kMinPoints = 100;
-constexpr int kMaxPointsPerView = 400;  // more tell little more
+constexpr int kMaxPointsPerView = 2000;  // for time and memory
 constexpr std::size_t kPointsPerHeldOut = 5;
 constexpr int kCellsPerHeldOut = 5;
 constexpr double kCellsPerDistance = 10;
