@@ -86,7 +86,7 @@ TEST(WorseViews, AreThoseThatLoseBeyondChance) {
 }
 
 TEST(ChoosePoints, HoldsOutEveryFifthAndWhatNoViewNeeds) {
-  std::vector<PointSample> points(3000);
+  std::vector<PointSample> points(12000);
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].position = {static_cast<double>(i), 0, 0};
     points[i].observations.resize(i % 2 == 0 ? 3 : 2);
@@ -96,7 +96,7 @@ TEST(ChoosePoints, HoldsOutEveryFifthAndWhatNoViewNeeds) {
   }
   const ChosenPoints chosen = ChoosePoints(points, 3);
   EXPECT_EQ(chosen.chosen.size() + chosen.held_out.size(), points.size());
-  EXPECT_EQ(chosen.chosen.size(), 400u);
+  EXPECT_EQ(chosen.chosen.size(), 2000u);
   for (const PointSample& point : chosen.chosen) {
     EXPECT_EQ(point.observations.size(), 3u);  // those that most views see
   }
