@@ -9,8 +9,7 @@
 set -euo pipefail
 
 # libopencv-dev holds OpenCV's CMake configuration, libpcl-dev PCL's, and brings
-# libgdal-dev with it. dpkg-dev
-# and file are for the target `package`.
+# libgdal-dev with it. dpkg-dev and file are for the target `package`.
 packages=(
   cmake dpkg-dev file g++ git ninja-build
   libboost-program-options-dev libceres-dev libeigen3-dev
