@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -98,6 +99,32 @@ std::vector<Edge2d> Selected(const std::vector<Edge2d>& edges,
   return selected;
 }
 
+// The links between the edges that are kept, by their new indices.
+std::vector<EdgeNeighbors> LinksBetween(
+    const std::vector<EdgeNeighbors>& neighbors,
+    const std::vector<bool>& is_kept) {
+  std::vector<std::int32_t> new_idx(neighbors.size());
+  std::int32_t num_kept = 0;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    new_idx[i] = num_kept;
+    num_kept += is_kept[i] ? 1 : 0;
+  }
+  const auto renumbered = [&](const std::optional<std::int32_t>& edge_idx) {
+    if (!edge_idx || !is_kept[static_cast<std::size_t>(*edge_idx)]) {
+      return std::optional<std::int32_t>();
+    }
+    return std::optional(new_idx[static_cast<std::size_t>(*edge_idx)]);
+  };
+  std::vector<EdgeNeighbors> links;
+  links.reserve(static_cast<std::size_t>(num_kept));
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    if (!is_kept[i]) continue;
+    links.push_back(
+        {renumbered(neighbors[i].previous), renumbered(neighbors[i].next)});
+  }
+  return links;
+}
+
 std::int64_t NumKept(const std::vector<Contour>& contours) {
   std::int64_t num_edges = 0;
   for (const Contour& contour : contours) {
@@ -180,6 +207,7 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
     }
   }
   kept.edges = Selected(edges, is_kept);
+  kept.neighbors = LinksBetween(neighbors, is_kept);
   kept.num_over_limit =
       static_cast<std::int32_t>(edges.size() - kept.edges.size()) -
       kept.num_isolated;

@@ -18,10 +18,11 @@ namespace curvix {
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges);
 
-// What KeepContours() keeps, in the order in which it came, and how many edges
-// it dropped.
+// What KeepContours() keeps, in the order in which it came, with the links
+// between these, and how many edges it dropped.
 struct KeptEdges {
   std::vector<Edge2d> edges;
+  std::vector<EdgeNeighbors> neighbors;
   std::int32_t num_isolated = 0;
   std::int32_t num_over_limit = 0;
 };

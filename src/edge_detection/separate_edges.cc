@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kReachBlurs = 4;
 constexpr double kMinAcrossBlurs = 1;
-constexpr double kMaxAlongPx = 0.75;
+constexpr double kMaxAlongSpacings = 1.5;
 constexpr double kMinCosine = 0.8;
 constexpr float kMaxShiftBlurs = 0.6f;  // closer steps are not told apart
 constexpr float kMinDeterminant = 1e-3f;
@@ -92,8 +92,11 @@ Lanes ShiftsOfSteps(const std::array<PeakPair, kLanes>& pairs) {
 // The edges beside each, as far as the blur mixes them.
 class Neighborhood {
  public:
-  Neighborhood(const std::vector<Edge2d>& edges, double blur)
-      : edges_(edges), blur_(blur), index_(edges, kReachBlurs * blur) {}
+  Neighborhood(const std::vector<Edge2d>& edges, double spacing_px, double blur)
+      : edges_(edges),
+        max_along_px_(kMaxAlongSpacings * spacing_px),
+        blur_(blur),
+        index_(edges, kReachBlurs * blur) {}
 
   // Appends edge `i` with the nearest parallel edge on either side.
   void AppendPairs(std::size_t i, std::vector<PeakPair>& pairs) const {
@@ -107,7 +110,7 @@ class Neighborhood {
     index_.VisitAround(edge.position, reach, [&](const IndexedEdge& other) {
       const auto j = static_cast<std::size_t>(other.edge_idx);
       const Eigen::Vector2d offset = edges_[j].position - edge.position;
-      if (std::abs(offset.dot(tangent)) > kMaxAlongPx) return;
+      if (std::abs(offset.dot(tangent)) > max_along_px_) return;
       const double cosine = tangent.dot(other.tangent.cast<double>());
       if (std::abs(cosine) < kMinCosine) return;
       const double across = offset.dot(normal);
@@ -137,12 +140,15 @@ class Neighborhood {
 
  private:
   const std::vector<Edge2d>& edges_;
+  double max_along_px_;
   double blur_;
   GridIndex index_;
 };
 
-std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges, double blur) {
-  const Neighborhood neighborhood(edges, blur);
+std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges,
+                                double spacing_px,
+                                double blur) {
+  const Neighborhood neighborhood(edges, spacing_px, blur);
   std::vector<PeakPair> pairs;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     neighborhood.AppendPairs(i, pairs);
@@ -152,10 +158,10 @@ std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges, double blur) {
 
 }  // namespace
 
-void SeparateEdges(std::vector<Edge2d>* edges) {
+void SeparateEdges(double spacing_px, std::vector<Edge2d>* edges) {
   const double blur = MedianBlur(*edges);
   if (!(blur > 0)) return;
-  const std::vector<PeakPair> pairs = PairPeaks(*edges, blur);
+  const std::vector<PeakPair> pairs = PairPeaks(*edges, spacing_px, blur);
   for (std::size_t begin = 0; begin < pairs.size(); begin += kLanes) {
     const std::size_t num_pairs = std::min(kLanes, pairs.size() - begin);
     std::array<PeakPair, kLanes> lanes;

@@ -14,7 +14,8 @@ namespace curvix {
 // apart, at least 2 w; of a staircase, too close together. Positions and
 // strengths of the two peaks determine both steps. Each edge is corrected for
 // the nearest parallel edge (37 degrees) on either side, by at most 0.6 w each,
-// since peaks hardly resolve steps nearer than w.
-void SeparateEdges(std::vector<Edge2d>* edges);
+// since peaks hardly resolve steps nearer than w. `spacing_px`: the mean
+// distance between edges along a contour (EdgeMap).
+void SeparateEdges(double spacing_px, std::vector<Edge2d>* edges);
 
 }  // namespace curvix

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 namespace curvix {
@@ -82,6 +83,25 @@ TEST_F(KeepContoursTest, DropsWhatIsBothShortAndWeak) {
   EXPECT_EQ(Strengths(kept), (std::vector<float>{11, 20}));
   EXPECT_EQ(kept.num_isolated, 4);
   EXPECT_EQ(kept.num_over_limit, 0);
+}
+
+TEST_F(KeepContoursTest, KeepsTheLinksBetweenWhatItKeeps) {
+  Build({{3, 19}, {4, 11}, {1, 15}, {3, 20}});
+  neighbors_[2].next = 3;      // from what is dropped
+  neighbors_[6].next = 7;      // to what is dropped
+  neighbors_[7].previous = 5;  // which is not mutual
+  const KeptEdges kept = Keep(100);
+  ASSERT_EQ(kept.edges.size(), 7u);
+  ASSERT_EQ(kept.neighbors.size(), 7u);
+  for (std::int32_t i = 0; i < 7; ++i) {
+    const EdgeNeighbors& links = kept.neighbors[static_cast<std::size_t>(i)];
+    const bool is_first = i == 0 || i == 4;
+    const bool is_last = i == 3 || i == 6;
+    EXPECT_EQ(links.previous,
+              is_first ? std::nullopt : std::optional<std::int32_t>(i - 1));
+    EXPECT_EQ(links.next,
+              is_last ? std::nullopt : std::optional<std::int32_t>(i + 1));
+  }
 }
 
 TEST_F(KeepContoursTest, KeepsTheStrongestLongContoursWithinTheLimit) {

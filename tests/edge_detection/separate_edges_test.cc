@@ -70,7 +70,7 @@ TEST(SeparateEdges, TwoStepsStandWhereTheyAre) {
     for (const double distance_px : {3.2, 3.6, 4.2}) {
       std::vector<Edge2d> edges =
           AmongOthers(TwoSteps{distance_px, height}.Edges());
-      SeparateEdges(&edges);
+      SeparateEdges(EdgeMap().spacing_px, &edges);
       EXPECT_NEAR(AcrossOf(edges[1]), 0, 0.05) << height << ' ' << distance_px;
       EXPECT_NEAR(AcrossOf(edges[2]), distance_px, 0.05)
           << height << ' ' << distance_px;
@@ -82,7 +82,7 @@ TEST(SeparateEdges, AThinLineIsNotAsThickAsItsBlur) {
   for (const double width_px : {1.0, 1.5, 2.0, 2.5}) {
     std::vector<Edge2d> edges = AmongOthers(TwoSteps{width_px, -20}.Edges());
     const double seen_px = AcrossOf(edges[2]) - AcrossOf(edges[1]);
-    SeparateEdges(&edges);
+    SeparateEdges(EdgeMap().spacing_px, &edges);
     const double separated_px = AcrossOf(edges[2]) - AcrossOf(edges[1]);
     EXPECT_GT(seen_px, 2 * kBlurPx);
     EXPECT_LT(std::abs(separated_px - width_px), 0.5 * (seen_px - width_px));
@@ -92,7 +92,7 @@ TEST(SeparateEdges, AThinLineIsNotAsThickAsItsBlur) {
 // Across `edges[0]`, by how much it moved.
 double MoveOfFirst(const std::vector<Edge2d>& edges) {
   std::vector<Edge2d> separated = edges;
-  SeparateEdges(&separated);
+  SeparateEdges(EdgeMap().spacing_px, &separated);
   return (separated[0].position - edges[0].position).norm();
 }
 
@@ -118,7 +118,7 @@ TEST(SeparateEdges, WithoutSharpnessAllStay) {
   for (Edge2d& edge : edges) edge.sharpness = 0;
   EXPECT_EQ(MoveOfFirst(edges), 0);
   std::vector<Edge2d> none;
-  SeparateEdges(&none);
+  SeparateEdges(EdgeMap().spacing_px, &none);
   EXPECT_TRUE(none.empty());
 }
 
@@ -150,7 +150,7 @@ TEST(SeparateEdges, UndoesWhatTheDetectorDoesToThinLines) {
   for (const double line_px : {2.0, 2.5, 3.0}) {
     std::vector<Edge2d> edges = OrientedEdges(Bars(line_px), {}, 5);
     const double seen_px = LineWidth(edges);
-    SeparateEdges(&edges);
+    SeparateEdges(EdgeMap().spacing_px, &edges);
     EXPECT_GT(seen_px, line_px + 0.05);
     EXPECT_LT(std::abs(LineWidth(edges) - line_px), 0.3 * (seen_px - line_px));
   }
