@@ -26,19 +26,12 @@ constexpr std::int64_t kCrowd = 2;
 constexpr std::int64_t kThinning = 3;
 constexpr double kThinnedSpacingPx = 1.2;
 
-// Thins the contours. Their edges are to be linked again.
-void ThinOut(EdgeMap* map) {
-  const double num_before = static_cast<double>(map->edges.size());
-  map->edges = ThinContours(map->edges, map->neighbors, kThinnedSpacingPx);
-  map->spacing_px *= num_before / static_cast<double>(map->edges.size());
-}
-
 // Drops contours that do not fit.
 void KeepWithinLimit(const EdgeDetectionOptions& options,
                      std::int64_t max_edges,
                      EdgeMap* map) {
   KeptEdges kept =
-      KeepContours(map->edges, map->neighbors, options, 0, max_edges);
+      KeepContours(map->edges, map->neighbors, options, 0, max_edges, {});
   if (kept.num_over_limit == 0) return;
   map->edges = std::move(kept.edges);
   // Breaks beside edges that are gone close.
@@ -75,8 +68,9 @@ Result<std::vector<Edge2d>> LocateProminentEdges(
   return AcrossGradients(edges);
 }
 
-// Of these the edges of contours worth keeping, linked. What is dropped is
-// counted and its memory freed.
+// Of these the edges of contours worth keeping. They are thinned before they
+// are oriented, which takes long. What is dropped is counted and its memory
+// freed.
 Status LocateContours(const GrayImage& image,
                       const View& view,
                       const Camera& camera,
@@ -91,11 +85,15 @@ Status LocateContours(const GrayImage& image,
                                 LinkNeighbors(*edges, options),
                                 options,
                                 min_gradient,
-                                kThinning * max_edges);
+                                kThinning * max_edges,
+                                {max_edges, kThinnedSpacingPx});
   map->num_dropped_isolated = kept.num_isolated;
   map->num_dropped_over_limit += kept.num_over_limit;
   map->edges = std::move(kept.edges);
-  map->neighbors = std::move(kept.neighbors);
+  if (kept.num_thinned_out > 0) {
+    const auto size = static_cast<double>(map->edges.size());
+    map->spacing_px *= (kept.num_thinned_out + size) / size;
+  }
   return Status();
 }
 
@@ -132,12 +130,10 @@ Result<EdgeMap> DetectViewEdges(const View& view,
       !status.ok()) {
     return status;
   }
-  const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
-  // First, since it takes long to orient edges.
-  if (static_cast<std::int64_t>(map.edges.size()) > max_edges) ThinOut(&map);
   OrientEdges(*image, options, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);
+  const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
   if (static_cast<std::int64_t>(map.edges.size()) > max_edges) {
     KeepWithinLimit(options, max_edges, &map);
   }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -99,32 +98,6 @@ std::vector<Edge2d> Selected(const std::vector<Edge2d>& edges,
   return selected;
 }
 
-// The links between the edges that are kept, by their new indices.
-std::vector<EdgeNeighbors> LinksBetween(
-    const std::vector<EdgeNeighbors>& neighbors,
-    const std::vector<bool>& is_kept) {
-  std::vector<std::int32_t> new_idx(neighbors.size());
-  std::int32_t num_kept = 0;
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    new_idx[i] = num_kept;
-    num_kept += is_kept[i] ? 1 : 0;
-  }
-  const auto renumbered = [&](const std::optional<std::int32_t>& edge_idx) {
-    if (!edge_idx || !is_kept[static_cast<std::size_t>(*edge_idx)]) {
-      return std::optional<std::int32_t>();
-    }
-    return std::optional(new_idx[static_cast<std::size_t>(*edge_idx)]);
-  };
-  std::vector<EdgeNeighbors> links;
-  links.reserve(static_cast<std::size_t>(num_kept));
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    if (!is_kept[i]) continue;
-    links.push_back(
-        {renumbered(neighbors[i].previous), renumbered(neighbors[i].next)});
-  }
-  return links;
-}
-
 std::int64_t NumKept(const std::vector<Contour>& contours) {
   std::int64_t num_edges = 0;
   for (const Contour& contour : contours) {
@@ -155,6 +128,24 @@ void KeepStructure(const std::vector<double>& structure,
   }
 }
 
+// Marks the first edge of a contour, and each next one that is at least
+// `spacing_px` further along it.
+void MarkSpaced(const std::vector<Edge2d>& edges,
+                std::span<const std::int32_t> path,
+                double spacing_px,
+                std::vector<bool>& is_marked) {
+  double since_marked_px = spacing_px;
+  const Edge2d* before = &At(edges, path.front());
+  for (const std::int32_t i : path) {
+    const Edge2d& edge = At(edges, i);
+    since_marked_px += (edge.position - before->position).norm();
+    before = &edge;
+    if (since_marked_px < spacing_px) continue;
+    is_marked[static_cast<std::size_t>(i)] = true;
+    since_marked_px = 0;
+  }
+}
+
 // 1 <= n <= the number of values.
 double NthLargest(std::vector<double> values, std::int64_t n) {
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n - 1);
@@ -182,7 +173,8 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,
                        double min_gradient,
-                       std::int64_t max_edges) {
+                       std::int64_t max_edges,
+                       const Thinning& thinning) {
   CURVIX_CHECK(edges.size() == neighbors.size(), edges.size() << " edges");
   const Contours paths(neighbors);
   std::vector<Contour> contours = Measure(edges, paths);
@@ -200,40 +192,20 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                   max_edges,
                   contours);
   }
+  const std::int64_t num_kept = NumKept(contours);
+  const double spacing_px =
+      num_kept > thinning.max_edges ? thinning.spacing_px : 0;
   std::vector<bool> is_kept(edges.size());
   for (std::size_t c = 0; c < paths.size(); ++c) {
-    for (const std::int32_t i : paths[c]) {
-      is_kept[static_cast<std::size_t>(i)] = contours[c].is_kept;
-    }
+    if (contours[c].is_kept) MarkSpaced(edges, paths[c], spacing_px, is_kept);
   }
   kept.edges = Selected(edges, is_kept);
-  kept.neighbors = LinksBetween(neighbors, is_kept);
+  const auto size = static_cast<std::int64_t>(edges.size());
+  const auto num_selected = static_cast<std::int64_t>(kept.edges.size());
   kept.num_over_limit =
-      static_cast<std::int32_t>(edges.size() - kept.edges.size()) -
-      kept.num_isolated;
+      static_cast<std::int32_t>(size - num_kept - kept.num_isolated);
+  kept.num_thinned_out = static_cast<std::int32_t>(num_kept - num_selected);
   return kept;
-}
-
-std::vector<Edge2d> ThinContours(const std::vector<Edge2d>& edges,
-                                 const std::vector<EdgeNeighbors>& neighbors,
-                                 double spacing_px) {
-  std::vector<bool> is_kept(edges.size());
-  const Contours paths(neighbors);
-  for (std::size_t c = 0; c < paths.size(); ++c) {
-    double since_kept_px = spacing_px;
-    const Edge2d* before = nullptr;
-    for (const std::int32_t i : paths[c]) {
-      const Edge2d& edge = At(edges, i);
-      if (before != nullptr) {
-        since_kept_px += (edge.position - before->position).norm();
-      }
-      before = &edge;
-      if (since_kept_px < spacing_px) continue;
-      is_kept[static_cast<std::size_t>(i)] = true;
-      since_kept_px = 0;
-    }
-  }
-  return Selected(edges, is_kept);
 }
 
 }  // namespace curvix

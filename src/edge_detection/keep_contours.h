@@ -18,13 +18,20 @@ namespace curvix {
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges);
 
-// What KeepContours() keeps, in the order in which it came, with the links
-// between these, and how many edges it dropped.
+// Thins contours if more than `max_edges` are kept: of each the first edge
+// stays, and each next one that is at least `spacing_px` further along it.
+struct Thinning {
+  std::int64_t max_edges = 0;
+  double spacing_px = 0;  // 0: no thinning
+};
+
+// What KeepContours() keeps, in the order in which it came, and how many edges
+// it dropped.
 struct KeptEdges {
   std::vector<Edge2d> edges;
-  std::vector<EdgeNeighbors> neighbors;
   std::int32_t num_isolated = 0;
   std::int32_t num_over_limit = 0;
+  std::int32_t num_thinned_out = 0;  // of contours that are kept
 };
 
 // Drops isolated edges, which are noise, mostly: contours of fewer than
@@ -34,18 +41,13 @@ struct KeptEdges {
 // contours up to the first that does not fit, in this order: those of
 // options.min_contour_edges before shorter ones, then by mean Prominence()
 // times the square root of the mean length of their straight segments, then by
-// index. Edges and `neighbors` correspond; `min_gradient` is that of the
-// detector.
+// index. At last thins them. Edges and `neighbors` correspond; `min_gradient`
+// is that of the detector.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,
                        double min_gradient,
-                       std::int64_t max_edges);
-
-// Of each contour the first edge, and each next one that is at least
-// `spacing_px` further along it; in the order of `edges`.
-std::vector<Edge2d> ThinContours(const std::vector<Edge2d>& edges,
-                                 const std::vector<EdgeNeighbors>& neighbors,
-                                 double spacing_px);
+                       std::int64_t max_edges,
+                       const Thinning& thinning);
 
 }  // namespace curvix

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <vector>
 
 namespace curvix {
@@ -38,11 +37,11 @@ class KeepContoursTest : public ::testing::Test {
       AppendChain(chain.length, chain.strength, edges_, neighbors_);
     }
   }
-  KeptEdges Keep(std::int64_t max_edges) const {
+  KeptEdges Keep(std::int64_t max_edges, const Thinning& thinning = {}) const {
     EdgeDetectionOptions options;
     options.min_contour_edges = 4;
     options.short_contour_factor = 2;
-    return KeepContours(edges_, neighbors_, options, 10, max_edges);
+    return KeepContours(edges_, neighbors_, options, 10, max_edges, thinning);
   }
 
   std::vector<Edge2d> edges_;
@@ -83,25 +82,6 @@ TEST_F(KeepContoursTest, DropsWhatIsBothShortAndWeak) {
   EXPECT_EQ(Strengths(kept), (std::vector<float>{11, 20}));
   EXPECT_EQ(kept.num_isolated, 4);
   EXPECT_EQ(kept.num_over_limit, 0);
-}
-
-TEST_F(KeepContoursTest, KeepsTheLinksBetweenWhatItKeeps) {
-  Build({{3, 19}, {4, 11}, {1, 15}, {3, 20}});
-  neighbors_[2].next = 3;      // from what is dropped
-  neighbors_[6].next = 7;      // to what is dropped
-  neighbors_[7].previous = 5;  // which is not mutual
-  const KeptEdges kept = Keep(100);
-  ASSERT_EQ(kept.edges.size(), 7u);
-  ASSERT_EQ(kept.neighbors.size(), 7u);
-  for (std::int32_t i = 0; i < 7; ++i) {
-    const EdgeNeighbors& links = kept.neighbors[static_cast<std::size_t>(i)];
-    const bool is_first = i == 0 || i == 4;
-    const bool is_last = i == 3 || i == 6;
-    EXPECT_EQ(links.previous,
-              is_first ? std::nullopt : std::optional<std::int32_t>(i - 1));
-    EXPECT_EQ(links.next,
-              is_last ? std::nullopt : std::optional<std::int32_t>(i + 1));
-  }
 }
 
 TEST_F(KeepContoursTest, KeepsTheStrongestLongContoursWithinTheLimit) {
@@ -151,28 +131,27 @@ TEST_F(KeepContoursTest, KeepsBordersBeforeTextureSomewhatStronger) {
   for (const Edge2d& edge : kept.edges) EXPECT_NE(edge.position.y(), 20);
 }
 
-TEST(ThinContours, LeavesNoLargerGapsThanItMust) {
-  std::vector<Edge2d> edges;
-  std::vector<EdgeNeighbors> neighbors;
-  AppendChain(10, 1, edges, neighbors);
-  AppendChain(2, 2, edges, neighbors);
-  for (Edge2d& edge : edges) edge.position *= 0.5;
-  const std::vector<Edge2d> thinned = ThinContours(edges, neighbors, 1);
-  ASSERT_EQ(thinned.size(), 6u);
+TEST_F(KeepContoursTest, LeavesNoLargerGapsThanItMust) {
+  Build({{3, 15}, {10, 30}, {2, 40}});
+  for (Edge2d& edge : edges_) edge.position *= 0.5;
+  const KeptEdges kept = Keep(100, {11, 1});
+  ASSERT_EQ(kept.edges.size(), 6u);
+  EXPECT_EQ(kept.num_thinned_out, 6);
+  EXPECT_EQ(kept.num_isolated, 3);
+  EXPECT_EQ(kept.num_over_limit, 0);
   for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(thinned[i].position.x(), static_cast<double>(i));
+    EXPECT_EQ(kept.edges[i].position.x(), 1.5 + static_cast<double>(i));
   }
-  EXPECT_EQ(thinned[5].strength, 2) << "every contour is still there";
-  EXPECT_EQ(ThinContours(edges, neighbors, 0.5).size(), edges.size());
+  EXPECT_EQ(kept.edges[5].strength, 40) << "every contour is still there";
+  EXPECT_EQ(Keep(100, {11, 0.5}).num_thinned_out, 0);
+  EXPECT_EQ(Keep(100, {12, 1}).num_thinned_out, 0) << "these are few enough";
 }
 
-TEST(ThinContours, ThinsClosedContours) {
-  std::vector<Edge2d> edges;
-  std::vector<EdgeNeighbors> neighbors;
-  AppendChain(8, 1, edges, neighbors);
-  neighbors.front().previous = 7;
-  neighbors.back().next = 0;
-  EXPECT_EQ(ThinContours(edges, neighbors, 2).size(), 4u);
+TEST_F(KeepContoursTest, ThinsClosedContours) {
+  Build({{8, 30}});
+  neighbors_.front().previous = 7;
+  neighbors_.back().next = 0;
+  EXPECT_EQ(Keep(100, {0, 2}).edges.size(), 4u);
 }
 
 TEST_F(KeepContoursTest, KeepsTheOrderAndAcceptsNoEdges) {
