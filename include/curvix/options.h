@@ -168,6 +168,9 @@ struct CurveGrowthOptions {
   // its samples, a pixel apart, over the square root of the number of queries
   // of views, times its contrast over that of the scene. >= 0.
   double min_significance = 14.0;
+  // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
+  // are dropped as texture: joints of brick, tiles. >= 0; 0: none are dropped.
+  double max_crowding = 0.35;
 };
 
 // Beyond the paper: curves selected, smoothed, fitted and joined.

@@ -3,6 +3,7 @@
 // of the machine.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -37,12 +38,16 @@ T LoadBytes(const char* bytes, std::endian order) {
   return value;
 }
 
-// Numbers to bytes, as they lie in memory.
+// Numbers, of the language's types or halves, to bytes, as they lie in memory.
+template <typename T>
+constexpr bool kIsNumber =
+    std::is_arithmetic_v<T> || std::is_same_v<T, Eigen::half>;
+
 class ByteWriter {
  public:
   template <typename T>
   void Put(T value) {
-    static_assert(std::is_arithmetic_v<T>);
+    static_assert(kIsNumber<T>);
     char bytes[sizeof(T)];
     std::memcpy(bytes, &value, sizeof(T));
     bytes_.append(bytes, sizeof(T));
@@ -63,7 +68,7 @@ class ByteReader {
 
   template <typename T>
   T Take() {
-    static_assert(std::is_arithmetic_v<T>);
+    static_assert(kIsNumber<T>);
     T value{};
     if (!ok_ || bytes_.size() < sizeof(T)) {
       ok_ = false;

@@ -206,6 +206,9 @@ void AddRows(CurveGrowthOptions& o, Section row) {
       "longest unsupported gap");
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
       "smallest significance of a curve");
+  row("max_crowding", &o.max_crowding, AtLeast(0), "", "",
+      "texture has edges on both sides: their strength per pixel over that of "
+      "the curve above which it is dropped; 0: never");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {

@@ -67,7 +67,7 @@ std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
                               int num_threads) {
   return KeepSignificant(Grow(seeds, input, num_threads),
                          input.indices,
-                         input.options.min_significance);
+                         input.options);
 }
 
 }  // namespace curvix

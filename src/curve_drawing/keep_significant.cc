@@ -6,21 +6,33 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/median.h"
+
 namespace curvix {
 namespace {
 
-double MeanStrength(const Curve& curve, const std::vector<ViewIndex>& indices) {
-  double sum = 0;
-  double count = 0;
+const Edge2d& EdgeOf(const EdgeRef& ref,
+                     const std::vector<ViewIndex>& indices) {
+  const EdgeMap& map = *indices[static_cast<std::size_t>(ref.view_idx)].edges;
+  return map.edges[static_cast<std::size_t>(ref.edge_idx)];
+}
+
+std::vector<EdgeRef> SupportOf(const Curve& curve) {
+  std::vector<EdgeRef> support;
   for (const CurveSample& sample : curve.samples) {
-    for (const EdgeRef& ref : sample.support) {
-      const EdgeMap& map =
-          *indices[static_cast<std::size_t>(ref.view_idx)].edges;
-      sum += map.edges[static_cast<std::size_t>(ref.edge_idx)].strength;
-      count += 1;
-    }
+    support.insert(
+        support.end(), sample.support.begin(), sample.support.end());
   }
-  return sum / std::max(1.0, count);
+  return support;
+}
+
+double MeanStrength(const std::vector<EdgeRef>& edges,
+                    const std::vector<ViewIndex>& indices) {
+  double sum = 0;
+  for (const EdgeRef& ref : edges) {
+    sum += static_cast<double>(EdgeOf(ref, indices).strength);
+  }
+  return sum / std::max(1.0, static_cast<double>(edges.size()));
 }
 
 double SumOfEvidence(const Curve& curve) {
@@ -31,28 +43,43 @@ double SumOfEvidence(const Curve& curve) {
 
 }  // namespace
 
+double MedianCrowding(const std::vector<EdgeRef>& edges,
+                      const std::vector<ViewIndex>& indices) {
+  std::vector<double> crowding;
+  for (const EdgeRef& ref : edges) {
+    crowding.push_back(static_cast<double>(EdgeOf(ref, indices).crowding));
+  }
+  return MedianOr(0, std::move(crowding));
+}
+
 std::vector<Curve> KeepSignificant(std::vector<GrownCurve> curves,
                                    const std::vector<ViewIndex>& indices,
-                                   double min_significance) {
+                                   const CurveGrowthOptions& options) {
   std::vector<double> strengths;
+  std::vector<bool> are_texture;
   double sum = 0;
   double num_samples = 0;
   for (const GrownCurve& grown : curves) {
+    const std::vector<EdgeRef> support = SupportOf(grown.curve);
+    are_texture.push_back(options.max_crowding > 0 &&
+                          MedianCrowding(support, indices) >
+                              options.max_crowding);
     const auto size = static_cast<double>(grown.curve.samples.size());
-    strengths.push_back(MeanStrength(grown.curve, indices));
+    strengths.push_back(MeanStrength(support, indices));
     sum += size * strengths.back();
     num_samples += size;
   }
   const double typical_strength = sum / std::max(1.0, num_samples);
   std::vector<Curve> kept;
   for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (are_texture[i]) continue;
     const auto num_looks =
         static_cast<double>(std::max<std::int64_t>(1, curves[i].num_looks));
     const double contrast =
         typical_strength > 0 ? strengths[i] / typical_strength : 1;
     const double significance =
         SumOfEvidence(curves[i].curve) / std::sqrt(num_looks) * contrast;
-    if (significance >= min_significance) {
+    if (significance >= options.min_significance) {
       kept.push_back(std::move(curves[i].curve));
     }
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <curvix/curves.h>
+#include <curvix/edges.h>
+#include <curvix/options.h>
 #include <cstdint>
 #include <vector>
 
@@ -17,16 +19,23 @@ struct GrownCurve {
   std::int64_t num_looks = 0;
 };
 
-// Drops the curves whose significance is below `min_significance`: the sum of
-// their log-likelihood ratios (evidence.h) over the square root of the number
-// of queries, which is proportional to what chance gives, times the mean
-// strength of their 2D edges over that of all curves. Weak edges are more often
-// reflections, shading, noise and compression artifacts. Without any strength,
-// that factor is 1.
+// The median crowding (Edge2d::crowding) of some 2D edges; 0 of none. `indices`
+// by view.
+double MedianCrowding(const std::vector<EdgeRef>& edges,
+                      const std::vector<ViewIndex>& indices);
+
+// Drops texture, and what may be there by chance:
+//  - curves whose edges have a MedianCrowding() above options.max_crowding;
+//  - curves whose significance is below options.min_significance: the sum of
+//    their log-likelihood ratios (evidence.h) over the square root of the
+//    number of queries, which is proportional to what chance gives, times the
+//    mean strength of their 2D edges over that of all curves. Weak edges are
+//    more often reflections, shading, noise and compression artifacts. Without
+//    any strength, that factor is 1.
 //
 // `indices` by view. The others stay in their order.
 std::vector<Curve> KeepSignificant(std::vector<GrownCurve> curves,
                                    const std::vector<ViewIndex>& indices,
-                                   double min_significance);
+                                   const CurveGrowthOptions& options);
 
 }  // namespace curvix

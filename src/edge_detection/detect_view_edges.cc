@@ -11,6 +11,7 @@
 #include "edge_detection/image_noise.h"
 #include "edge_detection/keep_contours.h"
 #include "edge_detection/load_image.h"
+#include "edge_detection/prominence.h"
 #include "edge_detection/separate_edges.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
@@ -63,6 +64,9 @@ Result<std::vector<Edge2d>> LocateProminentEdges(
   if (!num_masked.ok()) return num_masked.status();
   map->num_dropped_masked = *num_masked;
   const std::int64_t max_edges = MaxEdges(options, image.width, image.height);
+  if (static_cast<std::int64_t>(edges.size()) > max_edges) {
+    MeasureCrowding(&edges);
+  }
   map->num_dropped_over_limit =
       DropLeastProminent(kCrowd * kThinning * max_edges, &edges);
   return AcrossGradients(edges);

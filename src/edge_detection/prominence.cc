@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -60,23 +61,34 @@ cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges) {
   return strengths;
 }
 
+// Edge2d::crowding, without rounding.
 template <typename Edge>
-std::vector<double> ProminenceOf(const std::vector<Edge>& edges) {
+std::vector<float> CrowdingOf(const std::vector<Edge>& edges) {
   const cv::Mat1f strengths = StrengthPerPixel(edges);
   const cv::Rect inside({0, 0}, strengths.size());
   const auto strength_at = [&](const Eigen::Vector2d& position) {
     const cv::Point pixel = PixelAt(position);
     return inside.contains(pixel) ? strengths(pixel) : 0.0f;
   };
-  std::vector<double> prominence;
-  prominence.reserve(edges.size());
+  std::vector<float> crowding;
+  crowding.reserve(edges.size());
   for (const Edge& edge : edges) {
     const Eigen::Vector2d aside = kDistancePx * Normal(edge);
-    const float emptier = std::min(strength_at(edge.position + aside),
-                                   strength_at(edge.position - aside));
-    const double strength = static_cast<double>(Strength(edge));
-    prominence.push_back(
-        strength / (1 + static_cast<double>(emptier) / (kCrowded * strength)));
+    crowding.push_back(std::min(strength_at(edge.position + aside),
+                                strength_at(edge.position - aside)) /
+                       Strength(edge));
+  }
+  return crowding;
+}
+
+template <typename Edge>
+std::vector<double> ProminenceOf(const std::vector<Edge>& edges,
+                                 const std::vector<float>& crowding) {
+  std::vector<double> prominence;
+  prominence.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    prominence.push_back(static_cast<double>(Strength(edges[i])) /
+                         (1 + static_cast<double>(crowding[i]) / kCrowded));
   }
   return prominence;
 }
@@ -84,11 +96,18 @@ std::vector<double> ProminenceOf(const std::vector<Edge>& edges) {
 }  // namespace
 
 std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
-  return ProminenceOf(edges);
+  return ProminenceOf(edges, CrowdingOf(edges));
 }
 
 std::vector<double> Prominence(const std::vector<LocatedEdge>& edges) {
-  return ProminenceOf(edges);
+  return ProminenceOf(edges, CrowdingOf(edges));
+}
+
+void MeasureCrowding(std::vector<LocatedEdge>* edges) {
+  const std::vector<float> crowding = CrowdingOf(*edges);
+  for (std::size_t i = 0; i < edges->size(); ++i) {
+    (*edges)[i].crowding = crowding[i];
+  }
 }
 
 }  // namespace curvix

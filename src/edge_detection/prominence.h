@@ -24,4 +24,7 @@ namespace curvix {
 std::vector<double> Prominence(const std::vector<Edge2d>& edges);
 std::vector<double> Prominence(const std::vector<LocatedEdge>& edges);
 
+// Sets the crowding of each edge (Edge2d::crowding), measured as above.
+void MeasureCrowding(std::vector<LocatedEdge>* edges);
+
 }  // namespace curvix

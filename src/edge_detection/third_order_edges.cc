@@ -108,7 +108,7 @@ void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   edge.angle = static_cast<float>(std::atan2(-normal.x(), normal.y()));
   edge.strength = static_cast<float>(gradient.norm());
   edge.sharpness = static_cast<float>(Sharpness(d, gradient));
-  edge.level = static_cast<float>(d(0, 0));
+  edge.level = static_cast<Eigen::half>(d(0, 0));
 }
 
 bool IsInside(const GrayImage& image, const Eigen::Vector2d& p, double border) {
@@ -226,6 +226,7 @@ std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
     across[i].position = edges[i].position;
     across[i].strength = edges[i].strength();
+    across[i].crowding = Eigen::half(edges[i].crowding);
     across[i].angle = std::atan2(-edges[i].gradient.x(), edges[i].gradient.y());
   }
   return across;

@@ -15,9 +15,10 @@ namespace curvix {
 
 // An edge as it is located, before it has an orientation.
 struct LocatedEdge {
-  // Pixels. Not aligned, for there may be millions: 24 bytes each.
+  // Pixels. Not aligned, for there may be millions: 32 bytes each.
   Eigen::Matrix<double, 2, 1, Eigen::DontAlign> position;
   Eigen::Vector2f gradient;  // of the nearest grid point, grey levels per pixel
+  float crowding = 0;        // Edge2d::crowding
 
   float strength() const {
     return std::sqrt(gradient.x() * gradient.x() + gradient.y() * gradient.y());

@@ -101,7 +101,8 @@ void Fields(Archive& archive, Edge2d& edge) {
           edge.angle,
           edge.strength,
           edge.sharpness,
-          edge.level);
+          edge.level,
+          edge.crowding);
 }
 
 // A number of things of at least `min_bytes` each, and these.

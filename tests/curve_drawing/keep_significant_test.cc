@@ -35,7 +35,9 @@ class KeepSignificantTest : public ::testing::Test {
     }
     ViewIndex index;
     index.edges = &map_;
-    return KeepSignificant(curves, {index}, min_significance);
+    CurveGrowthOptions options;
+    options.min_significance = min_significance;
+    return KeepSignificant(curves, {index}, options);
   }
 
  private:
