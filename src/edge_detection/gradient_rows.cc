@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "base/check.h"
+#include "base/wide_vectors.h"
 #include "edge_detection/gaussian_derivatives.h"
 
 namespace curvix {
@@ -62,6 +63,7 @@ void GradientRows::Compute(int grid_row,
 
 // out[i] = sum over k of weights[k] * (pairs[k].a[i] + sign * pairs[k].b[i]).
 // Block by block, so that sums stay in registers.
+CURVIX_WIDE_VECTORS
 void GradientRows::SumPairs(const std::vector<Pair>& pairs,
                             const std::vector<float>& weights,
                             float sign,

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/wide_vectors.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "edge_detection/gradient_rows.h"
 #include "edge_detection/steep_tiles.h"
@@ -29,6 +30,7 @@ constexpr float kNoPeak = std::numeric_limits<float>::infinity();
 // Of two equal neighbours the one on the bright side counts. All neighbours are
 // read and then chosen from, so that the loop has no branches and is
 // vectorised.
+CURVIX_WIDE_VECTORS
 void FindPeaks(const RowWindow& rows,
                float min_gradient,
                std::size_t begin,
