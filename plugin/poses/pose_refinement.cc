@@ -160,8 +160,8 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
            "refiner",
            {"colmap", "ceres", "none"},
            &settings->refiner,
-           "bundle adjustment with the model's points by COLMAP, by Ceres "
-           "or none (--preset paper); used if held-out errors fall"),
+           "bundle adjustment by COLMAP, by Ceres or none (--preset "
+           "paper); used if held-out errors fall"),
        Advanced(PathFlag("colmap_path",
                          &settings->colmap_path,
                          "the program colmap, if not in $COLMAP_EXE_PATH or "
