@@ -84,10 +84,9 @@ constexpr char kMarkdownHead[] =
     "In brackets: the default and, if another, the value with `--preset\n"
     "paper`. [Poses](#poses), [CurveFilter](#curvefilter) and\n"
     "[Runtime](#runtime) matter most; `--help_all` prints ranges and the\n"
-    "paper's symbols. On the command line: `--Validation.max_angle_deg 10`;\n"
-    "in a file (`--project_path x.ini`): `max_angle_deg=10` below\n"
-    "`[Validation]`. Pixels are those of the original images. Switches: 1 is\n"
-    "on, 0 is off. [Glossary](glossary.md).\n";
+    "paper's symbols. In a file (`--project_path x.ini`):\n"
+    "`max_angle_deg=10` below `[Validation]`. Pixels are those of the\n"
+    "original images; 1 is on, 0 is off. [Glossary](glossary.md).\n";
 
 }  // namespace
 
