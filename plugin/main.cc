@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
   try {
     return curvix::RunProgram({argv + std::min(argc, 1), argv + argc});
   } catch (const std::bad_alloc&) {
-    std::cerr << "ERROR: There is not enough memory for this scene.\n";
+    std::cerr << "ERROR: There is not enough memory for this scene. Lower "
+                 "--num_threads or --EdgeDetection.max_edges_per_megapixel, or "
+                 "divide the scene with 'colmap_curvix partition'.\n";
   } catch (const std::exception& error) {
     std::cerr << "ERROR: Something is wrong in colmap_curvix itself: "
               << error.what() << "\nPlease report it with this sentence.\n";

@@ -128,8 +128,8 @@ std::vector<std::vector<Eigen::Vector2d>> ProjectCurve(const Curve& curve,
                                                        const View& view,
                                                        const Camera& camera);
 
-// Curves that are looked at one after the other, as often as needed: whoever
-// writes or fits them keeps no more than one at a time. For one thread.
+// Gives curves one after the other, as often as needed, so that writers and
+// fits keep only one in memory. For one thread.
 class CurveSource {
  public:
   using Visit = std::function<void(std::size_t id, const Curve& curve)>;
@@ -139,12 +139,13 @@ class CurveSource {
   // How many there are.
   virtual std::size_t size() const = 0;
 
-  // Shows the curves in the order of their ids: 0, 1, ..., size() - 1. If one
-  // cannot be read, none follows, and status() says why, from then on.
+  // Calls `visit` with each curve in the order of the ids, 0 to size() - 1. If
+  // a curve cannot be read, none follows, and status() then says why.
   virtual void ForEach(const Visit& visit) const = 0;
   virtual Status status() const { return {}; }
 
-  // The 2D edge that `ref`, a support of the curve that is being shown, names.
+  // The 2D edge of `ref`, which is a support of the curve that is being
+  // visited.
   virtual Edge2d EdgeOf(const EdgeRef& ref) const = 0;
 };
 

@@ -52,8 +52,8 @@ struct EdgeMap {
   double spacing_px = 0.5;
   // Edges that were found and dropped: where View::mask_path is black, in
   // short, weak contours, and in images with more edges than
-  // EdgeDetectionOptions::max_edges_per_megapixel allows. What thinning leaves
-  // out is not counted: its contours are all there.
+  // EdgeDetectionOptions::max_edges_per_megapixel allows. Edges that thinning
+  // removes are not counted, since their contours stay.
   std::int32_t num_dropped_isolated = 0;
   std::int32_t num_dropped_over_limit = 0;
   std::int32_t num_dropped_masked = 0;

@@ -33,8 +33,9 @@ struct CurveFit {
   // Index into FittedCurves::nodes, or -1: the end is free.
   int start_node = -1;
   int end_node = -1;
-  // Of the ends: those of the nodes; of a free end, which may lie elsewhere on
-  // the primitive, 4 px along it. 0 if `closed`. World units squared.
+  // Of the ends. An end in a node has the covariance of the node; a free end
+  // is uncertain by 4 px along the primitive. 0 if `closed`. World units
+  // squared.
   Eigen::Matrix3d start_covariance = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d end_covariance = Eigen::Matrix3d::Zero();
 
@@ -53,20 +54,21 @@ struct CurveFit {
   std::vector<Eigen::Vector3d> control_points;
   std::vector<double> knots;
 
-  // Distances of the samples that agree with the primitive (within three
-  // standard deviations) from it, world units, and their share of all samples.
+  // Distances from the primitive of the samples that are within three standard
+  // deviations of it, world units; and the share of these samples.
   double rms_residual = 0;
   double max_residual = 0;
   double inlier_share = 0;
-  // Standard deviation of the primitive's position across itself, averaged
-  // along it, and (kArc) of its radius, from the errors of samples as if they
-  // were independent, and, of all but lines, from options.common_error_px,
-  // which they share. World units.
+  // Standard deviations of the primitive's position across itself, averaged
+  // along it, and (kArc) of its radius. They contain the errors of the samples,
+  // taken as independent, and, except for lines, the error that the samples
+  // share (options.common_error_px). World units.
   double sigma = 0;
   double radius_sigma = 0;
   // kArc: of the centre, the unit normal (major x minor) and the radius, in
-  // this order: from samples of which one in 4 px is independent, the error
-  // that they share, and the covariances of the nodes. World units and radians.
+  // this order. It contains the errors of the samples, of which one in 4 px is
+  // independent, the error that they share, and the covariances of the nodes.
+  // World units and radians.
   Eigen::Matrix<double, 7, 7> arc_covariance =
       Eigen::Matrix<double, 7, 7>::Zero();
 };
@@ -85,10 +87,10 @@ struct CurveNode {
   };
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   std::vector<End> ends;  // two or more, ascending by curve and fit
-  // Of the position: from the errors of the samples of the primitives that meet
-  // here, of which one in 4 px is independent, larger where the primitives miss
-  // each other by more than that, and from options.common_error_px. World units
-  // squared.
+  // Of the position. It contains the errors of the samples of the primitives
+  // that meet here, of which one in 4 px is independent, and the error that
+  // they share (options.common_error_px). It is larger where the primitives
+  // miss each other by more than these errors. World units squared.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 

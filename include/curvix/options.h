@@ -51,8 +51,8 @@ struct HypothesisOptions {
   ViewSelection view_selection = ViewSelection::kEveryView;
   // Delta gamma: how well an edge is localised. Pixels, > 0.
   double location_tolerance_px = 0.3;
-  // The least that estimates take for the standard deviation of an edge's
-  // place; EdgeSketch::edge_sigma_px is that of the scene.
+  // Lower limit of the estimated standard deviation of an edge's position. The
+  // estimate for the scene is EdgeSketch::edge_sigma_px.
   double EdgeSigmaPx() const { return location_tolerance_px / 2; }
   // Partners of each view with kEveryView; >= 1.
   int num_partners = 4;
@@ -151,7 +151,7 @@ struct ConnectivityOptions {
   // 180 (paper) cuts none.
   double max_corner_deg = 30.0;
   // Shortest curve kept, in pixels of the view that sees it largest; >= 0.
-  // Curve refinement asks for more where it does not see how a curve goes on.
+  // Curve refinement needs more, unless a curve joins two junctions.
   double min_length_px = 5.0;
 };
 
@@ -181,10 +181,10 @@ struct CurveRefinementOptions {
   // edges, higher where the views cannot do better. >= 0; 0: none are dropped,
   // blurred or not.
   double max_dilution = 2.5;
-  // Curves of which so large a share of the 2D edges is blurred are dropped as
-  // shading edges; with a smaller share, the dilution that the sharp ones alone
-  // leave may be lower in proportion. > 0, <= 1; 1: curves may be as blurred as
-  // they like.
+  // Curves are dropped as shading edges if this share of their 2D edges, or
+  // more, is blurred. With a smaller share, the limit of the dilution of the
+  // sharp edges alone is lower in proportion. > 0, <= 1; 1: blur is no reason
+  // to drop a curve.
   double max_blurred_share = 0.6;
   // Curves over max_dilution stay, labelled: occluding contours, mostly.
   bool keep_occluding_contours = false;

@@ -30,24 +30,24 @@ struct CurvePoses {
   std::size_t num_samples = 0;        // places on curves that took part
   std::size_t num_check_samples = 0;  // held out to judge by
   std::size_t num_check_observations = 0;
-  // Of projected samples that were held out from the nearest edges of like
-  // direction, 1 where there is none within a pixel; the samples are fitted to
-  // the poses before and to those after.
+  // Distances of held-out samples, projected, from the nearest edges of like
+  // direction; 1 where there is none within a pixel. The samples are fitted
+  // anew to the old poses (before) and to the new ones (after).
   ErrorsOfViews before;
   ErrorsOfViews after;
   std::size_t num_points = 0;        // sparse points that took part
   std::size_t num_check_points = 0;  // held out to judge by
-  // Of the points held out from where they are seen, cut at 2 px; fitted to the
-  // poses before and to those after.
+  // Distances of held-out points, projected, from their pixels, at most 2 px.
+  // The points are fitted anew to the old and to the new poses.
   ErrorsOfViews points_before;
   ErrorsOfViews points_after;
-  // How far the gain of what is held out stands out of chance; see
-  // RefinePosesWithCurves.
+  // z: the gain of the held-out data over its standard deviation if gains and
+  // losses were equally likely; see RefinePosesWithCurves.
   double significance = 0;
   std::size_t num_views_moved = 0;  // views with another pose or camera
-  // How far the samples that a view sees, at their places before, shift in its
-  // image: the median over these samples; of all views the median and the
-  // largest.
+  // How far samples at their old positions shift in an image when its pose
+  // changes: the median over the samples that the view sees. Of these medians,
+  // the median and the largest over all views.
   double median_shift_px = 0;
   double max_shift_px = 0;
   std::size_t max_shift_view_idx = 0;
@@ -73,9 +73,9 @@ struct CurvePoses {
 //    worse with new cameras, and neither samples nor points are significantly
 //    worse. If no camera has changed, a view that fits worse keeps its pose.
 //  * Then poses are adjusted to all data.
-// Poses are left alone at once if the median distance is below 0.06 px: of
-// samples, where no view's image fits clearly better shifted, or of the points
-// in each view. docs/stages/poses.md says more.
+// Poses stay as they are if the median distance is below 0.06 px: that of the
+// samples, if no image fits clearly better when it is shifted, or that of the
+// points in every view. docs/stages/poses.md says more.
 //
 // The same result for any number of threads. kInvalidArgument as
 // ReconstructCurves. `progress` is called as stage "refine_poses_with_curves";

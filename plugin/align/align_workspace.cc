@@ -92,11 +92,9 @@ Status Aligner::ReadScene() {
   Result<Workspace> workspace = FindInput(settings_.run);
   if (!workspace.ok()) return workspace.status();
   workspace_ = *std::move(workspace);
-  Result<WorkspaceScene> input =
-      LoadWorkspaceScene(WithRefinedModel(workspace_));
-  if (!input.ok()) return input.status();
-  for (const std::string& note : input->notes) progress_.Note(note);
-  scene_ = std::move(input->scene);
+  Result<Scene> scene = ReadRefinedScene(workspace_, progress_);
+  if (!scene.ok()) return scene.status();
+  scene_ = *std::move(scene);
   if (settings_.distances.empty() && settings_.axes == "none") return {};
   Result<KnownStructures> structures = ReadStructures(workspace_.output_path);
   if (!structures.ok()) return structures.status();

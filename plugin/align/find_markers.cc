@@ -14,6 +14,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "geometry/camera_of.h"
 #include "plugin/align/marker_corners.h"
 #include "plugin/align/marker_detector.h"
 
@@ -172,8 +173,7 @@ Result<SightingsById> Detect(const Scene& scene,
   SightingsById by_id;
   for (std::size_t i = 0; i < chosen.views.size(); ++i) {
     const View& view = chosen.views[i];
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const Camera& camera = CameraOf(scene, view);
     for (const SeenMarker& marker : (*seen)[i]) {
       const std::optional<SeenMarker> refined =
           CornersFromSides(marker, camera, (*edges)[i].edges);
@@ -252,7 +252,8 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
     return Status(StatusCode::kNotFound,
                   "no marker of " + dictionary + " is seen by " +
                       std::to_string(kMinViews) + " images or more" +
-                      (found.notes.empty() ? "" : " (" + found.notes[0] + ")"));
+                      (found.notes.empty() ? "" : " (" + found.notes[0] + ")") +
+                      "; check the dictionary that --markers names");
   }
   // The median of the length of a normal vector of two is 1.177 of its sigma.
   found.corner_sigma_px = std::max(Median(errors) / 1.177, kLeastSigmaPx);

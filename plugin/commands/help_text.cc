@@ -52,9 +52,15 @@ std::string With(const std::string& text,
   return more.empty() ? text : text + before + more + after;
 }
 
-// "- `--EdgeDetection.sigma_px` (1 px): standard deviation of ...".
+// Whether the name says the unit already: "sigma_px", "max_angle_deg".
+bool EndsWithUnit(const Flag& flag) {
+  return !flag.unit.empty() && flag.name.ends_with("_" + flag.unit);
+}
+
+// "- `--EdgeDetection.sigma_px` (1): sigma of the Gaussian derivatives".
 std::string MarkdownItem(const Flag& flag, const std::string& paper_value) {
-  std::string value = With(flag.default_value, " ", flag.unit);
+  const std::string unit = EndsWithUnit(flag) ? "" : flag.unit;
+  std::string value = With(flag.default_value, " ", unit);
   if (paper_value != flag.default_value) {
     value = With(value, value.empty() ? "" : "; ", "paper " + paper_value);
   }
@@ -75,14 +81,12 @@ constexpr char kMarkdownHead[] =
     "\n"
     "<!-- Written by `colmap_curvix help --markdown`; a test compares. -->\n"
     "\n"
-    "[Poses](#poses), [CurveFilter](#curvefilter) and [Runtime](#runtime)\n"
-    "matter most; `colmap_curvix --help` lists them. `--help_all` has the\n"
-    "ranges and the paper's symbols of all. *Paper*: the value with\n"
-    "`--preset paper`, where it differs from the default. Options are given\n"
-    "on the command line (`--Validation.max_angle_deg 10`) or in a file\n"
-    "(`--project_path x.ini`, `max_angle_deg=10` below `[Validation]`).\n"
-    "Pixels are those of the original images. Switches: 1 is on, 0 is off.\n"
-    "[Glossary](glossary.md).\n";
+    "In brackets: the default and, if another, the value with `--preset\n"
+    "paper`. [Poses](#poses), [CurveFilter](#curvefilter) and\n"
+    "[Runtime](#runtime) matter most; `--help_all` prints ranges and the\n"
+    "paper's symbols. In a file (`--project_path x.ini`):\n"
+    "`max_angle_deg=10` below `[Validation]`. Pixels are those of the\n"
+    "original images; 1 is on, 0 is off. [Glossary](glossary.md).\n";
 
 }  // namespace
 

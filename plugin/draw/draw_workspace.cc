@@ -104,11 +104,9 @@ Status Drafter::Read() {
       ReadCurvesFile(workspace_.output_path, settings_.hidden != "solid");
   if (!curves.ok()) return curves.status();
   curves_ = *std::move(curves);
-  Result<WorkspaceScene> input =
-      LoadWorkspaceScene(WithRefinedModel(workspace_));
-  if (!input.ok()) return input.status();
-  for (const std::string& note : input->notes) progress_.Note(note);
-  scene_ = std::move(input->scene);
+  Result<Scene> scene = ReadRefinedScene(workspace_, progress_);
+  if (!scene.ok()) return scene.status();
+  scene_ = *std::move(scene);
   if (curves_.alignment) {
     scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
   }

@@ -11,16 +11,13 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {
 
 constexpr double kMostPixels = 6000;
 constexpr int kJpegQuality = 90;
-
-const Camera& CameraOf(const Scene& scene, const View& view) {
-  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
-}
 
 Eigen::Vector3d InSpace(const PictureArea& area, const Eigen::Vector2d& x) {
   const DrawingPlane& plane = area.plane;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {
@@ -31,8 +32,7 @@ SeenFrom SeenFromSide(const CurveFit& fit,
     for (const View& view : scene.views) {
       const Eigen::Vector3d ray =
           view.cam_from_world.Inverse().translation - sample.position;
-      const Camera& camera =
-          scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+      const Camera& camera = CameraOf(scene, view);
       if (ray.dot(toward) < std::cos(DegToRad(kSideDeg)) * ray.norm() ||
           !ProjectPoint(sample.position, view, camera)) {
         continue;

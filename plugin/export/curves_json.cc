@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "geometry/camera_of.h"
 #include "plugin/export/alignment_file.h"
 
 namespace curvix {
@@ -191,8 +192,7 @@ std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
                                                  const CurveSample& sample,
                                                  const EdgeRef& ref) {
   const View& view = record.scene.views[static_cast<std::size_t>(ref.view_idx)];
-  const Camera& camera =
-      record.scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  const Camera& camera = CameraOf(record.scene, view);
   const Edge2d edge = record.curves.EdgeOf(ref);
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   const Eigen::Vector3d ray =
@@ -221,8 +221,7 @@ std::string JsonText(const Json& json) {
 void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
   std::vector<Json> images;
   for (const View& view : record.scene.views) {
-    images.push_back(ImageJson(
-        view, record.scene.cameras[static_cast<std::size_t>(view.camera_idx)]));
+    images.push_back(ImageJson(view, CameraOf(record.scene, view)));
   }
   std::vector<Json> nodes;
   for (const CurveNode& node : record.fitted.nodes) {

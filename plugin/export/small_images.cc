@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "geometry/camera_of.h"
 #include "io/curve_style.h"
 
 namespace curvix {
@@ -215,10 +216,8 @@ std::vector<std::string> SmallPinholeJpegs(const Scene& scene,
   std::vector<std::string> jpegs(view_idxs.size());
   ParallelFor(jpegs.size(), num_threads, [&](std::size_t i) {
     const View& view = scene.views[static_cast<std::size_t>(view_idxs[i])];
-    Result<std::string> jpeg = SmallPinholeJpeg(
-        view,
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-        max_size_px);
+    Result<std::string> jpeg =
+        SmallPinholeJpeg(view, CameraOf(scene, view), max_size_px);
     if (jpeg.ok()) jpegs[i] = *std::move(jpeg);
   });
   return jpegs;
@@ -230,8 +229,7 @@ Result<std::string> OverlayPng(const CurveSource& curves,
   constexpr double kPhotoShare = 0.55;  // the rest is white
   constexpr double kPaleShare = 0.4;    // of a colour, the rest is white
   const View& view = scene.views[static_cast<std::size_t>(view_idx)];
-  const Camera& camera =
-      scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  const Camera& camera = CameraOf(scene, view);
   Result<cv::Mat> photo = ReadPhoto(view, cv::IMREAD_COLOR);
   if (!photo.ok()) return photo.status();
   photo->convertTo(*photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/median.h"
+#include "geometry/camera_of.h"
 #include "measuring/main_axes.h"
 #include "plugin/export/small_images.h"
 
@@ -174,8 +175,7 @@ Eigen::Matrix3d CovarianceOf(const ScenePoint& point, const Scene& scene) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (const int view_idx : point.view_idxs) {
     const View& view = scene.views[static_cast<std::size_t>(view_idx)];
-    const Eigen::Matrix3d k = PinholeCalibration(
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)]);
+    const Eigen::Matrix3d k = PinholeCalibration(CameraOf(scene, view));
     const Eigen::Vector3d seen = view.cam_from_world * point.position;
     Eigen::Matrix<double, 2, 3> of_seen;
     of_seen << 1, 0, -seen.x() / seen.z(), 0, 1, -seen.y() / seen.z();
@@ -248,10 +248,7 @@ void EncodeViewerHtml(const CurveRecord& record,
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     const View& view = scene.views[i];
     if (i > 0) sink(",\n");
-    sink(JsonText(
-        ImageJson(view,
-                  scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-                  jpegs[i])));
+    sink(JsonText(ImageJson(view, CameraOf(scene, view), jpegs[i])));
   }
   const int num_decimals = NumDecimals(record.curves);
   sink("],\"frame\":" + JsonText(FrameJson(record)) +

@@ -8,6 +8,7 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
+#include "geometry/camera_of.h"
 #include "io/ply_lines.h"
 #include "measuring/moved_curves.h"
 #include "plugin/export/curves_as_points.h"
@@ -22,10 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kAlignedFrame =
     "coordinates are those of alignment.json";
-
-const Camera& CameraOf(const Scene& scene, const View& view) {
-  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
-}
 
 Status WriteSvg(const CurveRecord& record,
                 const std::string& image,

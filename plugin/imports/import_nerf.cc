@@ -8,11 +8,11 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "base/file_io.h"
+#include "colmap/links.h"
 #include "edge_detection/image_header.h"
 #include "plugin/imports/importers.h"
 #include "plugin/imports/projection_matrix.h"
@@ -216,11 +216,6 @@ Result<Rigid3> NerfPose(const json& frame) {
   const auto rotation = RotationFromMatrix(axes);
   if (!rotation) return Broken("transform_matrix holds no rotation");
   return Rigid3{*rotation, matrix->col(3)}.Inverse();
-}
-
-bool IsFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
 }
 
 Result<json> ReadTransforms(const fs::path& file) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/imports/import_scene.h"
+#include "colmap/links.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +12,6 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool IsFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
 
 bool IsSame(const Camera& a, const Camera& b) {
   return a.model == b.model && a.width == b.width && a.height == b.height &&

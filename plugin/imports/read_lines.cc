@@ -16,16 +16,14 @@
 
 #include "base/file_io.h"
 #include "base/text_fields.h"
+#include "colmap/links.h"
+#include "geometry/camera_of.h"
 #include "plugin/imports/import_scene.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-const Camera& CameraOf(const Scene& scene, const View& view) {
-  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
-}
 
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {
   return std::any_of(
@@ -256,16 +254,6 @@ Result<Lines> ReadTracks(const fs::path& folder, std::size_t count) {
     lines.push_back(track->front());
   }
   return lines;
-}
-
-bool IsFolder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
-bool IsFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
 }
 
 }  // namespace

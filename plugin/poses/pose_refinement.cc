@@ -156,12 +156,11 @@ std::string PoseRefinementText(const PoseRefinementRecord& record) {
 FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
   return {
       "Poses",
-      {ChoiceFlag(
-           "refiner",
-           {"colmap", "ceres", "none"},
-           &settings->refiner,
-           "bundle adjustment with the model's points by COLMAP, by Ceres "
-           "or none (--preset paper); used if held-out errors fall"),
+      {ChoiceFlag("refiner",
+                  {"colmap", "ceres", "none"},
+                  &settings->refiner,
+                  "bundle adjustment by COLMAP, Ceres or none (--preset "
+                  "paper); used if held-out errors fall"),
        Advanced(PathFlag("colmap_path",
                          &settings->colmap_path,
                          "the program colmap, if not in $COLMAP_EXE_PATH or "

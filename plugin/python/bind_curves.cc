@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "geometry/camera_of.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 
@@ -87,8 +88,7 @@ std::vector<std::vector<py::array_t<double>>> ProjectAll(
     std::size_t view_idx) {
   using Segments = std::vector<std::vector<Eigen::Vector2d>>;
   const View& view = ViewAt(*scene.scene, view_idx);
-  const Camera& camera =
-      scene.scene->cameras[static_cast<std::size_t>(view.camera_idx)];
+  const Camera& camera = CameraOf(*scene.scene, view);
   std::vector<Segments> projected;
   WithoutLock([&] {
     curves.table().ForEach([&](std::size_t, const Curve& curve) {

@@ -11,6 +11,7 @@
 
 #include "colmap/colmap_model_format.h"
 #include "edge_detection/image_header.h"
+#include "geometry/camera_of.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 
@@ -153,10 +154,6 @@ PythonScene WithEdges(const PythonScene& scene,
     maps->push_back(EdgesOf(rows, spacing_px));
   }
   return {scene.scene, std::move(maps)};
-}
-
-const Camera& CameraOf(const Scene& scene, const View& view) {
-  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
 }
 
 py::tuple FromColmap(const fs::path& workspace, const fs::path& images) {

@@ -71,9 +71,7 @@ Result<RunRecord> RunLines(
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
-  if (status.ok() && IsInterrupted()) {
-    status = {StatusCode::kCancelled, "interrupted; nothing was written"};
-  }
+  if (status.ok() && IsInterrupted()) status = Interrupted();
   if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return record;

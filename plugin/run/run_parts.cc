@@ -23,10 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPartsName = "parts";
 
-Status Cancelled() {
-  return {StatusCode::kCancelled, "interrupted; nothing was written"};
-}
-
 // "f" with exceptions of the file system as statuses.
 template <typename F>
 auto Guarded(const F& f) -> decltype(f()) {
@@ -69,7 +65,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   if (!output.ok()) return output.status();
   Status status = WritePlan(
       *partition, input->scene, input->model, output->folder() / kPartsName);
-  if (status.ok() && progress.IsCancelled()) status = Cancelled();
+  if (status.ok() && progress.IsCancelled()) status = Interrupted();
   if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return partition;
@@ -114,7 +110,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
       TakePart(plan->partition, part_idx, reconstruction->curves, *edge_maps);
   const std::vector<Edge3d> edges =
       EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
-  if (progress.IsCancelled()) return Cancelled();
+  if (progress.IsCancelled()) return Interrupted();
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
     Count(traced.curve, record.result);
@@ -185,7 +181,7 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
-  if (status.ok() && progress.IsCancelled()) status = Cancelled();
+  if (status.ok() && progress.IsCancelled()) status = Interrupted();
   if (status.ok()) status = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!status.ok()) return status;
   return record;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/run/run_steps.h"
 
-#include <curvix/curve_io.h>
 #include <curvix/scene.h>
 #include <cstdint>
 #include <string>
@@ -112,10 +111,17 @@ Result<Workspace> FindInput(const RunSettings& settings) {
   return workspace;
 }
 
-Workspace WithRefinedModel(Workspace workspace) {
+Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {
   const fs::path refined = workspace.output_path / "sparse";
   if (fs::exists(refined)) workspace.model_path = refined;
-  return workspace;
+  Result<WorkspaceScene> input = LoadWorkspaceScene(workspace);
+  if (!input.ok()) return input.status();
+  for (const std::string& note : input->notes) progress.Note(note);
+  return std::move(input->scene);
+}
+
+Status Interrupted() {
+  return {StatusCode::kCancelled, "interrupted; nothing was written"};
 }
 
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,

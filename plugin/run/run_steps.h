@@ -23,9 +23,13 @@ namespace curvix {
 // results would lie among the inputs.
 Result<Workspace> FindInput(const RunSettings& settings);
 
-// The same with the model of refined poses that an earlier run has left beside
-// its results, if there is one.
-Workspace WithRefinedModel(Workspace workspace);
+// The scene of the workspace, with the model of refined poses that an earlier
+// run has left beside its results, if there is one. Errors of
+// LoadWorkspaceScene.
+Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress);
+
+// The status of a run that the user has stopped.
+Status Interrupted();
 
 // Reads the model of `workspace`, and alignment.json if the folder of results
 // has one; puts into `record` which folders and what they hold. Errors of

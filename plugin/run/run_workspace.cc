@@ -22,10 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Status Cancelled() {
-  return {StatusCode::kCancelled, "interrupted; nothing was written"};
-}
-
 // One run, from the first file read to the last one written.
 class Job {
  public:
@@ -101,7 +97,7 @@ Result<WorkspaceRun> Job::Run() {
   if (!fitted.ok()) return fitted.status();
   written = WriteReport(since_start_, staging_, progress_, record_);
   if (!written.ok()) return written;
-  if (progress_.IsCancelled()) return Cancelled();
+  if (progress_.IsCancelled()) return Interrupted();
   // Those of an earlier run would tell of other poses.
   Status published = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!published.ok()) return published;

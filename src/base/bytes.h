@@ -60,8 +60,8 @@ class ByteWriter {
   std::string bytes_;
 };
 
-// And back. Once something was asked for that is not there, ok() is false and
-// all that comes is zero.
+// Reads what ByteWriter wrote. After a read past the end, ok() is false, and
+// this and all later values are zero.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -78,7 +78,8 @@ class ByteReader {
     bytes_.remove_prefix(sizeof(T));
     return value;
   }
-  // A count of things of at least `min_bytes` each, all of which may be there.
+  // A count of things of at least `min_bytes` each. Fails if the bytes that are
+  // left cannot hold so many.
   std::size_t TakeCount(std::size_t min_bytes) {
     const auto count = Take<std::uint64_t>();
     if (count > bytes_.size() / min_bytes) ok_ = false;

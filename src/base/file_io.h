@@ -18,9 +18,9 @@ using ByteSink = std::function<void(std::string_view bytes)>;
 
 // Writes to `path` with ".tmp" appended, in the same folder, and in the end
 // renames that to `path`, so that `path` holds either its old content or all of
-// the new one, also when the disk is full or the program is killed. A failure
-// removes the temporary file and leaves `path` as it was; so does to go without
-// Finish(). The folder must exist.
+// the new one, also when the disk is full or the program is killed. After a
+// failure, or without Finish(), the temporary file is removed and `path` stays
+// as it was. The folder must exist.
 class FileWriter {
  public:
   explicit FileWriter(std::filesystem::path path);

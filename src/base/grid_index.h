@@ -47,9 +47,9 @@ class GridIndex {
     }
   }
 
-  // Calls f(edge, begin, end) with edges [begin, end), so that of every two
-  // edges at most a cell's size apart along x and along y, one is once `edge`
-  // and the other among its [begin, end). So are some that lie further apart.
+  // Visits pairs of neighbouring edges: f(edge, begin, end) stands for the
+  // pairs of `edge` with each edge in [begin, end). Every pair at most a cell
+  // apart in x and in y is visited once, some pairs further apart, too.
   template <typename F>
   void VisitPairs(const F& f) const {
     for (int row = 0; row < rows_; ++row) {

@@ -72,7 +72,7 @@ class Section {
 
 void AddRows(EdgeDetectionOptions& o, Section row) {
   row("sigma_px", &o.sigma_px, Between(0.3, 10), "px", "Sec. 3, ref. [15]",
-      "standard deviation of the Gaussian derivative filters");
+      "sigma of the Gaussian derivatives");
   row("min_gradient", &o.min_gradient, AtLeast(0), "grey levels/px",
       "Sec. 3, ref. [15]",
       "weakest gradient kept");
@@ -85,51 +85,49 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "longest step along a contour");
   row("max_neighbor_angle_deg", &o.max_neighbor_angle_deg, AboveUpTo(0, 90),
       "deg", "Sec. 5",
-      "largest angle between neighbors and their chord");
+      "largest angle between neighbours");
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
-      "contours with fewer edges are short; weak ones are dropped");
+      "shorter contours are dropped if weak");
   row("short_contour_factor", &o.short_contour_factor, AtLeast(0), "", "",
-      "short contours are weak below so many times the weakest gradient");
+      "weak: below so many times the weakest gradient");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
-      "most edges of an image, at least 10,000; strong and straight contours "
-      "are kept first");
+      "most edges of an image, prominent contours first");
   row.Switch("separate_edges", &o.separate_edges,
-      "correct the shift of parallel edges by blur");
+      "undo the shift of parallel edges by blur");
 }
 
 void AddRows(HypothesisOptions& o, Section row) {
   row.Choice("view_selection", &o.view_selection,
       {"unused_edges", "every_view"}, "Sec. 3",
-      "pairs of views: by unused edges, or every view with its partners");
+      "pairs of views: by unused edges, or every view");
   row("location_tolerance_px", &o.location_tolerance_px, AboveUpTo(0, 100),
       "px", "Delta gamma, Sec. 3",
-      "localization error of an edge");
+      "error of an edge");
   row("num_partners", &o.num_partners, AtLeast(1), "", "",
-      "with every_view: partners of a view");
+      "every_view: partners of a view");
   row("min_ray_angle_deg", &o.min_ray_angle_deg, Between(0, 180), "deg", "",
-      "smallest angle between the rays of two views");
+      "smallest angle between rays of two views");
   row("max_ray_angle_deg", &o.max_ray_angle_deg, AboveUpTo(0, 180), "deg", "",
-      "largest angle between the rays of two views");
+      "largest angle between rays of two views");
   row("depth_margin", &o.depth_margin, AtLeast(0), "", "",
-      "depths searched beyond the sparse points, as a share of their range; "
-      "0: all depths");
+      "depths beyond the sparse points, share of their range; 0: all");
   row("min_epipolar_angle_deg", &o.min_epipolar_angle_deg, Between(0, 90),
       "deg", "",
-      "smallest angle between an edge and its epipolar line");
+      "smallest angle between edge and epipolar line");
   row("used_edges_to_stop", &o.used_edges_to_stop, Between(0, 1), "",
       "P, Sec. 3",
-      "with unused_edges: share of used edges that ends the search");
+      "unused_edges: share of used edges that ends the search");
   row("max_num_view_pairs", &o.max_num_view_pairs, AtLeast(1), "", "",
-      "with unused_edges: most pairs of views");
+      "unused_edges: most pairs of views");
 }
 
 void AddRows(ConsolidationOptions& o, Section row) {
   row("max_tangent_shift_px", &o.max_tangent_shift_px, AboveUpTo(0, 100), "px",
       "tau_t, Sec. 4",
-      "longest slide of an edge onto the epipolar line");
+      "longest slide onto the epipolar line");
   row("max_turn_deg", &o.max_turn_deg, Between(0, 90), "deg",
       "Delta theta, Sec. 4",
-      "largest turn of an edge that misses the line");
+      "largest turn towards the epipolar line");
   row("max_cluster_distance_px", &o.max_cluster_distance_px, AboveUpTo(0, 100),
       "px", "tau_c, Sec. 4",
       "largest distance of merged clusters");
@@ -143,24 +141,24 @@ void AddRows(ConsolidationOptions& o, Section row) {
 
 void AddRows(ValidationOptions& o, Section row) {
   row("max_distance_px", &o.max_distance_px, AboveUpTo(0, 100), "px", "",
-      "with every_view: largest distance of a supporting edge");
+      "every_view: largest distance of a supporting edge");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg",
       "Delta theta_p, Sec. 3",
-      "largest angle of a supporting edge to the projection");
+      "largest angle of a supporting edge");
   row("min_num_support_views", &o.min_num_support_views, AtLeast(1), "",
       "M, Sec. 3",
       "fewest supporting validation views");
   row("min_log_likelihood_ratio", &o.min_log_likelihood_ratio, AtLeast(0), "",
-      "", "with every_view: least log-likelihood ratio of a 3D edge");
+      "", "every_view: least log-likelihood ratio");
   row("min_relative_support", &o.min_relative_support, Between(0, 1), "", "",
-      "least support of a hypothesis, as a share of the best of its edge");
+      "least support, share of the best hypothesis");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
-      "with every_view: fewest views of exclusive support");
+      "every_view: fewest views of exclusive support");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {
   row("max_spread", &o.max_spread, Above(0), "", "lambda, Sec. 5",
-      "links are pruned beyond mean + max_spread * sigma");
+      "links are pruned beyond mean + so many sigma");
   row("max_projection_distance_px", &o.max_projection_distance_px, Above(0),
       "px", "tau_gamma, Sec. 5",
       "largest distance between projections of linked edges");
@@ -172,14 +170,14 @@ void AddRows(AlignmentOptions& o, Section row) {
   row("num_iterations", &o.num_iterations, AtLeast(0), "", "Sec. 5",
       "alignment steps; 0: no alignment");
   row("step_size", &o.step_size, AboveUpTo(0, 1), "", "Sec. 5",
-      "share of the mean force and torque applied");
+      "share of force and torque applied");
   row.Switch("use_mean_direction", &o.use_mean_direction,
-      "pull towards the mean direction of both edges");
+      "pull towards the mean direction");
 }
 
 void AddRows(ConnectivityOptions& o, Section row) {
   row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
-      "edges closer along a curve are merged; 0: none");
+      "edges closer along a curve are merged");
   row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
       "largest distance across the tangent");
   row("max_step_px", &o.max_step_px, Above(0), "px", "Sec. 6",
@@ -187,10 +185,10 @@ void AddRows(ConnectivityOptions& o, Section row) {
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
       "largest angle between connected edges");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
-      "longest gap closed; 0: none");
+      "longest gap closed");
   row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0),
       "px", "",
-      "parts of curves closer to a longer one are dropped; 0: none");
+      "parts closer to a longer curve are dropped");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
       "curves are cut at corners of more; 180: none");
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "Sec. 6",
@@ -199,9 +197,9 @@ void AddRows(ConnectivityOptions& o, Section row) {
 
 void AddRows(CurveGrowthOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
-      "grow curves along contours in crowded images, instead of Secs. 5 and 6");
+      "grow curves in crowded images, instead of Secs. 5 and 6");
   row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
-      "log-likelihood ratio at which curves end, as a share of its mean");
+      "log-likelihood ratio where curves end, share of its mean");
   row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
       "longest unsupported gap");
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
@@ -215,15 +213,15 @@ void AddRows(CurveRefinementOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "select, smooth, fit and join curves");
   row("max_dilution", &o.max_dilution, AtLeast(0), "", "",
-      "largest dilution of precision of a curve; 0: any");
+      "largest dilution of precision; 0: any");
   row("max_blurred_share", &o.max_blurred_share, AboveUpTo(0, 1), "", "",
-      "share of blurred edges that makes a shading edge of a curve; 1: none");
+      "share of blurred edges that makes a shading edge; 1: none");
   row.Switch("keep_occluding_contours", &o.keep_occluding_contours,
       "keep and label curves over max_dilution");
   row("smoothing_px", &o.smoothing_px, AtLeast(0), "px", "",
-      "sigma of the weights of local fits; 0: no smoothing");
+      "sigma of the weights of local fits; 0: none");
   row.Switch("undo_response_curve", &o.undo_response_curve,
-      "correct edges for the response curve of the images");
+      "correct edges for the response curve");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
       "longest gap closed in a bend");
   row.Switch("separate_touching", &o.separate_touching,
@@ -235,7 +233,7 @@ void AddRows(CurveRefinementOptions& o, Section row) {
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",
       "longest extension of an end to a corner");
   row("max_junction_gap_px", &o.max_junction_gap_px, Above(0), "px", "",
-      "largest distance of an extended end from its corner");
+      "largest distance from the corner");
 }
 
 void AddRows(CurveKindOptions& o, Section row) {
@@ -247,24 +245,23 @@ void AddRows(CurveFilterOptions& o, Section row) {
   row("min_length_px", &o.min_length_px, AtLeast(0), "px", "",
       "shortest curve");
   row("min_num_views", &o.min_num_views, AtLeast(0), "", "",
-      "fewest views that support a sample (median)");
+      "fewest supporting views (median)");
   row("min_contrast", &o.min_contrast, AtLeast(0), "", "",
       "weakest gradient (median), grey levels per pixel");
   row("max_sigma_px", &o.max_sigma_px, AtLeast(0), "px", "",
       "largest sigma across the curve (median); 0: any");
   row("min_straightness", &o.min_straightness, Between(0, 1), "", "",
-      "least mean cosine of tangents 10 px apart: 1 for lines, 0.995 for a "
-      "circle of radius 100 px");
+      "least mean cosine of tangents 10 px apart: 1 for lines");
   row.Choice("kinds", &o.kinds,
       {"crease", "boundary", "marking", "occluding_contour"}, "",
-      "kinds to keep, with commas between");
+      "kinds to keep");
 }
 
 void AddRows(CurveFittingOptions& o, Section row) {
   row("common_error_px", &o.common_error_px, AtLeast(0), "px", "",
-      "error that neighbouring samples share, besides sigma");
+      "error that neighbouring samples share");
   row.Switch("regularize", &o.regularize,
-      "make nearly parallel, perpendicular or concentric fits exactly so");
+      "make nearly parallel, perpendicular or concentric fits exact");
 }
 
 void AddRows(RuntimeOptions& o, Section row) {

@@ -31,7 +31,7 @@ void ParallelForWhile(std::size_t n,
                       const std::function<bool(std::size_t)>& f,
                       const std::function<bool(std::size_t)>& keep_going);
 
-// The parts, one after the other.
+// The elements of all parts in one vector, in order.
 template <typename T>
 std::vector<T> Concatenate(std::vector<std::vector<T>> parts) {
   std::size_t size = 0;

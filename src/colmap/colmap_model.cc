@@ -26,11 +26,6 @@ fs::path FilePath(const fs::path& folder,
   return folder / (list + Extension(format));
 }
 
-bool IsFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
-
 // Reads and parses one file of the model.
 template <typename List, typename Parse>
 Result<List> ReadList(const fs::path& path, const Parse& parse) {

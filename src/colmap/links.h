@@ -20,6 +20,16 @@ bool IsInside(const std::filesystem::path& path,
 bool LiesIn(const std::filesystem::path& path,
             const std::vector<std::filesystem::path>& folders);
 
+// Whether there is a file or a folder, links followed; false on errors.
+inline bool IsFile(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+inline bool IsFolder(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_directory(path, error);
+}
+
 // The file in `folder` that `name`, relative to it, means: that of this name,
 // or, if there is none, the one with slashes for the backslashes of Windows.
 inline std::filesystem::path ImageFile(const std::filesystem::path& folder,

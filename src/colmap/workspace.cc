@@ -14,11 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsFolder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 bool IsModel(const fs::path& folder) { return FindColmapFormat(folder).ok(); }
 
 // Absolute, without ".", ".." and trailing slashes. Links are kept: results

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "edge_detection/load_image.h"
+#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {
@@ -15,8 +16,7 @@ constexpr double kBlurPx = 0.7;
 std::int64_t Bytes(const Scene& scene, int shrink) {
   std::int64_t bytes = 0;
   for (const View& view : scene.views) {
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const Camera& camera = CameraOf(scene, view);
     bytes += static_cast<std::int64_t>(camera.width / shrink) *
              (camera.height / shrink);
   }
@@ -58,8 +58,7 @@ std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
   ParallelFor(images.size(), num_threads, [&](std::size_t i) {
     const View& view = scene.views[i];
     if (view.image_path.empty()) return;
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const Camera& camera = CameraOf(scene, view);
     auto gray =
         LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
     if (gray.ok()) images[i] = Blur(*std::move(gray), shrink);

@@ -15,6 +15,7 @@
 #include "curve_kinds/blurred_images.h"
 #include "curve_kinds/nearby_curves.h"
 #include "curve_kinds/strips.h"
+#include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -195,8 +196,7 @@ class Classifier {
         places_(ChoosePlaces(curves, views)),
         tree_(places_.positions) {
     for (const View& view : scene.views) {
-      cameras_.push_back(
-          &scene.cameras[static_cast<std::size_t>(view.camera_idx)]);
+      cameras_.push_back(&CameraOf(scene, view));
     }
   }
 

@@ -79,10 +79,10 @@ struct SheetSettings {
   std::string unit;          // of the drawing; "": not known
   double millimetres = 0;    // that it has; 0: not known
   std::string paper = "a3";  // "a0" to "a4", broad side down
-  // 50 for 1:50, 0.5 for 2:1; 0: the largest of 1, 2 and 5 times powers of ten
-  // with which the drawing fits.
+  // 50 for 1:50, 0.5 for 2:1. 0: the largest scale with which the drawing fits,
+  // of those whose denominator is 1, 2 or 5 times a power of ten.
   double denominator = 0;
-  bool has_dimensions = false;  // which take room around the drawing
+  bool has_dimensions = false;  // leaves room for them around the drawing
 };
 
 // 50 of "1:50" or "50", 0.5 of "2:1". nullopt: no scale.
@@ -94,7 +94,7 @@ constexpr double kDashGap = 1.5;
 // Height of the capitals of dimensions, mm.
 constexpr double kDimensionText = 2.5;
 
-// What the curves fill, drawing units. Empty without curves.
+// The bounding box of the curves, drawing units. Empty without curves.
 Eigen::AlignedBox2d BoundsOf(const std::vector<SheetCurve>& curves);
 
 // `curves` and `picture` in the middle of a sheet. Without a known unit there

@@ -12,6 +12,7 @@
 #include "edge_detection/load_image.h"
 #include "evaluation/holdout.h"
 #include "evaluation/image_agreement.h"
+#include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
 #include "geometry/posed_views.h"
 
@@ -39,7 +40,7 @@ class Pen {
       : views_(views),
         posed_view_(views[view_idx]),
         view_(scene.views[view_idx]),
-        camera_(scene.cameras[static_cast<std::size_t>(view_.camera_idx)]),
+        camera_(CameraOf(scene, view_)),
         used_(std::move(used)) {}
 
   DrawnCurve Draw(const Curve& curve) const {
@@ -155,8 +156,7 @@ Result<ImageTally> CompareWithView(const std::vector<Curve>& curves,
                                    std::size_t view_idx,
                                    std::vector<std::size_t> used) {
   const View& view = scene.views[view_idx];
-  const Camera& camera =
-      scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  const Camera& camera = CameraOf(scene, view);
   const Result<GrayImage> image =
       LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
   if (!image.ok()) return image.status();

@@ -17,10 +17,10 @@ struct Test {
   double weight = 1;  // what it counts for
 };
 
-// The largest chance up to which one in a hundred of the tests that passed, by
-// weight, are accidents; -1: there is none. Benjamini and Hochberg's rule for
-// the false discovery rate, with Storey's estimate of what is unrelated: the
-// tests that failed, and one more.
+// The largest `chance` at which the false discovery rate is one in a hundred,
+// tests counted by their weight; -1: there is none. By Benjamini and Hochberg's
+// rule, with Storey's estimate of the number of unrelated tests: those that
+// failed, and one more.
 double LargestChance(std::vector<Test> tests);
 
 // A value of one (the first) or two dimensions.

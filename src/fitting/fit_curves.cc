@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/angles.h"
 #include "base/check.h"
 #include "base/median.h"
 #include "base/parallel.h"

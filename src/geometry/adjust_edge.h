@@ -22,8 +22,8 @@ struct PlaneMeasurement {
 };
 PlaneMeasurement MeasurePlane(const PosedView& view, const ImageEdge& edge);
 
-// How far x is seen beside the measured edge, pixels, positive on the side of
-// EdgePlane(), and how fast that grows with x.
+// The signed distance of the projection of x from the measured edge, in pixels,
+// positive as for EdgePlane(), and its gradient with respect to x.
 struct SeenDistance {
   double px = 0;
   Eigen::Vector3d gradient;
@@ -36,7 +36,7 @@ inline SeenDistance DistanceFrom(const PlaneMeasurement& measured,
   return {px, (measured.plane - px * measured.axis) / depth};
 }
 
-// Of a measurement that is so far off, after Cauchy.
+// Cauchy's weight of a measurement with this residual.
 inline double CauchyWeight(double distance_px, double sigma_px) {
   const double r = distance_px / sigma_px;
   return 1 / (1 + r * r);
@@ -61,15 +61,15 @@ EdgeEstimate AdjustEdge(const SpaceEdge& start,
                         const std::vector<PlaneMeasurement>& measurements,
                         double sigma_px);
 
-// The estimate that two measurements give which meet in `edge`: all residuals
-// are zero. The same as AdjustEdge(), at a quarter of its cost.
+// The estimate of AdjustEdge() for two measurements whose planes meet in
+// `edge`, so that all residuals are zero; at a quarter of the cost.
 EdgeEstimate EstimateAtMeeting(const SpaceEdge& edge,
                                const PlaneMeasurement& measurement1,
                                const PlaneMeasurement& measurement2,
                                double sigma_px);
 
-// Of an estimate that `view` shows at `projected` (ProjectEdge()): the variance
-// of its distance across the tangent from where the true edge is seen, px^2.
+// The variance, in px^2, of the projection of an estimate across its projected
+// tangent. `projected` is ProjectEdge() of the estimate in `view`.
 double VarianceAcross(const PosedView& view,
                       const ImageEdge& projected,
                       const EdgeEstimate& estimate);

@@ -24,8 +24,7 @@ struct SpaceEdge {
 
 // The plane through the camera centre and an edge's tangent line, as the vector
 // w for which w . (X - center) / depth(X) is the signed distance, in pixels, of
-// the projection of X from the tangent line; the sign is that of the side to
-// which
+// the projection of X from the tangent line, positive on the side to which
 // (-tangent.y, tangent.x) points.
 Eigen::Vector3d EdgePlane(const PosedView& view, const ImageEdge& edge);
 

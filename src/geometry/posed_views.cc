@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "geometry/camera_of.h"
+
 namespace curvix {
 namespace {
 
@@ -39,8 +41,7 @@ std::vector<PosedView> MakePosedViews(const Scene& scene) {
   std::vector<PosedView> posed;
   posed.reserve(scene.views.size());
   for (const View& view : scene.views) {
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const Camera& camera = CameraOf(scene, view);
     PosedView& out = posed.emplace_back();
     out.calibration = PinholeCalibration(camera);
     out.rotation = view.cam_from_world.rotation.toRotationMatrix();

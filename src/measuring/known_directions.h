@@ -15,7 +15,7 @@ struct KnownDirection {
   double variance = 0;  // across, radians^2: the mean of both ways
 };
 
-// Of the direction of a line, as KnownDirection::variance.
+// The variance of the direction of a line; see KnownDirection::variance.
 double DirectionVariance(const CurveFit& line);
 
 // Standard deviation of the length of a line, from the covariances of its ends.

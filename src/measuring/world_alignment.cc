@@ -252,12 +252,6 @@ void Estimator::EstimatePositionSigma() {
 
 void Estimator::KeepResiduals() {
   const Similarity3& now = result_.alignment.world_from_model;
-  for (const KnownDistance& d : input_.distances) {
-    result_.distance_residuals.push_back(-Misfit(d).first);
-  }
-  for (const KnownScale& s : input_.scales) {
-    result_.scale_residuals.push_back(std::log(now.scale / s.scale));
-  }
   for (const KnownPosition& p : input_.positions) {
     result_.position_residuals.push_back(now * p.model - World(p));
   }

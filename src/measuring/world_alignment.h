@@ -83,10 +83,7 @@ struct AlignmentInput {
 
 struct AlignmentResult {
   WorldAlignment alignment;
-  // What is left, after the estimate minus before it: of the logarithms of
-  // distances, as shares of them; world units.
-  std::vector<double> distance_residuals;
-  std::vector<double> scale_residuals;
+  // Of each position, the estimated one minus the known one; world units.
   std::vector<Eigen::Vector3d> position_residuals;
   // The standard deviation of the positions that had none.
   double position_sigma = 0;

@@ -21,6 +21,7 @@
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_indices.h"
 #include "edge_sketch/view_overlap.h"
+#include "geometry/camera_of.h"
 #include "geometry/posed_views.h"
 #include "model/check_input.h"
 #include "model/curve_chains.h"
@@ -207,9 +208,7 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
       edge_maps.size(), options.runtime.num_threads, [&](std::size_t i) {
         const View& view = scene.views[i];
         auto detected = DetectViewEdges(
-            view,
-            scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-            options.edge_detection);
+            view, CameraOf(scene, view), options.edge_detection);
         if (!detected.ok()) return detected.status();
         edge_maps[i] = *std::move(detected);
         return Status();

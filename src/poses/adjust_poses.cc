@@ -11,6 +11,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "geometry/camera_of.h"
 #include "geometry/directions.h"
 #include "geometry/lens.h"
 #include "poses/pose_observations.h"
@@ -177,8 +178,7 @@ class Search {
     Vector6d factors = Vector6d::Zero();
     if (depths.empty()) return factors;
     const View& view = problem.scene.views[view_idx];
-    const Camera& camera =
-        problem.scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const Camera& camera = CameraOf(problem.scene, view);
     const double turn = PinholeCalibration(camera)(0, 0) / problem.prior_px;
     factors.head<3>().setConstant(turn);
     factors.tail<3>().setConstant(turn / Median(std::move(depths)));

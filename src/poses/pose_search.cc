@@ -8,6 +8,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "geometry/camera_of.h"
 #include "poses/find_shift.h"
 #include "poses/gauge.h"
 #include "poses/residual_spread.h"
@@ -59,9 +60,7 @@ double PointSigma(const Scene& scene) {
     for (const PointSample::Observation& seen : point.observations) {
       const View& view = scene.views[static_cast<std::size_t>(seen.view_idx)];
       const auto pixel =
-          Project(scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-                  view.cam_from_world,
-                  point.position);
+          Project(CameraOf(scene, view), view.cam_from_world, point.position);
       residuals.push_back(std::abs(pixel->x() - seen.pixel.x()));
       residuals.push_back(std::abs(pixel->y() - seen.pixel.y()));
     }

@@ -67,8 +67,8 @@ class PoseSearch {
   // poses of the scene.
   void RestoreGauge(PoseObservationSet* observations);
 
-  // Shift of each image since `before`: median over the places and points of
-  // `observations` in the view; nothing where these are too few.
+  // How far each image has shifted since `before`: the median over the places
+  // and points of `observations` in the view; nothing where these are too few.
   std::vector<std::optional<double>> Shifts(
       const PoseObservationSet& observations, const MovedCameras& before) const;
   // Median over the views.

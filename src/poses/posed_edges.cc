@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "edge_detection/undistort_edges.h"
 #include "edge_sketch/sketch_by_views.h"
+#include "geometry/camera_of.h"
 #include "geometry/image_edge.h"
 #include "geometry/lens.h"
 #include "geometry/posed_views.h"
@@ -80,8 +81,7 @@ void PosedEdges::Move(const MovedCameras& moved) {
 }
 
 const Camera& PosedEdges::InputCameraOf(std::size_t view_idx) const {
-  return scene_
-      .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
+  return curvix::CameraOf(scene_, scene_.views[view_idx]);
 }
 
 std::optional<ImageEdge> PosedEdges::Seen(const OccludingContour& contour,

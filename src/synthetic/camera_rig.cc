@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "base/check.h"
+#include "geometry/distortion.h"
 #include "synthetic/counter_random.h"
 
 namespace curvix {
@@ -17,21 +18,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFocalPerSide = 1.3;
-
-bool HasOneFocalLength(CameraModel model) {
-  switch (model) {
-    case CameraModel::kSimplePinhole:
-    case CameraModel::kSimpleRadial:
-    case CameraModel::kRadial:
-    case CameraModel::kSimpleRadialFisheye:
-    case CameraModel::kRadialFisheye:
-    case CameraModel::kSimpleDivision:
-    case CameraModel::kSimpleFisheye:
-      return true;
-    default:
-      return false;
-  }
-}
 
 // What `distortion` may be for `model`.
 struct DistortionRange {
@@ -117,7 +103,7 @@ Result<Camera> MakeCamera(const SyntheticOptions& options) {
   const double focal = kFocalPerSide * std::min(options.width, options.height);
   std::size_t next = 0;
   camera.params[next++] = focal;
-  if (!HasOneFocalLength(model)) camera.params[next++] = focal;
+  if (NumFocalLengths(model) == 2) camera.params[next++] = focal;
   camera.params[next++] = options.width / 2.0;
   camera.params[next++] = options.height / 2.0;
   if (next < camera.params.size()) camera.params[next++] = options.distortion;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/face_pattern.h"
 
-#include "base/angles.h"
-#include "synthetic/counter_random.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
+
+#include "synthetic/counter_random.h"
 
 namespace curvix {
 namespace {

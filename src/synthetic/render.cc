@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/render.h"
 
-#include "synthetic/counter_random.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
