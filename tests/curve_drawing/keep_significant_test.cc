@@ -2,6 +2,7 @@
 #include "curve_drawing/keep_significant.h"
 
 #include <gtest/gtest.h>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,20 +26,23 @@ GrownCurve Grown(std::size_t num_samples,
 
 class KeepSignificantTest : public ::testing::Test {
  protected:
-  // Edges of these strengths.
+  // Edges of this strength and crowding.
   std::vector<Curve> Keep(const std::vector<GrownCurve>& curves,
                           double min_significance,
-                          const std::vector<float>& strengths = {1, 1}) {
-    map_.edges.clear();
-    for (const float strength : strengths) {
-      map_.edges.emplace_back().strength = strength;
+                          const std::vector<float>& strengths = {1, 1},
+                          const std::vector<float>& crowding = {0, 0}) {
+    map_.edges.resize(strengths.size());
+    for (std::size_t i = 0; i < strengths.size(); ++i) {
+      map_.edges[i].strength = strengths[i];
+      map_.edges[i].crowding = Eigen::half(crowding[i]);
     }
     ViewIndex index;
     index.edges = &map_;
-    CurveGrowthOptions options;
-    options.min_significance = min_significance;
-    return KeepSignificant(curves, {index}, options);
+    options_.min_significance = min_significance;
+    return KeepSignificant(curves, {index}, options_);
   }
+
+  CurveGrowthOptions options_;
 
  private:
   EdgeMap map_;
@@ -62,6 +66,29 @@ TEST_F(KeepSignificantTest, WeighsByContrast) {
 TEST_F(KeepSignificantTest, DoesWithoutStrengths) {
   EXPECT_EQ(Keep({Grown(8, 5, 16)}, 9.99, {0, 0}).size(), 1u);
   EXPECT_TRUE(Keep({}, 0).empty());
+}
+
+TEST_F(KeepSignificantTest, DropsTexture) {
+  const std::vector<GrownCurve> curves = {Grown(8, 5, 16, 0),
+                                          Grown(8, 5, 16, 1)};
+  options_.max_crowding = 0.375;
+  const std::vector<Curve> kept = Keep(curves, 0, {1, 1}, {0.375, 0.5});
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].samples[0].support[0].edge_idx, 0);
+  options_.max_crowding = 0;
+  EXPECT_EQ(Keep(curves, 0, {1, 1}, {0.375, 0.5}).size(), 2u)
+      << "0 drops nothing";
+}
+
+TEST(MedianCrowding, IsThatOfTheEdges) {
+  EdgeMap map;
+  for (const float crowding : {0.5F, 0.25F, 4.0F}) {
+    map.edges.emplace_back().crowding = Eigen::half(crowding);
+  }
+  ViewIndex index;
+  index.edges = &map;
+  EXPECT_EQ(MedianCrowding({{0, 0}, {0, 1}, {0, 2}}, {index}), 0.5);
+  EXPECT_EQ(MedianCrowding({}, {index}), 0);
 }
 
 TEST_F(KeepSignificantTest, AtZeroKeepsAllInTheirOrder) {

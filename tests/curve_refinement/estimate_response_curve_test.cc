@@ -26,7 +26,7 @@ struct SeenCurves {
 void SetSides(Random& random, Edge2d& edge) {
   constexpr double kSharpness = 0.8;
   const double half_contrast = 10 + 30 * random.Uniform();
-  edge.level = static_cast<float>(60 + 140 * random.Uniform());
+  edge.level = Eigen::half(60 + 140 * random.Uniform());
   edge.sharpness = static_cast<float>(kSharpness);
   edge.strength = static_cast<float>(
       half_contrast / std::sqrt(std::numbers::pi / 2 / kSharpness));
@@ -110,7 +110,7 @@ TEST(EstimateResponseCurve, WithoutCurvesThereIsNone) {
 TEST(EstimateResponseCurve, EdgesOfUnknownLevelTellNothing) {
   SeenCurves seen = See(kResponse.px);
   for (EdgeMap& map : seen.edge_maps) {
-    for (Edge2d& edge : map.edges) edge.level = 0;
+    for (Edge2d& edge : map.edges) edge.level = Eigen::half(0);
   }
   EXPECT_EQ(Estimate(seen), Eigen::Vector2d::Zero());
 }

@@ -130,7 +130,7 @@ Edge2d EdgeOfStep(double dark, double bright) {
   edge.sharpness = static_cast<float>(1 / (kBlurPx * kBlurPx));
   edge.strength = static_cast<float>(
       255 * (bright - dark) / (std::sqrt(2 * std::numbers::pi) * kBlurPx));
-  edge.level = static_cast<float>(255 * (dark + bright) / 2);
+  edge.level = Eigen::half(255 * (dark + bright) / 2);
   return edge;
 }
 

@@ -69,6 +69,20 @@ TEST(Prominence, OfLocatedEdgesIsThatOfEdgesAcrossTheirGradients) {
   }
 }
 
+TEST(MeasureCrowding, IsTheStrengthOfEdgesOnTheEmptierSide) {
+  std::vector<LocatedEdge> located;
+  for (const double y : {42.0, 50.0, 58.0}) {
+    for (int x = 20; x < 80; ++x) located.push_back({{x + 0.5, y}, {0, 10}});
+  }
+  MeasureCrowding(&located);
+  EXPECT_EQ(located.at(30).crowding, 0) << "the first line is a border";
+  EXPECT_FLOAT_EQ(located.at(90).crowding, 9.0F / 81)
+      << "nine edges in a square of 81 pixels, each as strong";
+  EXPECT_EQ(located.at(150).crowding, 0);
+  const std::vector<Edge2d> edges = AcrossGradients(located);
+  EXPECT_EQ(edges.at(90).crowding, Eigen::half(9.0F / 81));
+}
+
 TEST(Prominence, AcceptsNoEdgesAndTheBorderOfTheImage) {
   EXPECT_TRUE(Prominence(std::vector<Edge2d>()).empty());
   Edge2d corner;

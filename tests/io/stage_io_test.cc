@@ -29,7 +29,8 @@ std::vector<EdgeMap> SomeEdgeMaps() {
     edge.angle = 0.1F * static_cast<float>(i);
     edge.strength = std::numeric_limits<float>::denorm_min();
     edge.sharpness = -0.3F;
-    edge.level = 120.5F;
+    edge.level = Eigen::half(120.5F);
+    edge.crowding = Eigen::half(0.25F);
     maps[2].edges.push_back(edge);
     EdgeNeighbors neighbors;
     if (i > 0) neighbors.previous = i - 1;
@@ -83,6 +84,7 @@ TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
       EXPECT_EQ(a.edges[k].strength, b.edges[k].strength);
       EXPECT_EQ(a.edges[k].sharpness, b.edges[k].sharpness);
       EXPECT_EQ(a.edges[k].level, b.edges[k].level);
+      EXPECT_EQ(a.edges[k].crowding, b.edges[k].crowding);
       EXPECT_EQ(a.neighbors[k].previous, b.neighbors[k].previous);
       EXPECT_EQ(a.neighbors[k].next, b.neighbors[k].next);
     }
