@@ -57,11 +57,9 @@ std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
   std::vector<BlurredImage> images(scene.views.size());
   ParallelFor(images.size(), num_threads, [&](std::size_t i) {
     const View& view = scene.views[i];
-    if (view.image_path.empty()) return;
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
-    auto gray =
-        LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
+    if (view.image_path.empty() && !view.image) return;
+    auto gray = LoadGrayImage(
+        view, scene.cameras[static_cast<std::size_t>(view.camera_idx)]);
     if (gray.ok()) images[i] = Blur(*std::move(gray), shrink);
   });
   return images;

@@ -157,8 +157,7 @@ Result<ImageTally> CompareWithView(const std::vector<Curve>& curves,
   const View& view = scene.views[view_idx];
   const Camera& camera =
       scene.cameras[static_cast<std::size_t>(view.camera_idx)];
-  const Result<GrayImage> image =
-      LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
+  const Result<GrayImage> image = LoadGrayImage(view, camera);
   if (!image.ok()) return image.status();
   const Pen pen(scene, views, view_idx, std::move(used));
   std::vector<DrawnCurve> drawn;
