@@ -2,18 +2,22 @@
 """Posed views."""
 from __future__ import annotations
 
-import logging
 import os
-from typing import Any, Sequence, Union
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, Any, Sequence, Union
 
 from . import _core
+from ._lazy import np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 Path = Union[str, 'os.PathLike[str]']
-Image = Union[Path, ArrayLike]
-_log = logging.getLogger('pycurvix')
+Image = Union[Path, 'ArrayLike']
+
+
+def _warn(sentence: str) -> None:
+    import logging
+    logging.getLogger('pycurvix').warning('%s', sentence)
 
 
 def _array(name: str, values: ArrayLike, shape: Sequence[int | None]) -> NDArray[np.float64]:
@@ -66,9 +70,6 @@ def _quaternions(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.linalg.eigh(k)[1][:, :, 3]
 
 
-_NO_POINTS = (np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty((0, 2)))
-
-
 class Scene:
     """Views with cameras and poses, and sparse points if there are any.
 
@@ -105,7 +106,7 @@ class Scene:
         """
         scene, notes = _core.Scene.from_colmap(os.fspath(workspace_path), os.fspath(image_path))
         for note in notes:
-            _log.warning('%s', note)
+            _warn(note)
         return cls(_core=scene)
 
     @classmethod
@@ -171,7 +172,8 @@ class Scene:
         quaternions = _quaternions(rotations)
         views = [_core.ViewInput(str(names[i]), paths[i], i + 1, min(i, len(cameras) - 1), quaternions[i],
                                  translations[i], pixels[i]) for i in range(num_views)]
-        scene = _core.Scene.make(cameras, views, *_NO_POINTS)
+        no_points = (np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty((0, 2)))
+        scene = _core.Scene.make(cameras, views, *no_points)
         if edges is not None:
             scene = scene.with_edges([_edge_rows(i, rows) for i, rows in enumerate(edges)], edge_spacing_px)
         return cls(_core=scene)
@@ -202,8 +204,7 @@ class Scene:
                             key=lambda image: image.name.encode())
         images = [image for image in registered if os.path.isfile(os.path.join(folder, image.name))]
         if len(images) < len(registered):
-            _log.warning('%d of %d images are not in %s and are skipped', len(registered) - len(images),
-                         len(registered), folder)
+            _warn(f'{len(registered) - len(images)} of {len(registered)} images are not in {folder} and are skipped')
         ids = sorted(reconstruction.cameras)
         cameras = [_camera(reconstruction.cameras[i]) for i in ids]
         camera_idx = {camera_id: i for i, camera_id in enumerate(ids)}
