@@ -20,7 +20,7 @@
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
-#include "plugin/draw/geopackage.h"
+#include "plugin/draw/map_file.h"
 #include "plugin/draw/rectified_photograph.h"
 #include "plugin/draw/seen_from.h"
 #include "plugin/run/run_steps.h"
@@ -78,6 +78,7 @@ class Drafter {
   Status PlaceViews();
   Status TakePhotograph();
   Status LayOut();
+  Status WriteMaps(const fs::path& folder, std::vector<fs::path>* obsolete);
   Status Write();
   std::string Subtitle() const;
 
@@ -323,6 +324,26 @@ Status Drafter::LayOut() {
   return {};
 }
 
+// What is not wanted of an earlier drawing is `obsolete`.
+Status Drafter::WriteMaps(const fs::path& folder,
+                          std::vector<fs::path>* obsolete) {
+  const bool is_plan = settings_.plane == "xy" && curves_.alignment;
+  for (const auto& [is_wanted, ending] :
+       {std::pair(settings_.geopackage, ".gpkg"),
+        {settings_.geojson, ".geojson"}}) {
+    if (!is_wanted) {
+      obsolete->emplace_back(name_ + ending);
+      continue;
+    }
+    Status written = WriteMapFile(folder / (name_ + ".dxf"),
+                                  is_plan ? curves_.alignment->crs : "",
+                                  folder / (name_ + ending));
+    if (!written.ok()) return written;
+    text_ += " " + name_ + ending;
+  }
+  return {};
+}
+
 Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   if (!output.ok()) return output.status();
@@ -338,15 +359,8 @@ Status Drafter::Write() {
     if (!written.ok()) return written;
     text_ += " " + file;
   }
-  if (settings_.geopackage) {
-    const bool is_plan = settings_.plane == "xy" && curves_.alignment;
-    Status written = WriteGeoPackage(output->folder() / (name_ + ".dxf"),
-                                     is_plan ? curves_.alignment->crs : "",
-                                     output->folder() / (name_ + ".gpkg"));
-    if (!written.ok()) return written;
-    text_ += " " + name_ + ".gpkg";
-  } else {
-    obsolete.emplace_back(name_ + ".gpkg");
+  if (Status written = WriteMaps(output->folder(), &obsolete); !written.ok()) {
+    return written;
   }
   text_ += "\n";
   return output->Publish(obsolete);

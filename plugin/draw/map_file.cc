@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/draw/geopackage.h"
+#include "plugin/draw/map_file.h"
 
 #ifdef CURVIX_HAS_GDAL
 #include <cpl_conv.h>
@@ -19,27 +19,28 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
-Status Failed() {
-  return {
-      StatusCode::kExternalTool,
-      "GDAL cannot write the GeoPackage: " + std::string(CPLGetLastErrorMsg())};
+Status Failed(const std::filesystem::path& map) {
+  return {StatusCode::kExternalTool,
+          "GDAL cannot write " + map.filename().string() + ": " +
+              std::string(CPLGetLastErrorMsg())};
 }
 
 }  // namespace
 
-Status WriteGeoPackage(const std::filesystem::path& dxf,
-                       const std::string& crs,
-                       const std::filesystem::path& geopackage) {
+Status WriteMapFile(const std::filesystem::path& dxf,
+                    const std::string& crs,
+                    const std::filesystem::path& map) {
   GDALAllRegister();
   CPLPushErrorHandler(CPLQuietErrorHandler);
   // Else it has the time of writing.
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
-  std::vector<std::string> words = {"-f",
-                                    "GPKG",
-                                    "-nln",
-                                    "curves",
-                                    "-where",
-                                    "Layer NOT IN ('FRAME', 'DIMENSIONS')"};
+  std::vector<std::string> words = {
+      "-f",
+      map.extension() == ".gpkg" ? "GPKG" : "GeoJSON",
+      "-nln",
+      "curves",
+      "-where",
+      "Layer NOT IN ('FRAME', 'DIMENSIONS')"};
   if (!crs.empty()) words.insert(words.end(), {"-a_srs", crs});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -55,27 +56,27 @@ Status WriteGeoPackage(const std::filesystem::path& dxf,
                                   nullptr));
   Status status;
   if (source == nullptr || options == nullptr) {
-    status = Failed();
+    status = Failed(map);
   } else {
     GDALDatasetH input = source.get();
     int has_failed = 0;
     const Dataset written(GDALVectorTranslate(
-        geopackage.c_str(), nullptr, 1, &input, options.get(), &has_failed));
-    if (written == nullptr || has_failed != 0) status = Failed();
+        map.c_str(), nullptr, 1, &input, options.get(), &has_failed));
+    if (written == nullptr || has_failed != 0) status = Failed(map);
   }
   CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
   CPLPopErrorHandler();
   return status;
 }
 #else
-Status WriteGeoPackage(const std::filesystem::path& dxf,
-                       const std::string& crs,
-                       const std::filesystem::path& geopackage) {
+Status WriteMapFile(const std::filesystem::path& dxf,
+                    const std::string& crs,
+                    const std::filesystem::path& map) {
   return {StatusCode::kUnsupported,
-          "--geopackage: this program was built without GDAL; draw without it, "
-          "then 'ogr2ogr " +
+          "This program was built without GDAL, which writes GeoPackage and "
+          "GeoJSON; draw without them, then 'ogr2ogr " +
               (crs.empty() ? "" : "-a_srs " + crs + " ") +
-              geopackage.filename().string() + " " + dxf.filename().string() +
+              map.filename().string() + " " + dxf.filename().string() +
               "' does the same"};
 }
 #endif
