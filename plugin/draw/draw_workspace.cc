@@ -78,7 +78,6 @@ class Drafter {
   Status PlaceViews();
   Status TakePhotograph();
   Status LayOut();
-  Status WriteMaps(const fs::path& folder, std::vector<fs::path>* obsolete);
   Status Write();
   std::string Subtitle() const;
 
@@ -324,26 +323,6 @@ Status Drafter::LayOut() {
   return {};
 }
 
-// What is not wanted of an earlier drawing is `obsolete`.
-Status Drafter::WriteMaps(const fs::path& folder,
-                          std::vector<fs::path>* obsolete) {
-  const bool is_plan = settings_.plane == "xy" && curves_.alignment;
-  for (const auto& [is_wanted, ending] :
-       {std::pair(settings_.geopackage, ".gpkg"),
-        {settings_.geojson, ".geojson"}}) {
-    if (!is_wanted) {
-      obsolete->emplace_back(name_ + ending);
-      continue;
-    }
-    Status written = WriteMapFile(folder / (name_ + ".dxf"),
-                                  is_plan ? curves_.alignment->crs : "",
-                                  folder / (name_ + ending));
-    if (!written.ok()) return written;
-    text_ += " " + name_ + ending;
-  }
-  return {};
-}
-
 Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   if (!output.ok()) return output.status();
@@ -359,9 +338,13 @@ Status Drafter::Write() {
     if (!written.ok()) return written;
     text_ += " " + file;
   }
-  if (Status written = WriteMaps(output->folder(), &obsolete); !written.ok()) {
-    return written;
-  }
+  const bool is_plan = settings_.plane == "xy" && curves_.alignment;
+  Status written = WriteMapFiles(output->folder() / (name_ + ".dxf"),
+                                 is_plan ? curves_.alignment->crs : "",
+                                 {settings_.geopackage, settings_.geojson},
+                                 &text_,
+                                 &obsolete);
+  if (!written.ok()) return written;
   text_ += "\n";
   return output->Publish(obsolete);
 }

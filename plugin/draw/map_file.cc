@@ -6,13 +6,13 @@
 #include <gdal_utils.h>
 
 #include <memory>
-#include <vector>
 #endif
+#include <utility>
 
 namespace curvix {
+namespace {
 
 #ifdef CURVIX_HAS_GDAL
-namespace {
 
 struct CloseDataset {
   void operator()(void* dataset) const { GDALClose(dataset); }
@@ -24,8 +24,6 @@ Status Failed(const std::filesystem::path& map) {
           "GDAL cannot write " + map.filename().string() + ": " +
               std::string(CPLGetLastErrorMsg())};
 }
-
-}  // namespace
 
 Status WriteMapFile(const std::filesystem::path& dxf,
                     const std::string& crs,
@@ -80,5 +78,26 @@ Status WriteMapFile(const std::filesystem::path& dxf,
               "' does the same"};
 }
 #endif
+
+}  // namespace
+
+Status WriteMapFiles(const std::filesystem::path& dxf,
+                     const std::string& crs,
+                     const WantedMaps& wanted,
+                     std::string* text,
+                     std::vector<std::filesystem::path>* obsolete) {
+  for (const auto& [is_wanted, ending] :
+       {std::pair(wanted.geopackage, ".gpkg"), {wanted.geojson, ".geojson"}}) {
+    const std::filesystem::path map = dxf.stem().concat(ending);
+    if (!is_wanted) {
+      obsolete->push_back(map);
+      continue;
+    }
+    Status status = WriteMapFile(dxf, crs, dxf.parent_path() / map);
+    if (!status.ok()) return status;
+    *text += " " + map.string();
+  }
+  return {};
+}
 
 }  // namespace curvix
