@@ -13,9 +13,11 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace curvix {
@@ -73,6 +75,18 @@ struct Camera {
   }
 };
 
+// An image in memory: width * height * num_channels values, row by row from the
+// top left, the channels of a pixel side by side. It is only read. Copies share
+// the values; a pointer that owns nothing lends them.
+struct ImageInMemory {
+  int width = 0;         // pixels
+  int height = 0;        // pixels
+  int num_channels = 1;  // 1: grey; 3: red, green, blue; 4: these and alpha
+  std::variant<std::shared_ptr<const std::uint8_t[]>,
+               std::shared_ptr<const std::uint16_t[]>>
+      values;  // 0 to 255, or 0 to 65535
+};
+
 // One registered image.
 struct View {
   std::string name;  // as in the model: relative to the image folder
@@ -83,6 +97,8 @@ struct View {
   // An image of the same size: edges are ignored where it is black. Empty: none
   // are.
   std::filesystem::path mask_path;
+  // Taken in place of the file, which need not exist then.
+  std::optional<ImageInMemory> image;
 };
 
 // One triangulated point of the sparse model and the views that see it.

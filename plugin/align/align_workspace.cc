@@ -21,16 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Text(double value) {
+std::string Text(double value, int num_digits = 6) {
   std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
+  std::snprintf(text.data(), text.size(), "%.*g", num_digits, value);
   return text.data();
 }
 
+std::string SigmaText(double sigma) { return Text(sigma, 2); }
+
 std::string WithSigma(double value, double sigma) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.2g", sigma);
-  return Text(value) + " +- " + text.data();
+  return Text(value) + " +- " + SigmaText(sigma);
 }
 
 Status CheckSettings(const AlignSettings& s) {
@@ -188,7 +188,7 @@ Status Aligner::TakeAll() {
 void Aligner::DescribeScale(const AlignmentResult& result) {
   const double scale = result.alignment.world_from_model.scale;
   Say("Scale " + Text(scale) + ", to " +
-      Text(100 * result.alignment.scale_sigma()) + " %");
+      SigmaText(100 * result.alignment.scale_sigma()) + " %");
   for (std::size_t i = 0; i < input_.distances.size(); ++i) {
     const KnownDistance& d = input_.distances[i];
     const double now = scale * (d.a - d.b).norm();
@@ -220,7 +220,7 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
   }
   const double n = static_cast<double>(input_.positions.size());
   Say(std::to_string(input_.positions.size()) + " positions, " +
-      Text(std::sqrt(squares / n)) + " off (root mean square)");
+      SigmaText(std::sqrt(squares / n)) + " off (root mean square)");
 }
 
 Status Aligner::Write(const AlignmentResult& result) {
@@ -246,13 +246,16 @@ Result<AlignSummary> Aligner::Run() {
     const Eigen::Vector3d variances =
         alignment.covariance.diagonal().segment<3>(1);
     const double of_up = std::max(variances.x(), variances.y());
-    Say("Up known to " + Text(RadToDeg(std::sqrt(of_up))) +
+    Say("Up known to " + SigmaText(RadToDeg(std::sqrt(of_up))) +
         " deg, x and y about it to " +
-        Text(RadToDeg(std::sqrt(variances.z()))) + " deg");
+        SigmaText(RadToDeg(std::sqrt(variances.z()))) + " deg");
   }
   if (!alignment.offset.isZero(0)) {
-    Say("Coordinates are those given less " + Text(alignment.offset.x()) + " " +
-        Text(alignment.offset.y()) + " " + Text(alignment.offset.z()));
+    constexpr int kAllDigits = 15;
+    Say("Coordinates are those given less " +
+        Text(alignment.offset.x(), kAllDigits) + " " +
+        Text(alignment.offset.y(), kAllDigits) + " " +
+        Text(alignment.offset.z(), kAllDigits));
   }
   Status written = Write(*result);
   if (!written.ok()) return written;

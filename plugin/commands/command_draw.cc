@@ -49,6 +49,7 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
         Switch("geopackage",
                &s->geopackage,
                "1: write a GeoPackage, too, for QGIS"),
+        Switch("geojson", &s->geojson, "1: write GeoJSON, too"),
         TextFlag("title", &s->title, "default: the name of the workspace"),
         TextFlag("name",
                  &s->name,

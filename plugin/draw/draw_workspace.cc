@@ -20,7 +20,7 @@
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
-#include "plugin/draw/geopackage.h"
+#include "plugin/draw/map_file.h"
 #include "plugin/draw/rectified_photograph.h"
 #include "plugin/draw/seen_from.h"
 #include "plugin/run/run_steps.h"
@@ -336,16 +336,13 @@ Status Drafter::Write() {
     if (!written.ok()) return written;
     text_ += " " + file;
   }
-  if (settings_.geopackage) {
-    const bool is_plan = settings_.plane == "xy" && curves_.alignment;
-    Status written = WriteGeoPackage(output->folder() / (name_ + ".dxf"),
-                                     is_plan ? curves_.alignment->crs : "",
-                                     output->folder() / (name_ + ".gpkg"));
-    if (!written.ok()) return written;
-    text_ += " " + name_ + ".gpkg";
-  } else {
-    obsolete.emplace_back(name_ + ".gpkg");
-  }
+  const bool is_plan = settings_.plane == "xy" && curves_.alignment;
+  Status written = WriteMapFiles(output->folder() / (name_ + ".dxf"),
+                                 is_plan ? curves_.alignment->crs : "",
+                                 {settings_.geopackage, settings_.geojson},
+                                 &text_,
+                                 &obsolete);
+  if (!written.ok()) return written;
   text_ += "\n";
   return output->Publish(obsolete);
 }

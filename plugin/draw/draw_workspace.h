@@ -23,6 +23,7 @@ struct DrawSettings {
   std::string paper = "a3";
   bool dimensions = false;
   bool geopackage = false;
+  bool geojson = false;
   std::string title;       // "": the name of the workspace
   std::string photograph;  // the name of an image, or "auto"; "": none
   std::string name;        // of the files; "": drawing_<plane>

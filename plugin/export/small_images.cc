@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <variant>
 #include <vector>
 
 #include "base/parallel.h"
@@ -65,7 +66,29 @@ std::vector<int> SpreadViews(const Scene& scene, int count) {
 
 namespace {
 
+// In OpenCV's order of colours and 8 bits.
+cv::Mat PhotoOf(const ImageInMemory& image) {
+  const int depth = image.values.index() == 0 ? CV_8U : CV_16U;
+  const void* const values = std::visit(
+      [](const auto& pointer) -> const void* { return pointer.get(); },
+      image.values);
+  // OpenCV has no matrices that only read.
+  const cv::Mat given(image.height,
+                      image.width,
+                      CV_MAKETYPE(depth, image.num_channels),
+                      const_cast<void*>(values));
+  cv::Mat bytes, photo;
+  given.convertTo(bytes, CV_8U, depth == CV_8U ? 1 : 1 / 257.0);
+  cv::cvtColor(bytes,
+               photo,
+               image.num_channels == 1   ? cv::COLOR_GRAY2BGR
+               : image.num_channels == 3 ? cv::COLOR_RGB2BGR
+                                         : cv::COLOR_RGBA2BGR);
+  return photo;
+}
+
 Result<cv::Mat> ReadPhoto(const View& view, int flags) {
+  if (view.image) return PhotoOf(*view.image);
   cv::Mat photo;
   try {
     photo = cv::imread(view.image_path.string(),

@@ -10,13 +10,15 @@ file(RENAME ${doc}/CHANGELOG.md ${doc}/changelog)
 execute_process(COMMAND gzip -9n ${doc}/changelog
                         ${usr}/share/man/man1/colmap_curvix.1
                 COMMAND_ERROR_IS_FATAL ANY)
+# Whatever the umask of who cloned the source.
+set(file_rights FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 file(COPY ${CMAKE_CURRENT_LIST_DIR}/colmap-curvix
-     DESTINATION ${usr}/share/lintian/overrides)
+     DESTINATION ${usr}/share/lintian/overrides ${file_rights})
 
 set(python ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/python/usr)
 if(EXISTS ${python})
   file(COPY ${doc}/copyright ${doc}/changelog.gz
        DESTINATION ${python}/share/doc/python3-curvix)
   file(COPY ${CMAKE_CURRENT_LIST_DIR}/python3-curvix
-       DESTINATION ${python}/share/lintian/overrides)
+       DESTINATION ${python}/share/lintian/overrides ${file_rights})
 endif()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pybind11/stl.h>
 #include <array>
+#include <mutex>
 #include <type_traits>
 #include <utility>
 
@@ -150,34 +151,48 @@ void BindColumns(Class& curves) {
       });
 }
 
+// Tells NumPy, which takes long to import, of the rows when they are asked for.
+void DescribeFitRows() {
+  static std::once_flag once;
+  const py::gil_scoped_release released;
+  std::call_once(once, [] {
+    const py::gil_scoped_acquire locked;
+    PYBIND11_NUMPY_DTYPE(FitRow,
+                         curve,
+                         kind,
+                         closed,
+                         first_sample,
+                         num_samples,
+                         length,
+                         start,
+                         end,
+                         start_node,
+                         end_node,
+                         radius,
+                         center,
+                         major,
+                         minor,
+                         start_angle,
+                         end_angle,
+                         first_point,
+                         num_points,
+                         first_knot,
+                         rms_residual,
+                         max_residual,
+                         inlier_share,
+                         sigma,
+                         radius_sigma);
+  });
+}
+
 void BindFits(Class& curves) {
-  PYBIND11_NUMPY_DTYPE(FitRow,
-                       curve,
-                       kind,
-                       closed,
-                       first_sample,
-                       num_samples,
-                       length,
-                       start,
-                       end,
-                       start_node,
-                       end_node,
-                       radius,
-                       center,
-                       major,
-                       minor,
-                       start_angle,
-                       end_angle,
-                       first_point,
-                       num_points,
-                       first_knot,
-                       rms_residual,
-                       max_residual,
-                       inlier_share,
-                       sigma,
-                       radius_sigma);
   using F = FitTable;
-  curves.def_property_readonly("fits", FitViewerOf<FitRow>(&F::rows))
+  curves
+      .def_property_readonly("fits",
+                             [](const py::object& self) {
+                               DescribeFitRows();
+                               return FitViewerOf<FitRow>(&F::rows)(self);
+                             })
       .def_property_readonly("fit_offsets",
                              FitViewerOf<std::int64_t>(&F::fit_offsets))
       .def_property_readonly("spline_points",

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -39,7 +41,32 @@ struct ViewInput {
   int camera_idx;
   std::array<double, 4> quaternion;  // x y z w
   std::array<double, 3> translation;
+  std::optional<ImageInMemory> image;  // in place of the file
 };
+
+// Shares the array, which may be freed by any thread.
+template <typename T>
+std::shared_ptr<const T[]> ValuesOf(const py::array& array) {
+  const std::shared_ptr<py::array> kept(new py::array(array), [](auto* owner) {
+    const py::gil_scoped_acquire locked;
+    delete owner;
+  });
+  return {kept, static_cast<const T*>(array.data())};
+}
+
+// Of an array without gaps, rows x columns x channels, of uint8 or uint16.
+ImageInMemory ImageOf(const py::array& array) {
+  ImageInMemory image;
+  image.height = static_cast<int>(array.shape(0));
+  image.width = static_cast<int>(array.shape(1));
+  image.num_channels = static_cast<int>(array.shape(2));
+  if (array.itemsize() == 1) {
+    image.values = ValuesOf<std::uint8_t>(array);
+  } else {
+    image.values = ValuesOf<std::uint16_t>(array);
+  }
+  return image;
+}
 
 [[noreturn]] void RaiseArgument(const std::string& sentence) {
   Raise({StatusCode::kInvalidArgument, sentence});
@@ -71,7 +98,13 @@ View MakeView(const ViewInput& input, std::size_t num_cameras) {
   view.image_path = input.image_path;
   view.image_id = input.image_id;
   view.camera_idx = input.camera_idx;
+  view.image = input.image;
   return view;
+}
+
+ImageSize SizeOf(const View& view) {
+  if (view.image) return {view.image->width, view.image->height};
+  return Take(WithoutLock([&] { return ReadImageSize(view.image_path); }));
 }
 
 // Cameras without a size take that of their first image.
@@ -79,10 +112,27 @@ void FindSizes(Scene& scene) {
   for (const View& view : scene.views) {
     Camera& camera = scene.cameras[static_cast<std::size_t>(view.camera_idx)];
     if (camera.width > 0) continue;
-    const ImageSize size =
-        Take(WithoutLock([&] { return ReadImageSize(view.image_path); }));
+    const ImageSize size = SizeOf(view);
     camera.width = size.width;
     camera.height = size.height;
+  }
+}
+
+void CheckSizesInMemory(const Scene& scene) {
+  for (const View& view : scene.views) {
+    const Camera& camera =
+        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const auto text = [](int width, int height) {
+      return std::to_string(width) + " x " + std::to_string(height);
+    };
+    if (!view.image || (view.image->width == camera.width &&
+                        view.image->height == camera.height)) {
+      continue;
+    }
+    RaiseArgument("the image of view " + view.name + " has " +
+                  text(view.image->width, view.image->height) +
+                  " pixels, its camera " + text(camera.width, camera.height) +
+                  "; images of several sizes need a K each");
   }
 }
 
@@ -126,6 +176,7 @@ PythonScene MakeScene(const std::vector<CameraInput>& cameras,
     }
   }
   FindSizes(scene);
+  CheckSizesInMemory(scene);
   for (const Camera& camera : scene.cameras) Check(Validate(camera));
   scene.points = PointsOf(positions, observations, pixels, views.size());
   return {std::make_shared<const Scene>(std::move(scene)), nullptr};
@@ -165,16 +216,36 @@ py::tuple FromColmap(const fs::path& workspace, const fs::path& images) {
       notes);
 }
 
+ViewInput MakeViewInput(std::string name,
+                        fs::path image_path,
+                        std::uint32_t image_id,
+                        int camera_idx,
+                        const std::array<double, 4>& quaternion,
+                        const std::array<double, 3>& translation,
+                        const std::optional<py::array>& image) {
+  ViewInput input = {std::move(name),
+                     std::move(image_path),
+                     image_id,
+                     camera_idx,
+                     quaternion,
+                     translation,
+                     std::nullopt};
+  if (image) input.image = ImageOf(*image);
+  return input;
+}
+
 void BindInput(py::module_& module) {
   py::class_<CameraInput>(module, "CameraInput")
       .def(py::init<std::string, int, int, std::vector<double>>());
   py::class_<ViewInput>(module, "ViewInput")
-      .def(py::init<std::string,
-                    fs::path,
-                    std::uint32_t,
-                    int,
-                    std::array<double, 4>,
-                    std::array<double, 3>>());
+      .def(py::init(&MakeViewInput),
+           py::arg("name"),
+           py::arg("image_path"),
+           py::arg("image_id"),
+           py::arg("camera_idx"),
+           py::arg("quaternion"),
+           py::arg("translation"),
+           py::arg("image") = py::none());
 }
 
 // f(view) of all views.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -261,7 +262,8 @@ Scene SceneFromColmapModel(const ColmapModel& model,
                            image.image_id,
                            camera_idxs.at(image.camera_id),
                            image.cam_from_world,
-                           {}});
+                           {},
+                           std::nullopt});
   }
   std::sort(scene.views.begin(),
             scene.views.end(),

@@ -57,10 +57,8 @@ std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
   std::vector<BlurredImage> images(scene.views.size());
   ParallelFor(images.size(), num_threads, [&](std::size_t i) {
     const View& view = scene.views[i];
-    if (view.image_path.empty()) return;
-    const Camera& camera = CameraOf(scene, view);
-    auto gray =
-        LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
+    if (view.image_path.empty() && !view.image) return;
+    auto gray = LoadGrayImage(view, CameraOf(scene, view));
     if (gray.ok()) images[i] = Blur(*std::move(gray), shrink);
   });
   return images;

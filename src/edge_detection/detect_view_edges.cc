@@ -125,8 +125,7 @@ std::int64_t MaxEdges(const EdgeDetectionOptions& options,
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,
                                 const EdgeDetectionOptions& options) {
-  const Result<GrayImage> image =
-      LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
+  const Result<GrayImage> image = LoadGrayImage(view, camera);
   if (!image.ok()) return image.status();
   EdgeMap map;
   map.noise = EstimateNoise(*image);

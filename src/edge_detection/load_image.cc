@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Image files to grey levels.
+// Paper: none (engineering). Images to grey levels.
 #include "edge_detection/load_image.h"
 
 #include <cstddef>
@@ -13,6 +13,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "edge_detection/image_header.h"
@@ -54,15 +55,16 @@ Result<Bytes> ReadFile(const std::filesystem::path& path) {
   return bytes;
 }
 
-// Grey of the values of a pixel in OpenCV's order: grey; B, G, R; B, G, R,
-// alpha.
-template <int kChannels, typename T>
+// Grey of the values of a pixel: grey; or three colours, of which red is number
+// kRed and blue 2 - kRed, and perhaps alpha.
+template <int kChannels, int kRed, typename T>
 float Grey(const T* value) {
   constexpr double kMax = std::numeric_limits<T>::max();
   if constexpr (kChannels == 1) {
     return static_cast<float>(value[0] * (255 / kMax));
   } else {
-    const double grey = 0.114 * value[0] + 0.587 * value[1] + 0.299 * value[2];
+    const double grey =
+        0.114 * value[2 - kRed] + 0.587 * value[1] + 0.299 * value[kRed];
     if constexpr (kChannels == 3) {
       return static_cast<float>(grey * (255 / kMax));
     } else {
@@ -71,32 +73,46 @@ float Grey(const T* value) {
   }
 }
 
-template <int kChannels, typename T>
-GrayImage ToGrey(const cv::Mat& image) {
-  GrayImage gray{image.cols, image.rows, std::vector<float>(image.total())};
-  float* pixels = gray.pixels.data();
-  for (int y = 0; y < image.rows; ++y, pixels += image.cols) {
-    const T* value = image.ptr<T>(y);
-    for (int x = 0; x < image.cols; ++x) {
-      pixels[x] = Grey<kChannels>(value + kChannels * x);
-    }
+template <int kChannels, int kRed, typename T>
+GrayImage ToGrey(const T* values, const ImageSize& size) {
+  const std::size_t num_pixels = static_cast<std::size_t>(size.width) *
+                                 static_cast<std::size_t>(size.height);
+  GrayImage gray{size.width, size.height, std::vector<float>(num_pixels)};
+  for (float& pixel : gray.pixels) {
+    pixel = Grey<kChannels, kRed>(values);
+    values += kChannels;
   }
   return gray;
 }
 
-// nullopt: another number of channels.
-template <typename T>
-std::optional<GrayImage> ToGrey(const cv::Mat& image) {
-  switch (image.channels()) {
+// Of values without gaps; nullopt: another number of channels.
+template <int kRed, typename T>
+std::optional<GrayImage> ToGrey(const T* values,
+                                const ImageSize& size,
+                                int num_channels) {
+  switch (num_channels) {
     case 1:
-      return ToGrey<1, T>(image);
+      return ToGrey<1, kRed>(values, size);
     case 3:
-      return ToGrey<3, T>(image);
+      return ToGrey<3, kRed>(values, size);
     case 4:
-      return ToGrey<4, T>(image);
+      return ToGrey<4, kRed>(values, size);
     default:
       return std::nullopt;
   }
+}
+
+// Of what OpenCV decoded; nullopt: another kind of pixels.
+std::optional<GrayImage> ToGrey(const cv::Mat& image) {
+  constexpr int kRed = 2;
+  const ImageSize size = {image.cols, image.rows};
+  if (image.depth() == CV_8U) {
+    return ToGrey<kRed>(image.ptr<std::uint8_t>(), size, image.channels());
+  }
+  if (image.depth() == CV_16U) {
+    return ToGrey<kRed>(image.ptr<std::uint16_t>(), size, image.channels());
+  }
+  return std::nullopt;
 }
 
 // Empty if it is no image, or if there is not enough memory for it.
@@ -113,13 +129,13 @@ std::string_view AsText(const Bytes& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-Status WrongSize(const std::filesystem::path& path,
+Status WrongSize(const std::string& name,
                  const ImageSize& size,
                  const ImageSize& expected) {
   std::ostringstream message;
-  message << "Image " << path.string() << " is " << size.width << " x "
-          << size.height << " pixels, but its camera in the model is "
-          << expected.width << " x " << expected.height
+  message << "Image " << name << " is " << size.width << " x " << size.height
+          << " pixels, but its camera in the model is " << expected.width
+          << " x " << expected.height
           << ". Give the images from which the model was made, or export the "
              "model at the size of these images.";
   return {StatusCode::kInvalidArgument, message.str()};
@@ -155,21 +171,40 @@ Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
   if (!bytes.ok()) return bytes.status();
   const std::optional<ImageSize> announced = SizeInHeader(AsText(*bytes));
   if (expected && announced && *announced != *expected) {
-    return WrongSize(path, *announced, *expected);
+    return WrongSize(path.string(), *announced, *expected);
   }
   const cv::Mat image = Decode(*bytes);
   if (image.empty() || IsTruncatedJpeg(AsText(*bytes)))
     return Broken(path, *bytes);
   const ImageSize size = {image.cols, image.rows};
-  if (expected && size != *expected) return WrongSize(path, size, *expected);
-  std::optional<GrayImage> gray;
-  if (image.depth() == CV_8U) gray = ToGrey<std::uint8_t>(image);
-  if (image.depth() == CV_16U) gray = ToGrey<std::uint16_t>(image);
-  if (gray) return *std::move(gray);
+  if (expected && size != *expected) {
+    return WrongSize(path.string(), size, *expected);
+  }
+  if (std::optional<GrayImage> gray = ToGrey(image)) return *std::move(gray);
   return Status(StatusCode::kUnsupported,
                 "Image " + path.string() +
                     " has neither 8 nor 16 bits per channel, or an unusual "
                     "number of channels. Convert it to an 8-bit PNG.");
+}
+
+Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
+  const ImageSize expected = {camera.width, camera.height};
+  if (!view.image) return LoadGrayImage(view.image_path, expected);
+  const ImageInMemory& image = *view.image;
+  const ImageSize size = {image.width, image.height};
+  if (size != expected) return WrongSize(view.name, size, expected);
+  constexpr int kRed = 0;
+  std::optional<GrayImage> gray = std::visit(
+      [&](const auto& values) -> std::optional<GrayImage> {
+        if (values == nullptr) return std::nullopt;
+        return ToGrey<kRed>(values.get(), size, image.num_channels);
+      },
+      image.values);
+  if (gray) return *std::move(gray);
+  return Status(StatusCode::kInvalidArgument,
+                "Image " + view.name +
+                    " in memory has no values, or a number of channels other "
+                    "than 1, 3 and 4.");
 }
 
 }  // namespace curvix

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Image files to grey levels.
+// Paper: none (engineering). Images to grey levels.
 #pragma once
 
+#include <curvix/scene.h>
 #include <curvix/status.h>
 #include <filesystem>
 #include <optional>
@@ -25,5 +26,10 @@ namespace curvix {
 Result<GrayImage> LoadGrayImage(
     const std::filesystem::path& path,
     const std::optional<ImageSize>& expected = std::nullopt);
+
+// The image of a view, as above: that in memory, if there is one, else that in
+// the file. kInvalidArgument also for one in memory without values, or with a
+// number of channels other than 1, 3 and 4.
+Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera);
 
 }  // namespace curvix

@@ -156,9 +156,7 @@ Result<ImageTally> CompareWithView(const std::vector<Curve>& curves,
                                    std::size_t view_idx,
                                    std::vector<std::size_t> used) {
   const View& view = scene.views[view_idx];
-  const Camera& camera = CameraOf(scene, view);
-  const Result<GrayImage> image =
-      LoadGrayImage(view.image_path, ImageSize{camera.width, camera.height});
+  const Result<GrayImage> image = LoadGrayImage(view, CameraOf(scene, view));
   if (!image.ok()) return image.status();
   const Pen pen(scene, views, view_idx, std::move(used));
   std::vector<DrawnCurve> drawn;

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
@@ -105,6 +107,52 @@ TEST_F(LoadGrayImageTest, ScalesSixteenBits) {
   EXPECT_NEAR(gray->at(0, 0), 255, 1e-4);
   EXPECT_NEAR(gray->at(1, 0), 1000 / 257.0, 1e-4);
   EXPECT_NEAR(rgba->at(0, 0), 1000 / 257.0 / 5, 1e-4);
+}
+
+// A view with the values of an image of OpenCV in memory, in this library's
+// order of colours, and no file.
+template <typename T>
+View InMemory(const cv::Mat& image) {
+  const cv::Mat flat = image.reshape(1);
+  const auto values =
+      std::make_shared<std::vector<T>>(flat.begin<T>(), flat.end<T>());
+  const auto num_channels = static_cast<std::size_t>(image.channels());
+  for (std::size_t i = 0; num_channels > 1 && i < values->size();
+       i += num_channels) {
+    std::swap((*values)[i], (*values)[i + 2]);
+  }
+  View view;
+  view.name = "a.png";
+  view.image = {image.cols,
+                image.rows,
+                image.channels(),
+                std::shared_ptr<const T[]>(values, values->data())};
+  return view;
+}
+
+TEST_F(LoadGrayImageTest, ImagesInMemoryAreAsTheirFiles) {
+  const Camera camera = {CameraModel::kPinhole, 80, 60, {100, 100, 40, 30}};
+  for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC4}) {
+    const cv::Mat image = Texture(type);
+    const Result<GrayImage> expected = LoadGrayImage(Written("a.png", image));
+    const View view = image.depth() == CV_8U ? InMemory<std::uint8_t>(image)
+                                             : InMemory<std::uint16_t>(image);
+    const Result<GrayImage> gray = LoadGrayImage(view, camera);
+    ASSERT_TRUE(expected.ok() && gray.ok()) << gray.status().message();
+    EXPECT_EQ(gray->pixels, expected->pixels) << type;
+  }
+}
+
+TEST_F(LoadGrayImageTest, RefusesBrokenImagesInMemory) {
+  const Camera camera = {CameraModel::kPinhole, 80, 60, {100, 100, 40, 30}};
+  View view = InMemory<std::uint8_t>(Texture(CV_8UC1));
+  const auto message = [&] { return LoadGrayImage(view, camera).status(); };
+  view.image->num_channels = 2;
+  EXPECT_THAT(message().message(), HasSubstr("a.png in memory"));
+  view.image = {80, 60, 1, {}};
+  EXPECT_EQ(message().code(), StatusCode::kInvalidArgument);
+  view.image->width = 81;
+  EXPECT_THAT(message().message(), HasSubstr("a.png is 81 x 60 pixels"));
 }
 
 TEST_F(LoadGrayImageTest, IgnoresTheExifRotation) {

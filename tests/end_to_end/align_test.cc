@@ -42,6 +42,21 @@ class Align : public testing::Test {
   // Switched to the frame of `known`.
   Outcome RunAlign(const std::string& known) { return Run("align " + known); }
 
+  // A file of the centres of the cameras, after the similarity that is to be
+  // found: three times as large, turned about z by 90 degrees, and moved.
+  fs::path PositionsFrom(double east) {
+    const auto model = ReadColmapModel(workspace_ / "sparse/0");
+    EXPECT_TRUE(model.ok());
+    std::ostringstream positions;
+    positions.precision(17);
+    for (const ColmapImage& image : model->images) {
+      const Eigen::Vector3d c = image.cam_from_world.Inverse().translation;
+      positions << image.name << " " << east - 3 * c.y() << " " << 3 * c.x()
+                << " " << 3 * c.z() + 7 << "\n";
+    }
+    return folder_.Write("positions.txt", positions.str());
+  }
+
   json Curves() { return json::parse(Read(results_ / "curves.json")); }
 
   // The first line between two nodes.
@@ -98,18 +113,8 @@ TEST_F(Align, AKnownDistanceScalesAllResults) {
 }
 
 TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
-  // The similarity that is to be found: a turn about z by 90 degrees.
-  const auto model = ReadColmapModel(workspace_ / "sparse/0");
-  ASSERT_TRUE(model.ok());
-  std::ostringstream positions;
-  positions.precision(17);
-  for (const ColmapImage& image : model->images) {
-    const Eigen::Vector3d c = image.cam_from_world.Inverse().translation;
-    positions << image.name << " " << 1000 - 3 * c.y() << " " << 3 * c.x()
-              << " " << 3 * c.z() + 7 << "\n";
-  }
-  const fs::path file = folder_.Write("positions.txt", positions.str());
-  const Outcome outcome = RunAlign("--epsg 25832 --positions " + Quoted(file));
+  const Outcome outcome =
+      RunAlign("--epsg 25832 --positions " + Quoted(PositionsFrom(1000)));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const json after = Curves();
   EXPECT_EQ(after["alignment"]["crs"], "EPSG:25832");
@@ -120,6 +125,16 @@ TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
     EXPECT_NEAR(b[1], 3 * a[0].get<double>(), 1e-5);
     EXPECT_NEAR(b[2], 3 * a[2].get<double>() + 7, 1e-5);
   }
+}
+
+TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
+  const Outcome outcome =
+      RunAlign("--positions " + Quoted(PositionsFrom(5812350)));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json offset = Curves()["alignment"]["offset"];
+  EXPECT_NEAR(offset[0], 5812350, 200);
+  EXPECT_THAT(outcome.output,
+              HasSubstr("less " + std::to_string(offset[0].get<int>()) + " "));
 }
 
 TEST_F(Align, AxesOfABlockAreItsEdges) {

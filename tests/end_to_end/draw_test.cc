@@ -214,6 +214,28 @@ TEST_F(Draw, GeoPackageHasTheCurves) {
   EXPECT_FALSE(fs::exists(path));
 }
 
+TEST_F(Draw, GeoJsonHasTheCurves) {
+  const std::string words = "draw --plane xy --dimensions 1 --geojson 1";
+  const Outcome outcome = Run(words);
+  const fs::path path = results_ / "drawing_xy.geojson";
+#ifdef CURVIX_HAS_GDAL
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const json map = json::parse(Read(path));
+  EXPECT_EQ(map["type"], "FeatureCollection");
+  EXPECT_EQ(map["name"], "curves");
+  EXPECT_THAT(outcome.output,
+              HasSubstr("Drew " + std::to_string(map["features"].size())));
+  const std::string bytes = Read(path);
+  ASSERT_EQ(Run(words).exit_code, 0);
+  EXPECT_EQ(Read(path), bytes);
+  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
+#else
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("built without GDAL"));
+#endif
+  EXPECT_FALSE(fs::exists(path));
+}
+
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
   const auto before = Contents(results_);
   for (const auto& [words, why] :

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <cstdint>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -68,6 +70,23 @@ TEST_F(OverlayTest, CurvesHaveTheirColourWhereTheViewSupportsThem) {
   EXPECT_NEAR(static_cast<double>(columns.size()), 90, 3);
   EXPECT_GE(columns.front(), 98);
   EXPECT_TRUE(ColouredColumns(1).empty());
+}
+
+TEST_F(OverlayTest, ImagesInMemoryAreShownAsTheirFiles) {
+  const std::vector<std::string> black = SmallPinholeJpegs(scene_, {0}, 100, 1);
+  const auto values = std::make_shared<std::vector<std::uint16_t>>(60000, 0);
+  scene_.views[0].image = {
+      200,
+      100,
+      3,
+      std::shared_ptr<const std::uint16_t[]>(values, values->data())};
+  EXPECT_EQ(SmallPinholeJpegs(scene_, {0}, 100, 1), black);
+  // Red.
+  for (std::size_t i = 0; i < values->size(); i += 3) (*values)[i] = 65535;
+  const std::string jpeg = SmallPinholeJpegs(scene_, {0}, 100, 1).front();
+  const cv::Mat3b image = cv::imdecode(
+      std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+  EXPECT_LT(cv::norm(image(20, 50), cv::Vec3b(0, 0, 255)), 5);
 }
 
 TEST_F(OverlayTest, ShortGapsOfSupportAreDrawnThrough) {

@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -31,6 +32,13 @@ class Reconstruct(WorkspaceTest):
     def test_writes_the_same_bytes(self):
         for name in [*FORMATS.values(), 'edges.ply']:
             self.assertEqual(contents(self.by_python / name), contents(self.by_program / name), name)
+
+    def test_imports_numpy_for_arrays_only(self):
+        lines = ('import sys, pycurvix', f'curves = pycurvix.reconstruct({str(self.workspace)!r}, output_path='
+                 f'{str(self.folder)!r})', 'assert "numpy" not in sys.modules',
+                 'print(curves.positions.shape[1], curves.fits.dtype["length"])')
+        said = subprocess.run([sys.executable, '-c', '\n'.join(lines)], check=True, capture_output=True, text=True)
+        self.assertEqual(said.stdout, '3 float64\n')
 
     def test_curves_write_the_same_bytes_in_every_format(self):
         for name, file in FORMATS.items():

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes from COLMAP's files, from its objects and from arrays."""
 import struct
+import sys
 import types
+import unittest
+import zlib
 
 import numpy as np
 
@@ -25,6 +28,19 @@ class Records:
         end = self.data.index(b'\0', self.at)
         begin, self.at = self.at, end + 1
         return self.data[begin:end].decode()
+
+
+def write_png(path, pixels):
+    """Of height x width x channels; the machine's order of bytes or another."""
+    height, width, channels = pixels.shape
+    color_type = {1: 0, 3: 2, 4: 6}[channels]
+    rows = pixels.astype(pixels.dtype.newbyteorder('>')).reshape(height, -1)
+    data = b''.join(b'\0' + row.tobytes() for row in rows)
+    with path.open('wb') as file:
+        file.write(b'\x89PNG\r\n\x1a\n')
+        for kind, chunk in ((b'IHDR', struct.pack('>2I5B', width, height, 8 * pixels.itemsize, color_type, 0, 0, 0)),
+                            (b'IDAT', zlib.compress(data)), (b'IEND', b'')):
+            file.write(struct.pack('>I', len(chunk)) + kind + chunk + struct.pack('>I', zlib.crc32(kind + chunk)))
 
 
 def fake_reconstruction(folder, is_method):
@@ -124,6 +140,75 @@ class FromColmap(WorkspaceTest):
         expected = pycurvix.evaluate(pycurvix.reconstruct(scene=self.scene, options=options), truth)
         self.assertAlmostEqual(pycurvix.evaluate(curves, truth)['F5'], expected['F5'], delta=1)
         self.assertEqual(curves.scene.names, self.scene.image_paths)
+
+
+class FromImagesInMemory(WorkspaceTest):
+    """Arrays give the same bytes as files of the same images."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        try:
+            from PIL import Image
+        except ImportError:
+            raise unittest.SkipTest('python3-pil was not found')
+        cls.scene = pycurvix.Scene.from_colmap(cls.workspace)
+        cls.grey = [np.array(Image.open(path).convert('L')) for path in cls.scene.image_paths]
+
+    def make(self, images):
+        names = [f'{i:02}.png' for i in range(len(images))]
+        return pycurvix.Scene.from_arrays(self.scene.K[0], self.scene.R, self.scene.t, images, names=names)
+
+    def check(self, images, formats=('ply',)):
+        """Images of height x width or height x width x channels."""
+        folder = self.folder / 'files'
+        folder.mkdir()
+        for i, image in enumerate(images):
+            write_png(folder / f'{i:02}.png', np.atleast_3d(image))
+        scene = self.make(images)
+        self.assertEqual(scene.image_paths, [''] * len(images))
+        expected = pycurvix.reconstruct(scene=self.make([folder / name for name in scene.names]))
+        curves = pycurvix.reconstruct(scene=scene)
+        self.assertGreater(len(curves), 0)
+        for form in formats:
+            expected.write(self.folder / f'expected.{form}')
+            curves.write(self.folder / f'got.{form}')
+            self.assertEqual(contents(self.folder / f'got.{form}'), contents(self.folder / f'expected.{form}'), form)
+        return scene
+
+    def test_grey(self):
+        before = [image.copy() for image in self.grey]
+        scene = self.check(self.grey, ('ply', 'json', 'html', 'svg'))
+        np.testing.assert_array_equal(scene.sizes, [(160, 160)] * len(scene))
+        np.testing.assert_array_equal(self.grey, before)
+
+    def test_an_array_of_colours_with_alpha(self):
+        alpha = np.full_like(self.grey[0], 200)
+        self.check(np.array([np.stack((grey, 255 - grey // 2, grey // 3, alpha), axis=2) for grey in self.grey]))
+
+    def test_16_bits_in_another_order_of_bytes_and_of_columns(self):
+        deep = [np.stack((257 * grey.astype('>u2'), 130 * grey.astype('>u2'), grey.astype('>u2')), axis=2)
+                for grey in self.grey]
+        self.check([image[:, :, ::-1] for image in deep])
+
+    def test_arrays_and_files_may_be_mixed(self):
+        scene = self.make([self.scene.image_paths[0], *self.grey[1:]])
+        self.assertEqual(scene.image_paths[:2], [self.scene.image_paths[0], ''])
+
+    def test_arrays_are_kept_not_copied(self):
+        images = [grey.copy() for grey in self.grey]
+        scene = self.make(images)
+        counts = [sys.getrefcount(image) for image in images]
+        del scene
+        self.assertEqual([sys.getrefcount(image) + 1 for image in images], counts)
+
+    def test_what_is_no_image_is_refused(self):
+        grey = self.grey
+        for what, image in (('float64', grey[0] / 255), ('int64', grey[0].astype(int)), ('shape', grey[0][0]),
+                            ('shape', np.stack((grey[0], grey[0]), axis=2)), ('shape', grey[0][:0]),
+                            ('80 x 160 pixels, its camera 160 x 160', grey[1][:, :80])):
+            with self.assertRaisesRegex(pycurvix.ArgumentError, what):
+                self.make([*grey[:-1], image])
 
 
 def helix_scene(**more):

@@ -12,6 +12,17 @@ of the world to the camera. The world keeps the frame and unit of the input.
 What cannot be done raises `Error`, by the subclass that fits, with a sentence
 that says what, where and what to do.
 """
+import os as _os
+import sys as _sys
+
+_flags = _sys.getdlopenflags()
+try:
+    # Functions of libraries are looked up when they are called, as in the program, and not all of them here.
+    _sys.setdlopenflags(_os.RTLD_LAZY)
+    from . import _core
+finally:
+    _sys.setdlopenflags(_flags)
+
 from ._core import (ArgumentError, CancelledError, DataError, Error, InternalError, NotFoundError, ToolError,
                     UnsupportedError, __version__)
 from ._curves import CurveKind, Curves, FitKind, read

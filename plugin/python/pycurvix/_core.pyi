@@ -32,7 +32,7 @@ class CameraInput:
 
 class ViewInput:
     def __init__(self, name: str, image_path: str, image_id: int, camera_idx: int, quaternion: NDArray[np.float64],
-                 translation: NDArray[np.float64]) -> None: ...
+                 translation: NDArray[np.float64], image: Optional[NDArray[Any]] = None) -> None: ...
 
 class Scene:
     @staticmethod

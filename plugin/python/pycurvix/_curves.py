@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import enum
-import json
 import os
-from typing import Any, Iterator, Sequence
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from . import _core
+from ._lazy import np
 from ._scene import Path, Scene
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 
 class CurveKind(enum.IntEnum):
@@ -189,6 +189,7 @@ class Curves:
     @property
     def report(self) -> dict[str, Any] | None:
         """What a run did, as in report.json; None if no run made the curves."""
+        import json
         text = self._core.report()
         return json.loads(text) if text else None
 

@@ -6,8 +6,6 @@ import numbers
 import os
 from typing import Any, Iterator, Mapping, NamedTuple
 
-import numpy as np
-
 from . import _core
 
 
@@ -31,7 +29,9 @@ def _text(value: Any) -> str:
     """As the command line has it."""
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
-    if isinstance(value, (bool, np.bool_)):
+    if hasattr(value, 'item') and not hasattr(value, '__len__'):  # a number of NumPy
+        value = value.item()
+    if isinstance(value, bool):
         return '1' if value else '0'
     if isinstance(value, numbers.Integral):
         return str(int(value))

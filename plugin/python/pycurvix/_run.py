@@ -2,16 +2,16 @@
 """What the commands of the program do."""
 from __future__ import annotations
 
-import json
 import os
-from typing import Any, Callable, Mapping, Optional, Union
-
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Union
 
 from . import _core
 from ._curves import Curves, read
 from ._options import Options, core_options
 from ._scene import Path, Scene
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 Progress = Callable[[str, int, int], Optional[bool]]
 OptionValues = Union[Options, Mapping[str, Any]]
@@ -109,6 +109,7 @@ def evaluate(curves: Curves | Path, truth_path: Path, *, unit_mm: float = 1000, 
     ------
     ArgumentError, NotFoundError, DataError
     """
+    import json
     known = curves if isinstance(curves, Curves) else read(curves)
     return json.loads(_core.evaluate(known._core, os.fspath(truth_path), unit_mm, step, min_num_views))
 
@@ -138,6 +139,7 @@ def evaluate_holdout(workspace_path: Path, holdout_every: int = 8, *, curves_pat
     ------
     As `reconstruct`.
     """
+    import json
     paths = _paths(workspace_path, input_path, image_path, '', mask_path)
     text = _core.evaluate_holdout(paths, os.fspath(curves_path), holdout_every, core_options(options), progress)
     return json.loads(text)

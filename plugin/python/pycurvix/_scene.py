@@ -2,17 +2,22 @@
 """Posed views."""
 from __future__ import annotations
 
-import logging
 import os
-from typing import Any, Sequence, Union
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, Any, Sequence, Union
 
 from . import _core
+from ._lazy import np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 Path = Union[str, 'os.PathLike[str]']
-_log = logging.getLogger('pycurvix')
+Image = Union[Path, 'ArrayLike']
+
+
+def _warn(sentence: str) -> None:
+    import logging
+    logging.getLogger('pycurvix').warning('%s', sentence)
 
 
 def _array(name: str, values: ArrayLike, shape: Sequence[int | None]) -> NDArray[np.float64]:
@@ -28,6 +33,22 @@ def _array(name: str, values: ArrayLike, shape: Sequence[int | None]) -> NDArray
     if not np.isfinite(array).all():
         raise _core.ArgumentError(f'{name} is not finite')
     return array
+
+
+def _pixels(name: str, values: ArrayLike) -> NDArray[Any]:
+    """Rows x columns x channels without gaps; a copy only if there is no other way."""
+    array = np.asarray(values)
+    if array.dtype.kind != 'u' or array.dtype.itemsize > 2:
+        raise _core.ArgumentError(f'{name} is an array of {array.dtype}; images are uint8 or uint16')
+    pixels = array[:, :, np.newaxis] if array.ndim == 2 else array
+    if pixels.ndim != 3 or pixels.shape[2] not in (1, 3, 4) or pixels.size == 0:
+        raise _core.ArgumentError(f'{name} has the shape {array.shape}; images are height x width, with 3 channels '
+                                  '(red, green, blue) or 4 (and alpha) if they are not grey')
+    return np.ascontiguousarray(pixels, pixels.dtype.newbyteorder('='))
+
+
+def _is_path(image: Image) -> bool:
+    return isinstance(image, (str, os.PathLike))
 
 
 def _quaternions(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -47,9 +68,6 @@ def _quaternions(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
         k[:, i, 3] = k[:, 3, i] = m[:, l, j] - m[:, j, l]
     k[:, 3, 3] = np.trace(m, axis1=1, axis2=2)
     return np.linalg.eigh(k)[1][:, :, 3]
-
-
-_NO_POINTS = (np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty((0, 2)))
 
 
 class Scene:
@@ -88,11 +106,11 @@ class Scene:
         """
         scene, notes = _core.Scene.from_colmap(os.fspath(workspace_path), os.fspath(image_path))
         for note in notes:
-            _log.warning('%s', note)
+            _warn(note)
         return cls(_core=scene)
 
     @classmethod
-    def from_arrays(cls, K: ArrayLike, R: ArrayLike, t: ArrayLike, images: Sequence[Path] | None = None, *,
+    def from_arrays(cls, K: ArrayLike, R: ArrayLike, t: ArrayLike, images: Sequence[Image] | None = None, *,
                     edges: Sequence[ArrayLike] | None = None, sizes: ArrayLike | None = None,
                     names: Sequence[str] | None = None,
                     edge_spacing_px: float = 0.5) -> Scene:
@@ -108,19 +126,22 @@ class Scene:
             Rotations: ``x_camera = R @ x_world + t``.
         t : array, (N, 3)
             Translations, in the unit of the world.
-        images : sequence of N paths, optional
-            Image files without distortion.
+        images : sequence of N paths or arrays, optional
+            Images without distortion: files, or arrays of uint8 or uint16, grey
+            (H, W), red, green and blue (H, W, 3), or with alpha (H, W, 4), which
+            is over black. Arrays are kept, not copied, if they are without gaps:
+            leave them as they are while you use the scene.
         edges : sequence of N arrays, (M_i, 3) or (M_i, 4), optional
             Instead of images, the edges of each view: x, y, the angle of the
             tangent from +x to +y in radians, with the brighter side at
             ``(-sin, cos)``, and the gradient in grey levels per pixel (50
             without that column). About half a pixel apart along a contour.
         sizes : array, (2,) or (N, 2), optional
-            Width and height in pixels. Needed with edges; of images, read from
-            the files.
+            Width and height in pixels. Needed with edges; else those of the
+            images.
         names : sequence of N str, optional
-            Names of the views. By default those of the images as given, or
-            view_00000, view_00001 and so on.
+            Names of the views. By default the paths of the images as given, of
+            arrays and edges view_00000, view_00001 and so on.
         edge_spacing_px : float
             How far the edges of a contour are apart.
 
@@ -142,14 +163,17 @@ class Scene:
             if values is not None and len(values) != num_views:
                 raise _core.ArgumentError(f'there are {len(values)} {name} for {num_views} views')
         calibrations = _array('K', K, (3, 3) if np.ndim(K) == 2 else (num_views, 3, 3)).reshape(-1, 3, 3)
-        paths = ['' if images is None else os.fspath(images[i]) for i in range(num_views)]
+        given: Sequence[Image] = [''] * num_views if images is None else images
+        paths = [os.fspath(image) if _is_path(image) else '' for image in given]
+        pixels = [None if _is_path(image) else _pixels(f'images[{i}]', image) for i, image in enumerate(given)]
         if names is None:
-            names = [f'view_{i:05d}' for i in range(num_views)] if images is None else paths
+            names = [path or f'view_{i:05d}' for i, path in enumerate(paths)]
         cameras = _pinholes(calibrations, sizes, needs_sizes=images is None)
         quaternions = _quaternions(rotations)
         views = [_core.ViewInput(str(names[i]), paths[i], i + 1, min(i, len(cameras) - 1), quaternions[i],
-                                 translations[i]) for i in range(num_views)]
-        scene = _core.Scene.make(cameras, views, *_NO_POINTS)
+                                 translations[i], pixels[i]) for i in range(num_views)]
+        no_points = (np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty((0, 2)))
+        scene = _core.Scene.make(cameras, views, *no_points)
         if edges is not None:
             scene = scene.with_edges([_edge_rows(i, rows) for i, rows in enumerate(edges)], edge_spacing_px)
         return cls(_core=scene)
@@ -180,8 +204,7 @@ class Scene:
                             key=lambda image: image.name.encode())
         images = [image for image in registered if os.path.isfile(os.path.join(folder, image.name))]
         if len(images) < len(registered):
-            _log.warning('%d of %d images are not in %s and are skipped', len(registered) - len(images),
-                         len(registered), folder)
+            _warn(f'{len(registered) - len(images)} of {len(registered)} images are not in {folder} and are skipped')
         ids = sorted(reconstruction.cameras)
         cameras = [_camera(reconstruction.cameras[i]) for i in ids]
         camera_idx = {camera_id: i for i, camera_id in enumerate(ids)}
@@ -199,7 +222,7 @@ class Scene:
 
     @property
     def image_paths(self) -> list[str]:
-        """Files of the images; '' where there are edges instead."""
+        """Files of the images; '' where there are arrays or edges instead."""
         return [os.fspath(path) if str(path) != '.' else '' for path in self._core.image_paths()]
 
     @property
