@@ -193,7 +193,7 @@ TEST(GrowCurves, OneAfterTheOtherWhateverTheNumberOfThreads) {
   const Seen seen({kLine, kCircle}, 0.1);
   std::vector<Edge3d> strongest;
   std::vector<Edge3d> seeds;
-  for (const std::size_t curve_idx : {0, 1}) {
+  for (const std::size_t curve_idx : {0u, 1u}) {
     for (int i = 0; i < 70; ++i) {
       seeds.push_back(seen.Seed(curve_idx, 0.1 + 0.01 * i, 100.0 - i));
     }

@@ -45,7 +45,7 @@ TEST(SplitCorners, CutsASharpAndARoundedCornerOnce) {
   std::vector<double> sharp = Straight(60);
   sharp[29] = 60;
   std::vector<double> rounded = Straight(60);
-  for (const std::size_t k : {28, 29, 30, 31}) rounded[k] = 15;
+  for (const std::size_t k : {28u, 29u, 30u, 31u}) rounded[k] = 15;
   for (const auto& turns : {sharp, rounded}) {
     const auto sizes = PieceSizes({Walked(turns)});
     ASSERT_EQ(sizes.size(), 2u);

@@ -64,7 +64,8 @@ TEST(MeetAtJunctions, ThreeLinesEndInOnePointAndStayStraight) {
 TEST(MeetAtJunctions, CutsOffWhatTheCornerHasBent) {
   std::vector<Curve> curves = Corner(90, 1);
   for (Curve& curve : curves) {
-    for (int k = 0; k < 2; ++k) curve.samples[k].position += InPlane(0.4, 0.4);
+    for (std::size_t k = 0; k < 2; ++k)
+      curve.samples[k].position += InPlane(0.4, 0.4);
   }
   const std::vector<Curve> met = Meet(curves);
   for (const CurveSample& sample : met[0].samples) {

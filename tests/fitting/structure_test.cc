@@ -172,7 +172,7 @@ double SumOfSquares(const FittedCurves& fitted) {
     const double truth = i < 12 ? lengths[i % 6] : 0.4;
     sum += std::pow(Length(fitted.curves[i].fits[0]) - truth, 2);
   }
-  for (const std::size_t i : {18, 19}) {
+  for (const std::size_t i : {18u, 19u}) {
     sum += std::pow(fitted.curves[i].fits[0].major.norm() - 0.2, 2);
   }
   return sum;

@@ -150,7 +150,7 @@ TEST(RefinePoses, KeepsPosesThatAreGood) {
 }
 
 TEST(RefinePoses, SkipsModelsWithFewPoints) {
-  for (const std::size_t num_points : {0, 5, 90}) {
+  for (const std::size_t num_points : {0u, 5u, 90u}) {
     PosedPointsOptions options;
     options.num_points = num_points;
     ColmapModel model = PosedPoints(options);
