@@ -34,8 +34,8 @@ struct DrawSummary {
 };
 
 // Writes <name>.dxf and <name>.svg, and <name>.jpg and <name>.gpkg if a
-// photograph or a GeoPackage is asked for, into the folder of results, all or none. kInvalidArgument: settings that
-// cannot work; errors of what is read.
+// photograph or a GeoPackage is asked for, into the folder of results, all or
+// none. kInvalidArgument: settings that cannot work; errors of what is read.
 Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress);
 

@@ -65,9 +65,8 @@ std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
 std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
                               const GrowthInput& input,
                               int num_threads) {
-  return KeepSignificant(Grow(seeds, input, num_threads),
-                         input.indices,
-                         input.options);
+  return KeepSignificant(
+      Grow(seeds, input, num_threads), input.indices, input.options);
 }
 
 }  // namespace curvix

@@ -20,8 +20,7 @@ const Edge2d& EdgeOf(const EdgeRef& ref,
 std::vector<EdgeRef> SupportOf(const Curve& curve) {
   std::vector<EdgeRef> support;
   for (const CurveSample& sample : curve.samples) {
-    support.insert(
-        support.end(), sample.support.begin(), sample.support.end());
+    support.insert(support.end(), sample.support.begin(), sample.support.end());
   }
   return support;
 }

@@ -4,7 +4,8 @@
 //   edges.bin: number of views; per view: number of edges, noise, spacing in
 //     pixels (doubles), edges dropped by the mask, as isolated, over the limit
 //     (int32 each); per edge: x, y (doubles), angle, strength, sharpness
-//     (floats), level, crowding (halves), indices of the previous and the next edge (int32, -1: none)
+//     (floats), level, crowding (halves), indices of the previous and the next
+//     edge (int32, -1: none)
 //   sketch.bin: view pairs, edges asked, hypotheses, without support, weaker
 //     weaker alternatives, 2D edges used (int64 each); edge sigma in pixels
 //     (double); number of 3D edges; per edge: position, tangent (3 doubles
