@@ -29,9 +29,9 @@ namespace curvix {
 //
 // Curves below options.min_significance or above options.max_crowding
 // (keep_significant.h) are dropped, and their edges are not free for other
-// curves. The uncertainty of their position
-// does not matter: the sigma of a sample is that of a 3D edge with the same
-// support, before short streaks of hits are dropped.
+// curves. The uncertainty of their position does not matter: the sigma of a
+// sample is that of a 3D edge with the same support, before short streaks of
+// hits are dropped.
 //
 // The curves are in the order of their seeds.
 std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
