@@ -38,11 +38,12 @@ T LoadBytes(const char* bytes, std::endian order) {
   return value;
 }
 
-// Numbers, of the language's types or halves, to bytes, as they lie in memory.
+// What is written and read as it lies in memory.
 template <typename T>
 constexpr bool kIsNumber =
     std::is_arithmetic_v<T> || std::is_same_v<T, Eigen::half>;
 
+// Numbers to bytes, as they lie in memory.
 class ByteWriter {
  public:
   template <typename T>
