@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <regex>
+#include <sstream>
 #include <system_error>
 
 #include "base/median.h"
@@ -17,8 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `colmap help` only prints.
-constexpr double kVersionTimeoutS = 20;
+// Help is only printed.
+constexpr double kHelpTimeoutS = 20;
+// A step that lowers the cost by less, relative to it, is the last, as in
+// Ceres. COLMAP's default is 0, which takes up to 100 steps.
+constexpr char kFunctionTolerance[] = "0.000001";
 
 constexpr char kHowToInstall[] =
     "install it ('apt install colmap' on Debian and Ubuntu, else "
@@ -167,19 +171,66 @@ Status CheckEnd(const ChildEnd& end, double timeout_s) {
   return ToolFailure("it ended with exit code " + std::to_string(end.code));
 }
 
-std::vector<std::string> BundleAdjusterArguments(const fs::path& input,
-                                                 const fs::path& output) {
-  return {"bundle_adjuster",
-          "--input_path",
-          input.string(),
-          "--output_path",
-          output.string(),
-          "--BundleAdjustment.refine_focal_length",
-          "0",
-          "--BundleAdjustment.refine_principal_point",
-          "0",
-          "--BundleAdjustment.refine_extra_params",
-          "0"};
+// What COLMAP prints when it is called with `arguments`, which ask for help.
+Result<std::string> HelpText(const std::vector<std::string>& arguments,
+                             const ColmapRun& run,
+                             const KeepGoing& keep_going) {
+  const Result<fs::path> made = ScratchFolder::Make();
+  if (!made.ok()) return made.status();
+  const ScratchFolder scratch(*made);
+  const fs::path text_path = scratch.path() / "help.txt";
+  const double timeout_s = std::min(run.timeout_s, kHelpTimeoutS);
+  const Result<ChildEnd> end = RunChildProcess({run.program,
+                                                arguments,
+                                                scratch.path(),
+                                                text_path,
+                                                timeout_s,
+                                                keep_going});
+  if (!end.ok()) return end.status();
+  if (end->kind == ChildEnd::Kind::kStopped) return Cancelled();
+  if (end->kind == ChildEnd::Kind::kTimedOut) {
+    return ToolFailure("its help was not done after " +
+                       DurationText(timeout_s));
+  }
+  constexpr std::size_t kMaxBytes = 100000;
+  std::string text(kMaxBytes, '\0');
+  std::ifstream file(text_path, std::ios::binary);
+  file.read(text.data(), kMaxBytes);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+// The name of the option for kFunctionTolerance, which COLMAP 4 renamed; empty
+// if the help knows neither name.
+std::string FunctionToleranceOption(const std::string& help) {
+  for (const char* const name :
+       {"--BundleAdjustment.function_tolerance",
+        "--BundleAdjustmentCeres.function_tolerance"}) {
+    if (help.find(name) != std::string::npos) return name;
+  }
+  return {};
+}
+
+std::vector<std::string> BundleAdjusterArguments(
+    const fs::path& input,
+    const fs::path& output,
+    const std::string& tolerance_option) {
+  std::vector<std::string> arguments = {
+      "bundle_adjuster",
+      "--input_path",
+      input.string(),
+      "--output_path",
+      output.string(),
+      "--BundleAdjustment.refine_focal_length",
+      "0",
+      "--BundleAdjustment.refine_principal_point",
+      "0",
+      "--BundleAdjustment.refine_extra_params",
+      "0"};
+  if (!tolerance_option.empty()) {
+    arguments.insert(arguments.end(), {tolerance_option, kFunctionTolerance});
+  }
+  return arguments;
 }
 
 }  // namespace
@@ -203,26 +254,11 @@ Result<fs::path> FindColmap(const fs::path& given) {
 
 Result<std::string> ColmapVersion(const ColmapRun& run,
                                   const KeepGoing& keep_going) {
-  const Result<fs::path> made = ScratchFolder::Make();
-  if (!made.ok()) return made.status();
-  const ScratchFolder scratch(*made);
-  const fs::path text_path = scratch.path() / "help.txt";
-  const double timeout_s = std::min(run.timeout_s, kVersionTimeoutS);
-  const Result<ChildEnd> end = RunChildProcess({run.program,
-                                                {"help"},
-                                                scratch.path(),
-                                                text_path,
-                                                timeout_s,
-                                                keep_going});
-  if (!end.ok()) return end.status();
-  if (end->kind == ChildEnd::Kind::kStopped) return Cancelled();
-  if (end->kind == ChildEnd::Kind::kTimedOut) {
-    return ToolFailure("'colmap help' was not done after " +
-                       DurationText(timeout_s));
-  }
-  std::ifstream text(text_path);
+  const Result<std::string> help = HelpText({"help"}, run, keep_going);
+  if (!help.ok()) return help.status();
   static const std::regex kBanner(R"(^COLMAP (\d+\.\d+[^ ]{0,20}))");
   constexpr int kMaxBannerLine = 50;
+  std::istringstream text(*help);
   std::string line;
   for (int i = 0; i < kMaxBannerLine && std::getline(text, line); ++i) {
     std::smatch match;
@@ -235,6 +271,9 @@ Result<std::string> ColmapVersion(const ColmapRun& run,
 Result<Bundle> RefineWithColmap(const Bundle& bundle,
                                 const ColmapRun& run,
                                 const KeepGoing& keep_going) {
+  const Result<std::string> help =
+      HelpText({"bundle_adjuster", "--help"}, run, keep_going);
+  if (!help.ok()) return help.status();
   const Result<fs::path> made = ScratchFolder::Make();
   if (!made.ok()) return made.status();
   const ScratchFolder scratch(*made);
@@ -245,13 +284,13 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   Status written = WriteColmapModel(
       ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
   if (!written.ok()) return written;
-  const Result<ChildEnd> end =
-      RunChildProcess({run.program,
-                       BundleAdjusterArguments(input, output),
-                       scratch.path(),
-                       run.log_path,
-                       run.timeout_s,
-                       keep_going});
+  const Result<ChildEnd> end = RunChildProcess(
+      {run.program,
+       BundleAdjusterArguments(input, output, FunctionToleranceOption(*help)),
+       scratch.path(),
+       run.log_path,
+       run.timeout_s,
+       keep_going});
   if (!end.ok()) return end.status();
   Status ended = CheckEnd(*end, run.timeout_s);
   if (!ended.ok()) return ended;

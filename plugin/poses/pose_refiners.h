@@ -38,8 +38,9 @@ Result<std::string> ColmapVersion(const ColmapRun& run,
                                   const KeepGoing& keep_going);
 
 // The same as RefineWithCeres by `colmap bundle_adjuster`, without a robust
-// loss or a prior: it has neither. Options are only those that COLMAP 3.6 to
-// 4.x know. kExternalTool, with a sentence that says what went wrong: it could
+// loss or a prior: it has neither. Options are those that COLMAP 3.6 to 4.x
+// know, and its function tolerance under the name that its help has.
+// kExternalTool, with a sentence that says what went wrong: it could
 // not be started, failed, took too long, or wrote no model with the same
 // images and cameras. kCancelled; kInvalidArgument: no room for temporary
 // files.

@@ -315,8 +315,9 @@ class ColmapFaults : public testing::Test {
   Outcome RunWith(const std::string& bundle_adjuster,
                   const std::string& limits = "true") const {
     const fs::path colmap = workspace_.Outside("colmap");
-    std::ofstream(colmap) << "#!/bin/sh\n[ $1 = help ] && exit\n"
-                          << bundle_adjuster << "\n";
+    std::ofstream(colmap)
+        << "#!/bin/sh\n[ $1 = help -o \"$2\" = --help ] && exit\n"
+        << bundle_adjuster << "\n";
     fs::permissions(colmap, fs::perms::owner_all);
     return RunInShell("{ " + limits + " && exec '" + CURVIX_PROGRAM +
                       "' --workspace_path " + Quoted(workspace_.path()) +

@@ -207,13 +207,19 @@ class FakeColmap : public testing::Test {
                      const std::string& help = "echo 'COLMAP 3.8 -- SfM'") {
     const fs::path script =
         folder_.Write("bin/colmap",
-                      "#!/bin/sh\nif [ \"$1\" = help ]; "
+                      "#!/bin/sh\nif [ \"$1\" = help -o \"$2\" = --help ]; "
                       "then\n" +
                           help + "\nexit 0\nfi\n" + bundle_adjuster + "\n");
     fs::permissions(script, fs::perms::owner_all);
     settings_.colmap_path = script;
     settings_.refiner_timeout_s = 1;
     return Refine(model_, settings_, folder_.path() / "log");
+  }
+
+  // What the script printed.
+  std::string Log() const {
+    std::ifstream log(folder_.path() / "log");
+    return {std::istreambuf_iterator<char>(log), {}};
   }
 
   // Writes `model` where the script can copy it from.
@@ -249,9 +255,7 @@ class FakeColmap : public testing::Test {
 
 TEST_F(FakeColmap, GetsStableOptionsAndAModelInAPrivateFolder) {
   Run("echo \"$@\"; ls \"$3\"; stat -c %a \"$3/..\"");
-  std::ifstream log(folder_.path() / "log");
-  const std::string text(std::istreambuf_iterator<char>(log), {});
-  EXPECT_THAT(text,
+  EXPECT_THAT(Log(),
               AllOf(HasSubstr("--BundleAdjustment.refine_focal_length 0 "
                               "--BundleAdjustment.refine_principal_point 0 "
                               "--BundleAdjustment.refine_extra_params 0\n"),
@@ -259,6 +263,17 @@ TEST_F(FakeColmap, GetsStableOptionsAndAModelInAPrivateFolder) {
   const ColmapModel written = Written();
   EXPECT_EQ(written.images.size(), model_.images.size());
   EXPECT_LT(written.points.size(), model_.points.size());
+}
+
+TEST_F(FakeColmap, StopsWhenTheCostHardlyFalls) {
+  for (const std::string name :
+       {"--BundleAdjustment.function_tolerance",
+        "--BundleAdjustmentCeres.function_tolerance"}) {
+    Run("echo \"$@\"", "echo '  " + name + " arg (=0)'");
+    EXPECT_THAT(Log(),
+                HasSubstr("--BundleAdjustment.refine_extra_params 0 " + name +
+                          " 0.000001\n"));
+  }
 }
 
 TEST_F(FakeColmap, MissingIsToldAndCeresTakesOver) {
