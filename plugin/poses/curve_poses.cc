@@ -84,8 +84,13 @@ double ShiftOfImage(const Camera& from, const Camera& to) {
   return MedianOrNan(std::move(shifts));
 }
 
-std::string Errors(double before_px, double after_px) {
-  return FormatText("%.3f to %.3f px", before_px, after_px);
+// Of the held-out samples of curves; of the held-out points if there are none.
+std::string ErrorsText(const CurvePoses& poses) {
+  const bool has_samples = poses.num_check_observations > 0;
+  const ErrorsOfViews& before =
+      has_samples ? poses.before : poses.points_before;
+  const ErrorsOfViews& after = has_samples ? poses.after : poses.points_after;
+  return FormatText("%.3f to %.3f px", before.median_px, after.median_px);
 }
 
 std::string CamerasText(const std::vector<CameraChange>& cameras) {
@@ -105,8 +110,7 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
     return poses.num_check_observations == 0 ? "kept" : "kept, " + poses.reason;
   }
   return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
-         " views, " + Errors(poses.before.median_px, poses.after.median_px) +
-         CamerasText(record.cameras) +
+         " views, " + ErrorsText(poses) + CamerasText(record.cameras) +
          FormatText(", shifts up to %.2f px", poses.max_shift_px) +
          (poses.accepted ? "" : ", refused");
 }

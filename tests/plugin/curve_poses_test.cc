@@ -58,6 +58,20 @@ TEST_F(CurvePosesOfAModel, AreThoseOfTheInputsWorld) {
   EXPECT_THAT(CurvePosesText(refined.record), HasSubstr("12 views, "));
 }
 
+TEST(CurvePosesText, HasTheErrorsOfPointsIfNoCurveWasHeldOut) {
+  CurvePoseRecord record;
+  record.poses.accepted = true;
+  record.poses.num_views_moved = 4;
+  record.poses.points_before.median_px = 0.5;
+  record.poses.points_after.median_px = 0.25;
+  record.poses.max_shift_px = 1;
+  EXPECT_EQ(CurvePosesText(record),
+            "4 views, 0.500 to 0.250 px, shifts up to 1.00 px");
+  record.poses.num_check_observations = 1;
+  record.poses.before.median_px = 0.125;
+  EXPECT_THAT(CurvePosesText(record), HasSubstr("0.125 to 0.000 px"));
+}
+
 TEST_F(CurvePosesOfAModel, LeaveOutViewsThatAreMissing) {
   scene_ = SceneFromColmapModel(model_, "images", {scene_.views[5].name});
   wires_.edge_maps.erase(wires_.edge_maps.begin() + 5);
