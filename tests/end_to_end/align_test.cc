@@ -156,10 +156,7 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
         std::pair("--up 0,0,1", "--axes auto"),
         std::pair("--axes auto --up 0,0,0", "no direction"),
         std::pair("--distance 0 1 1 --epsg 1", "--positions")}) {
-    const Outcome outcome = RunAlign(words);
-    EXPECT_NE(outcome.exit_code, 0) << words;
-    EXPECT_THAT(outcome.output, HasSubstr("ERROR: ")) << words;
-    EXPECT_THAT(outcome.output, HasSubstr(why)) << words;
+    ExpectError(std::string("align ") + words, why);
   }
   EXPECT_EQ(Read(results_ / "curves.json"), curves);
   EXPECT_FALSE(fs::exists(results_ / "alignment.json"));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "plugin/commands/command_synthesize.h"
 #include "tests/end_to_end/run_program.h"
@@ -28,6 +29,13 @@ class BlockTest : public testing::Test {
 
   Outcome Run(const std::string& words) {
     return RunProgram(words + " --workspace_path " + Quoted(workspace_));
+  }
+  // The program fails and says why.
+  void ExpectError(const std::string& words, const std::string& why) {
+    const Outcome outcome = Run(words);
+    EXPECT_NE(outcome.exit_code, 0) << words;
+    EXPECT_THAT(outcome.output, testing::HasSubstr("ERROR: ")) << words;
+    EXPECT_THAT(outcome.output, testing::HasSubstr(why)) << words;
   }
   nlohmann::json Curves() {
     return nlohmann::json::parse(Read(results_ / "curves.json"));

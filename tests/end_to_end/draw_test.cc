@@ -237,10 +237,7 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
         std::pair("--photograph none.jpg", "no image of the model"),
         std::pair("--name a/b", "--name")}) {
-    const Outcome outcome = Run(std::string("draw ") + words);
-    EXPECT_NE(outcome.exit_code, 0) << words;
-    EXPECT_THAT(outcome.output, HasSubstr("ERROR: ")) << words;
-    EXPECT_THAT(outcome.output, HasSubstr(why)) << words;
+    ExpectError(std::string("draw ") + words, why);
   }
   EXPECT_EQ(Contents(results_), before);
 }
