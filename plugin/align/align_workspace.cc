@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/align/align_workspace.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/angles.h"
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
@@ -22,12 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string Text(double value, int num_digits = 6) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.*g", num_digits, value);
-  return text.data();
+  return FormatText("%.*g", num_digits, value);
 }
 
-std::string SigmaText(double sigma) { return Text(sigma, 2); }
+// Two digits, or all before the point.
+std::string SigmaText(double sigma) {
+  return sigma < 99.5 ? Text(sigma, 2) : FormatText("%.0f", sigma);
+}
 
 std::string WithSigma(double value, double sigma) {
   return Text(value) + " +- " + SigmaText(sigma);

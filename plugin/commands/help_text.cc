@@ -81,12 +81,12 @@ constexpr char kMarkdownHead[] =
     "\n"
     "<!-- Written by `colmap_curvix help --markdown`; a test compares. -->\n"
     "\n"
-    "In brackets: the default and, if another, the value with `--preset\n"
-    "paper`. [Poses](#poses), [CurveFilter](#curvefilter) and\n"
-    "[Runtime](#runtime) matter most; `--help_all` prints ranges and the\n"
-    "paper's symbols. In a file (`--project_path x.ini`):\n"
-    "`max_angle_deg=10` below `[Validation]`. Pixels are those of the\n"
-    "original images; 1 is on, 0 is off. [Glossary](glossary.md).\n";
+    "In brackets: the default and, if another, that of `--preset paper`.\n"
+    "[Poses](#poses), [CurveFilter](#curvefilter) and [Runtime](#runtime)\n"
+    "matter most; `--help_all` prints ranges and the paper's symbols. In a\n"
+    "file (`--project_path x.ini`): `max_angle_deg=10` below\n"
+    "`[Validation]`. Pixels are those of the original images; 1 is on, 0 is\n"
+    "off. [Glossary](glossary.md).\n";
 
 }  // namespace
 

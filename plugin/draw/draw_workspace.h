@@ -33,8 +33,8 @@ struct DrawSummary {
   std::string text;  // what was drawn and where it is, for people
 };
 
-// Writes <name>.dxf and <name>.svg, and <name>.jpg and <name>.gpkg if a
-// photograph or a GeoPackage is asked for, into the folder of results, all or
+// Writes <name>.dxf and <name>.svg, and <name>.jpg, <name>.gpkg and
+// <name>.geojson if they are asked for, into the folder of results, all or
 // none. kInvalidArgument: settings that cannot work; errors of what is read.
 Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress);

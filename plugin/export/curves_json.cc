@@ -17,8 +17,6 @@ namespace {
 
 constexpr int kPixelDecimals = 3;
 
-Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 Json MatrixJson(const Eigen::Matrix3d& m) { return Triangle(m); }
 
 Json NodeIdxJson(int node_idx) {
@@ -204,6 +202,8 @@ std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
   return SupportingEdge{ImageFromIdeal(camera, ray.hnormalized()),
                         normal.dot(seen - edge.position)};
 }
+
+Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 double Rounded(double value, int num_decimals) {
   const double scale = std::pow(10.0, num_decimals);

@@ -51,6 +51,8 @@ using Json = nlohmann::ordered_json;
 // are not finite are null.
 std::string JsonText(const Json& json);
 
+Json VectorJson(const Eigen::Vector3d& v);
+
 // `value`, finite, with so many digits behind the point at most.
 double Rounded(double value, int num_decimals);
 

@@ -4,6 +4,7 @@
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -86,19 +87,13 @@ std::string_view KindOf(const FittedCurve& fitted) {
   return fitted.fits.size() > 1 ? "chain" : KindName(fitted.fits.front());
 }
 
-Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 // The upper triangle, by rows; five digits are enough.
 Json CovarianceJson(const Eigen::Matrix3d& m) {
-  const auto rounded = [](double value) {
-    return value == 0 ? 0 : Rounded(value, 4 - std::ilogb(value) * 3 / 10);
-  };
-  return {rounded(m(0, 0)),
-          rounded(m(0, 1)),
-          rounded(m(0, 2)),
-          rounded(m(1, 1)),
-          rounded(m(1, 2)),
-          rounded(m(2, 2))};
+  std::array<double, 6> values = Triangle(m);
+  for (double& value : values) {
+    if (value != 0) value = Rounded(value, 4 - std::ilogb(value) * 3 / 10);
+  }
+  return values;
 }
 
 Json FitJson(const CurveFit& fit) {

@@ -207,17 +207,10 @@ Result<std::vector<ImportedView>> ViewsOf(const std::vector<DtuView>& views,
   if (!poses.ok()) return poses.status();
   std::vector<ImportedView> imported;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const std::string& name = views[i].image;
-    const CalibratedPose& pose = (*poses)[i];
-    const Result<ImageSize> size = ReadImageSize(folder / name);
-    if (!size.ok()) return size.status();
-    const Result<Camera> camera = CameraFromCalibration(
-        pose.calibration, size->width, size->height, first_pixel);
-    if (!camera.ok()) {
-      return Status(camera.status().code(),
-                    views[i].source + ": " + camera.status().message());
-    }
-    imported.push_back({name, folder / name, *camera, pose.cam_from_world});
+    Result<ImportedView> view = CalibratedView(
+        views[i].image, folder, (*poses)[i], first_pixel, views[i].source);
+    if (!view.ok()) return view.status();
+    imported.push_back(*std::move(view));
   }
   return imported;
 }

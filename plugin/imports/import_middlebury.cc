@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 
 struct ParLine {
   std::string name;
-  Eigen::Matrix3d calibration;
-  Rigid3 cam_from_world;
+  CalibratedPose pose;
 };
 
 Status Broken(const fs::path& file, int line, const std::string& why) {
@@ -41,12 +40,12 @@ Result<ParLine> ParseParLine(std::string_view text,
   if (!TakeWord(text).empty()) {
     return Broken(file, line, "holds more than 21 numbers");
   }
-  result.calibration = Eigen::Map<const Matrix3dRowMajor>(numbers.data());
+  result.pose.calibration = Eigen::Map<const Matrix3dRowMajor>(numbers.data());
   const auto rotation =
       RotationFromMatrix(Eigen::Map<const Matrix3dRowMajor>(&numbers[9]));
   if (!rotation) return Broken(file, line, "holds no rotation matrix");
-  result.cam_from_world = {*rotation,
-                           Eigen::Map<const Eigen::Vector3d>(&numbers[18])};
+  result.pose.cam_from_world = {
+      *rotation, Eigen::Map<const Eigen::Vector3d>(&numbers[18])};
   return result;
 }
 
@@ -81,17 +80,10 @@ Result<std::vector<ImportedView>> ViewsOf(const std::vector<ParLine>& lines,
                                           double first_pixel) {
   std::vector<ImportedView> views;
   for (const ParLine& line : lines) {
-    ImportedView view{line.name, folder / line.name, {}, line.cam_from_world};
-    const Result<ImageSize> size = ReadImageSize(view.file);
-    if (!size.ok()) return size.status();
-    const Result<Camera> camera = CameraFromCalibration(
-        line.calibration, size->width, size->height, first_pixel);
-    if (!camera.ok()) {
-      return Status(camera.status().code(),
-                    line.name + ": " + camera.status().message());
-    }
-    view.camera = *camera;
-    views.push_back(std::move(view));
+    Result<ImportedView> view =
+        CalibratedView(line.name, folder, line.pose, first_pixel, line.name);
+    if (!view.ok()) return view.status();
+    views.push_back(*std::move(view));
   }
   return views;
 }

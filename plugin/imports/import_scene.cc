@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/imports/import_scene.h"
-#include "colmap/links.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <string_view>
 #include <system_error>
+
+#include "colmap/links.h"
 
 namespace curvix {
 namespace {
@@ -63,6 +64,23 @@ bool IsImageName(const std::string& name) {
 }
 
 }  // namespace
+
+Result<ImportedView> CalibratedView(const std::string& name,
+                                    const fs::path& folder,
+                                    const CalibratedPose& pose,
+                                    double first_pixel,
+                                    const std::string& source) {
+  const fs::path file = folder / name;
+  const Result<ImageSize> size = ReadImageSize(file);
+  if (!size.ok()) return size.status();
+  const Result<Camera> camera = CameraFromCalibration(
+      pose.calibration, size->width, size->height, first_pixel);
+  if (!camera.ok()) {
+    return Status(camera.status().code(),
+                  source + ": " + camera.status().message());
+  }
+  return ImportedView{name, file, *camera, pose.cam_from_world};
+}
 
 Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
                                    const fs::path& source) {

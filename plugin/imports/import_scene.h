@@ -12,6 +12,7 @@
 
 #include "colmap/colmap_model.h"
 #include "edge_detection/image_header.h"
+#include "plugin/imports/projection_matrix.h"
 
 namespace curvix {
 
@@ -40,6 +41,16 @@ struct ImportedView {
   Camera camera;
   Rigid3 cam_from_world;
 };
+
+// The view of the image `name` in `folder`, which must be there to tell its
+// size. `pose` counts the centre of the first pixel as (first_pixel,
+// first_pixel). Errors of ReadImageSize and, with `source` before them, of
+// CameraFromCalibration.
+Result<ImportedView> CalibratedView(const std::string& name,
+                                    const std::filesystem::path& folder,
+                                    const CalibratedPose& pose,
+                                    double first_pixel,
+                                    const std::string& source);
 
 // The views as a model: ids from 1 in the order of `views`, one camera for all
 // views whose cameras are the same number for number. kDataLoss, calling the

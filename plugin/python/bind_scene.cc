@@ -120,8 +120,7 @@ void FindSizes(Scene& scene) {
 
 void CheckSizesInMemory(const Scene& scene) {
   for (const View& view : scene.views) {
-    const Camera& camera =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+    const Camera& camera = CameraOf(scene, view);
     const auto text = [](int width, int height) {
       return std::to_string(width) + " x " + std::to_string(height);
     };

@@ -158,7 +158,9 @@ double NthLargest(std::vector<double> values, std::int64_t n) {
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges) {
   if (static_cast<std::int64_t>(edges->size()) <= max_edges) return 0;
-  const std::vector<double> prominence = Prominence(*edges);
+  std::vector<double> prominence;
+  prominence.reserve(edges->size());
+  for (const LocatedEdge& edge : *edges) prominence.push_back(Prominence(edge));
   const double least = NthLargest(prominence, max_edges);
   std::size_t num_kept = 0;
   for (std::size_t i = 0; i < edges->size(); ++i) {

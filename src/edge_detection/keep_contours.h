@@ -14,7 +14,7 @@ namespace curvix {
 
 // Keeps the `max_edges` (>= 1) edges of largest Prominence(), and those that
 // are as prominent as the last of these, in their order. Returns how many it
-// dropped.
+// dropped. Their crowding is measured.
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges);
 

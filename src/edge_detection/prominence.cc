@@ -61,7 +61,6 @@ cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges) {
   return strengths;
 }
 
-// Edge2d::crowding, without rounding.
 template <typename Edge>
 std::vector<float> CrowdingOf(const std::vector<Edge>& edges) {
   const cv::Mat1f strengths = StrengthPerPixel(edges);
@@ -81,33 +80,32 @@ std::vector<float> CrowdingOf(const std::vector<Edge>& edges) {
   return crowding;
 }
 
-template <typename Edge>
-std::vector<double> ProminenceOf(const std::vector<Edge>& edges,
-                                 const std::vector<float>& crowding) {
-  std::vector<double> prominence;
-  prominence.reserve(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    prominence.push_back(static_cast<double>(Strength(edges[i])) /
-                         (1 + static_cast<double>(crowding[i]) / kCrowded));
-  }
-  return prominence;
+double Prominence(float strength, float crowding) {
+  return static_cast<double>(strength) /
+         (1 + static_cast<double>(crowding) / kCrowded);
 }
 
 }  // namespace
-
-std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
-  return ProminenceOf(edges, CrowdingOf(edges));
-}
-
-std::vector<double> Prominence(const std::vector<LocatedEdge>& edges) {
-  return ProminenceOf(edges, CrowdingOf(edges));
-}
 
 void MeasureCrowding(std::vector<LocatedEdge>* edges) {
   const std::vector<float> crowding = CrowdingOf(*edges);
   for (std::size_t i = 0; i < edges->size(); ++i) {
     (*edges)[i].crowding = crowding[i];
   }
+}
+
+double Prominence(const LocatedEdge& edge) {
+  return Prominence(edge.strength(), edge.crowding);
+}
+
+std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
+  const std::vector<float> crowding = CrowdingOf(edges);
+  std::vector<double> prominence;
+  prominence.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    prominence.push_back(Prominence(edges[i].strength, crowding[i]));
+  }
+  return prominence;
 }
 
 }  // namespace curvix

@@ -31,7 +31,7 @@ enum class StageKind : std::uint32_t {
 };
 
 constexpr std::size_t kStageHeadBytes = 40;
-constexpr std::size_t kEdge2dBytes = 28;
+constexpr std::size_t kEdge2dBytes = 32;
 constexpr std::size_t kEdge3dBytes = 72;  // without support
 constexpr std::size_t kEdgeRefBytes = 8;
 

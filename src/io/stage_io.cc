@@ -6,7 +6,7 @@
 //     (int32 each); per edge: x, y (doubles), angle, strength, sharpness
 //     (floats), level, crowding (halves), indices of the previous and the next
 //     edge (int32, -1: none)
-//   sketch.bin: view pairs, edges asked, hypotheses, without support, weaker
+//   sketch.bin: view pairs, edges asked, hypotheses, without support,
 //     weaker alternatives, 2D edges used (int64 each); edge sigma in pixels
 //     (double); number of 3D edges; per edge: position, tangent (3 doubles
 //     each), sigma, evidence (doubles), number of supports, per support view

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/median.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "tests/edge_detection/rendered_images.h"
 
@@ -160,9 +161,10 @@ TEST(DetectViewEdges, CountsWhatItDrops) {
   ASSERT_TRUE(bounded_by_noise.ok() && bounded.ok() && all.ok());
   EXPECT_EQ(all->num_dropped_isolated, 0);
   EXPECT_EQ(all->num_dropped_over_limit, 0);
-  EXPECT_EQ(bounded_by_noise->edges.size() +
-                static_cast<std::size_t>(bounded_by_noise->num_dropped_isolated),
-            all->edges.size());
+  EXPECT_EQ(
+      bounded_by_noise->edges.size() +
+          static_cast<std::size_t>(bounded_by_noise->num_dropped_isolated),
+      all->edges.size());
   EXPECT_GT(bounded_by_noise->num_dropped_isolated, 1000);
   EXPECT_EQ(bounded_by_noise->num_dropped_over_limit, 0);
   EXPECT_LE(bounded->edges.size(), 10000u);
@@ -174,6 +176,33 @@ TEST(DetectViewEdges, CountsWhatItDrops) {
                         150) < 1;
       });
   EXPECT_GT(on_disc, 600) << "the disc outlives the noise";
+}
+
+TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
+  const Eigen::Vector2d center(200, 200);
+  GrayImage image = RenderDisc(400, center, 150);
+  AddNoise(8, 11, image);
+  const ImageFile file(image);
+  EdgeDetectionOptions options;
+  options.noise_factor = 1;
+  options.max_edges_per_megapixel = 1;
+  const auto crowded =
+      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  options.max_edges_per_megapixel = 1e9;
+  const auto not_crowded =
+      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  ASSERT_TRUE(crowded.ok() && not_crowded.ok());
+  std::vector<double> of_disc, of_noise;
+  for (const Edge2d& edge : crowded->edges) {
+    const double r = (edge.position - center).norm();
+    (std::abs(r - 150) < 1 ? of_disc : of_noise)
+        .push_back(static_cast<double>(edge.crowding));
+  }
+  EXPECT_LT(Median(of_disc), 0.15);
+  EXPECT_GT(Median(of_noise), 0.3);
+  for (const Edge2d& edge : not_crowded->edges) {
+    ASSERT_EQ(edge.crowding, Eigen::half(0));
+  }
 }
 
 TEST(MaxEdges, GrowsWithTheImage) {

@@ -66,6 +66,14 @@ TEST(DropLeastProminent, KeepsTheOrderAndWhatIsAsProminentAsTheLast) {
   EXPECT_EQ(edges[3].strength(), 5);
 }
 
+TEST(DropLeastProminent, DropsCrowdedEdgesBeforeWeakerOnes) {
+  std::vector<LocatedEdge> edges = {{{0, 0}, {0, 4}, 0.5f},
+                                    {{100, 0}, {0, 2}, 0}};
+  EXPECT_EQ(DropLeastProminent(1, &edges), 1);
+  ASSERT_EQ(edges.size(), 1u);
+  EXPECT_EQ(edges[0].strength(), 2);
+}
+
 std::vector<float> Strengths(const KeptEdges& kept) {
   std::vector<float> strengths;
   for (const Edge2d& edge : kept.edges) {

@@ -10,9 +10,7 @@
 #include "colmap/colmap_model.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/commands/command_synthesize.h"
-#include "tests/end_to_end/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/end_to_end/block_test.h"
 
 namespace curvix {
 namespace {
@@ -21,24 +19,14 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-// A block of size 1 with curves, in small images.
-class Align : public testing::Test {
+class Align : public BlockTest {
  protected:
   void SetUp() override {
-    SyntheticOptions options;
-    options.solid = SyntheticSolid::kBlock;
-    options.num_views = 12;
-    options.width = 240;
-    options.height = 240;
-    ASSERT_TRUE(Synthesize(options, workspace_).ok());
-    ASSERT_EQ(Run("").exit_code, 0);
+    BlockTest::SetUp();
     before_ = Curves();
     ASSERT_GE(before_["nodes"].size(), 4u);
   }
 
-  Outcome Run(const std::string& words) {
-    return RunProgram(words + " --workspace_path " + Quoted(workspace_));
-  }
   // Switched to the frame of `known`.
   Outcome RunAlign(const std::string& known) { return Run("align " + known); }
 
@@ -57,8 +45,6 @@ class Align : public testing::Test {
     return folder_.Write("positions.txt", positions.str());
   }
 
-  json Curves() { return json::parse(Read(results_ / "curves.json")); }
-
   // The first line between two nodes.
   static json FirstLine(const json& curves) {
     for (const json& curve : curves["curves"]) {
@@ -72,9 +58,6 @@ class Align : public testing::Test {
     return {};
   }
 
-  TemporaryFolder folder_;
-  const fs::path workspace_ = folder_.path() / "proj";
-  const fs::path results_ = workspace_ / "curvix/0";
   json before_;
 };
 
@@ -110,6 +93,12 @@ TEST_F(Align, AKnownDistanceScalesAllResults) {
   fs::remove(results_ / "alignment.json");
   ASSERT_EQ(Run("").exit_code, 0);
   EXPECT_EQ(Curves(), before_);
+}
+
+TEST_F(Align, TellsLargeUncertaintiesWithoutExponents) {
+  const Outcome outcome = RunAlign("--distance 0 1 250 500");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr(", to 200 %"));
 }
 
 TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
@@ -167,10 +156,7 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
         std::pair("--up 0,0,1", "--axes auto"),
         std::pair("--axes auto --up 0,0,0", "no direction"),
         std::pair("--distance 0 1 1 --epsg 1", "--positions")}) {
-    const Outcome outcome = RunAlign(words);
-    EXPECT_NE(outcome.exit_code, 0) << words;
-    EXPECT_THAT(outcome.output, HasSubstr("ERROR: ")) << words;
-    EXPECT_THAT(outcome.output, HasSubstr(why)) << words;
+    ExpectError(std::string("align ") + words, why);
   }
   EXPECT_EQ(Read(results_ / "curves.json"), curves);
   EXPECT_FALSE(fs::exists(results_ / "alignment.json"));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -11,9 +12,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/commands/command_synthesize.h"
-#include "tests/end_to_end/run_program.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/end_to_end/block_test.h"
 
 namespace curvix {
 namespace {
@@ -22,27 +21,35 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-// A block of size 1, whose longest edge is said to be 250 mm.
-class Draw : public testing::Test {
+class Draw : public BlockTest {
  protected:
-  void SetUp() override {
-    SyntheticOptions options;
-    options.solid = SyntheticSolid::kBlock;
-    options.num_views = 12;
-    options.width = 240;
-    options.height = 240;
-    ASSERT_TRUE(Synthesize(options, workspace_).ok());
-    ASSERT_EQ(Run("").exit_code, 0);
+  // A plan drawn with `option` has a map, drawing_xy with `ending`, of as many
+  // curves. A drawing without the option takes it away.
+  void CheckMap(const std::string& option,
+                const std::string& ending,
+                const std::function<std::size_t(const fs::path&)>& num_curves) {
+    const std::string words =
+        "draw --plane xy --dimensions 1 --" + option + " 1";
+    const Outcome outcome = Run(words);
+    const fs::path path = results_ / ("drawing_xy" + ending);
+#ifdef CURVIX_HAS_GDAL
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    std::size_t num_drawn = 0;
+    ASSERT_EQ(std::sscanf(outcome.output.c_str() + outcome.output.find("Drew "),
+                          "Drew %zu",
+                          &num_drawn),
+              1);
+    EXPECT_EQ(num_curves(path), num_drawn);
+    const std::string bytes = Read(path);
+    ASSERT_EQ(Run(words).exit_code, 0);
+    EXPECT_EQ(Read(path), bytes);
+    ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
+#else
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("built without GDAL"));
+#endif
+    EXPECT_FALSE(fs::exists(path));
   }
-
-  Outcome Run(const std::string& words) {
-    return RunProgram(words + " --workspace_path " + Quoted(workspace_));
-  }
-  json Curves() { return json::parse(Read(results_ / "curves.json")); }
-
-  TemporaryFolder folder_;
-  const fs::path workspace_ = folder_.path() / "proj";
-  const fs::path results_ = workspace_ / "curvix/0";
 };
 
 // Lengths of the lines of a DXF that are not of the frame.
@@ -155,6 +162,11 @@ TEST_F(Draw, CoordinatesAreThoseOfTheSurvey) {
       {"world_from_model",
        {{"scale", 1}, {"rotation", {1, 0, 0, 0}}, {"translation", {0, 0, 0}}}}};
   std::ofstream(results_ / "curves.json") << curves;
+#ifdef CURVIX_HAS_GDAL
+  ASSERT_EQ(Run("draw --plane xy --geojson 1").exit_code, 0);
+  const json map = json::parse(Read(results_ / "drawing_xy.geojson"));
+  EXPECT_THAT(map["crs"].dump(), HasSubstr("EPSG::25832"));
+#endif
   ASSERT_EQ(Run("draw --plane xy --slice=-9,9").exit_code, 0);
   const std::string dxf = Read(results_ / "drawing_xy.dxf");
   const auto after = LineLengths(dxf);
@@ -188,52 +200,26 @@ TEST_F(Draw, GeoPackageHasTheCurves) {
   if (RunInShell("command -v ogrinfo").exit_code != 0) {
     GTEST_SKIP() << "no gdal-bin";
   }
-  const std::string words = "draw --plane xy --dimensions 1 --geopackage 1";
-  const Outcome outcome = Run(words);
-  const fs::path path = results_ / "drawing_xy.gpkg";
-#ifdef CURVIX_HAS_GDAL
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const Outcome seen =
-      RunInShell("ogrinfo -q " + Quoted(path) +
-                 " -sql \"SELECT COUNT(*) AS n FROM curves\" 2>&1");
-  std::size_t num_drawn = 0;
-  ASSERT_EQ(std::sscanf(outcome.output.c_str() + outcome.output.find("Drew "),
-                        "Drew %zu",
-                        &num_drawn),
-            1);
-  EXPECT_THAT(seen.output,
-              HasSubstr("n (Integer) = " + std::to_string(num_drawn)));
-  const std::string bytes = Read(path);
-  ASSERT_EQ(Run(words).exit_code, 0);
-  EXPECT_EQ(Read(path), bytes);
-  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
-#else
-  EXPECT_NE(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("built without GDAL"));
-#endif
-  EXPECT_FALSE(fs::exists(path));
+  CheckMap("geopackage", ".gpkg", [](const fs::path& path) {
+    const std::string said =
+        RunInShell("ogrinfo -q " + Quoted(path) +
+                   " -sql \"SELECT COUNT(*) AS n FROM curves\" 2>&1")
+            .output;
+    std::size_t count = 0;
+    const std::size_t line = said.find("n (Integer) = ");
+    EXPECT_NE(line, said.npos) << said;
+    std::sscanf(said.c_str() + line, "n (Integer) = %zu", &count);
+    return count;
+  });
 }
 
 TEST_F(Draw, GeoJsonHasTheCurves) {
-  const std::string words = "draw --plane xy --dimensions 1 --geojson 1";
-  const Outcome outcome = Run(words);
-  const fs::path path = results_ / "drawing_xy.geojson";
-#ifdef CURVIX_HAS_GDAL
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const json map = json::parse(Read(path));
-  EXPECT_EQ(map["type"], "FeatureCollection");
-  EXPECT_EQ(map["name"], "curves");
-  EXPECT_THAT(outcome.output,
-              HasSubstr("Drew " + std::to_string(map["features"].size())));
-  const std::string bytes = Read(path);
-  ASSERT_EQ(Run(words).exit_code, 0);
-  EXPECT_EQ(Read(path), bytes);
-  ASSERT_EQ(Run("draw --plane xy").exit_code, 0);
-#else
-  EXPECT_NE(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("built without GDAL"));
-#endif
-  EXPECT_FALSE(fs::exists(path));
+  CheckMap("geojson", ".geojson", [](const fs::path& path) {
+    const json map = json::parse(Read(path));
+    EXPECT_EQ(map["type"], "FeatureCollection");
+    EXPECT_EQ(map["name"], "curves");
+    return map["features"].size();
+  });
 }
 
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
@@ -251,10 +237,7 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
         std::pair("--photograph none.jpg", "no image of the model"),
         std::pair("--name a/b", "--name")}) {
-    const Outcome outcome = Run(std::string("draw ") + words);
-    EXPECT_NE(outcome.exit_code, 0) << words;
-    EXPECT_THAT(outcome.output, HasSubstr("ERROR: ")) << words;
-    EXPECT_THAT(outcome.output, HasSubstr(why)) << words;
+    ExpectError(std::string("draw ") + words, why);
   }
   EXPECT_EQ(Contents(results_), before);
 }

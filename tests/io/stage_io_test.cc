@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/file_io.h"
+#include "io/stage_file.h"
 #include "io/stage_io.h"
 #include "tests/invariance/compare_runs.h"
 #include "tests/support/temporary_folder.h"
@@ -61,6 +62,17 @@ class StageIo : public testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "stage.bin";
 };
+
+TEST_F(StageIo, KnowsTheSizesOfItsParts) {
+  const auto size = [](auto part) {
+    StageWriter out;
+    Fields(out, part);
+    return out.bytes().size();
+  };
+  EXPECT_EQ(size(Edge2d()), kEdge2dBytes);
+  EXPECT_EQ(size(Edge3d()), kEdge3dBytes);
+  EXPECT_EQ(size(EdgeRef()), kEdgeRefBytes);
+}
 
 TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
   const auto maps = SomeEdgeMaps();
