@@ -150,6 +150,12 @@ bool PythonProgress::Update(const std::string& stage, int done, int total) {
 
 void PythonProgress::Note(const std::string& line) {
   Guard([&] {
+    // Whoever handles records has imported logging. To others it shows
+    // warnings like this, but its import nearly doubles Python's start.
+    if (!py::module_::import("sys").attr("modules").contains("logging")) {
+      PySys_FormatStderr("%U\n", Text(line).ptr());
+      return;
+    }
     py::module_::import("logging")
         .attr("getLogger")("pycurvix")
         .attr("warning")("%s", Text(line));

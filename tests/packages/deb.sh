@@ -26,6 +26,11 @@ inside() {
       DEBIAN_FRONTEND=noninteractive chroot "$@"' - "$root" "$@"
 }
 
+packages_of_system() {
+  # shellcheck disable=SC2016  # dpkg-query's own
+  inside dpkg-query --show --showformat='${Package}\n' | sort --unique
+}
+
 step "1 of 5: build the packages"
 examples/install_dependencies.sh --python
 cmake --preset deb --log-level=NOTICE
@@ -38,10 +43,11 @@ lintian --allow-root --fail-on error,warning \
 
 step "2 of 5: a clean $suite"
 if [[ ! -e "$root/var/lib/apt/lists" ]]; then
-  debootstrap --variant=minbase --include=man-db "$suite" "$root"
+  debootstrap --variant=minbase --include=man-db,netbase "$suite" "$root"
 fi
 inside apt-get -qq -o Dpkg::Use-Pty=0 update
 files_of_system >build-deb/before.txt
+packages_of_system >build-deb/packages_before.txt
 
 step "3 of 5: install"
 cp "${packages[@]}" "$root"
@@ -72,8 +78,10 @@ inside cmp /root/part/curvix/0/curves.ply /root/part/again/curves.ply
 rm -r "$root/root/part" "$root/root/use.py"
 
 step "5 of 5: remove"
-inside apt-get -qq -o Dpkg::Use-Pty=0 purge --yes --autoremove colmap-curvix \
-  python3-curvix >/dev/null
+# With all that came with them: apt keeps what it suggests itself, as GnuPG.
+mapfile -t came < <(packages_of_system |
+  comm -13 build-deb/packages_before.txt -)
+inside apt-get -qq -o Dpkg::Use-Pty=0 purge --yes "${came[@]}" >/dev/null
 rm "$root"/*.deb
 files_of_system | diff build-deb/before.txt -
 echo "Installed, used and removed; nothing is left of them:"

@@ -33,12 +33,23 @@ class Reconstruct(WorkspaceTest):
         for name in [*FORMATS.values(), 'edges.ply']:
             self.assertEqual(contents(self.by_python / name), contents(self.by_program / name), name)
 
-    def test_imports_numpy_for_arrays_only(self):
-        lines = ('import sys, pycurvix', f'curves = pycurvix.reconstruct({str(self.workspace)!r}, output_path='
-                 f'{str(self.folder)!r})', 'assert "numpy" not in sys.modules',
+    def test_imports_for_a_run_what_it_needs(self):
+        lines = ('import sys', 'before = set(sys.modules)', 'import pycurvix',
+                 f'curves = pycurvix.reconstruct({str(self.workspace)!r}, output_path={str(self.folder)!r})',
+                 'assert not {"logging", "numpy", "typing"} & (set(sys.modules) - before)',
                  'print(curves.positions.shape[1], curves.fits.dtype["length"])')
         said = subprocess.run([sys.executable, '-c', '\n'.join(lines)], check=True, capture_output=True, text=True)
         self.assertEqual(said.stdout, '3 float64\n')
+        # Without logging, as with it where nobody has set it up.
+        with_logging = subprocess.run([sys.executable, '-c', '\n'.join(('import logging', *lines))], check=True,
+                                      capture_output=True, text=True)
+        self.assertIn('Poses are used as they are', said.stderr)
+        self.assertEqual(with_logging.stderr, said.stderr)
+
+    def test_tells_the_logger(self):
+        with self.assertLogs('pycurvix', 'WARNING') as logs:
+            pycurvix.reconstruct(self.workspace, output_path=self.folder)
+        self.assertTrue(logs.records[0].getMessage().startswith('Poses are used as they are'))
 
     def test_curves_write_the_same_bytes_in_every_format(self):
         for name, file in FORMATS.items():

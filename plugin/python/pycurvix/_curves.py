@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import enum
 import os
-from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 from . import _core
-from ._lazy import np
-from ._scene import Path, Scene
+from ._lazy import TYPE_CHECKING, np
+from ._scene import Scene
 
 if TYPE_CHECKING:
+    from typing import Any, Iterator, Sequence
+
     from numpy.typing import ArrayLike, NDArray
+
+    from ._scene import Path
 
 
 class CurveKind(enum.IntEnum):

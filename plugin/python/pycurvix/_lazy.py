@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""NumPy, imported when it is first used.
+"""What is imported when it is first used, or not at all.
 
-Its import takes longer than all else at the start of a run, which does not need
-it.
+The import of NumPy takes longer than all else at the start of a run, which does
+not need it; that of typing would come next.
 """
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+TYPE_CHECKING = False  # As in typing: checkers of types go by the name.
 
 if TYPE_CHECKING:
+    from typing import Any
+
     import numpy as np
 else:
 

@@ -2,15 +2,21 @@
 """The options of a run, by the names of the command line."""
 from __future__ import annotations
 
+import collections
 import numbers
 import os
-from typing import Any, Iterator, Mapping, NamedTuple
 
 from . import _core
+from ._lazy import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from typing import Any, Iterator, Mapping
 
 
-class OptionInfo(NamedTuple):
+class OptionInfo(collections.namedtuple('OptionInfo', 'name default range unit help symbol')):
     """What there is to know about an option."""
+
+    __slots__ = ()
 
     name: str
     default: Any

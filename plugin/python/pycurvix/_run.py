@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Callable, Mapping, Optional, Union
 
 from . import _core
 from ._curves import Curves, read
+from ._lazy import TYPE_CHECKING
 from ._options import Options, core_options
-from ._scene import Path, Scene
+from ._scene import Scene
 
 if TYPE_CHECKING:
+    from typing import Any, Callable, Mapping, Optional, Union
+
     from numpy.typing import NDArray
 
-Progress = Callable[[str, int, int], Optional[bool]]
-OptionValues = Union[Options, Mapping[str, Any]]
+    from ._scene import Path
+
+    Progress = Callable[[str, int, int], Optional[bool]]
+    OptionValues = Union[Options, Mapping[str, Any]]
 
 
 def _paths(*paths: Path) -> _core.Paths:

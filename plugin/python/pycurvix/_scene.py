@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Sequence, Union
 
 from . import _core
-from ._lazy import np
+from ._lazy import TYPE_CHECKING, np
 
 if TYPE_CHECKING:
+    from typing import Any, Sequence, Union
+
     from numpy.typing import ArrayLike, NDArray
 
-Path = Union[str, 'os.PathLike[str]']
-Image = Union[Path, 'ArrayLike']
+    Path = Union[str, os.PathLike[str]]
+    Image = Union[Path, ArrayLike]
 
 
 def _warn(sentence: str) -> None:
