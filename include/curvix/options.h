@@ -169,8 +169,13 @@ struct CurveGrowthOptions {
   // of views, times its contrast over that of the scene. >= 0.
   double min_significance = 14.0;
   // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
-  // are dropped as texture: joints of brick, tiles. >= 0; 0: none are dropped.
+  // are dropped as texture: joints of brick, tiles. No curve grows from a 2D
+  // edge that is more crowded. >= 0; 0: nothing is texture.
   double max_crowding = 0.35;
+
+  bool IsTexture(double crowding) const {
+    return max_crowding > 0 && crowding > max_crowding;
+  }
 };
 
 // Beyond the paper: curves selected, smoothed, fitted and joined.

@@ -60,9 +60,7 @@ std::vector<Curve> KeepSignificant(std::vector<GrownCurve> curves,
   double num_samples = 0;
   for (const GrownCurve& grown : curves) {
     const std::vector<EdgeRef> support = SupportOf(grown.curve);
-    are_texture.push_back(options.max_crowding > 0 &&
-                          MedianCrowding(support, indices) >
-                              options.max_crowding);
+    are_texture.push_back(options.IsTexture(MedianCrowding(support, indices)));
     const auto size = static_cast<double>(grown.curve.samples.size());
     strengths.push_back(MeanStrength(support, indices));
     sum += size * strengths.back();

@@ -15,7 +15,7 @@ constexpr double kDistancePx = 8;
 constexpr int kSquarePx = 9;
 // A mean strength beside an edge, as a share of its own, that halves its
 // prominence.
-constexpr double kCrowded = 0.2;
+constexpr double kCrowded = 0.1;
 
 // std::floor is a function call on processors that lack it.
 int Floor(double x) {

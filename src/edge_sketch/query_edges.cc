@@ -21,33 +21,34 @@ double MedianStrength(const EdgeMap& map) {
 
 }  // namespace
 
-std::vector<bool> AreOnStrongContours(const EdgeMap& map,
-                                      int min_contour_edges) {
+std::vector<bool> AreWorthSeeds(const EdgeMap& map, const Options& options) {
   const Contours contours(map.neighbors);
-  const double least = min_contour_edges * MedianStrength(map);
-  std::vector<bool> are_strong(map.edges.size());
+  const double least =
+      options.edge_detection.min_contour_edges * MedianStrength(map);
+  std::vector<bool> are_worth(map.edges.size());
   for (std::size_t i = 0; i < contours.size(); ++i) {
     double sum = 0;
     for (const std::int32_t edge_idx : contours[i]) {
       sum += static_cast<double>(
           map.edges[static_cast<std::size_t>(edge_idx)].strength);
     }
+    if (sum < least) continue;
     for (const std::int32_t edge_idx : contours[i]) {
-      are_strong[static_cast<std::size_t>(edge_idx)] = sum >= least;
+      const auto k = static_cast<std::size_t>(edge_idx);
+      are_worth[k] = !options.curve_growth.IsTexture(
+          static_cast<double>(map.edges[k].crowding));
     }
   }
-  return are_strong;
+  return are_worth;
 }
 
 std::vector<std::int32_t> QueryEdges(const SketchInput& input,
                                      int view_idx,
                                      const UsedEdges& used) {
   const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(view_idx)];
-  std::vector<bool> are_wanted(map.edges.size(), true);
-  if (input.finds_seeds) {
-    are_wanted = AreOnStrongContours(
-        map, input.options.edge_detection.min_contour_edges);
-  }
+  const std::vector<bool> are_wanted =
+      input.finds_seeds ? AreWorthSeeds(map, input.options)
+                        : std::vector<bool>(map.edges.size(), true);
   const std::size_t step = input.h1_step;
   std::vector<std::int32_t> edge_idxs;
   for (std::size_t i = step / 2; i < map.edges.size(); i += step) {

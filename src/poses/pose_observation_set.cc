@@ -16,7 +16,7 @@ constexpr std::size_t kMinViewsOfPoint = 2;
 constexpr std::size_t kMinPoints = 100;
 constexpr int kMaxPointsPerView = 2000;  // for time and memory
 constexpr std::size_t kPointsPerHeldOut = 5;
-constexpr int kCellsPerHeldOut = 5;
+constexpr int kNumSets = 5;  // of cells
 constexpr double kCellsPerDistance = 10;
 
 std::optional<PointSample> SampleOf(const ScenePoint& point,
@@ -34,6 +34,23 @@ std::optional<PointSample> SampleOf(const ScenePoint& point,
   }
   if (sample.observations.size() < kMinViewsOfPoint) return std::nullopt;
   return sample;
+}
+
+// Moves what lies in the sets of cells from `first` to `last` to the end of
+// `to`.
+template <typename T>
+void MoveSets(const SpaceCells& cells,
+              int first,
+              int last,
+              std::vector<T>* from,
+              std::vector<T>* to) {
+  const auto moved =
+      std::stable_partition(from->begin(), from->end(), [&](const T& value) {
+        const int set = cells.SetOf(PositionOf(value));
+        return set < first || set > last;
+      });
+  std::move(moved, from->end(), std::back_inserter(*to));
+  from->erase(moved, from->end());
 }
 
 }  // namespace
@@ -109,22 +126,25 @@ SpaceCells::Cell SpaceCells::CellOf(const Eigen::Vector3d& position) const {
   return {cell.x(), cell.y(), cell.z()};
 }
 
-bool SpaceCells::IsHeldOut(const Eigen::Vector3d& position) const {
+int SpaceCells::SetOf(const Eigen::Vector3d& position) const {
   const Cell cell = CellOf(position);
   const double sum = cell[0] + 2 * cell[1] + 3 * cell[2];
-  return sum - kCellsPerHeldOut * std::floor(sum / kCellsPerHeldOut) == 0;
+  return static_cast<int>(sum - kNumSets * std::floor(sum / kNumSets));
 }
 
 std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
                                     std::vector<CurvePlace>* places) {
-  const auto first = std::stable_partition(
-      places->begin(), places->end(), [&](const CurvePlace& place) {
-        return !cells.IsHeldOut(PositionOf(place));
-      });
-  std::vector<CurvePlace> taken(std::make_move_iterator(first),
-                                std::make_move_iterator(places->end()));
-  places->erase(first, places->end());
+  std::vector<CurvePlace> taken;
+  MoveSets(cells, 0, 0, places, &taken);
   return taken;
+}
+
+PoseObservationSet HoldOutMore(const SpaceCells& cells,
+                               PoseObservationSet held_out,
+                               PoseObservationSet* observations) {
+  MoveSets(cells, 1, 2, &observations->places, &held_out.places);
+  MoveSets(cells, 1, 2, &observations->points, &held_out.points);
+  return held_out;
 }
 
 }  // namespace curvix

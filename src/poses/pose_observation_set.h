@@ -62,23 +62,30 @@ ChosenPoints ChoosePoints(std::vector<PointSample> points,
                           std::size_t num_views);
 
 // Cubic cells. Their side is a tenth of the median distance of positions from
-// their median. Every fifth cell is held out.
+// their median. Each belongs to one of five sets of as many cells; neighbours
+// belong to different ones.
 class SpaceCells {
  public:
   using Cell = std::array<double, 3>;
 
   explicit SpaceCells(const std::vector<Eigen::Vector3d>& positions);
   Cell CellOf(const Eigen::Vector3d& position) const;
-  bool IsHeldOut(const Eigen::Vector3d& position) const;
+  int SetOf(const Eigen::Vector3d& position) const;  // 0 to 4
 
  private:
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1;
 };
 
-// Moves the places of cells that are held out from `places`; both keep their
+// Moves the places of the first set of cells from `places`; both keep their
 // order.
 std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
                                     std::vector<CurvePlace>* places);
+
+// Moves the places and points of the two sets of cells after the first from
+// `observations`, and adds them to `held_out`.
+PoseObservationSet HoldOutMore(const SpaceCells& cells,
+                               PoseObservationSet held_out,
+                               PoseObservationSet* observations);
 
 }  // namespace curvix

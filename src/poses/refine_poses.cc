@@ -164,55 +164,56 @@ class Refiner {
     return cameras;
   }
 
-  // Refines shared cameras, first by their own terms, then by more. Poses are
-  // adjusted to what is held out with either cameras; the new ones are kept if
-  // that fits better. Whether cameras have changed.
+  // Refines shared cameras, first by their own terms, then by more. Since all
+  // views tell of a few parameters, two fifths of the observations determine
+  // them, and the others test them: poses are adjusted to these with either
+  // cameras, and the new ones are kept if that fits better. Whether cameras
+  // have changed.
   bool TryLenses() {
     if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
       return false;
     }
-    struct Lenses {
-      MovedCameras moved;
-      PoseObservationSet observations;
-      std::vector<bool> free_lenses;
-    };
-    const Lenses without{
-        search_.edges().moved(), observations_, search_.free_lenses()};
+    PoseObservationSet training = observations_;
+    PoseObservationSet test = HoldOutMore(cells_, held_out_, &training);
+    const MovedCameras before = search_.edges().moved();
     // The same edges for all, since more edges have a larger loss.
-    PoseObservationSet held_out = held_out_;
-    search_.Fit(&held_out);
-    search_.FindEdges(&held_out.places);
-    std::vector<double> best_losses = search_.LossesOf(held_out);
-    Lenses best = without;
-    std::vector<Camera> cameras = without.moved.cameras;
+    search_.Fit(&test);
+    search_.FindEdges(&test.places);
+    std::vector<double> best_losses = search_.LossesOf(test);
+    MovedCameras best = before;
+    std::vector<Camera> cameras = before.cameras;
+    search_.FreeLenses(shared_lenses_);
     while (!search_.is_stopped()) {
-      observations_ = without.observations;
-      search_.Move({without.moved.new_cam_from_cam, cameras});
-      search_.FreeLenses(shared_lenses_);
-      search_.Adjust(&observations_);
-      std::vector<double> losses = search_.LossesOf(held_out);
-      if (IsProven(held_out, best_losses, losses)) {
+      PoseObservationSet adjusted = training;
+      search_.Move({before.new_cam_from_cam, cameras});
+      search_.Adjust(&adjusted);
+      std::vector<double> losses = search_.LossesOf(test);
+      if (IsProven(test, best_losses, losses)) {
         best_losses = std::move(losses);
-        best = {search_.edges().moved(), observations_, shared_lenses_};
+        best = search_.edges().moved();
       }
       std::vector<Camera> longer = Extended(cameras);
       if (longer == cameras) break;
       cameras = std::move(longer);
     }
-    search_.Move(best.moved);
-    search_.FreeLenses(best.free_lenses);
-    observations_ = std::move(best.observations);
-    return best.moved.cameras != without.moved.cameras;
+    const bool have_changed = best.cameras != before.cameras;
+    search_.Move(best);
+    if (have_changed) {
+      search_.Fit(&observations_);
+    } else {
+      search_.FreeLenses({});
+    }
+    return have_changed;
   }
 
-  // Whether the losses of what is held out fall, and not by chance.
-  bool IsProven(const PoseObservationSet& held_out,
+  // Whether the losses of `test` fall, and not by chance.
+  bool IsProven(const PoseObservationSet& test,
                 const std::vector<double>& before,
                 const std::vector<double>& after) const {
-    const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out);
+    const std::vector<Eigen::Vector3d> positions = PositionsOf(test);
     GainsByCell places(cells_), points(cells_);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      GainsByCell& gains = i < held_out.places.size() ? places : points;
+      GainsByCell& gains = i < test.places.size() ? places : points;
       gains.Add(positions[i], before[i] - after[i]);
     }
     return IsBetter(Together(places, points));

@@ -32,7 +32,7 @@ TEST(Prominence, CountsTheEmptierSide) {
   EXPECT_FLOAT_EQ(AtMiddle(Lines({50}, 10), 0), 10);
   const std::vector<Edge2d> three = Lines({42, 50, 58}, 10);
   EXPECT_FLOAT_EQ(AtMiddle(three, 0), 10) << "the first line is a border";
-  EXPECT_NEAR(AtMiddle(three, 1), 10 / (1 + 9.0 / 81 / 0.2), 1e-5)
+  EXPECT_NEAR(AtMiddle(three, 1), 10 / (1 + 9.0 / 81 / 0.1), 1e-5)
       << "nine edges in a square of 81 pixels, each as strong";
   EXPECT_FLOAT_EQ(AtMiddle(three, 2), 10);
 }
@@ -40,7 +40,7 @@ TEST(Prominence, CountsTheEmptierSide) {
 TEST(Prominence, IsLittleLessAmongWeakerEdges) {
   std::vector<Edge2d> edges = Lines({42, 50, 58}, 10);
   for (std::size_t i = 60; i < 120; ++i) edges[i].strength = 100;
-  EXPECT_NEAR(AtMiddle(edges, 1), 100 / (1 + 0.9 / 81 / 0.2), 1e-4);
+  EXPECT_NEAR(AtMiddle(edges, 1), 100 / (1 + 0.9 / 81 / 0.1), 1e-4);
 }
 
 TEST(Prominence, DoesNotDependOnWhichSideIsBright) {

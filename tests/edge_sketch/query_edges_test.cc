@@ -42,7 +42,7 @@ bool IsStrong(const std::vector<bool>& are_strong,
   return *begin;
 }
 
-TEST(AreOnStrongContours, WeighsLengthAndStrength) {
+TEST(AreWorthSeeds, WeighsLengthAndStrength) {
   // Of 101 edges the median has strength 1.
   const std::vector<Contour> contours = {{51, 1},
                                          {5, 1},
@@ -55,7 +55,7 @@ TEST(AreOnStrongContours, WeighsLengthAndStrength) {
                                          {12, 0.25F}};
   const EdgeMap map = MapOf(contours);
   ASSERT_EQ(map.edges.size(), 101u);
-  const std::vector<bool> are_strong = AreOnStrongContours(map, 6);
+  const std::vector<bool> are_strong = AreWorthSeeds(map, {});
   const std::vector<bool> expected = {
       true, false, true, false, true, true, false, true, false};
   for (std::size_t i = 0; i < contours.size(); ++i) {
@@ -63,16 +63,29 @@ TEST(AreOnStrongContours, WeighsLengthAndStrength) {
   }
 }
 
-TEST(AreOnStrongContours, OfNoEdgesThereAreNone) {
-  EXPECT_TRUE(AreOnStrongContours({}, 6).empty());
+TEST(AreWorthSeeds, OfNoEdgesThereAreNone) {
+  EXPECT_TRUE(AreWorthSeeds({}, {}).empty());
 }
 
 // What is asked for is in units of the image itself.
-TEST(AreOnStrongContours, ContrastMakesNoDifference) {
+TEST(AreWorthSeeds, ContrastMakesNoDifference) {
   EdgeMap map = MapOf({{3, 1}, {7, 2}, {1, 9}, {20, 0.3F}, {40, 1}});
-  const std::vector<bool> before = AreOnStrongContours(map, 6);
+  const std::vector<bool> before = AreWorthSeeds(map, {});
   for (Edge2d& edge : map.edges) edge.strength *= 4;
-  EXPECT_EQ(AreOnStrongContours(map, 6), before);
+  EXPECT_EQ(AreWorthSeeds(map, {}), before);
+}
+
+TEST(AreWorthSeeds, LeavesOutTexture) {
+  EdgeMap map = MapOf({{20, 1}});
+  map.edges[3].crowding = Eigen::half(0.4F);
+  map.edges[4].crowding = Eigen::half(0.3F);
+  Options options;
+  options.curve_growth.max_crowding = 0.35;
+  std::vector<bool> expected(20, true);
+  expected[3] = false;
+  EXPECT_EQ(AreWorthSeeds(map, options), expected);
+  options.curve_growth.max_crowding = 0;
+  EXPECT_EQ(AreWorthSeeds(map, options), std::vector<bool>(20, true));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "poses/held_out.h"
 
 #include <gtest/gtest.h>
+#include <array>
 #include <cmath>
 
 #include "tests/support/random.h"
@@ -16,18 +17,42 @@ std::vector<Eigen::Vector3d> RandomPositions(int count) {
   return positions;
 }
 
-TEST(SpaceCells, HoldsOutAFifthWhateverTheUnit) {
+TEST(SpaceCells, AreInFiveSetsWhateverTheUnit) {
   const std::vector<Eigen::Vector3d> positions = RandomPositions(5000);
   std::vector<Eigen::Vector3d> in_other_unit;
   for (const auto& x : positions) in_other_unit.push_back(1024 * x);
   const SpaceCells cells(positions), others(in_other_unit);
-  int count = 0;
+  std::array<int, 5> counts{};
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    count += cells.IsHeldOut(positions[i]);
-    EXPECT_EQ(cells.IsHeldOut(positions[i]),
-              others.IsHeldOut(in_other_unit[i]));
+    const int set = cells.SetOf(positions[i]);
+    ASSERT_GE(set, 0);
+    ASSERT_LT(set, 5);
+    ++counts[static_cast<std::size_t>(set)];
+    EXPECT_EQ(set, others.SetOf(in_other_unit[i]));
   }
-  EXPECT_NEAR(count, 1000, 100);
+  for (const int count : counts) EXPECT_NEAR(count, 1000, 100);
+}
+
+TEST(HoldOutMore, MovesTwoFifths) {
+  const std::vector<Eigen::Vector3d> positions = RandomPositions(5000);
+  const SpaceCells cells(positions);
+  PoseObservationSet observations;
+  for (const Eigen::Vector3d& x : positions) {
+    observations.places.emplace_back().contour.axis.position = x;
+    observations.points.emplace_back().position = x;
+  }
+  const std::vector<CurvePlace> first =
+      TakeHeldOut(cells, &observations.places);
+  EXPECT_NEAR(first.size(), 1000, 100);
+  const PoseObservationSet held_out =
+      HoldOutMore(cells, {first, {}}, &observations);
+  EXPECT_EQ(held_out.places.size() + observations.places.size(), 5000u);
+  EXPECT_NEAR(observations.places.size(), 2000, 200);
+  EXPECT_EQ(held_out.points.size() + observations.points.size(), 5000u);
+  EXPECT_NEAR(held_out.points.size(), 2000, 200);
+  for (const CurvePlace& place : observations.places) {
+    EXPECT_GE(cells.SetOf(PositionOf(place)), 3);
+  }
 }
 
 // Gains of many items that are as often losses, those of a cell being the same:
