@@ -107,7 +107,9 @@ std::string CamerasText(const std::vector<CameraChange>& cameras) {
 std::string CurvePosesText(const CurvePoseRecord& record) {
   const CurvePoses& poses = record.poses;
   if (poses.num_views_moved == 0) {
-    return poses.num_check_observations == 0 ? "kept" : "kept, " + poses.reason;
+    const bool is_judged =
+        poses.num_check_observations + poses.num_check_points > 0;
+    return is_judged ? "kept, " + poses.reason : "kept";
   }
   return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
          " views, " + ErrorsText(poses) + CamerasText(record.cameras) +

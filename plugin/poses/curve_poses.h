@@ -39,7 +39,8 @@ struct CurvePoseRefinement {
 };
 
 // "50 views, 0.507 to 0.135 px, shifts up to 2.26 px": what was done, in a few
-// words. The errors are medians, of places that were held out.
+// words. The errors are medians, of samples of curves that were held out; of
+// points if no sample was.
 std::string CurvePosesText(const CurvePoseRecord& record);
 
 // What RefinePosesWithCurves() has made of `scene` for `model`. The scene is

@@ -273,7 +273,11 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
                                 const KeepGoing& keep_going) {
   const Result<std::string> help =
       HelpText({"bundle_adjuster", "--help"}, run, keep_going);
-  if (!help.ok()) return help.status();
+  if (!help.ok() && help.status().code() == StatusCode::kCancelled) {
+    return help.status();
+  }
+  const std::string tolerance_option =
+      help.ok() ? FunctionToleranceOption(*help) : "";
   const Result<fs::path> made = ScratchFolder::Make();
   if (!made.ok()) return made.status();
   const ScratchFolder scratch(*made);
@@ -284,13 +288,13 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   Status written = WriteColmapModel(
       ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
   if (!written.ok()) return written;
-  const Result<ChildEnd> end = RunChildProcess(
-      {run.program,
-       BundleAdjusterArguments(input, output, FunctionToleranceOption(*help)),
-       scratch.path(),
-       run.log_path,
-       run.timeout_s,
-       keep_going});
+  const Result<ChildEnd> end =
+      RunChildProcess({run.program,
+                       BundleAdjusterArguments(input, output, tolerance_option),
+                       scratch.path(),
+                       run.log_path,
+                       run.timeout_s,
+                       keep_going});
   if (!end.ok()) return end.status();
   Status ended = CheckEnd(*end, run.timeout_s);
   if (!ended.ok()) return ended;

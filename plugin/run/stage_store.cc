@@ -135,6 +135,7 @@ std::uint64_t SketchKey(const Scene& scene, const Options& options) {
     key.AddOptions(options, section);
   }
   key.Add(options.curve_growth.enabled);
+  key.Add(options.curve_growth.max_crowding);  // texture gives no seeds
   return key.key();
 }
 

@@ -21,8 +21,8 @@ namespace curvix {
 void MeasureCrowding(std::vector<LocatedEdge>* edges);
 
 // The strength of an edge whose crowding is measured, reduced by it; grey
-// levels per pixel. A crowding of a tenth halves it, which is about that beside
-// a parallel contour as strong.
+// levels per pixel. A crowding of a tenth halves it, which is about that
+// between two parallel contours as strong.
 double Prominence(const LocatedEdge& edge);
 
 // The same of each edge, whose crowding is measured anew, among these edges.

@@ -21,11 +21,12 @@ double MedianStrength(const EdgeMap& map) {
 
 }  // namespace
 
-std::vector<bool> AreWorthSeeds(const EdgeMap& map, const Options& options) {
+std::vector<bool> AreSeedCandidates(const EdgeMap& map,
+                                    const Options& options) {
   const Contours contours(map.neighbors);
   const double least =
       options.edge_detection.min_contour_edges * MedianStrength(map);
-  std::vector<bool> are_worth(map.edges.size());
+  std::vector<bool> are_candidates(map.edges.size());
   for (std::size_t i = 0; i < contours.size(); ++i) {
     double sum = 0;
     for (const std::int32_t edge_idx : contours[i]) {
@@ -35,25 +36,25 @@ std::vector<bool> AreWorthSeeds(const EdgeMap& map, const Options& options) {
     if (sum < least) continue;
     for (const std::int32_t edge_idx : contours[i]) {
       const auto k = static_cast<std::size_t>(edge_idx);
-      are_worth[k] = !options.curve_growth.IsTexture(
+      are_candidates[k] = !options.curve_growth.IsTexture(
           static_cast<double>(map.edges[k].crowding));
     }
   }
-  return are_worth;
+  return are_candidates;
 }
 
 std::vector<std::int32_t> QueryEdges(const SketchInput& input,
                                      int view_idx,
                                      const UsedEdges& used) {
   const EdgeMap& map = input.edge_maps[static_cast<std::size_t>(view_idx)];
-  const std::vector<bool> are_wanted =
-      input.finds_seeds ? AreWorthSeeds(map, input.options)
+  const std::vector<bool> are_candidates =
+      input.finds_seeds ? AreSeedCandidates(map, input.options)
                         : std::vector<bool>(map.edges.size(), true);
   const std::size_t step = input.h1_step;
   std::vector<std::int32_t> edge_idxs;
   for (std::size_t i = step / 2; i < map.edges.size(); i += step) {
     const auto edge_idx = static_cast<std::int32_t>(i);
-    if (are_wanted[i] && !used.Contains({view_idx, edge_idx})) {
+    if (are_candidates[i] && !used.Contains({view_idx, edge_idx})) {
       edge_idxs.push_back(edge_idx);
     }
   }

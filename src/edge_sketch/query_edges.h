@@ -10,15 +10,15 @@
 
 namespace curvix {
 
-// For each edge whether it is worth a seed: no texture
-// (CurveGrowthOptions::IsTexture), and on a contour that is strong enough for a
+// For each edge whether it may become a seed: it is no texture
+// (CurveGrowthOptions::IsTexture), and its contour is strong enough for a
 // curve, since the strengths of its edges sum to at least
 // EdgeDetectionOptions::min_contour_edges times the median strength. Mutual
 // links join the edges of a contour.
-std::vector<bool> AreWorthSeeds(const EdgeMap& map, const Options& options);
+std::vector<bool> AreSeedCandidates(const EdgeMap& map, const Options& options);
 
-// One in input.h1_step of the unused edges of a view; for seeds only those that
-// are worth it. Ascending.
+// One in input.h1_step of the unused edges of a view; for seeds only
+// candidates. Ascending.
 std::vector<std::int32_t> QueryEdges(const SketchInput& input,
                                      int view_idx,
                                      const UsedEdges& used);

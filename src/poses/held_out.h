@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Whether poses and cameras are better, tested in a
-// part of space that was not used to refine them.
+// Paper: none (beyond it). Whether poses and cameras are better, tested by data
+// that did not determine them.
 #pragma once
 
 #include <map>

@@ -36,18 +36,15 @@ std::optional<PointSample> SampleOf(const ScenePoint& point,
   return sample;
 }
 
-// Moves what lies in the sets of cells from `first` to `last` to the end of
-// `to`.
+// Moves what lies in the first sets of cells to the end of `to`.
 template <typename T>
 void MoveSets(const SpaceCells& cells,
-              int first,
-              int last,
+              int num_sets,
               std::vector<T>* from,
               std::vector<T>* to) {
   const auto moved =
       std::stable_partition(from->begin(), from->end(), [&](const T& value) {
-        const int set = cells.SetOf(PositionOf(value));
-        return set < first || set > last;
+        return cells.SetOf(PositionOf(value)) >= num_sets;
       });
   std::move(moved, from->end(), std::back_inserter(*to));
   from->erase(moved, from->end());
@@ -128,22 +125,22 @@ SpaceCells::Cell SpaceCells::CellOf(const Eigen::Vector3d& position) const {
 
 int SpaceCells::SetOf(const Eigen::Vector3d& position) const {
   const Cell cell = CellOf(position);
-  const double sum = cell[0] + 2 * cell[1] + 3 * cell[2];
-  return static_cast<int>(sum - kNumSets * std::floor(sum / kNumSets));
+  const double rest = std::fmod(cell[0] + 2 * cell[1] + 3 * cell[2], kNumSets);
+  return static_cast<int>(rest < 0 ? rest + kNumSets : rest);
 }
 
 std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
                                     std::vector<CurvePlace>* places) {
   std::vector<CurvePlace> taken;
-  MoveSets(cells, 0, 0, places, &taken);
+  MoveSets(cells, 1, places, &taken);
   return taken;
 }
 
 PoseObservationSet HoldOutMore(const SpaceCells& cells,
                                PoseObservationSet held_out,
                                PoseObservationSet* observations) {
-  MoveSets(cells, 1, 2, &observations->places, &held_out.places);
-  MoveSets(cells, 1, 2, &observations->points, &held_out.points);
+  MoveSets(cells, 3, &observations->places, &held_out.places);
+  MoveSets(cells, 3, &observations->points, &held_out.points);
   return held_out;
 }
 

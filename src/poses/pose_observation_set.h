@@ -62,15 +62,15 @@ ChosenPoints ChoosePoints(std::vector<PointSample> points,
                           std::size_t num_views);
 
 // Cubic cells. Their side is a tenth of the median distance of positions from
-// their median. Each belongs to one of five sets of as many cells; neighbours
-// belong to different ones.
+// their median. Each belongs to one of five sets of equal size; cells that
+// share a face belong to different ones.
 class SpaceCells {
  public:
   using Cell = std::array<double, 3>;
 
   explicit SpaceCells(const std::vector<Eigen::Vector3d>& positions);
   Cell CellOf(const Eigen::Vector3d& position) const;
-  int SetOf(const Eigen::Vector3d& position) const;  // 0 to 4
+  int SetOf(const Eigen::Vector3d& position) const;  // 0 to 4; finite
 
  private:
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
@@ -82,8 +82,8 @@ class SpaceCells {
 std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
                                     std::vector<CurvePlace>* places);
 
-// Moves the places and points of the two sets of cells after the first from
-// `observations`, and adds them to `held_out`.
+// `held_out`, and the places and points of the first three sets of cells, which
+// are moved from `observations`.
 PoseObservationSet HoldOutMore(const SpaceCells& cells,
                                PoseObservationSet held_out,
                                PoseObservationSet* observations);

@@ -216,6 +216,7 @@ void PoseSearch::Adjust(PoseObservationSet* observations, double min_gain) {
     place.contour = adjusted.contours[i];
     place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
   });
+  if (!free_lenses_.empty()) return;  // another prior
   prior_px_ = std::clamp(
       MedianShift(*observations, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }
@@ -234,7 +235,7 @@ std::vector<double> PoseSearch::LossesOf(
     const PoseObservationSet& observations) {
   PoseObservationSet fitted = observations;
   Fit(&fitted);
-  return Solve(fitted, kFirstPriorPx, {}, kRoughGain).costs;
+  return Solve(fitted, kFirstPriorPx, {}, kFineGain).costs;
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(

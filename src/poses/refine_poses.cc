@@ -165,16 +165,16 @@ class Refiner {
   }
 
   // Refines shared cameras, first by their own terms, then by more. Since all
-  // views tell of a few parameters, two fifths of the observations determine
-  // them, and the others test them: poses are adjusted to these with either
-  // cameras, and the new ones are kept if that fits better. Whether cameras
-  // have changed.
+  // views share these few parameters, two fifths of space determine them; all
+  // else is test data. Poses are adjusted to it with the old and with the new
+  // cameras, which are kept if that fits better. Whether cameras have changed.
   bool TryLenses() {
     if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
       return false;
     }
     PoseObservationSet training = observations_;
-    PoseObservationSet test = HoldOutMore(cells_, held_out_, &training);
+    PoseObservationSet test =
+        HoldOutMore(cells_, {last_held_out_, held_out_.points}, &training);
     const MovedCameras before = search_.edges().moved();
     // The same edges for all, since more edges have a larger loss.
     search_.Fit(&test);
@@ -188,7 +188,8 @@ class Refiner {
       search_.Move({before.new_cam_from_cam, cameras});
       search_.Adjust(&adjusted);
       std::vector<double> losses = search_.LossesOf(test);
-      if (IsProven(test, best_losses, losses)) {
+      if (search_.edges().moved().cameras != before.cameras &&
+          IsProven(test, best_losses, losses)) {
         best_losses = std::move(losses);
         best = search_.edges().moved();
       }

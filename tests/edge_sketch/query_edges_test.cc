@@ -30,10 +30,10 @@ EdgeMap MapOf(const std::vector<Contour>& contours) {
 }
 
 // Whether all edges of the contour, or none, are among these.
-bool IsStrong(const std::vector<bool>& are_strong,
-              const std::vector<Contour>& contours,
-              std::size_t contour_idx) {
-  auto begin = are_strong.begin();
+bool IsCandidate(const std::vector<bool>& are_candidates,
+                 const std::vector<Contour>& contours,
+                 std::size_t contour_idx) {
+  auto begin = are_candidates.begin();
   for (std::size_t i = 0; i < contour_idx; ++i) {
     begin += contours[i].num_edges;
   }
@@ -42,7 +42,7 @@ bool IsStrong(const std::vector<bool>& are_strong,
   return *begin;
 }
 
-TEST(AreWorthSeeds, WeighsLengthAndStrength) {
+TEST(AreSeedCandidates, WeighsLengthAndStrength) {
   // Of 101 edges the median has strength 1.
   const std::vector<Contour> contours = {{51, 1},
                                          {5, 1},
@@ -55,27 +55,27 @@ TEST(AreWorthSeeds, WeighsLengthAndStrength) {
                                          {12, 0.25F}};
   const EdgeMap map = MapOf(contours);
   ASSERT_EQ(map.edges.size(), 101u);
-  const std::vector<bool> are_strong = AreWorthSeeds(map, {});
+  const std::vector<bool> are_candidates = AreSeedCandidates(map, {});
   const std::vector<bool> expected = {
       true, false, true, false, true, true, false, true, false};
   for (std::size_t i = 0; i < contours.size(); ++i) {
-    EXPECT_EQ(IsStrong(are_strong, contours, i), expected[i]) << i;
+    EXPECT_EQ(IsCandidate(are_candidates, contours, i), expected[i]) << i;
   }
 }
 
-TEST(AreWorthSeeds, OfNoEdgesThereAreNone) {
-  EXPECT_TRUE(AreWorthSeeds({}, {}).empty());
+TEST(AreSeedCandidates, OfNoEdgesThereAreNone) {
+  EXPECT_TRUE(AreSeedCandidates({}, {}).empty());
 }
 
 // What is asked for is in units of the image itself.
-TEST(AreWorthSeeds, ContrastMakesNoDifference) {
+TEST(AreSeedCandidates, ContrastMakesNoDifference) {
   EdgeMap map = MapOf({{3, 1}, {7, 2}, {1, 9}, {20, 0.3F}, {40, 1}});
-  const std::vector<bool> before = AreWorthSeeds(map, {});
+  const std::vector<bool> before = AreSeedCandidates(map, {});
   for (Edge2d& edge : map.edges) edge.strength *= 4;
-  EXPECT_EQ(AreWorthSeeds(map, {}), before);
+  EXPECT_EQ(AreSeedCandidates(map, {}), before);
 }
 
-TEST(AreWorthSeeds, LeavesOutTexture) {
+TEST(AreSeedCandidates, LeavesOutTexture) {
   EdgeMap map = MapOf({{20, 1}});
   map.edges[3].crowding = Eigen::half(0.4F);
   map.edges[4].crowding = Eigen::half(0.3F);
@@ -83,9 +83,9 @@ TEST(AreWorthSeeds, LeavesOutTexture) {
   options.curve_growth.max_crowding = 0.35;
   std::vector<bool> expected(20, true);
   expected[3] = false;
-  EXPECT_EQ(AreWorthSeeds(map, options), expected);
+  EXPECT_EQ(AreSeedCandidates(map, options), expected);
   options.curve_growth.max_crowding = 0;
-  EXPECT_EQ(AreWorthSeeds(map, options), std::vector<bool>(20, true));
+  EXPECT_EQ(AreSeedCandidates(map, options), std::vector<bool>(20, true));
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ TEST(RefinePosesWithCurves, BringsPosesThatAreAPixelOffToATenth) {
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.1);
   EXPECT_LT(refined.after.mean_px, 0.5 * refined.before.mean_px);
   EXPECT_GT(refined.num_check_observations, 100u);
+  EXPECT_EQ(refined.cameras, disturbed.cameras) << "which are right";
 }
 
 TEST(RefinePosesWithCurves, FindsPosesThatAreTwoPixelsOff) {

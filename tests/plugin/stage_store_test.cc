@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/stage_store.h"
+
+#include <gtest/gtest.h>
+
+namespace curvix {
+namespace {
+
+TEST(SketchKey, DependsOnTheOptionsOfGrowthThatChooseSeeds) {
+  const Scene scene;
+  Options options;
+  const std::uint64_t key = SketchKey(scene, options);
+  options.curve_growth.min_significance = 1;
+  EXPECT_EQ(SketchKey(scene, options), key);
+  options.curve_growth.max_crowding = 0;
+  const std::uint64_t with_texture = SketchKey(scene, options);
+  EXPECT_NE(with_texture, key);
+  options.curve_growth.enabled = false;
+  EXPECT_NE(SketchKey(scene, options), with_texture);
+}
+
+}  // namespace
+}  // namespace curvix
