@@ -65,8 +65,9 @@ struct CurvePoses {
 // be inverted at an edge.
 //
 // Held out are a fifth of space, and of the points every fifth and those that
-// no view needs. A gain there is significant if its probability under equal
-// chances of gain and loss is below 1 in 5000; a run judges five times at most.
+// no view needs. A gain of test data is significant if its probability under
+// equal chances of gain and loss is below 1 in 5000; a run judges five times at
+// most.
 //  * New cameras, which two fifths of space determine, are taken if poses
 //    adjusted to all other data fit it significantly better with them.
 //  * All is accepted if the held-out data fits significantly better, or no

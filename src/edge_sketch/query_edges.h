@@ -10,7 +10,7 @@
 
 namespace curvix {
 
-// For each edge whether it may become a seed: it is no texture
+// For each edge whether it may become a seed: it is not texture
 // (CurveGrowthOptions::IsTexture), and its contour is strong enough for a
 // curve, since the strengths of its edges sum to at least
 // EdgeDetectionOptions::min_contour_edges times the median strength. Mutual

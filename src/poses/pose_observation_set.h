@@ -70,7 +70,7 @@ class SpaceCells {
 
   explicit SpaceCells(const std::vector<Eigen::Vector3d>& positions);
   Cell CellOf(const Eigen::Vector3d& position) const;
-  int SetOf(const Eigen::Vector3d& position) const;  // 0 to 4; finite
+  int SetOf(const Eigen::Vector3d& position) const;  // 0 to 4; position: finite
 
  private:
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
@@ -82,8 +82,8 @@ class SpaceCells {
 std::vector<CurvePlace> TakeHeldOut(const SpaceCells& cells,
                                     std::vector<CurvePlace>* places);
 
-// `held_out`, and the places and points of the first three sets of cells, which
-// are moved from `observations`.
+// Returns `held_out` together with the places and points of the first three
+// sets of cells, which are moved from `observations`.
 PoseObservationSet HoldOutMore(const SpaceCells& cells,
                                PoseObservationSet held_out,
                                PoseObservationSet* observations);
