@@ -40,10 +40,10 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
       depths_(depths),
       projection_(h1, h2),
       sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {
-  edges2_.reserve(edges2.size());
+  candidates_.reserve(edges2.size());
   for (const std::int32_t edge_idx : sorted2_.EdgeIdxs()) {
-    edges2_.push_back(
-        {ToImageEdge(edges2[static_cast<std::size_t>(edge_idx)]), edge_idx});
+    const Edge2d& edge = edges2[static_cast<std::size_t>(edge_idx)];
+    candidates_.push_back({edge.position, edge.angle, edge_idx});
   }
 }
 
@@ -82,10 +82,14 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   std::vector<LineEdge> on_line;
   on_line.reserve(kUsualNumCandidates);
   sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
-    if (!search.Contains(direction.dot(edges2_[i].edge.position))) return;
-    const auto moved = SlideToLine(
-        edges2_[i].edge, line, tolerance_px, options_->consolidation);
-    if (moved) on_line.push_back({*moved, edges2_[i].edge_idx});
+    const Candidate& candidate = candidates_[i];
+    if (!search.Contains(direction.dot(candidate.position))) return;
+    const auto moved =
+        SlideToLine({candidate.position, TangentAt(candidate.angle)},
+                    line,
+                    tolerance_px,
+                    options_->consolidation);
+    if (moved) on_line.push_back({*moved, candidate.edge_idx});
   });
   const double min_sine =
       std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));

@@ -50,6 +50,13 @@ class HypothesisViews {
   const PosedView& h2() const { return *h2_; }
 
  private:
+  // An edge of H2.
+  struct Candidate {
+    Eigen::Vector2d position;
+    float angle = 0;
+    std::int32_t edge_idx = 0;
+  };
+
   HypothesisViews(const EpipolarPencil& pencil,
                   const PosedView& h1,
                   const PosedView& h2,
@@ -69,7 +76,7 @@ class HypothesisViews {
   DepthRange depths_;
   RayProjection projection_;
   SortedByAngle sorted2_;
-  std::vector<LineEdge> edges2_;  // as detected, in the order of sorted2_
+  std::vector<Candidate> candidates_;  // in the order of sorted2_
 };
 
 }  // namespace curvix

@@ -13,9 +13,14 @@
 
 namespace curvix {
 
+// The tangent of an Edge2d with this angle.
+inline Eigen::Vector2d TangentAt(float angle) {
+  const double radians = static_cast<double>(angle);
+  return {std::cos(radians), std::sin(radians)};
+}
+
 inline ImageEdge ToImageEdge(const Edge2d& edge) {
-  const double angle = static_cast<double>(edge.angle);
-  return {edge.position, {std::cos(angle), std::sin(angle)}};
+  return {edge.position, TangentAt(edge.angle)};
 }
 
 // Sec. 5, Fig. 6(b)-(d): how far apart two oriented points are. With d from one
