@@ -26,7 +26,7 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 1e-3;
+constexpr double kMinGain = 1e-4;
 // Damping in proportion to the bends, which are much stiffer than the edges,
 // would slow these down.
 constexpr double kTrustRegionRadius = 1e10;
