@@ -26,9 +26,9 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 1e-4;
-// Damping in proportion to the bends, which are much stiffer than the edges,
-// would slow these down.
+constexpr double kMinGain = 1e-4;  // of a step, share of the cost
+// Wide: damping is in proportion to the bends, which are much stiffer than the
+// edges, and would keep samples from these.
 constexpr double kTrustRegionRadius = 1e10;
 
 // A sample and the plane across it in which it moves, in pixels.
@@ -41,14 +41,15 @@ struct Station {
   }
 };
 
-// The distances of a sample from its 2D edges, in one cost: Ceres' share of the
-// time grows with the number of costs. Half the sum of squares is Cauchy's loss
-// of these distances. `station` must outlive it.
-class EdgesCost : public ceres::CostFunction {
+// The distances of a sample from its 2D edges, one residual each, in one cost:
+// Ceres' share of the time grows with the number of costs. Ceres has one loss
+// for a whole cost, so Cauchy's is in the residuals: their squares are the
+// losses of the distances. `station` must outlive it.
+class SupportCost : public ceres::CostFunction {
  public:
-  EdgesCost(const Station& station,
-            std::vector<PlaneMeasurement> measured,
-            double sigma_px)
+  SupportCost(const Station& station,
+              std::vector<PlaneMeasurement> measured,
+              double sigma_px)
       : station_(&station),
         measured_(std::move(measured)),
         sigma_px_(sigma_px) {
@@ -161,9 +162,9 @@ class CurveFitter {
             MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)));
       }
       if (measured.empty()) continue;
-      edges_costs_.emplace_back(stations_[k], std::move(measured), sigma_px);
+      support_costs_.emplace_back(stations_[k], std::move(measured), sigma_px);
       problem_.AddResidualBlock(
-          &edges_costs_.back(), nullptr, offsets_[k].data());
+          &support_costs_.back(), nullptr, offsets_[k].data());
     }
   }
 
@@ -220,7 +221,7 @@ class CurveFitter {
   std::vector<Station> stations_;
   std::vector<std::array<double, 2>> offsets_;
   // At addresses that stay.
-  std::deque<EdgesCost> edges_costs_;
+  std::deque<SupportCost> support_costs_;
   std::deque<BendCost> bend_costs_;
   ceres::CauchyLoss bend_loss_{kKinkSigmas};
   ceres::Problem problem_;

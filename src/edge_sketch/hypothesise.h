@@ -50,7 +50,7 @@ class HypothesisViews {
   const PosedView& h2() const { return *h2_; }
 
  private:
-  // An edge of H2.
+  // An edge of H2 with its tangent still as an angle: few need the vector.
   struct Candidate {
     Eigen::Vector2d position;
     float angle = 0;
