@@ -13,7 +13,7 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_kinds/blurred_images.h"
-#include "curve_kinds/nearby_curves.h"
+#include "curve_kinds/nearby_points.h"
 #include "curve_kinds/strips.h"
 #include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
@@ -31,8 +31,9 @@ constexpr std::int64_t kMaxImageBytes = std::int64_t{1} << 30;
 constexpr double kStepPx = 8;
 constexpr int kReach = 4;
 
-// Curves as near as this are looked at, too.
-constexpr double kNearbyPx = 40;
+// Other curves and COLMAP's points as near as this are looked at, too.
+constexpr double kNearbyCurvePx = 40;
+constexpr double kNearbyPointPx = 60;
 
 // Directions of two surfaces that differ from opposite ones by at most this
 // many steps are of one surface, by at least so many of a crease.
@@ -185,6 +186,12 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
   return places;
 }
 
+std::vector<Vector3d> PositionsOf(const std::vector<ScenePoint>& points) {
+  std::vector<Vector3d> positions;
+  for (const ScenePoint& point : points) positions.push_back(point.position);
+  return positions;
+}
+
 class Classifier {
  public:
   Classifier(const Scene& scene,
@@ -194,7 +201,9 @@ class Classifier {
       : views_(views),
         images_(images),
         places_(ChoosePlaces(curves, views)),
-        tree_(places_.positions) {
+        places_tree_(places_.positions),
+        points_(PositionsOf(scene.points)),
+        points_tree_(points_) {
     for (const View& view : scene.views) {
       cameras_.push_back(&CameraOf(scene, view));
     }
@@ -205,7 +214,7 @@ class Classifier {
  private:
   std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
                                              const Curve& curve) const;
-  // On other curves.
+  // On other curves, and COLMAP's.
   std::vector<Vector3d> PointsNearby(std::size_t curve_idx,
                                      const Vector3d& position) const;
 
@@ -213,17 +222,22 @@ class Classifier {
   const std::vector<BlurredImage>& images_;
   std::vector<const Camera*> cameras_;
   Places places_;
-  PointTree tree_;
+  PointTree places_tree_;
+  std::vector<Vector3d> points_;
+  PointTree points_tree_;
 };
 
 std::vector<Vector3d> Classifier::PointsNearby(std::size_t curve_idx,
                                                const Vector3d& position) const {
-  std::vector<Vector3d> points;
-  for (std::size_t i :
-       tree_.Within(position, kNearbyPx * places_.pixels[curve_idx])) {
-    if (places_.curves[i] != curve_idx) points.push_back(places_.positions[i]);
+  const double pixel = places_.pixels[curve_idx];
+  std::vector<Vector3d> nearby;
+  for (std::size_t i : places_tree_.Within(position, kNearbyCurvePx * pixel)) {
+    if (places_.curves[i] != curve_idx) nearby.push_back(places_.positions[i]);
   }
-  return points;
+  for (std::size_t i : points_tree_.Within(position, kNearbyPointPx * pixel)) {
+    nearby.push_back(points_[i]);
+  }
+  return nearby;
 }
 
 std::vector<SurfaceEvidence> Classifier::EvidenceAlong(

@@ -4,6 +4,7 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/median.h"
 #include "base/parallel.h"
@@ -73,18 +74,61 @@ class Loss {
   double scale_px_;
 };
 
+// The largest e(t) = sum of (t x - log cosh(t x)), t >= 0, over `gains` x of
+// mean square 1: if signs are random, their sum is reached with a probability
+// of at most exp(-e(t)) for any t.
+double LargestChernoffExponent(const std::vector<double>& gains) {
+  // Slope of e(t), which falls with t.
+  const auto slope = [&](double t) {
+    double sum = 0;
+    for (const double x : gains) sum += x * (1 - std::tanh(t * x));
+    return sum;
+  };
+  double low = 0, high = 30;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = (low + high) / 2;
+    (slope(middle) > 0 ? low : high) = middle;
+  }
+  // log cosh(y) = |y| + log(1 + exp(-2 |y|)) - log 2
+  double exponent = 0;
+  for (const double x : gains) {
+    const double y = low * x;
+    exponent += y - std::abs(y) - std::log1p(std::exp(-2 * std::abs(y))) +
+                std::numbers::ln2;
+  }
+  return std::max(0.0, exponent);
+}
+
 }  // namespace
 
-double GainsByCell::Sum() const {
-  double sum = 0;
-  for (const auto& [cell, gain] : gains_) sum += gain;
-  return sum;
+double SignificanceOf(const std::vector<double>& gains) {
+  double sum = 0, squares = 0;
+  for (const double gain : gains) {
+    sum += gain;
+    squares += gain * gain;
+  }
+  if (sum == 0) return 0;
+  const double sign = sum > 0 ? 1 : -1;
+  const double scale =
+      sign * std::sqrt(static_cast<double>(gains.size()) / squares);
+  std::vector<double> scaled;
+  for (const double gain : gains) scaled.push_back(scale * gain);
+  return sign * std::sqrt(2 * LargestChernoffExponent(scaled));
 }
 
 double GainsByCell::Significance() const {
+  return SignificanceOf(Normalized());
+}
+
+std::vector<double> GainsByCell::Normalized() const {
   double squares = 0;
   for (const auto& [cell, gain] : gains_) squares += gain * gain;
-  return squares > 0 ? Sum() / std::sqrt(squares) : 0;
+  std::vector<double> normalized;
+  if (squares == 0) return normalized;
+  for (const auto& [cell, gain] : gains_) {
+    normalized.push_back(gain / std::sqrt(squares));
+  }
+  return normalized;
 }
 
 HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
@@ -152,10 +196,10 @@ SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
 
 SignificanceOfGain Together(const GainsByCell& places,
                             const GainsByCell& points) {
-  SignificanceOfGain gain{places.Significance(), points.Significance(), 0};
-  const int num_kinds = (gain.places != 0) + (gain.points != 0);
-  gain.all = (gain.places + gain.points) / std::sqrt(std::max(1, num_kinds));
-  return gain;
+  std::vector<double> all = places.Normalized();
+  const std::vector<double> of_points = points.Normalized();
+  all.insert(all.end(), of_points.begin(), of_points.end());
+  return {places.Significance(), points.Significance(), SignificanceOf(all)};
 }
 
 bool IsBetter(const SignificanceOfGain& gain) {

@@ -40,6 +40,12 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
                                   const HeldOutErrors& after,
                                   const PosedEdges& edges);
 
+// z of the sum of independent gains: if losses are as likely as gains, z or more
+// has a probability of at most exp(-z^2 / 2) (Chernoff's bound). At least the
+// sum over the root of the sum of squares; sqrt(2 n log 2) for n equal gains.
+// Negative for losses. Zero without gains.
+double SignificanceOf(const std::vector<double>& gains);
+
 // Sums the gains of each cell. Cells are assumed to be independent.
 class GainsByCell {
  public:
@@ -48,19 +54,17 @@ class GainsByCell {
   void Add(const Eigen::Vector3d& position, double gain) {
     gains_[cells_.CellOf(position)] += gain;
   }
-  double Sum() const;
-  // z: the sum over the root of the sum of squares. If losses are as likely as
-  // gains, z or more has a probability of at most exp(-z^2 / 2). Zero without
-  // gains.
   double Significance() const;
+  // The gains over the root of the sum of their squares.
+  std::vector<double> Normalized() const;
 
  private:
   const SpaceCells& cells_;
   std::map<SpaceCells::Cell, double> gains_;
 };
 
-// Significance() of the gains of places, of points, and of both together: the
-// sum over the root of their number.
+// Significance of the gains of places, of points, and of both together, where
+// both have the same weight.
 struct SignificanceOfGain {
   double places = 0;
   double points = 0;

@@ -58,7 +58,8 @@ class ClassifyCurvesTest : public ::testing::Test {
   // The kind in the middle of the edge, seen by eight views within 35 degrees
   // of -y.
   CurveSample Classified(const std::vector<Surface>& surfaces,
-                         double contrast = 1) {
+                         double contrast = 1,
+                         const std::vector<ScenePoint>& points = {}) {
     std::vector<PosedView> posed;
     for (int i = 0; i < 8; ++i) {
       const double azimuth = (-90 + 10 * (i - 3.5)) * kPi / 180;
@@ -67,6 +68,7 @@ class ClassifyCurvesTest : public ::testing::Test {
           Vector3d::Zero()));
     }
     Scene scene = ToScene(posed);
+    scene.points = points;
     for (std::size_t i = 0; i < posed.size(); ++i) {
       cv::Mat image(800, 800, CV_8U);
       for (int y = 0; y < image.rows; ++y) {
@@ -139,6 +141,24 @@ TEST_F(ClassifyCurvesTest, WithoutTextureItIsProbablyACrease) {
   const CurveSample sample = Classified({{50, 1}, {130, 2}}, 0);
   EXPECT_EQ(sample.kind, CurveKind::kCrease);
   EXPECT_LT(sample.kind_probability, 0.95F);
+}
+
+TEST_F(ClassifyCurvesTest, PointsTellTheSurfacesWhereThereIsNoTexture) {
+  const auto kind_by_points = [&](const std::vector<Surface>& surfaces) {
+    std::vector<ScenePoint> points;
+    for (const Surface& surface : surfaces) {
+      const double angle = surface.angle_deg * kPi / 180;
+      for (int i = 0; i < 9; ++i) {
+        const double distance = 0.03 + 0.005 * i;
+        points.emplace_back().position = {distance * std::cos(angle),
+                                          distance * std::sin(angle),
+                                          0.02 * (i % 3 - 1)};
+      }
+    }
+    return Classified(surfaces, 0, points).kind;
+  };
+  EXPECT_EQ(kind_by_points({{0, 1}, {180, 2}}), CurveKind::kMarking);
+  EXPECT_EQ(kind_by_points({{50, 1}, {130, 2}}), CurveKind::kCrease);
 }
 
 TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {

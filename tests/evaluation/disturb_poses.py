@@ -2,13 +2,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes a copy of a workspace whose poses are wrong.
 
-usage: disturb_poses.py WORKSPACE OUTPUT PIXELS [--seed N]
+usage: disturb_poses.py WORKSPACE OUTPUT PIXELS [--only N] [--simple_lens]
+                        [--seed N]
 
 WORKSPACE holds sparse/0 as text, and images/. OUTPUT gets a model with the
 same cameras and disturbed poses, without points, and a link to the images.
 Each camera is turned and shifted at random, each by what moves its picture by
 half of PIXELS (standard deviation, in x and in y): the root mean square of
 the shifts of the picture is PIXELS. The same seed gives the same poses.
+
+--only N       N of the poses, evenly spaced
+--simple_lens  a RADIAL camera becomes the SIMPLE_RADIAL one that is most like
+               it, with the principal point in the middle, and poses are turned
+               by the shift of the principal point
+
 Needs Python 3.9 and nothing else.
 """
 import argparse
@@ -58,28 +65,70 @@ def disturb(fields, focal_px, pixels, generator):
     return [fields[0], *(repr(value) for value in pose), *fields[8:]]
 
 
+def turned(fields, turn):
+    """One line of images.txt, as fields, with the camera turned."""
+    pose = [float(field) for field in fields[1:8]]
+    pose = (*multiply(turn, pose[:4]), *rotate(turn, pose[4:]))
+    return [fields[0], *(repr(value) for value in pose), *fields[8:]]
+
+
+def simplify_lens(camera):
+    """Fields of a RADIAL camera as those of a SIMPLE_RADIAL one, and how that
+    is turned for the shift of its principal point."""
+    if camera[1] != 'RADIAL':
+        raise SystemExit(f'--simple_lens needs RADIAL, not {camera[1]}, cameras')
+    width, height = map(int, camera[2:4])
+    focal, cx, cy, k1, k2 = map(float, camera[4:])
+    # Least squares of f (r + k1 r^3 + k2 r^5) = a r + b r^3 over the picture,
+    # whose area within r grows as r^2.
+    largest = math.hypot(width, height) / 2 / focal
+    radii = [largest * i / 100 for i in range(1, 101)]
+    m3, m5, m7, m9 = (sum(r ** power for r in radii) for power in (3, 5, 7, 9))
+    y1 = focal * (m3 + k1 * m5 + k2 * m7)
+    y3 = focal * (m5 + k1 * m7 + k2 * m9)
+    a = (y1 * m7 - y3 * m5) / (m3 * m7 - m5 * m5)
+    b = (m3 * y3 - m5 * y1) / (m3 * m7 - m5 * m5)
+    values = [a, width / 2, height / 2, b / a]
+    shift = (cx - width / 2, cy - height / 2)
+    turn = quaternion([-shift[1] / focal, shift[0] / focal, 0])
+    return [camera[0], 'SIMPLE_RADIAL', *camera[2:4], *map(repr, values)], turn
+
+
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument('workspace', type=pathlib.Path)
     parser.add_argument('output', type=pathlib.Path)
     parser.add_argument('pixels', type=float)
+    parser.add_argument('--only', type=int)
+    parser.add_argument('--simple_lens', action='store_true')
     parser.add_argument('--seed', type=int, default=1)
     args = parser.parse_args()
     source = args.workspace / 'sparse' / '0'
     target = args.output / 'sparse' / '0'
     target.mkdir(parents=True, exist_ok=True)
-    cameras = (source / 'cameras.txt').read_text()
-    (target / 'cameras.txt').write_text(cameras)
+    cameras = [line.split() for line in data_lines(source / 'cameras.txt')
+               if line]
+    focal_px = {camera[0]: float(camera[4]) for camera in cameras}
+    turns = {camera[0]: (1, 0, 0, 0) for camera in cameras}
+    if args.simple_lens:
+        for i, camera in enumerate(cameras):
+            cameras[i], turns[camera[0]] = simplify_lens(camera)
+    (target / 'cameras.txt').write_text(
+        ''.join(' '.join(camera) + '\n' for camera in cameras))
     (target / 'points3D.txt').write_text('')
-    focal_px = {line.split()[0]: float(line.split()[4])
-                for line in data_lines(source / 'cameras.txt') if line}
     generator = random.Random(args.seed)
+    images = [line.split(maxsplit=9)
+              for line in data_lines(source / 'images.txt')[::2]]
+    num_wrong = min(args.only or len(images), len(images))
+    wrong = {k * len(images) // num_wrong for k in range(num_wrong)}
     lines = []
-    for line in data_lines(source / 'images.txt')[::2]:
-        fields = line.split(maxsplit=9)
-        lines += [' '.join(disturb(fields, focal_px[fields[8]], args.pixels,
-                                   generator)), '']
+    for i, fields in enumerate(images):
+        fields = turned(fields, turns[fields[8]])
+        if i in wrong:
+            fields = disturb(fields, focal_px[fields[8]], args.pixels,
+                             generator)
+        lines += [' '.join(fields), '']
     (target / 'images.txt').write_text('\n'.join(lines) + '\n')
     images = args.output / 'images'
     if not images.exists():

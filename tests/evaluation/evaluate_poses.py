@@ -2,16 +2,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Disturbs the poses of scenes with known curves, and tells what is left.
 
-usage: evaluate_poses.py SCENE... [--pixels 0.5,1,2] [--seed N]
+usage: evaluate_poses.py SCENE... [--pixels 0.5,1,2] [--only N] [--lens]
+                         [--views N] [--seed N]
                          [--program build/bin/colmap_curvix]
 
 Prints a table: for each SCENE, a workspace with gt.txt, and each number of
 pixels that its pictures were moved by (disturb_poses.py): the median distance
-between the projections of the true curves with the poses before refinement,
-and after it, and with the true ones, once the seven numbers that no photograph
-tells (place, direction and unit of the world) are taken out; and Fv5 of the
-curves without and with refinement. 0 pixels: the poses as they are.
-Needs Debian's python3-numpy and python3-scipy. Scenes are only read.
+between the projections of the true curves with the poses and cameras before
+refinement, and after it, and with the true ones, once the seven numbers that
+no photograph tells (place, direction and unit of the world) are taken out; and
+Fv5 of the curves with the true cameras, without and with refinement. 0 pixels:
+the poses as they are.
+
+--only N   only N poses are disturbed
+--lens     images of a RADIAL camera, given as a SIMPLE_RADIAL one
+--views N  N of the images
+
+Needs Debian's python3-numpy and python3-scipy, and for --lens python3-pil.
+Scenes are only read.
 """
 import argparse
 import json
@@ -64,18 +72,48 @@ def read_binary_poses(path):
     return poses
 
 
-def read_focal_lengths(model):
-    fields = data_lines(model / 'cameras.txt')[0].split()
-    assert fields[1] == 'PINHOLE', 'scenes have PINHOLE cameras'
-    return np.array([float(value) for value in fields[4:6]])
+def read_poses(model):
+    """{image name: pose_of} of a model as text or binary."""
+    path = model / 'images.txt'
+    return (read_text_poses(path) if path.exists()
+            else read_binary_poses(model / 'images.bin'))
 
 
-def project(poses, focal_lengths, points):
-    """Pixels from the principal point, (views, points, 2)."""
+MODELS = ['SIMPLE_PINHOLE', 'PINHOLE', 'SIMPLE_RADIAL', 'RADIAL', 'OPENCV']
+
+
+def lens_of(model, values):
+    """fx, fy, cx, cy, k1, k2, p1, p2 of the values of a COLMAP camera."""
+    values = list(values)
+    if model not in ('PINHOLE', 'OPENCV'):
+        values.insert(0, values[0])
+    return values + [0] * (8 - len(values))
+
+
+def read_lens(model):
+    """lens_of the only camera of a model, as text or binary."""
+    if (model / 'cameras.txt').exists():
+        fields = data_lines(model / 'cameras.txt')[0].split()
+        return lens_of(fields[1], map(float, fields[4:]))
+    data = (model / 'cameras.bin').read_bytes()
+    num_cameras, _, model_id = struct.unpack_from('<Qii', data)
+    assert num_cameras == 1, 'scenes have one camera'
+    return lens_of(MODELS[model_id],
+                   struct.unpack_from(f'<{(len(data) - 32) // 8}d', data, 32))
+
+
+def project(poses, lens, points):
+    """Pixels, (views, points, 2)."""
     rotations = np.array([rotation for rotation, _ in poses])
     translations = np.array([translation for _, translation in poses])
     x = np.einsum('vij,pj->vpi', rotations, points) + translations[:, None]
-    return focal_lengths * x[..., :2] / x[..., 2:]
+    fx, fy, cx, cy, k1, k2, p1, p2 = lens
+    u, v = x[..., 0] / x[..., 2], x[..., 1] / x[..., 2]
+    r2 = u ** 2 + v ** 2
+    radial = 1 + k1 * r2 + k2 * r2 ** 2
+    return np.stack([
+        fx * (u * radial + 2 * p1 * u * v + p2 * (r2 + 2 * u ** 2)) + cx,
+        fy * (v * radial + 2 * p2 * u * v + p1 * (r2 + 2 * v ** 2)) + cy], 2)
 
 
 def moved(points, motion):
@@ -84,16 +122,17 @@ def moved(points, motion):
     return np.exp(motion[6]) * turned + motion[3:6]
 
 
-def median_shift(poses, true_model, points):
+def median_shift(model, true_model, points):
     """Pixels, after the similarity that makes the shifts smallest."""
-    focal_lengths = read_focal_lengths(true_model)
-    true_poses = read_text_poses(true_model / 'images.txt')
+    true_poses, poses = read_poses(true_model), read_poses(model)
     names = sorted(set(poses) & set(true_poses))
-    truth = project([true_poses[n] for n in names], focal_lengths, points)
+    truth = project([true_poses[n] for n in names], read_lens(true_model),
+                    points)
     ours = [poses[n] for n in names]
+    lens = read_lens(model)
 
     def shifts(motion):
-        return project(ours, focal_lengths, moved(points, motion)) - truth
+        return project(ours, lens, moved(points, motion)) - truth
 
     fit = least_squares(lambda motion: shifts(motion).ravel(), np.zeros(7),
                         loss='soft_l1', x_scale='jac')
@@ -115,30 +154,45 @@ def fv5(program, results, truth):
     return scores['Fv5']
 
 
-def row(program, scene, pixels, seed):
-    truth = scene / 'gt.txt'
-    points = np.loadtxt(truth)[:, :3]
-    points = points[::max(1, len(points) // NUM_SAMPLES)]
+def changed(script, scene, copy, *flags):
+    """The copy that a script of this folder makes of a scene."""
+    subprocess.run([sys.executable, ROOT / 'tests/evaluation' / script, scene,
+                    copy, *map(str, flags)], check=True)
+    return copy
+
+
+def row(scene, pixels, arguments):
+    program = arguments.program
+    unrefined = ['--refiner', 'none', '--refine_poses_with_curves', '0']
     with tempfile.TemporaryDirectory() as folder:
-        copy = pathlib.Path(folder) / scene.name
-        subprocess.run([sys.executable,
-                        ROOT / 'tests/evaluation/disturb_poses.py',
-                        scene, copy, str(pixels), '--seed', str(seed)],
-                       check=True)
-        true_model = scene / 'sparse/0'
-        before = median_shift(read_text_poses(copy / 'sparse/0/images.txt'),
-                              true_model, points)
-        unrefined = fv5(program, run(program, copy, [
-            '--refiner', 'none', '--refine_poses_with_curves', '0']), truth)
+        folder = pathlib.Path(folder)
+        true_scene = scene
+        if arguments.lens or arguments.views:
+            true_scene = changed('degrade_scene.py', scene, folder / 'true',
+                                 *['--lens'] * arguments.lens,
+                                 '--views', arguments.views or 0)
+        copy = changed('disturb_poses.py', true_scene, folder / 'copy', pixels,
+                       *['--simple_lens'] * arguments.lens,
+                       '--only', arguments.only or 0,
+                       '--seed', arguments.seed)
+        truth = true_scene / 'gt.txt'
+        points = np.loadtxt(truth)[:, :3]
+        points = points[::max(1, len(points) // NUM_SAMPLES)]
+        true_model = true_scene / 'sparse/0'
+        before = median_shift(copy / 'sparse/0', true_model, points)
+        # The true scene may be one that is only read.
+        true_copy = changed('disturb_poses.py', true_scene, folder / 'as_is', 0)
+        scores = [fv5(program, run(program, true_copy, unrefined), truth),
+                  fv5(program, run(program, copy, unrefined), truth)]
         results = run(program, copy, [])
+        scores.append(fv5(program, results, truth))
         report = json.loads((results / 'report.json').read_text())
         accepted = report['pose_refinement_with_curves']['accepted']
-        after = (median_shift(read_binary_poses(results / 'sparse/images.bin'),
-                              true_model, points)
+        after = (median_shift(results / 'sparse', true_model, points)
                  if accepted else before)
         return [scene.name, f'{pixels:g}', f'{before:.3f}', f'{after:.3f}',
-                'yes' if accepted else 'no', f'{unrefined:.1f}',
-                f'{fv5(program, results, truth):.1f}']
+                'yes' if accepted else 'no',
+                *(f'{score:.1f}' for score in scores)]
 
 
 def main():
@@ -146,17 +200,20 @@ def main():
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument('scenes', nargs='+', type=pathlib.Path)
     parser.add_argument('--pixels', default='0,0.5,1,2')
+    parser.add_argument('--only', type=int)
+    parser.add_argument('--lens', action='store_true')
+    parser.add_argument('--views', type=int)
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--program', type=pathlib.Path,
                         default=ROOT / 'build/bin/colmap_curvix')
     arguments = parser.parse_args()
     headings = ['scene', 'moved by px', 'before px', 'after px', 'accepted',
-                'Fv5 unrefined', 'Fv5']
+                'Fv5 true', 'Fv5 unrefined', 'Fv5']
     for line in [headings, ['---'] * len(headings)]:
         print('| ' + ' | '.join(line) + ' |')
     for scene in arguments.scenes:
         for pixels in arguments.pixels.split(','):
-            cells = row(arguments.program, scene, float(pixels), arguments.seed)
+            cells = row(scene, float(pixels), arguments)
             print('| ' + ' | '.join(cells) + ' |', flush=True)
 
 

@@ -58,6 +58,32 @@ TEST(HoldOutMore, LeavesTwoFifthsOfSpace) {
   }
 }
 
+// All signs of n gains are positive once in 2^n times.
+TEST(SignificanceOf, IsExactIfNoneLoses) {
+  for (const std::size_t n : {1u, 5u, 20u}) {
+    const double z = SignificanceOf(std::vector<double>(n, 0.1));
+    EXPECT_NEAR(std::exp(-z * z / 2), std::pow(0.5, n), 1e-9);
+  }
+}
+
+TEST(SignificanceOf, IsAtLeastTheSumOverTheRootOfSquares) {
+  Random random(8);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<double> gains;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < 30; ++i) {
+      gains.push_back(0.3 + random.Normal());
+      sum += gains.back();
+      squares += gains.back() * gains.back();
+    }
+    const double z = SignificanceOf(gains);
+    EXPECT_GE(std::abs(z), std::abs(sum) / std::sqrt(squares) - 1e-9);
+    EXPECT_EQ(z > 0, sum > 0);
+    for (double& gain : gains) gain *= -7;
+    EXPECT_NEAR(SignificanceOf(gains), -z, 1e-9);
+  }
+}
+
 // Gains of many items that are as often losses, those of a cell being the same:
 // significant once in five thousand times at most, however many items a cell
 // has.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Where the curves near a place on a curve lie: on
-// the surfaces that meet there.
+// Paper: none (beyond it). Where curves and points near a place on a curve lie:
+// on the surfaces that meet there.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 namespace curvix {
 
 // Adds what points nearby say: a point in the direction of a surface speaks
-// for it, one in another direction against it. `points` are on other curves,
-// `pixel` is the length of a pixel at the place, world units.
+// for it, one in another direction against it. `points` are on other curves or
+// COLMAP's, `pixel` is the length of a pixel at the place, world units.
 void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_kinds/nearby_curves.h"
+#include "curve_kinds/nearby_points.h"
 
 #include <algorithm>
 #include <cmath>
