@@ -17,6 +17,7 @@
 #include "curve_kinds/strips.h"
 #include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
+#include "model/samples_along.h"
 
 namespace curvix {
 namespace {
@@ -58,28 +59,6 @@ Vector3d Across(const Vector3d& tangent, const Vector3d& normal) {
   int axis = 0;
   tangent.cwiseAbs().minCoeff(&axis);
   return tangent.cross(Vector3d::Unit(axis)).normalized();
-}
-
-// The samples, some kStepPx apart, at which strips are compared; the middle
-// one of a short curve.
-std::vector<std::size_t> ChooseSamples(const Curve& curve, double pixel) {
-  std::vector<double> along = {0};
-  for (std::size_t i = 1; i < curve.samples.size(); ++i) {
-    along.push_back(
-        along.back() +
-        (curve.samples[i].position - curve.samples[i - 1].position).norm());
-  }
-  const auto num = static_cast<std::size_t>(
-      std::max(1.0, std::floor(along.back() / (kStepPx * pixel))));
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < num; ++i) {
-    const double at = along.back() * (static_cast<double>(i) + 0.5) /
-                      static_cast<double>(num);
-    const auto sample = static_cast<std::size_t>(
-        std::lower_bound(along.begin(), along.end() - 1, at) - along.begin());
-    if (chosen.empty() || chosen.back() != sample) chosen.push_back(sample);
-  }
-  return chosen;
 }
 
 // The sum over the neighbours within kReach. Those that do not see a direction
@@ -177,7 +156,8 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
     places.pixels.push_back(PixelSize(first.position, first.support, views));
     places.samples.emplace_back();
     if (!(places.pixels.back() > 0)) continue;
-    places.samples.back() = ChooseSamples(curves[i], places.pixels.back());
+    places.samples.back() =
+        SamplesAlong(curves[i], kStepPx * places.pixels.back());
     for (std::size_t sample : places.samples.back()) {
       places.curves.push_back(i);
       places.positions.push_back(curves[i].samples[sample].position);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 
+#include "curve_refinement/nearest_contour.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/occluding_contour.h"
@@ -38,12 +38,6 @@ constexpr double kInlierPx = 1;
 // Bodies are not exactly cylinders: share of the distance from the curve by
 // which a contour may be off.
 constexpr double kRelativeError = 0.05;
-// The probability that a view shows a contour, or an edge, that exists.
-constexpr double kShown = 0.5;
-// Least number of other contours per pixel across the curve.
-constexpr double kMinDensity = 0.02;
-// So many edges of a contour are found beside a place.
-constexpr double kEdgesPerContour = 2;
 
 // What a view sees about a place of a curve.
 struct PlaceInView {
@@ -87,39 +81,23 @@ Place Look(const CurveSample& sample,
         gradient.dot(side - contour.outward);
     seen.turn = 1 - side.dot(contour.outward);
   }
-  place.density =
-      std::max(kMinDensity,
-               num_edges / (kEdgesPerContour * 2 * kReachPx *
-                            static_cast<double>(place.views.size())));
+  place.density = DensityOfContours(
+      num_edges, static_cast<double>(place.views.size()), kReachPx);
   return place;
 }
 
 // A step of the axis across itself, and a radius, world units.
 using Contour = Vector3d;
 
-// From where the contour is seen to the nearest edge; infinite without any.
-double NearestResidual(const PlaceInView& seen, double offset_px) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (double edge_px : seen.edges_px) {
-    if (std::abs(edge_px - offset_px) < std::abs(nearest)) {
-      nearest = edge_px - offset_px;
-    }
-  }
-  return nearest;
-}
-
 double LogLikelihood(const Place& place,
                      const PlaceInView& seen,
                      const Contour& contour,
                      double edge_sigma_px) {
   const double offset_px = seen.slope.dot(contour);
-  const double residual = NearestResidual(seen, offset_px);
-  if (!std::isfinite(residual)) return 0;
-  const double sigma = std::hypot(edge_sigma_px, kRelativeError * offset_px);
-  const double r = residual / sigma;
-  const double density =
-      std::exp(-0.5 * r * r) / (std::sqrt(2 * std::numbers::pi) * sigma);
-  return std::log(1 - kShown + kShown * density / place.density);
+  return LogLikelihoodOfContour(
+      NearestResidual(seen.edges_px, offset_px),
+      std::hypot(edge_sigma_px, kRelativeError * offset_px),
+      place.density);
 }
 
 double LogLikelihood(const Place& place,
@@ -154,7 +132,7 @@ Contour OtherEdge(const Place& place,
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     for (const PlaceInView& seen : place.views) {
       const double offset_px = seen.slope.dot(contour);
-      const double residual = NearestResidual(seen, offset_px);
+      const double residual = NearestResidual(seen.edges_px, offset_px);
       if (std::abs(offset_px) < kOnCurvePx || std::abs(residual) > kInlierPx) {
         continue;
       }
@@ -184,7 +162,8 @@ Contour Refine(const Place& place, const Contour& contour) {
   Matrix3d information = Matrix3d::Zero();
   Vector3d gradient = Vector3d::Zero();
   for (const PlaceInView& seen : place.views) {
-    const double residual = NearestResidual(seen, seen.slope.dot(contour));
+    const double residual =
+        NearestResidual(seen.edges_px, seen.slope.dot(contour));
     if (std::abs(residual) > kInlierPx) continue;
     information += seen.slope * seen.slope.transpose();
     gradient += seen.slope * residual;

@@ -17,6 +17,7 @@
 #include "curve_kinds/classify_curves.h"
 #include "curve_refinement/filter_curves.h"
 #include "curve_refinement/refine_curves.h"
+#include "curve_refinement/round_bars.h"
 #include "edge_detection/detect_view_edges.h"
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_indices.h"
@@ -165,6 +166,11 @@ Reconstruction Connect(const Scene& scene,
 
   if (options.curve_kinds.enabled) {
     run.Begin("classify_curves");
+    LabelRoundBars(views,
+                   edge_maps,
+                   sketch.edge_sigma_px,
+                   num_threads,
+                   &result.curves.curves);
     ClassifyCurves(scene, views, num_threads, &result.curves.curves);
     run.End(KindCounts(result.curves));
   }

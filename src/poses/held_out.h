@@ -40,10 +40,10 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
                                   const HeldOutErrors& after,
                                   const PosedEdges& edges);
 
-// z of the sum of independent gains: if losses are as likely as gains, z or more
-// has a probability of at most exp(-z^2 / 2) (Chernoff's bound). At least the
-// sum over the root of the sum of squares; sqrt(2 n log 2) for n equal gains.
-// Negative for losses. Zero without gains.
+// z of the sum of independent gains: if losses are as likely as gains, z or
+// more has a probability of at most exp(-z^2 / 2) (Chernoff's bound). At least
+// the sum over the root of the sum of squares; sqrt(2 n log 2) for n equal
+// gains. Negative for losses. Zero without gains.
 double SignificanceOf(const std::vector<double>& gains);
 
 // Sums the gains of each cell. Cells are assumed to be independent.

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "curve_refinement/round_bars.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "base/median.h"
+#include "base/parallel.h"
+#include "curve_refinement/image_support.h"
+#include "curve_refinement/nearest_contour.h"
+#include "geometry/adjust_edge.h"
+#include "geometry/directions.h"
+#include "geometry/occluding_contour.h"
+#include "geometry/pixel_size.h"
+#include "model/samples_along.h"
+
+namespace curvix {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// Places of a curve, at least so far apart, and no more than this.
+constexpr double kPlaceSpacingPx = 15;
+constexpr std::size_t kMaxPlaces = 12;
+constexpr double kMinRadiusPx = 1;
+constexpr double kMaxRadiusPx = 11;
+// The far contour is twice the radius away.
+constexpr double kReachPx = 2 * kMaxRadiusPx + 4;
+constexpr double kStartRadiiPx[] = {1.5, 2.5, 4, 6, 9};
+// Views that see the bar from about the same side as most do: the cosine of the
+// angle.
+constexpr double kMinCosine = 0.3;
+constexpr int kMinViews = 5;
+constexpr int kNumIterations = 8;
+constexpr double kGatePx = 1.5;
+constexpr double kRobustSigmaPx = 0.4;
+// Keeps the systems regular; in measurements.
+constexpr double kPrior = 1e-3;
+// A curve is a side of the bar if it is so near to it, mean over places.
+constexpr double kMaxDistancePx = 2;
+// Mean log-likelihood ratio of a place, and the share of views that show both
+// contours within so many standard deviations.
+constexpr double kMinLogLikelihoodRatio = 3;
+constexpr double kMinShareOfBoth = 0.15;
+constexpr double kSeenSigmas = 3;
+
+// What a view sees about a place of a curve.
+struct PlaceInView {
+  std::vector<double> edges_px;  // signed distances from the projected curve
+  // How far a step across the curve moves its projection; pixels per pixel of
+  // the curve, on AxesAcross().
+  Vector2d slope = Vector2d::Zero();
+  // The same for a step from the axis of a bar to the contour that is seen.
+  double slope_of_radius = 0;
+};
+
+struct Place {
+  std::vector<PlaceInView> views;
+  Vector2d outward = Vector2d::Zero();  // unit: the side of the first contour
+  double density = 0;  // of other contours, per pixel across the curve
+};
+
+std::vector<Vector3d> SupportingCenters(const CurveSample& sample,
+                                        const std::vector<PosedView>& views) {
+  std::vector<Vector3d> centers;
+  for (const EdgeRef& ref : sample.support) {
+    centers.push_back(views[static_cast<std::size_t>(ref.view_idx)].center);
+  }
+  return centers;
+}
+
+// `pixel`: of the curve, world units. `outward` is across the curve, unit.
+Place Look(const CurveSample& sample,
+           const Vector3d& outward,
+           double pixel,
+           const std::vector<PosedView>& views,
+           const ImageSupport& images) {
+  const OccludingContour contour = {
+      {sample.position, sample.tangent}, 0, outward};
+  const AcrossAxes across = AxesAcross(sample.tangent);
+  Place place;
+  place.outward = across.transpose() * outward;
+  double num_edges = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const auto projected = ProjectEdge(views[v], contour.axis);
+    if (!projected || !views[v].Contains(projected->position)) continue;
+    const Vector3d side = SideSeenFrom(contour, views[v].center);
+    if (side.dot(outward) < kMinCosine) continue;
+    std::vector<double> edges_px = images.Beside(v, *projected, kReachPx);
+    if (std::none_of(edges_px.begin(), edges_px.end(), [](double edge_px) {
+          return std::abs(edge_px) < kMaxRadiusPx;
+        })) {
+      continue;
+    }
+    num_edges += static_cast<double>(edges_px.size());
+    const Vector3d gradient =
+        pixel *
+        DistanceFrom(MeasurePlane(views[v], *projected), sample.position)
+            .gradient;
+    place.views.push_back({std::move(edges_px),
+                           across.transpose() * gradient,
+                           gradient.dot(side)});
+  }
+  place.density = DensityOfContours(
+      num_edges, static_cast<double>(place.views.size()), kReachPx);
+  return place;
+}
+
+double PixelOf(const Curve& curve, const std::vector<PosedView>& views) {
+  std::vector<double> pixels;
+  for (const CurveSample& sample : curve.samples) {
+    pixels.push_back(PixelSize(sample.position, sample.support, views));
+  }
+  return MedianOr(0, std::move(pixels));
+}
+
+// Outward sides follow each other.
+std::vector<Place> LookAlong(const Curve& curve,
+                             const std::vector<PosedView>& views,
+                             const ImageSupport& images) {
+  std::vector<Place> places;
+  const double pixel = PixelOf(curve, views);
+  if (!(pixel > 0)) return places;
+  Vector3d outward = Vector3d::Zero();
+  for (const std::size_t i :
+       SamplesAlong(curve, kPlaceSpacingPx * pixel, kMaxPlaces)) {
+    const CurveSample& sample = curve.samples[i];
+    const Vector3d side = MeanSide({sample.position, sample.tangent},
+                                   SupportingCenters(sample, views));
+    outward = side.dot(outward) < 0 ? Vector3d(-side) : side;
+    Place place = Look(sample, outward, pixel, views, images);
+    if (place.views.size() >= kMinViews) places.push_back(std::move(place));
+  }
+  return places;
+}
+
+struct Bar {
+  double radius_px = 0;
+  std::vector<Vector2d> axis;  // by place, from the curve, on AxesAcross()
+};
+
+// Least squares over the edges near both contours: one radius, and an axis at
+// each place.
+void Adjust(const std::vector<Place>& places, Bar* bar) {
+  struct OfPlace {
+    Matrix2d inverse;
+    Vector2d of_radius, of_residuals;
+  };
+  std::vector<OfPlace> eliminated;
+  double information = kPrior, gradient = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Matrix2d matrix = kPrior * Matrix2d::Identity();
+    Vector2d of_radius = Vector2d::Zero(), of_residuals = Vector2d::Zero();
+    for (const PlaceInView& seen : places[i].views) {
+      for (const double side : {1.0, -1.0}) {
+        const double slope_of_radius = side * seen.slope_of_radius;
+        const double residual = NearestResidual(
+            seen.edges_px,
+            seen.slope.dot(bar->axis[i]) + slope_of_radius * bar->radius_px);
+        if (std::abs(residual) > kGatePx) continue;
+        const double weight = CauchyWeight(residual, kRobustSigmaPx);
+        matrix += weight * seen.slope * seen.slope.transpose();
+        of_radius += weight * slope_of_radius * seen.slope;
+        of_residuals += weight * residual * seen.slope;
+        information += weight * slope_of_radius * slope_of_radius;
+        gradient += weight * slope_of_radius * residual;
+      }
+    }
+    const Matrix2d inverse = matrix.inverse();
+    information -= of_radius.dot(inverse * of_radius);
+    gradient -= of_radius.dot(inverse * of_residuals);
+    eliminated.push_back({inverse, of_radius, of_residuals});
+  }
+  const double step = std::clamp(gradient / information, -2.0, 2.0);
+  bar->radius_px += step;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const OfPlace& of_place = eliminated[i];
+    bar->axis[i] +=
+        of_place.inverse * (of_place.of_residuals - step * of_place.of_radius);
+  }
+}
+
+// The edge in space that fits best, from `start`, a step from the curve.
+Vector2d FitEdge(const Place& place, const Vector2d& start) {
+  Vector2d at = start;
+  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
+    Matrix2d matrix = kPrior * Matrix2d::Identity();
+    Vector2d gradient = Vector2d::Zero();
+    for (const PlaceInView& seen : place.views) {
+      const double residual =
+          NearestResidual(seen.edges_px, seen.slope.dot(at));
+      if (std::abs(residual) > kGatePx) continue;
+      const double weight = CauchyWeight(residual, kRobustSigmaPx);
+      matrix += weight * seen.slope * seen.slope.transpose();
+      gradient += weight * residual * seen.slope;
+    }
+    at += matrix.inverse() * gradient;
+  }
+  return at;
+}
+
+// Log-likelihood ratio of a bar to two edges in space, mean over places. Minus
+// infinity if too few views show both sides of the bar.
+double LogLikelihoodRatio(const std::vector<Place>& places,
+                          const Bar& bar,
+                          double edge_sigma_px) {
+  double ratio = 0, num_views = 0, num_both = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Place& place = places[i];
+    const Vector2d to_side = bar.radius_px * place.outward;
+    const Vector2d edge1 = FitEdge(place, bar.axis[i] + to_side);
+    const Vector2d edge2 = FitEdge(place, bar.axis[i] - to_side);
+    for (const PlaceInView& seen : place.views) {
+      const auto residual = [&](double at_px) {
+        return NearestResidual(seen.edges_px, at_px);
+      };
+      const auto log_likelihood = [&](double residual_px) {
+        return LogLikelihoodOfContour(
+            residual_px, edge_sigma_px, place.density);
+      };
+      const double middle_px = seen.slope.dot(bar.axis[i]);
+      const double half_px = seen.slope_of_radius * bar.radius_px;
+      const double side1 = residual(middle_px + half_px);
+      const double side2 = residual(middle_px - half_px);
+      ratio += log_likelihood(side1) + log_likelihood(side2) -
+               log_likelihood(residual(seen.slope.dot(edge1))) -
+               log_likelihood(residual(seen.slope.dot(edge2)));
+      num_both += std::max(std::abs(side1), std::abs(side2)) <
+                  kSeenSigmas * edge_sigma_px;
+      ++num_views;
+    }
+  }
+  if (num_both < kMinShareOfBoth * num_views) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  return ratio / static_cast<double>(places.size());
+}
+
+// Of the bar near `start_radius_px`, whose contour on `side` is the curve.
+double LogLikelihoodRatio(const std::vector<Place>& places,
+                          double start_radius_px,
+                          double side,
+                          double edge_sigma_px) {
+  constexpr double kNoBar = -std::numeric_limits<double>::infinity();
+  Bar bar{start_radius_px, {}};
+  for (const Place& place : places) {
+    bar.axis.push_back(-side * start_radius_px * place.outward);
+  }
+  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
+    Adjust(places, &bar);
+  }
+  if (bar.radius_px < kMinRadiusPx || bar.radius_px > kMaxRadiusPx) {
+    return kNoBar;
+  }
+  double distance_px = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    distance_px +=
+        (bar.axis[i] + side * bar.radius_px * places[i].outward).norm();
+  }
+  if (distance_px > kMaxDistancePx * static_cast<double>(places.size())) {
+    return kNoBar;
+  }
+  return LogLikelihoodRatio(places, bar, edge_sigma_px);
+}
+
+// Of the likeliest bar; minus infinity without any.
+double LogLikelihoodRatio(const std::vector<Place>& places,
+                          double edge_sigma_px) {
+  double best = -std::numeric_limits<double>::infinity();
+  if (places.empty()) return best;
+  for (const double radius_px : kStartRadiiPx) {
+    for (const double side : {1.0, -1.0}) {
+      best = std::max(
+          best, LogLikelihoodRatio(places, radius_px, side, edge_sigma_px));
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+void LabelRoundBars(const std::vector<PosedView>& views,
+                    const std::vector<EdgeMap>& edge_maps,
+                    double edge_sigma_px,
+                    int num_threads,
+                    std::vector<Curve>* curves) {
+  const ImageSupport images(views, edge_maps, num_threads);
+  ParallelFor(curves->size(), num_threads, [&](std::size_t i) {
+    Curve& curve = (*curves)[i];
+    const double ratio =
+        LogLikelihoodRatio(LookAlong(curve, views, images), edge_sigma_px);
+    if (ratio < kMinLogLikelihoodRatio) return;
+    for (CurveSample& sample : curve.samples) {
+      sample.kind = CurveKind::kOccludingContour;
+      sample.kind_probability = static_cast<float>(1 / (1 + std::exp(-ratio)));
+    }
+  });
+}
+
+}  // namespace curvix
