@@ -205,10 +205,12 @@ Vector2d FitEdge(const Place& place, const Vector2d& start) {
   return at;
 }
 
-// Log-likelihood ratio of a bar to two edges in space, mean over places. Minus
-// infinity if too few views show both sides of the bar.
+// Log-likelihood ratio of a bar, whose contour on `side` is the curve, to edges
+// in space, mean over places: one edge by each contour, and the curve itself.
+// Minus infinity if too few views show both contours.
 double LogLikelihoodRatio(const std::vector<Place>& places,
                           const Bar& bar,
+                          double side,
                           double edge_sigma_px) {
   double ratio = 0, num_views = 0, num_both = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -228,9 +230,12 @@ double LogLikelihoodRatio(const std::vector<Place>& places,
       const double half_px = seen.slope_of_radius * bar.radius_px;
       const double side1 = residual(middle_px + half_px);
       const double side2 = residual(middle_px - half_px);
-      ratio += log_likelihood(side1) + log_likelihood(side2) -
-               log_likelihood(residual(seen.slope.dot(edge1))) -
-               log_likelihood(residual(seen.slope.dot(edge2)));
+      double of_edge1 = log_likelihood(residual(seen.slope.dot(edge1)));
+      double of_edge2 = log_likelihood(residual(seen.slope.dot(edge2)));
+      double& of_own_edge = side > 0 ? of_edge1 : of_edge2;
+      of_own_edge = std::max(of_own_edge, log_likelihood(residual(0)));
+      ratio +=
+          log_likelihood(side1) + log_likelihood(side2) - of_edge1 - of_edge2;
       num_both += std::max(std::abs(side1), std::abs(side2)) <
                   kSeenSigmas * edge_sigma_px;
       ++num_views;
@@ -266,7 +271,7 @@ double LogLikelihoodRatio(const std::vector<Place>& places,
   if (distance_px > kMaxDistancePx * static_cast<double>(places.size())) {
     return kNoBar;
   }
-  return LogLikelihoodRatio(places, bar, edge_sigma_px);
+  return LogLikelihoodRatio(places, bar, side, edge_sigma_px);
 }
 
 // Of the likeliest bar; minus infinity without any.
