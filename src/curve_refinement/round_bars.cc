@@ -298,6 +298,7 @@ void LabelRoundBars(const std::vector<PosedView>& views,
   const ImageSupport images(views, edge_maps, num_threads);
   ParallelFor(curves->size(), num_threads, [&](std::size_t i) {
     Curve& curve = (*curves)[i];
+    if (MainKind(curve) == CurveKind::kOccludingContour) return;
     const double ratio =
         LogLikelihoodRatio(LookAlong(curve, views, images), edge_sigma_px);
     if (ratio < kMinLogLikelihoodRatio) return;
