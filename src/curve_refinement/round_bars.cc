@@ -38,8 +38,11 @@ constexpr double kStartRadiiPx[] = {1.5, 2.5, 4, 6, 9};
 constexpr double kMinCosine = 0.3;
 constexpr int kMinViews = 5;
 constexpr int kNumIterations = 8;
+// Of edges in the fits: the largest distance, and the scale of their weights.
 constexpr double kGatePx = 1.5;
 constexpr double kRobustSigmaPx = 0.4;
+// Of the radius in one iteration.
+constexpr double kMaxStepPx = 2;
 // Keeps the systems regular; in measurements.
 constexpr double kPrior = 1e-3;
 // A curve is a side of the bar if it is so near to it, mean over places.
@@ -120,7 +123,8 @@ double PixelOf(const Curve& curve, const std::vector<PosedView>& views) {
   return MedianOr(0, std::move(pixels));
 }
 
-// Outward sides follow each other.
+// Places along the curve, whose outward sides follow each other. None if too
+// few views see it.
 std::vector<Place> LookAlong(const Curve& curve,
                              const std::vector<PosedView>& views,
                              const ImageSupport& images) {
@@ -177,7 +181,8 @@ void Adjust(const std::vector<Place>& places, Bar* bar) {
     gradient -= of_radius.dot(inverse * of_residuals);
     eliminated.push_back({inverse, of_radius, of_residuals});
   }
-  const double step = std::clamp(gradient / information, -2.0, 2.0);
+  const double step =
+      std::clamp(gradient / information, -kMaxStepPx, kMaxStepPx);
   bar->radius_px += step;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const OfPlace& of_place = eliminated[i];
