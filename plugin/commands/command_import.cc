@@ -37,7 +37,7 @@ struct LineFormat {
 constexpr std::array kLineFormats = {LineFormat{"line3dpp", ReadLine3dppLines},
                                      LineFormat{"limap", ReadLimapLines}};
 
-struct Settings {
+struct ImportSettings {
   std::filesystem::path workspace_path;
   std::filesystem::path output_path;
   OutputSettings output;
@@ -48,7 +48,7 @@ struct Settings {
   ImportOptions options;
 };
 
-FlagSection DataSetFlags(Settings* settings) {
+FlagSection DataSetFlags(ImportSettings* settings) {
   std::vector<std::string> formats;
   for (const Format& format : kFormats) formats.emplace_back(format.name);
   for (const LineFormat& format : kLineFormats) {
@@ -83,7 +83,7 @@ FlagSection DataSetFlags(Settings* settings) {
                   "millimetres")}};
 }
 
-FlagSection WorkspaceFlags(Settings* settings) {
+FlagSection WorkspaceFlags(ImportSettings* settings) {
   return {"Workspace",
           {Required(PathFlag("workspace_path",
                              &settings->workspace_path,
@@ -97,7 +97,7 @@ FlagSection WorkspaceFlags(Settings* settings) {
                       "already stay")}};
 }
 
-FlagSection ResultFlags(Settings* settings) {
+FlagSection ResultFlags(ImportSettings* settings) {
   FlagSection section = OutputFlags(&settings->output);
   section.title = "Results of line3dpp and limap";
   section.flags.insert(section.flags.begin(),
@@ -108,7 +108,7 @@ FlagSection ResultFlags(Settings* settings) {
   return section;
 }
 
-Status CheckInput(const Settings& settings) {
+Status CheckInput(const ImportSettings& settings) {
   std::error_code error;
   if (std::filesystem::exists(settings.options.input_path, error)) return {};
   return {
@@ -117,7 +117,7 @@ Status CheckInput(const Settings& settings) {
           " does not exist; name the cameras of the data set, or the lines"};
 }
 
-ExitCode ImportLines(const Settings& settings, const LineFormat& format) {
+ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
   RunSettings run;
   run.workspace_path = settings.workspace_path;
   run.image_path = settings.options.image_path;
@@ -134,7 +134,7 @@ ExitCode ImportLines(const Settings& settings, const LineFormat& format) {
   });
 }
 
-Result<ImportedScene> Import(const Settings& settings) {
+Result<ImportedScene> Import(const ImportSettings& settings) {
   ImportOptions options = settings.options;
   options.image_filter = settings.image_filter.string();
   if (settings.first_pixel != "auto") {
@@ -157,7 +157,7 @@ std::string Counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-ExitCode ImportDataSet(const Settings& settings) {
+ExitCode ImportDataSet(const ImportSettings& settings) {
   Status status = CheckWorkspaceUnused(settings.workspace_path);
   if (!status.ok()) return Fail(status, ExitCodeOf(status));
   const Result<ImportedScene> scene = Import(settings);
@@ -183,7 +183,7 @@ ExitCode ImportDataSet(const Settings& settings) {
 }  // namespace
 
 ExitCode RunImport(const Arguments& arguments) {
-  Settings settings;
+  ImportSettings settings;
   const std::optional<ExitCode> code = ParseCommand("import",
                                                     arguments,
                                                     {DataSetFlags(&settings),

@@ -64,7 +64,7 @@ std::string TruthText(const std::vector<TrueSample>& samples) {
   return text;
 }
 
-struct Settings {
+struct SynthesizeSettings {
   std::filesystem::path workspace_path;
   std::string solid = "part";
   std::string pattern = "none";
@@ -109,7 +109,7 @@ std::vector<std::string> CameraModels() {
   return names;
 }
 
-FlagSection ImageFlags(Settings* settings) {
+FlagSection ImageFlags(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
   return {"Images",
           {RowFlag({.name = "num_views",
@@ -141,7 +141,7 @@ FlagSection ImageFlags(Settings* settings) {
                     .help = "contrast of the texture on the surfaces"})}};
 }
 
-FlagSection CameraFlags(Settings* settings) {
+FlagSection CameraFlags(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
   return {"Cameras",
           {ChoiceFlag("camera_model",
@@ -165,7 +165,7 @@ FlagSection CameraFlags(Settings* settings) {
                     .help = "sparse points that each image finds"})}};
 }
 
-std::vector<FlagSection> Sections(Settings* settings) {
+std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
   return {{"Scene",
            {Required(PathFlag("workspace_path",
@@ -202,7 +202,7 @@ std::vector<FlagSection> Sections(Settings* settings) {
 }  // namespace
 
 ExitCode RunSynthesize(const Arguments& arguments) {
-  Settings settings;
+  SynthesizeSettings settings;
   const std::optional<ExitCode> code =
       ParseCommand("synthesize", arguments, Sections(&settings));
   if (code) return *code;

@@ -3,7 +3,6 @@
 
 #include <curvix/curve_io.h>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "base/text_fields.h"
 #include "colmap/workspace.h"
+#include "plugin/base/json.h"
 #include "plugin/base/text.h"
 
 namespace curvix {
@@ -98,20 +98,20 @@ void PrintTable(const Evaluation& e, std::ostream& out) {
   if (e.kinds) PrintKinds(*e.kinds, out);
 }
 
-nlohmann::ordered_json ToJson(const std::optional<double>& value) {
+Json ToJson(const std::optional<double>& value) {
   if (!value) return nullptr;
   return *value;
 }
 
-nlohmann::ordered_json ToJson(const LengthPerKind& lengths_mm) {
-  nlohmann::ordered_json json;
+Json ToJson(const LengthPerKind& lengths_mm) {
+  Json json;
   for (std::size_t i = 0; i < kNumCurveKinds; ++i)
     json[NameOf(i)] = lengths_mm[i];
   return json;
 }
 
-nlohmann::ordered_json ToJson(const KindAgreement& kinds) {
-  nlohmann::ordered_json json;
+Json ToJson(const KindAgreement& kinds) {
+  Json json;
   json["right"] = ToJson(kinds.right);
   for (const TrueKind& kind : kinds.kinds) {
     json[std::string(KindName(kind.kind))] = {
@@ -126,7 +126,7 @@ nlohmann::ordered_json ToJson(const KindAgreement& kinds) {
 }
 
 void PrintJson(const Evaluation& e, std::ostream& out) {
-  nlohmann::ordered_json json;
+  Json json;
   json["predicted"] = e.num_predicted;
   json["gt"] = e.num_true;
   json["acc"] = ToJson(e.accuracy_mm);
@@ -191,7 +191,7 @@ void PrintTable(const HoldoutResult& result, std::ostream& out) {
 
 void PrintJson(const HoldoutResult& result, std::ostream& out) {
   const ImageAgreement& agreement = result.agreement;
-  nlohmann::ordered_json json;
+  Json json;
   json["held_out"] = result.num_held_out;
   json["curves"] = result.curves.num_curves;
   json["length"] = result.curves.total_length;

@@ -10,7 +10,7 @@
 namespace curvix {
 namespace {
 
-Status Bad(std::string message) {
+Status BadPlane(std::string message) {
   return {StatusCode::kInvalidArgument, "--plane: " + std::move(message)};
 }
 
@@ -46,19 +46,19 @@ Result<DrawingPlane> PlaneOfNodes(const std::string& text,
        word = TakeWord(rest)) {
     const auto id = ParseNumber<std::size_t>(word);
     if (!id || *id >= count) {
-      return Bad("there is no node " + std::string(word) +
-                 (count == 0 ? "; curves.json has none"
-                             : "; curves.json has the nodes 0 to " +
-                                   std::to_string(count - 1)));
+      return BadPlane("there is no node " + std::string(word) +
+                      (count == 0 ? "; curves.json has none"
+                                  : "; curves.json has the nodes 0 to " +
+                                        std::to_string(count - 1)));
     }
     points.push_back(curves.fitted.nodes[*id].position);
   }
   if (points.size() != 3) {
-    return Bad("it takes three nodes, as in --plane \"nodes 12 31 7\"");
+    return BadPlane("it takes three nodes, as in --plane \"nodes 12 31 7\"");
   }
   Result<DrawingPlane> plane = PlaneThrough(
       points[0], points[1], points[2], up, MeanViewDirection(scene.views));
-  if (!plane.ok()) return Bad(plane.status().message());
+  if (!plane.ok()) return BadPlane(plane.status().message());
   plane->name = text;
   return plane;
 }
@@ -70,10 +70,10 @@ Result<DrawingPlane> ChoosePlane(const std::string& name,
   if (name.starts_with("nodes")) return PlaneOfNodes(name, curves, scene);
   std::optional<DrawingPlane> plane = AxisPlane(name);
   if (plane) return *std::move(plane);
-  return Bad("\"" + name +
-             "\" is no plane; it takes xy, xz, yz, several of these with "
-             "commas between, "
-             "auto, or three nodes, as in \"nodes 12 31 7\"");
+  return BadPlane("\"" + name +
+                  "\" is no plane; it takes xy, xz, yz, several of these with "
+                  "commas between, "
+                  "auto, or three nodes, as in \"nodes 12 31 7\"");
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ std::vector<double> ParseBox(std::string_view text, std::size_t count) {
   return numbers;
 }
 
-Status Bad(const std::string& option,
-           const std::string& text,
-           const std::string& what) {
+Status BadOption(const std::string& option,
+                 const std::string& text,
+                 const std::string& what) {
   return {StatusCode::kInvalidArgument,
           option + " is \"" + text + "\"; it takes " + what};
 }
@@ -45,19 +45,19 @@ Result<DrawWindow> ParseWindow(const std::string& slice,
   if (!slice.empty()) {
     const std::vector<double> box = ParseBox(slice, 2);
     if (box.empty()) {
-      return Bad("--slice",
-                 slice,
-                 "the lower and the higher depth, as in --slice 0.9,1.1");
+      return BadOption("--slice",
+                       slice,
+                       "the lower and the higher depth, as in --slice 0.9,1.1");
     }
     window.depth = {box[0], box[1]};
   }
   if (!crop.empty()) {
     const std::vector<double> box = ParseBox(crop, 4);
     if (box.empty()) {
-      return Bad("--crop",
-                 crop,
-                 "left, bottom, right and top, in the coordinates of the "
-                 "drawing, as in --crop 0,0,2.5,3");
+      return BadOption("--crop",
+                       crop,
+                       "left, bottom, right and top, in the coordinates of the "
+                       "drawing, as in --crop 0,0,2.5,3");
     }
     window.across = {box[0], box[2]};
     window.upwards = {box[1], box[3]};

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 // Between views on one sheet, of the extent of the largest.
 constexpr double kGapOfViews = 0.15;
 
-Status Bad(std::string message) {
+Status BadDrawing(std::string message) {
   return {StatusCode::kInvalidArgument, std::move(message)};
 }
 
@@ -124,7 +124,7 @@ Status Drafter::TakePlanes() {
   if (planes->size() > 1 &&
       !(settings_.slice.empty() && settings_.crop.empty() &&
         settings_.photograph.empty())) {
-    return Bad("--slice, --crop and --photograph need a single --plane");
+    return BadDrawing("--slice, --crop and --photograph need a single --plane");
   }
   for (DrawingPlane& plane : *planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
@@ -146,8 +146,8 @@ Status Drafter::TakePlanes() {
       settings_.name.empty() ? "drawing_" + settings_.plane : settings_.name;
   for (char& c : name_) c = c == ' ' || c == ',' ? '_' : c;
   if (fs::path(name_).filename() != name_ || name_.front() == '.') {
-    return Bad("--name is \"" + name_ +
-               "\"; it takes the name of a file, without folders");
+    return BadDrawing("--name is \"" + name_ +
+                      "\"; it takes the name of a file, without folders");
   }
   return {};
 }
@@ -243,14 +243,14 @@ Status Drafter::TakePhotograph() {
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);
-    if (!chosen) return Bad("No image shows the plane from this side");
+    if (!chosen) return BadDrawing("No image shows the plane from this side");
   }
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     if (scene_.views[i].name == settings_.photograph) chosen = i;
   }
   if (!chosen) {
-    return Bad("--photograph is " + settings_.photograph +
-               ", which is no image of the model");
+    return BadDrawing("--photograph is " + settings_.photograph +
+                      ", which is no image of the model");
   }
   Result<RectifiedPhotograph> photograph =
       Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);
@@ -300,8 +300,8 @@ Status Drafter::LayOut() {
   if (!settings_.scale.empty()) {
     const std::optional<double> denominator = ParseScale(settings_.scale);
     if (!denominator) {
-      return Bad("--scale is \"" + settings_.scale +
-                 "\"; it takes a scale such as 1:50 or 2:1");
+      return BadDrawing("--scale is \"" + settings_.scale +
+                        "\"; it takes a scale such as 1:50 or 2:1");
     }
     sheet.denominator = *denominator;
   }

@@ -51,7 +51,9 @@ bool TakeSimilarity(const Json& json, Similarity3& similarity) {
          similarity.scale > 0;
 }
 
-Status Broken(const std::string& what) { return {StatusCode::kDataLoss, what}; }
+Status BrokenAlignment(const std::string& what) {
+  return {StatusCode::kDataLoss, what};
+}
 
 }  // namespace
 
@@ -84,7 +86,7 @@ Result<WorldAlignment> AlignmentFromJson(const Json& json) {
   WorldAlignment a;
   try {
     if (json.at("format") != "curvix alignment" || json.at("version") != 1) {
-      return Broken("it is not an alignment of version 1");
+      return BrokenAlignment("it is not an alignment of version 1");
     }
     a.unit = json.at("unit").get<std::string>();
     a.crs = json.at("crs").get<std::string>();
@@ -94,16 +96,16 @@ Result<WorldAlignment> AlignmentFromJson(const Json& json) {
       a.has_translation = a.has_translation || name == "translation";
     }
     if (!TakeNumbers(json.at("offset"), a.offset)) {
-      return Broken("\"offset\" is not three numbers");
+      return BrokenAlignment("\"offset\" is not three numbers");
     }
     if (!TakeSimilarity(json.at("world_from_model"), a.world_from_model)) {
-      return Broken("\"world_from_model\" is not a similarity");
+      return BrokenAlignment("\"world_from_model\" is not a similarity");
     }
     if (!TakeCovariance(json.at("covariance"), a.covariance)) {
-      return Broken("\"covariance\" is not a 7 x 7 covariance");
+      return BrokenAlignment("\"covariance\" is not a 7 x 7 covariance");
     }
   } catch (const nlohmann::json::exception& error) {
-    return Broken(error.what());
+    return BrokenAlignment(error.what());
   }
   return a;
 }
@@ -119,8 +121,9 @@ Result<std::optional<WorldAlignment>> ReadAlignment(
   if (!text.ok()) return text.status();
   const Json json = Json::parse(*text, nullptr, false);
   Result<WorldAlignment> alignment =
-      json.is_discarded() ? Result<WorldAlignment>(Broken("it is not JSON"))
-                          : AlignmentFromJson(json);
+      json.is_discarded()
+          ? Result<WorldAlignment>(BrokenAlignment("it is not JSON"))
+          : AlignmentFromJson(json);
   if (alignment.ok()) {
     return std::optional<WorldAlignment>(*std::move(alignment));
   }

@@ -6,10 +6,10 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "geometry/camera_of.h"
+#include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
 
 namespace curvix {

@@ -7,12 +7,12 @@
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "base/file_io.h"
 #include "measuring/world_alignment.h"
+#include "plugin/base/json.h"
 
 namespace curvix {
 
@@ -43,9 +43,6 @@ std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
 // The text of curves.json, as docs/curves.schema.json and
 // docs/output_format.md describe it: one line per curve.
 void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink);
-
-// Keys in the order in which they were set.
-using Json = nlohmann::ordered_json;
 
 // `json` on one line, safe within an HTML <script> element too. Numbers that
 // are not finite are null.

@@ -21,8 +21,8 @@ namespace curvix {
 namespace {
 
 constexpr int kNumPhotos = 16;
-constexpr int kPhotoSize = 640;  // pixels
-constexpr int kDigits = 6;       // of coordinates, with respect to the scene
+constexpr int kPhotoSize = 640;    // pixels
+constexpr int kNumSizeDigits = 6;  // of coordinates, with respect to the scene
 constexpr std::size_t kNumPoints = 10000;  // of the model
 
 std::string Base64(std::string_view bytes) {
@@ -96,7 +96,7 @@ Json CovarianceJson(const Eigen::Matrix3d& m) {
   return values;
 }
 
-Json FitJson(const CurveFit& fit) {
+Json ShortFitJson(const CurveFit& fit) {
   Json json = {{"k", KindName(fit)},
                {"i", {fit.first_sample, fit.num_samples}},
                {"l", Length(fit)},
@@ -118,7 +118,7 @@ Json FitJson(const CurveFit& fit) {
 
 Json FitsJson(const FittedCurve& fitted) {
   Json fits = Json::array();
-  for (const CurveFit& fit : fitted.fits) fits.push_back(FitJson(fit));
+  for (const CurveFit& fit : fitted.fits) fits.push_back(ShortFitJson(fit));
   return fits;
 }
 
@@ -144,16 +144,16 @@ Json CurveJson(const Curve& curve,
           {"v", SupportingViews(curve)}};
 }
 
-// So many that the size of the curves has kDigits.
+// So many that the size of the curves has kNumSizeDigits.
 int NumDecimals(const CurveSource& curves) {
   Eigen::AlignedBox3d box;
   curves.ForEach([&](std::size_t, const Curve& curve) {
     for (const CurveSample& sample : curve.samples) box.extend(sample.position);
   });
   const double size = box.isEmpty() ? 1 : box.diagonal().norm();
-  if (!(size > 0)) return kDigits;
+  if (!(size > 0)) return kNumSizeDigits;
   return std::clamp(
-      kDigits - static_cast<int>(std::floor(std::log10(size))), 0, 15);
+      kNumSizeDigits - static_cast<int>(std::floor(std::log10(size))), 0, 15);
 }
 
 Json NodesJson(const std::vector<CurveNode>& nodes) {

@@ -26,7 +26,7 @@ struct DtuView {
 
 using Projections = std::map<int, Matrix34d>;  // by the number in the name
 
-Status Broken(const std::string& what) {
+Status BrokenDtu(const std::string& what) {
   return {StatusCode::kDataLoss, what + "; download it again."};
 }
 
@@ -61,7 +61,7 @@ Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
   const auto matrix = [&](const std::string& name) -> Result<Eigen::MatrixXd> {
     const std::string label = name + " of " + file.string();
     const auto array = arrays->find(name);
-    if (array == arrays->end()) return Broken("There is no " + label);
+    if (array == arrays->end()) return BrokenDtu("There is no " + label);
     return MatrixFromNpy(array->second, 4, 4, label);
   };
   Projections projections;
@@ -77,7 +77,8 @@ Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
     }
     projections[*number] = world->topRows<3>();
   }
-  if (projections.empty()) return Broken(file.string() + " has no world_mat_0");
+  if (projections.empty())
+    return BrokenDtu(file.string() + " has no world_mat_0");
   return projections;
 }
 
@@ -88,11 +89,12 @@ Result<Matrix34d> ReadPos(const fs::path& file) {
   Matrix34d projection;
   for (int i = 0; i < 12; ++i) {
     const auto value = ParseNumber<double>(TakeWord(rest));
-    if (!value) return Broken(file.string() + " does not hold 3 x 4 numbers");
+    if (!value)
+      return BrokenDtu(file.string() + " does not hold 3 x 4 numbers");
     projection(i / 4, i % 4) = *value;
   }
   if (TakeWord(rest).empty()) return projection;
-  return Broken(file.string() + " holds more than 3 x 4 numbers");
+  return BrokenDtu(file.string() + " holds more than 3 x 4 numbers");
 }
 
 Result<Projections> ReadPosFolder(const fs::path& folder) {
@@ -190,7 +192,7 @@ Result<std::vector<CalibratedPose>> Decompose(
   std::vector<CalibratedPose> poses;
   for (const DtuView& view : views) {
     const auto pose = DecomposeProjection(view.projection);
-    if (!pose) return Broken(view.source + " is no projection matrix");
+    if (!pose) return BrokenDtu(view.source + " is no projection matrix");
     poses.push_back(*pose);
   }
   const std::optional<Eigen::Matrix3d> shared = SharedCalibration(poses);

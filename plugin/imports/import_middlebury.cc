@@ -18,7 +18,9 @@ struct ParLine {
   CalibratedPose pose;
 };
 
-Status Broken(const fs::path& file, int line, const std::string& why) {
+Status BrokenMiddlebury(const fs::path& file,
+                        int line,
+                        const std::string& why) {
   return {StatusCode::kDataLoss,
           file.string() + ", line " + std::to_string(line) + " " + why +
               "; download it again."};
@@ -34,16 +36,17 @@ Result<ParLine> ParseParLine(std::string_view text,
   std::array<double, 21> numbers;
   for (double& number : numbers) {
     const auto value = ParseNumber<double>(TakeWord(text));
-    if (!value) return Broken(file, line, "does not hold 21 numbers");
+    if (!value) return BrokenMiddlebury(file, line, "does not hold 21 numbers");
     number = *value;
   }
   if (!TakeWord(text).empty()) {
-    return Broken(file, line, "holds more than 21 numbers");
+    return BrokenMiddlebury(file, line, "holds more than 21 numbers");
   }
   result.pose.calibration = Eigen::Map<const Matrix3dRowMajor>(numbers.data());
   const auto rotation =
       RotationFromMatrix(Eigen::Map<const Matrix3dRowMajor>(&numbers[9]));
-  if (!rotation) return Broken(file, line, "holds no rotation matrix");
+  if (!rotation)
+    return BrokenMiddlebury(file, line, "holds no rotation matrix");
   result.pose.cam_from_world = {
       *rotation, Eigen::Map<const Eigen::Vector3d>(&numbers[18])};
   return result;
@@ -55,7 +58,7 @@ Result<std::vector<ParLine>> ParsePar(std::string_view text,
   std::string_view first = TakeLine(text);
   const auto count = ParseNumber<int>(TakeWord(first));
   if (!count || *count < 1) {
-    return Broken(file, 1, "is not the number of images");
+    return BrokenMiddlebury(file, 1, "is not the number of images");
   }
   std::vector<ParLine> lines;
   for (int number = 2; !text.empty(); ++number) {
@@ -67,10 +70,11 @@ Result<std::vector<ParLine>> ParsePar(std::string_view text,
     lines.push_back(std::move(parsed).value());
   }
   if (lines.size() != static_cast<std::size_t>(*count)) {
-    return Broken(file,
-                  1,
-                  "announces " + std::to_string(*count) +
-                      " images, and there are " + std::to_string(lines.size()));
+    return BrokenMiddlebury(file,
+                            1,
+                            "announces " + std::to_string(*count) +
+                                " images, and there are " +
+                                std::to_string(lines.size()));
   }
   return lines;
 }

@@ -23,7 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-Status Broken(const std::string& why) { return {StatusCode::kDataLoss, why}; }
+Status BrokenTransforms(const std::string& why) {
+  return {StatusCode::kDataLoss, why};
+}
 
 // What a frame says, else what the file says.
 class Fields {
@@ -60,7 +62,7 @@ class Fields {
                             "p2"}) {
       const json* const value = Find(key);
       if (value == nullptr || value->is_number()) continue;
-      return Broken(std::string(key) + " is not a number");
+      return BrokenTransforms(std::string(key) + " is not a number");
     }
     return {};
   }
@@ -94,7 +96,8 @@ Result<Camera> Pinhole(const Fields& fields,
                        std::optional<double> first_pixel) {
   if (const json* const rows = fields.Find("camera_intrinsics")) {
     const auto matrix = ReadMatrix(rows, 3, 3);
-    if (!matrix) return Broken("camera_intrinsics is not a 3 x 3 matrix");
+    if (!matrix)
+      return BrokenTransforms("camera_intrinsics is not a 3 x 3 matrix");
     return CameraFromCalibration(
         *matrix, image.width, image.height, first_pixel.value_or(0));
   }
@@ -105,7 +108,8 @@ Result<Camera> Pinhole(const Fields& fields,
   };
   const auto fx = focal("fl_x", "camera_angle_x", image.width);
   if (!fx) {
-    return Broken("there is no camera_intrinsics, fl_x or camera_angle_x");
+    return BrokenTransforms(
+        "there is no camera_intrinsics, fl_x or camera_angle_x");
   }
   // Pixels are square unless fl_y, or an angle beside an angle, says otherwise.
   const auto fy = fields.Number("fl_x")
@@ -184,10 +188,10 @@ Result<Camera> NerfCamera(const json& frame,
   const double width = fields.Number("w").value_or(image.width);
   const double height = fields.Number("h").value_or(image.height);
   if (width != image.width || height != image.height) {
-    return Broken("w and h are not the size of the image, " +
-                  std::to_string(image.width) + " x " +
-                  std::to_string(image.height) +
-                  "; take the images that the cameras were made for");
+    return BrokenTransforms("w and h are not the size of the image, " +
+                            std::to_string(image.width) + " x " +
+                            std::to_string(image.height) +
+                            "; take the images that the cameras were made for");
   }
   Result<Camera> camera = Pinhole(fields, image, first_pixel);
   if (!camera.ok()) return camera;
@@ -195,7 +199,7 @@ Result<Camera> NerfCamera(const json& frame,
   camera->height = image.height;
   if (Status s = AddDistortion(fields, &*camera); !s.ok()) return s;
   const Status status = Validate(*camera);
-  if (!status.ok()) return Broken(status.message());
+  if (!status.ok()) return BrokenTransforms(status.message());
   return camera;
 }
 
@@ -205,16 +209,17 @@ Result<Rigid3> NerfPose(const json& frame) {
   const auto found = frame.find("transform_matrix");
   const json* const rows = found == frame.end() ? nullptr : &*found;
   const auto matrix = ReadMatrix(rows, 3, 4);
-  if (!matrix) return Broken("transform_matrix is not a 4 x 4 matrix");
+  if (!matrix)
+    return BrokenTransforms("transform_matrix is not a 4 x 4 matrix");
   const auto bottom = rows->size() > 3 ? ReadMatrix(rows, 4, 4) : std::nullopt;
   if (rows->size() > 3 &&
       (!bottom || bottom->row(3) != Eigen::RowVector4d(0, 0, 0, 1))) {
-    return Broken("transform_matrix does not end in the row 0 0 0 1");
+    return BrokenTransforms("transform_matrix does not end in the row 0 0 0 1");
   }
   Eigen::Matrix3d axes = matrix->leftCols<3>();
   axes.rightCols<2>() *= -1;  // OpenGL's y and z
   const auto rotation = RotationFromMatrix(axes);
-  if (!rotation) return Broken("transform_matrix holds no rotation");
+  if (!rotation) return BrokenTransforms("transform_matrix holds no rotation");
   return Rigid3{*rotation, matrix->col(3)}.Inverse();
 }
 

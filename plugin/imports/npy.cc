@@ -18,7 +18,7 @@
 namespace curvix {
 namespace {
 
-Status Broken(const std::string& name, const std::string& why) {
+Status BrokenNpy(const std::string& name, const std::string& why) {
   return {StatusCode::kDataLoss,
           name + " " + why + "; save it again with numpy.save or numpy.savez."};
 }
@@ -122,9 +122,9 @@ std::size_t IndexInCOrder(std::size_t index,
 }
 
 template <typename T>
-std::vector<double> Values(std::string_view bytes,
-                           const Header& header,
-                           std::size_t count) {
+std::vector<double> ValuesOf(std::string_view bytes,
+                             const Header& header,
+                             std::size_t count) {
   const std::endian order =
       header.descr[0] == '>' ? std::endian::big : std::endian::little;
   std::vector<double> values(count);
@@ -139,7 +139,7 @@ std::vector<double> Values(std::string_view bytes,
 
 Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
   std::optional<Header> header = TakeHeader(bytes);
-  if (!header) return Broken(name, "does not begin like a NumPy array");
+  if (!header) return BrokenNpy(name, "does not begin like a NumPy array");
   const std::string& type = header->descr;
   const bool is_double = type == "<f8" || type == ">f8";
   if (!is_double && type != "<f4" && type != ">f4") {
@@ -152,13 +152,13 @@ Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
   const std::optional<std::size_t> count =
       CountOf(header->shape, bytes.size() / size);
   if (!count || *count * size != bytes.size()) {
-    return Broken(name,
-                  "is cut short or damaged: its shape does not fit the " +
-                      std::to_string(bytes.size()) + " bytes of its values");
+    return BrokenNpy(name,
+                     "is cut short or damaged: its shape does not fit the " +
+                         std::to_string(bytes.size()) + " bytes of its values");
   }
   NpyArray array;
-  array.values = is_double ? Values<double>(bytes, *header, *count)
-                           : Values<float>(bytes, *header, *count);
+  array.values = is_double ? ValuesOf<double>(bytes, *header, *count)
+                           : ValuesOf<float>(bytes, *header, *count);
   array.shape = std::move(header->shape);
   return array;
 }
@@ -170,15 +170,15 @@ Result<Eigen::MatrixXd> MatrixFromNpy(const NpyArray& array,
   const std::vector<std::size_t> shape = {static_cast<std::size_t>(rows),
                                           static_cast<std::size_t>(cols)};
   if (array.shape != shape) {
-    return Broken(name,
-                  "is not a " + std::to_string(rows) + " x " +
-                      std::to_string(cols) + " matrix");
+    return BrokenNpy(name,
+                     "is not a " + std::to_string(rows) + " x " +
+                         std::to_string(cols) + " matrix");
   }
   using RowMajor =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::MatrixXd matrix =
       Eigen::Map<const RowMajor>(array.values.data(), rows, cols);
-  if (!matrix.allFinite()) return Broken(name, "holds NaN or infinity");
+  if (!matrix.allFinite()) return BrokenNpy(name, "holds NaN or infinity");
   return matrix;
 }
 

@@ -4,13 +4,12 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+
+#include "base/infinity.h"
 
 namespace curvix {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Finds the observations of the tracks of a model.
 class TrackReader {

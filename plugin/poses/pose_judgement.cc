@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
 
 namespace curvix {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct CheckErrors {
   ErrorsOfViews summary;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/cancelled.h"
 #include "base/text_fields.h"
 #include "geometry/similarity.h"
 #include "plugin/base/text.h"
@@ -12,8 +13,6 @@ namespace curvix {
 namespace {
 
 constexpr char kStage[] = "refine_poses";
-
-Status Cancelled() { return {StatusCode::kCancelled, "interrupted"}; }
 
 std::vector<Rigid3> Poses(const Bundle& bundle) {
   std::vector<Rigid3> poses;
@@ -192,7 +191,7 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
     record.reason = "not asked for";
     return result;
   }
-  if (!progress(kStage, 0, 0)) return Cancelled();
+  if (!progress(kStage, 0, 0)) return CancelledStatus();
   Bundle input = BundleFromModel(model);
   record.num_views = input.views.size();
   record.num_points = input.points.size();
@@ -209,7 +208,8 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   Result<Bundle> refined =
       Refiner(settings, log_path, progress, &result).Run(input);
   if (!refined.ok()) {
-    if (refined.status().code() == StatusCode::kCancelled) return Cancelled();
+    if (refined.status().code() == StatusCode::kCancelled)
+      return CancelledStatus();
     KeepAfterFailure(refined.status().message(), log_path, &result);
     return result;
   }

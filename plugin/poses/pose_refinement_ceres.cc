@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/cancelled.h"
 #include "base/median.h"
 #include "geometry/directions.h"
 #include "plugin/poses/pose_refiners.h"
@@ -242,7 +243,7 @@ Result<Bundle> RefineWithCeres(const Bundle& bundle,
   BundleProblem problem(bundle);
   const ceres::Solver::Summary summary = problem.Solve(keep_going);
   if (summary.termination_type == ceres::USER_FAILURE) {
-    return Status(StatusCode::kCancelled, "interrupted");
+    return CancelledStatus();
   }
   if (!summary.IsSolutionUsable()) {
     return Status(StatusCode::kExternalTool,

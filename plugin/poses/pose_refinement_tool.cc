@@ -7,6 +7,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "base/cancelled.h"
 #include "base/median.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/text.h"
@@ -152,13 +153,11 @@ Result<Bundle> BundleFromColmap(Bundle bundle, const fs::path& folder) {
   return bundle;
 }
 
-Status Cancelled() { return {StatusCode::kCancelled, "interrupted"}; }
-
 // Fails unless COLMAP came to its own end, successfully.
 Status CheckEnd(const ChildEnd& end, double timeout_s) {
   switch (end.kind) {
     case ChildEnd::Kind::kStopped:
-      return Cancelled();
+      return CancelledStatus();
     case ChildEnd::Kind::kTimedOut:
       return ToolFailure("it was not done after " + DurationText(timeout_s) +
                          " (--refiner_timeout_s)");
@@ -187,7 +186,7 @@ Result<std::string> HelpText(const std::vector<std::string>& arguments,
                                                 timeout_s,
                                                 keep_going});
   if (!end.ok()) return end.status();
-  if (end->kind == ChildEnd::Kind::kStopped) return Cancelled();
+  if (end->kind == ChildEnd::Kind::kStopped) return CancelledStatus();
   if (end->kind == ChildEnd::Kind::kTimedOut) {
     return ToolFailure("its help was not done after " +
                        DurationText(timeout_s));

@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/file_io.h"
 #include "base/option_table.h"
 #include "io/stage_io.h"
+#include "plugin/base/json.h"
 #include "plugin/base/progress.h"
 #include "plugin/run/stage_store.h"
 
@@ -20,7 +21,6 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanName = "plan.json";
 
@@ -181,10 +181,6 @@ ColmapModel ModelOfViews(const ColmapModel& model,
   return part;
 }
 
-Status Interrupted() {
-  return {StatusCode::kCancelled, "interrupted; nothing was written"};
-}
-
 Result<PartFile> OpenPart(const PartPlan& plan,
                           std::size_t part_idx,
                           const Options& options,
@@ -310,7 +306,7 @@ Result<PartFiles> PartFiles::Open(const PartPlan& plan,
       return PartsNotDone(plan, options, folder);
     }
     if (!file.ok()) return file.status();
-    if (IsInterrupted()) return Interrupted();
+    if (IsInterrupted()) return CancelledStatus();
     file->Close();
     parts.files_.push_back(std::move(file).value());
   }
@@ -334,7 +330,7 @@ std::size_t PartFiles::NumCurves(int part_idx) const {
 }
 
 Result<TracedCurve> PartFiles::Read(int part_idx, std::size_t curve_idx) {
-  if (IsInterrupted()) return Interrupted();
+  if (IsInterrupted()) return CancelledStatus();
   if (Idx(part_idx) != open_) files_[open_].Close();
   open_ = Idx(part_idx);
   return files_[open_].Read(curve_idx);

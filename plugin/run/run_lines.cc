@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/cancelled.h"
 #include "base/stopwatch.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/base/text.h"
@@ -71,7 +72,7 @@ Result<RunRecord> RunLines(
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
-  if (status.ok() && IsInterrupted()) status = Interrupted();
+  if (status.ok() && IsInterrupted()) status = CancelledStatus();
   if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return record;

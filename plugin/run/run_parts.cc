@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/stopwatch.h"
 #include "io/stage_io.h"
 #include "plugin/base/staged_output.h"
@@ -65,7 +66,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   if (!output.ok()) return output.status();
   Status status = WritePlan(
       *partition, input->scene, input->model, output->folder() / kPartsName);
-  if (status.ok() && progress.IsCancelled()) status = Interrupted();
+  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return partition;
@@ -110,7 +111,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
       TakePart(plan->partition, part_idx, reconstruction->curves, *edge_maps);
   const std::vector<Edge3d> edges =
       EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
-  if (progress.IsCancelled()) return Interrupted();
+  if (progress.IsCancelled()) return CancelledStatus();
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
     Count(traced.curve, record.result);
@@ -181,7 +182,7 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
-  if (status.ok() && progress.IsCancelled()) status = Interrupted();
+  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   if (status.ok()) status = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!status.ok()) return status;
   return record;

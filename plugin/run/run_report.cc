@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/option_table.h"
 #include "base/text_fields.h"
+#include "plugin/base/json.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 
 namespace curvix {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // A row's value with its own type.
-struct ToJson {
+struct OptionJson {
   const OptionRow& row;
 
   Json operator()(const bool* field) const { return *field; }
@@ -36,7 +34,7 @@ Json OptionsJson(Options options) {
     const std::size_t dot = row.name.find('.');
     if (dot == std::string::npos) continue;
     json[row.name.substr(0, dot)][row.name.substr(dot + 1)] =
-        std::visit(ToJson{row}, row.field);
+        std::visit(OptionJson{row}, row.field);
   }
   return json;
 }

@@ -120,10 +120,6 @@ Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {
   return std::move(input->scene);
 }
 
-Status Interrupted() {
-  return {StatusCode::kCancelled, "interrupted; nothing was written"};
-}
-
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunProgress& progress,
                                  RunRecord& record) {

@@ -28,9 +28,6 @@ Result<Workspace> FindInput(const RunSettings& settings);
 // LoadWorkspaceScene.
 Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress);
 
-// The status of a run that the user has stopped.
-Status Interrupted();
-
 // Reads the model of `workspace`, and alignment.json if the folder of results
 // has one; puts into `record` which folders and what they hold. Errors of
 // LoadWorkspaceScene and ReadAlignment.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/staged_output.h"
@@ -97,7 +98,7 @@ Result<WorkspaceRun> Job::Run() {
   if (!fitted.ok()) return fitted.status();
   written = WriteReport(since_start_, staging_, progress_, record_);
   if (!written.ok()) return written;
-  if (progress_.IsCancelled()) return Interrupted();
+  if (progress_.IsCancelled()) return CancelledStatus();
   // Those of an earlier run would tell of other poses.
   Status published = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!published.ok()) return published;

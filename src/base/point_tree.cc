@@ -11,20 +11,6 @@
 namespace curvix {
 namespace {
 
-// How nanoflann sees the points.
-struct PointAccess {
-  std::vector<Eigen::Vector3d> points;
-
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return points[index][static_cast<Eigen::Index>(axis)];
-  }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
 // Collects points of at most a squared distance; nanoflann's own collectors of
 // this kind changed their types between the versions that are in use.
 class Collector {
@@ -72,6 +58,20 @@ class PointTree::Index {
   }
 
  private:
+  // How nanoflann sees the points.
+  struct PointAccess {
+    std::vector<Eigen::Vector3d> points;
+
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+      return points[index][static_cast<Eigen::Index>(axis)];
+    }
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
   using Distance =
       nanoflann::L2_Simple_Adaptor<double, PointAccess, double, std::size_t>;
   using Tree = nanoflann::

@@ -59,6 +59,14 @@ std::optional<T> ParseNumber(std::string_view word) {
   return value;
 }
 
+// `text` without the blanks around it; line ends stay.
+inline std::string_view Trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\v\f";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
 // Takes the next line off `text`, without its "\n" or "\r\n".
 inline std::string_view TakeLine(std::string_view& text) {
   const std::size_t end = text.find('\n');

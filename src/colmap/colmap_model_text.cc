@@ -5,18 +5,13 @@
 #include <optional>
 #include <system_error>
 
+#include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
 
 namespace curvix {
 namespace {
 
 constexpr std::string_view kSpaces = " \t\r\v\f";
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kSpaces);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
-}
 
 // The lines of a text, trimmed, with their numbers from 1.
 class LineReader {

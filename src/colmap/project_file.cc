@@ -4,16 +4,6 @@
 #include "base/text_fields.h"
 
 namespace curvix {
-namespace {
-
-std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\v\f";
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
-
-}  // namespace
 
 Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text) {
   std::vector<ProjectEntry> entries;

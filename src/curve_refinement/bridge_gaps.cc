@@ -16,9 +16,9 @@
 namespace curvix {
 namespace {
 
-constexpr double kMaxMissPx = 1;
+constexpr double kMaxBridgeMissPx = 1;
 constexpr double kMaxMissPerGap = 0.1;
-constexpr double kMaxAngleDeg = 15;
+constexpr double kMaxBridgeAngleDeg = 15;
 constexpr double kRingTolerance = 3;
 constexpr double kMaxOverlapPx = 6;
 constexpr double kMaxBentPx = 5;  // of an end
@@ -84,12 +84,18 @@ class GapFinder {
     // The two ends of one curve hardly meet by chance.
     const double tolerance = ItemOf(a) == ItemOf(b) ? kRingTolerance : 1;
     const bool is_long = gap > options_.max_gap_px * unit;
-    const double max_miss =
-        tolerance * (kMaxMissPx * unit + (is_long ? 0 : kMaxMissPerGap * gap));
-    const auto forth = Miss(
-        from, to, max_miss, tolerance * kMaxAngleDeg, kMaxOverlapPx * unit);
-    const auto back = Miss(
-        to, from, max_miss, tolerance * kMaxAngleDeg, kMaxOverlapPx * unit);
+    const double max_miss = tolerance * (kMaxBridgeMissPx * unit +
+                                         (is_long ? 0 : kMaxMissPerGap * gap));
+    const auto forth = Miss(from,
+                            to,
+                            max_miss,
+                            tolerance * kMaxBridgeAngleDeg,
+                            kMaxOverlapPx * unit);
+    const auto back = Miss(to,
+                           from,
+                           max_miss,
+                           tolerance * kMaxBridgeAngleDeg,
+                           kMaxOverlapPx * unit);
     if (!forth || !back || (is_long && !ImagesShow(a, b, unit))) {
       return std::nullopt;
     }

@@ -86,7 +86,7 @@ double DistanceFromParabola(const Curve& from, const Curve& to) {
 namespace {
 
 constexpr std::size_t kMinNumFitted = 4;
-constexpr int kNumRounds = 8;
+constexpr int kNumFitRounds = 8;
 constexpr double kScalePx = 0.3;  // of the robust weights
 // A line is good enough while an arc takes less than this share of the sum of
 // squares away.
@@ -95,7 +95,7 @@ constexpr double kLineShare = 0.5;
 // Of FitLongEnd.
 constexpr std::array kLongPx = {15.0, 25.0, 40.0, 60.0};
 constexpr double kBentPx = 3;
-constexpr double kMaxRmsPx = 0.25;
+constexpr double kMaxLongRmsPx = 0.25;
 constexpr double kMaxRmsRatio = 1.5;
 
 struct Placed {
@@ -231,12 +231,12 @@ EndFit FitEnd(const Curve& curve,
   std::vector<Placed> placed = Take(curve, front, segment, fit.pixel);
   if (placed.size() < kMinNumFitted) return fit;
   EndFit arc = fit;
-  for (int round = 0; round < kNumRounds; ++round) {
+  for (int round = 0; round < kNumFitRounds; ++round) {
     if (!SetFrom(SolveArc(placed, arc.bend.norm()), last.position, arc)) {
       return fit;
     }
     // Strong bends look like outliers at first.
-    if (round < kNumRounds / 2) continue;
+    if (round < kNumFitRounds / 2) continue;
     Reweight(arc, last.position, kScalePx * fit.pixel, placed);
   }
   EndFit line = fit;
@@ -259,7 +259,7 @@ EndFit FitLongEnd(const Curve& curve,
     const EndFit fit = FitEnd(curve, front, {kBentPx, long_px}, views);
     if (long_px == kLongPx.front()) {
       best = fit;
-      max_rms = std::max(kMaxRmsPx * fit.pixel, kMaxRmsRatio * fit.rms);
+      max_rms = std::max(kMaxLongRmsPx * fit.pixel, kMaxRmsRatio * fit.rms);
     } else if (fit.length > best.length && fit.rms <= max_rms) {
       best = fit;
     }

@@ -13,6 +13,12 @@
 
 namespace curvix {
 
+// Along a curve from a corner, what blur has rounded.
+constexpr double kRoundedPx = 2.5;
+
+// Bandwidths to which Gaussian weights along a curve reach.
+constexpr double kKernelReach = 3;
+
 struct SampleAround {
   std::size_t index = 0;
   double along = 0;  // arc length from the sample asked for, signed

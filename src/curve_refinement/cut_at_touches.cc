@@ -19,9 +19,9 @@
 namespace curvix {
 namespace {
 
-constexpr double kBesidePx = 2;
+constexpr double kBesideTouchPx = 2;
 constexpr double kTouchPx = 1;
-constexpr double kMaxAngleDeg = 10;
+constexpr double kMaxTouchAngleDeg = 10;
 constexpr double kMaxLengthPx = 120;
 constexpr double kMinBeyondPx = 5;
 
@@ -50,12 +50,12 @@ Neighbors FindNeighbors(const std::vector<Curve>& curves,
     const double pixel = PixelSize(sample.position, sample.support, views);
     if (!(pixel > 0)) continue;
     for (const std::size_t i :
-         samples.Within(sample.position, kBesidePx * pixel)) {
+         samples.Within(sample.position, kBesideTouchPx * pixel)) {
       const SamplePlace& b = samples.Places()[i];
       const CurveSample& other = curves[b.curve_idx].samples[b.sample_idx];
       if (a.curve_idx == b.curve_idx ||
           std::abs(sample.tangent.dot(other.tangent)) <
-              std::cos(DegToRad(kMaxAngleDeg))) {
+              std::cos(DegToRad(kMaxTouchAngleDeg))) {
         continue;
       }
       neighbors.beside[{a.curve_idx, b.curve_idx}].insert(a.sample_idx);
@@ -76,19 +76,19 @@ Neighbors FindNeighbors(const std::vector<Curve>& curves,
 }
 
 // The segment of a curve around a sample that is beside another curve.
-struct Segment {
+struct TouchingSegment {
   Samples samples;  // with those beyond either end
   std::size_t middle = 0;
 };
 
 // Nullopt if it is too long, or the curve does not go on beyond it.
-std::optional<Segment> SegmentAround(const Curve& curve,
-                                     std::size_t sample_idx,
-                                     const Samples& beside,
-                                     double pixel) {
+std::optional<TouchingSegment> SegmentAround(const Curve& curve,
+                                             std::size_t sample_idx,
+                                             const Samples& beside,
+                                             double pixel) {
   const auto around = SamplesAround(
       curve, sample_idx, (kMaxLengthPx + 2 * kMinBeyondPx) * pixel);
-  Segment segment;
+  TouchingSegment segment;
   double reach[2] = {0, 0};  // ahead and behind
   bool goes_on[2] = {false, false};
   for (const SampleAround& place : around) {
@@ -148,7 +148,7 @@ std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
     }
     Eigen::Vector3d& end_a = curves[a].samples[of_a->middle].position;
     Eigen::Vector3d& end_b = curves[b].samples[of_b->middle].position;
-    if ((end_b - end_a).norm() > kBesidePx * pixel) continue;
+    if ((end_b - end_a).norm() > kBesideTouchPx * pixel) continue;
     end_a = end_b = (end_a + end_b) / 2;
     taken[a].insert(of_a->samples.begin(), of_a->samples.end());
     taken[b].insert(of_b->samples.begin(), of_b->samples.end());

@@ -18,14 +18,13 @@
 namespace curvix {
 namespace {
 
-constexpr double kRoundedPx = 2.5;  // by blur, on either side of a corner
-constexpr double kBranchPx = 20;
-constexpr double kMinBranchPx = 8;
-constexpr double kMaxMissPx = 1;      // of the branches, of each other
-constexpr double kCostOfMiss = 0.1;   // a pixel of rms is a pixel
-constexpr double kMaxRmsPx = 0.2;     // of the samples from their branches
-constexpr double kMaxRmsShare = 0.3;  // of that from one parabola
-constexpr double kApartPx = 12;       // between two corners
+constexpr double kCornerBranchPx = 20;
+constexpr double kMinCornerBranchPx = 8;
+constexpr double kMaxCornerMissPx = 1;   // of the branches, of each other
+constexpr double kCostOfMiss = 0.1;      // a pixel of rms is a pixel
+constexpr double kMaxCornerRmsPx = 0.2;  // of the samples from their branches
+constexpr double kMaxRmsShare = 0.3;     // of that from one parabola
+constexpr double kApartPx = 12;          // between two corners
 
 // How a curve goes on at a sample where it is not straight.
 struct Turn {
@@ -36,7 +35,7 @@ struct Turn {
 
 // Between tangents half an branch before and behind a sample.
 double TurnAround(const Curve& curve, std::size_t k, double pixel) {
-  const auto around = SamplesAround(curve, k, kBranchPx / 2 * pixel);
+  const auto around = SamplesAround(curve, k, kCornerBranchPx / 2 * pixel);
   const auto [first, last] = std::minmax_element(
       around.begin(), around.end(), [](const auto& a, const auto& b) {
         return a.along < b.along;
@@ -64,17 +63,17 @@ std::optional<Turn> TurnAt(const Curve& curve,
   if (!(pixel > 0) || TurnAround(curve, k, pixel) < max_turn / 2) {
     return std::nullopt;
   }
-  const BranchSegment segment{kRoundedPx * pixel, kBranchPx * pixel};
+  const BranchSegment segment{kRoundedPx * pixel, kCornerBranchPx * pixel};
   const Curve before = BranchTo(curve, k, true, segment);
   const Curve after = BranchTo(curve, k, false, segment);
-  if (std::min(Length(before), Length(after)) < kMinBranchPx * pixel)
+  if (std::min(Length(before), Length(after)) < kMinCornerBranchPx * pixel)
     return std::nullopt;
-  const EndFit in = FitEnd(before, true, {0, kBranchPx}, views);
-  const EndFit out = FitEnd(after, true, {0, kBranchPx}, views);
+  const EndFit in = FitEnd(before, true, {0, kCornerBranchPx}, views);
+  const EndFit out = FitEnd(after, true, {0, kCornerBranchPx}, views);
   if (!(in.length > 0) || !(out.length > 0)) return std::nullopt;
   const double rms =
       std::sqrt((MeanSquare(before, in) + MeanSquare(after, out)) / 2);
-  if (rms > kMaxRmsPx * pixel ||
+  if (rms > kMaxCornerRmsPx * pixel ||
       rms > kMaxRmsShare * DistanceFromParabola(before, after)) {
     return std::nullopt;
   }
@@ -85,9 +84,10 @@ std::optional<Turn> TurnAt(const Curve& curve,
       AngleBetween(in.DirectionAt(arrival), -out.DirectionAt(departure));
   const double bend =
       std::max(in.length * in.bend.norm(), out.length * out.bend.norm());
-  return Turn{miss <= kMaxMissPx * pixel && angle > std::max(max_turn, bend),
-              std::hypot(rms, kCostOfMiss * miss) / pixel,
-              pixel};
+  return Turn{
+      miss <= kMaxCornerMissPx * pixel && angle > std::max(max_turn, bend),
+      std::hypot(rms, kCostOfMiss * miss) / pixel,
+      pixel};
 }
 
 // Of neighbouring samples the one whose branches fit best, if it is a corner.

@@ -20,7 +20,6 @@ namespace curvix {
 namespace {
 
 constexpr double kMinBandwidthPx = 1;
-constexpr double kReachSigmas = 3;
 // The chord between two rays, of unit length, at which the errors of their
 // views correlate by a half: 6 degrees.
 constexpr double kHalfCorrelated = 0.1;
@@ -119,7 +118,7 @@ class CurveInViews {
     std::vector<Evidence> sums(centers_.size());
     double total_weight = 0;
     for (const SampleAround& near :
-         SamplesAround(curve_, i, kReachSigmas * bandwidth)) {
+         SamplesAround(curve_, i, kKernelReach * bandwidth)) {
       const double r = near.along / bandwidth;
       const double weight = std::exp(-0.5 * r * r);
       total_weight += weight;

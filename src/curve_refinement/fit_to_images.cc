@@ -20,7 +20,7 @@
 namespace curvix {
 namespace {
 
-constexpr std::size_t kMinNumSamples = 6;
+constexpr std::size_t kMinNumFittedSamples = 6;
 constexpr double kBendSigmaPx = 0.05;
 constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
@@ -240,7 +240,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
   std::vector<Curve> fitted(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     fitted[i] = curves[i];
-    if (curves[i].samples.size() < kMinNumSamples) return;
+    if (curves[i].samples.size() < kMinNumFittedSamples) return;
     const CurveSample& first = curves[i].samples.front();
     const double pixel = PixelSize(first.position, first.support, views);
     if (!(pixel > 0)) return;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCellPx = 4;
 constexpr double kMaxTangentialPx = 1;
-constexpr double kMaxAngleDeg = 15;
+constexpr double kMaxEdgeAngleDeg = 15;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
                                         const Eigen::Vector3d& tangent,
                                         double max_distance_px) const {
   const Gate gate{
-      max_distance_px, kMaxTangentialPx, std::cos(DegToRad(kMaxAngleDeg))};
+      max_distance_px, kMaxTangentialPx, std::cos(DegToRad(kMaxEdgeAngleDeg))};
   std::vector<EdgeRef> support;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     const auto projected = ProjectEdge(views_[v], {position, tangent});
@@ -47,7 +47,7 @@ std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
 std::vector<double> ImageSupport::Beside(std::size_t view_idx,
                                          const ImageEdge& projected,
                                          double max_distance_px) const {
-  const double min_cosine = std::cos(DegToRad(kMaxAngleDeg));
+  const double min_cosine = std::cos(DegToRad(kMaxEdgeAngleDeg));
   std::vector<double> distances;
   grids_[view_idx].VisitAround(
       projected.position, max_distance_px, [&](const IndexedEdge& edge) {

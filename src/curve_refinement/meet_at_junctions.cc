@@ -17,12 +17,11 @@
 namespace curvix {
 namespace {
 
-constexpr double kRoundedPx = 2.5;       // bent by a corner
 constexpr double kShortRoundedPx = 0.5;  // of curves that are hardly longer
 constexpr double kFittedPx = 20;         // along which a line or arc is fitted
 constexpr double kMinCornerDeg = 10;
-constexpr int kNumRounds = 3;
-constexpr double kStepPx = 1.5;
+constexpr int kNumMeetingRounds = 3;
+constexpr double kMeetingStepPx = 1.5;
 
 // One open end of a curve and how it goes on.
 struct CurveEnd {
@@ -141,7 +140,7 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
     point += ends[i].fit.position / static_cast<double>(members.size());
   }
   std::vector<CurveEnd> lines(members.size());
-  for (int round = 0; round < kNumRounds; ++round) {
+  for (int round = 0; round < kNumMeetingRounds; ++round) {
     for (std::size_t k = 0; k < members.size(); ++k) {
       lines[k] = ends[members[k]].Near(point);
     }
@@ -216,8 +215,8 @@ void CarryOn(const CurveEnd& end,
     samples.pop_back();
   }
   const double start = fit.ArcLengthTo(samples.back().position);
-  const int num_steps =
-      std::max(1, static_cast<int>((arrival - start) / (kStepPx * fit.pixel)));
+  const int num_steps = std::max(
+      1, static_cast<int>((arrival - start) / (kMeetingStepPx * fit.pixel)));
   const Eigen::Vector3d miss = junction - fit.PointAt(arrival);
   const double sign = end.at_back ? 1 : -1;
   for (int k = 1; k <= num_steps; ++k) {

@@ -7,6 +7,9 @@
 
 namespace curvix {
 
+// Along a curve, from one place at which its contours are compared to the next.
+constexpr double kPlaceSpacingPx = 15;
+
 // From a contour `at_px` beside the curve to the nearest of `edges_px`, signed
 // distances from the curve; infinite without any.
 double NearestResidual(const std::vector<double>& edges_px, double at_px);

@@ -20,7 +20,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kPlaceSpacingPx = 15;
 constexpr double kReachPx = 8;
 constexpr double kMinRadiusPx = 3;
 constexpr double kMaxRadiusPx = 400;

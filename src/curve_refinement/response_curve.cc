@@ -19,7 +19,7 @@
 namespace curvix {
 namespace {
 
-constexpr double kReachPx = 4;
+constexpr double kResponseReachPx = 4;
 constexpr double kMaxShiftPx = 0.25;
 constexpr double kWhite = 255;
 constexpr double kMinLevel = 0.015;  // below it, dark is as good as black
@@ -58,7 +58,7 @@ std::optional<Bend> BendAround(const Curve& curve,
                                std::size_t index,
                                double pixel) {
   std::vector<SampleAround> around =
-      SamplesAround(curve, index, kReachPx * pixel);
+      SamplesAround(curve, index, kResponseReachPx * pixel);
   if (around.size() < 3) return std::nullopt;
   const auto by_place = [](const SampleAround& a, const SampleAround& b) {
     return a.along < b.along;
@@ -99,9 +99,9 @@ ImageEdge Unblurred(const Edge2d& edge,
 
 namespace {
 
-constexpr double kStepPx = 10;
+constexpr double kResponseStepPx = 10;
 constexpr std::size_t kMinNumEdges = 4;
-constexpr double kPrior = 1;  // sum of squared levers
+constexpr double kResponsePrior = 1;  // sum of squared levers
 constexpr int kMaxNumRounds = 10;
 constexpr double kConvergedPx = 0.003;
 
@@ -121,20 +121,20 @@ struct NormalEquations {
 
 // A place on a curve, the edges that show it, and what a response curve does
 // there.
-struct Place {
+struct ResponsePlace {
   SpaceEdge edge;
   std::vector<PlaneMeasurement> measurements;
   std::vector<Eigen::Vector2d> levers;
 };
 
-Place PlaceOf(const Curve& curve,
-              std::size_t index,
-              double pixel,
-              const std::vector<PosedView>& views,
-              const std::vector<EdgeMap>& edge_maps,
-              const ResponseCurve& response) {
+ResponsePlace PlaceOf(const Curve& curve,
+                      std::size_t index,
+                      double pixel,
+                      const std::vector<PosedView>& views,
+                      const std::vector<EdgeMap>& edge_maps,
+                      const ResponseCurve& response) {
   const CurveSample& sample = curve.samples[index];
-  Place place = {{sample.position, sample.tangent}, {}, {}};
+  ResponsePlace place = {{sample.position, sample.tangent}, {}, {}};
   const std::optional<Bend> bend = BendAround(curve, index, pixel);
   for (const EdgeRef& ref : sample.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
@@ -149,7 +149,8 @@ Place PlaceOf(const Curve& curve,
 
 // Of what is still missing in the response curve, without what moving the place
 // across the curve explains as well.
-NormalEquations WithoutMoving(const Place& place, double edge_sigma_px) {
+NormalEquations WithoutMoving(const ResponsePlace& place,
+                              double edge_sigma_px) {
   const SpaceEdge adjusted =
       AdjustEdge(place.edge, place.measurements, edge_sigma_px).edge;
   const AcrossAxes axes = AxesAcross(adjusted.tangent);
@@ -180,7 +181,7 @@ NormalEquations OfCurve(const Curve& curve,
                         const ResponseCurve& response,
                         double edge_sigma_px) {
   NormalEquations sum;
-  double since_last_px = kStepPx;
+  double since_last_px = kResponseStepPx;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];
     const double pixel = PixelSize(sample.position, sample.support, views);
@@ -188,7 +189,8 @@ NormalEquations OfCurve(const Curve& curve,
       since_last_px +=
           (sample.position - curve.samples[k - 1].position).norm() / pixel;
     }
-    if (since_last_px < kStepPx || sample.support.size() < kMinNumEdges) {
+    if (since_last_px < kResponseStepPx ||
+        sample.support.size() < kMinNumEdges) {
       continue;
     }
     since_last_px = 0;
@@ -229,7 +231,7 @@ ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
     for (const NormalEquations& of_curve : of_curves) sum += of_curve;
     sum.vector +=
         sum.matrix * response.px;  // from what is missing to the whole
-    sum.matrix += kPrior * Eigen::Matrix2d::Identity();
+    sum.matrix += kResponsePrior * Eigen::Matrix2d::Identity();
     const Eigen::Vector2d px = SolveNotNegative(sum);
     const double change = (px - response.px).norm();
     response.px = px;

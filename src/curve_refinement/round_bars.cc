@@ -26,25 +26,24 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Places of a curve, at least so far apart, and no more than this.
-constexpr double kPlaceSpacingPx = 15;
 constexpr std::size_t kMaxPlaces = 12;
-constexpr double kMinRadiusPx = 1;
-constexpr double kMaxRadiusPx = 11;
+constexpr double kMinBarRadiusPx = 1;
+constexpr double kMaxBarRadiusPx = 11;
 // The far contour is twice the radius away.
-constexpr double kReachPx = 2 * kMaxRadiusPx + 4;
+constexpr double kBarReachPx = 2 * kMaxBarRadiusPx + 4;
 constexpr double kStartRadiiPx[] = {1.5, 2.5, 4, 6, 9};
 // Views that see the bar from about the same side as most do: the cosine of the
 // angle.
 constexpr double kMinCosine = 0.3;
 constexpr int kMinViews = 5;
-constexpr int kNumIterations = 8;
+constexpr int kNumBarIterations = 8;
 // Of edges in the fits: the largest distance, and the scale of their weights.
 constexpr double kGatePx = 1.5;
 constexpr double kRobustSigmaPx = 0.4;
 // Of the radius in one iteration.
 constexpr double kMaxStepPx = 2;
 // Keeps the systems regular; in measurements.
-constexpr double kPrior = 1e-3;
+constexpr double kBarPrior = 1e-3;
 // A curve is a side of the bar if it is so near to it, mean over places.
 constexpr double kMaxDistancePx = 2;
 // Mean log-likelihood ratio of a place, and the share of views that show both
@@ -54,7 +53,7 @@ constexpr double kMinShareOfBoth = 0.15;
 constexpr double kSeenSigmas = 3;
 
 // What a view sees about a place of a curve.
-struct PlaceInView {
+struct BarPlaceInView {
   std::vector<double> edges_px;  // signed distances from the projected curve
   // How far a step across the curve moves its projection; pixels per pixel of
   // the curve, on AxesAcross().
@@ -63,8 +62,8 @@ struct PlaceInView {
   double slope_of_radius = 0;
 };
 
-struct Place {
-  std::vector<PlaceInView> views;
+struct BarPlace {
+  std::vector<BarPlaceInView> views;
   Vector2d outward = Vector2d::Zero();  // unit: the side of the first contour
   double density = 0;  // of other contours, per pixel across the curve
 };
@@ -79,15 +78,15 @@ std::vector<Vector3d> SupportingCenters(const CurveSample& sample,
 }
 
 // `pixel`: of the curve, world units. `outward` is across the curve, unit.
-Place Look(const CurveSample& sample,
-           const Vector3d& outward,
-           double pixel,
-           const std::vector<PosedView>& views,
-           const ImageSupport& images) {
+BarPlace Look(const CurveSample& sample,
+              const Vector3d& outward,
+              double pixel,
+              const std::vector<PosedView>& views,
+              const ImageSupport& images) {
   const OccludingContour contour = {
       {sample.position, sample.tangent}, 0, outward};
   const AcrossAxes across = AxesAcross(sample.tangent);
-  Place place;
+  BarPlace place;
   place.outward = across.transpose() * outward;
   double num_edges = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -95,9 +94,9 @@ Place Look(const CurveSample& sample,
     if (!projected || !views[v].Contains(projected->position)) continue;
     const Vector3d side = SideSeenFrom(contour, views[v].center);
     if (side.dot(outward) < kMinCosine) continue;
-    std::vector<double> edges_px = images.Beside(v, *projected, kReachPx);
+    std::vector<double> edges_px = images.Beside(v, *projected, kBarReachPx);
     if (std::none_of(edges_px.begin(), edges_px.end(), [](double edge_px) {
-          return std::abs(edge_px) < kMaxRadiusPx;
+          return std::abs(edge_px) < kMaxBarRadiusPx;
         })) {
       continue;
     }
@@ -111,7 +110,7 @@ Place Look(const CurveSample& sample,
                            gradient.dot(side)});
   }
   place.density = DensityOfContours(
-      num_edges, static_cast<double>(place.views.size()), kReachPx);
+      num_edges, static_cast<double>(place.views.size()), kBarReachPx);
   return place;
 }
 
@@ -125,10 +124,10 @@ double PixelOf(const Curve& curve, const std::vector<PosedView>& views) {
 
 // Places along the curve, whose outward sides follow each other. None if too
 // few views see it.
-std::vector<Place> LookAlong(const Curve& curve,
-                             const std::vector<PosedView>& views,
-                             const ImageSupport& images) {
-  std::vector<Place> places;
+std::vector<BarPlace> LookAlong(const Curve& curve,
+                                const std::vector<PosedView>& views,
+                                const ImageSupport& images) {
+  std::vector<BarPlace> places;
   const double pixel = PixelOf(curve, views);
   if (!(pixel > 0)) return places;
   Vector3d outward = Vector3d::Zero();
@@ -138,7 +137,7 @@ std::vector<Place> LookAlong(const Curve& curve,
     const Vector3d side = MeanSide({sample.position, sample.tangent},
                                    SupportingCenters(sample, views));
     outward = side.dot(outward) < 0 ? Vector3d(-side) : side;
-    Place place = Look(sample, outward, pixel, views, images);
+    BarPlace place = Look(sample, outward, pixel, views, images);
     if (place.views.size() >= kMinViews) places.push_back(std::move(place));
   }
   return places;
@@ -151,17 +150,17 @@ struct Bar {
 
 // Least squares over the edges near both contours: one radius, and an axis at
 // each place.
-void Adjust(const std::vector<Place>& places, Bar* bar) {
+void Adjust(const std::vector<BarPlace>& places, Bar* bar) {
   struct OfPlace {
     Matrix2d inverse;
     Vector2d of_radius, of_residuals;
   };
   std::vector<OfPlace> eliminated;
-  double information = kPrior, gradient = 0;
+  double information = kBarPrior, gradient = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    Matrix2d matrix = kPrior * Matrix2d::Identity();
+    Matrix2d matrix = kBarPrior * Matrix2d::Identity();
     Vector2d of_radius = Vector2d::Zero(), of_residuals = Vector2d::Zero();
-    for (const PlaceInView& seen : places[i].views) {
+    for (const BarPlaceInView& seen : places[i].views) {
       for (const double side : {1.0, -1.0}) {
         const double slope_of_radius = side * seen.slope_of_radius;
         const double residual = NearestResidual(
@@ -192,12 +191,12 @@ void Adjust(const std::vector<Place>& places, Bar* bar) {
 }
 
 // The edge in space that fits best, from `start`, a step from the curve.
-Vector2d FitEdge(const Place& place, const Vector2d& start) {
+Vector2d FitEdge(const BarPlace& place, const Vector2d& start) {
   Vector2d at = start;
-  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
-    Matrix2d matrix = kPrior * Matrix2d::Identity();
+  for (int iteration = 0; iteration < kNumBarIterations; ++iteration) {
+    Matrix2d matrix = kBarPrior * Matrix2d::Identity();
     Vector2d gradient = Vector2d::Zero();
-    for (const PlaceInView& seen : place.views) {
+    for (const BarPlaceInView& seen : place.views) {
       const double residual =
           NearestResidual(seen.edges_px, seen.slope.dot(at));
       if (std::abs(residual) > kGatePx) continue;
@@ -213,17 +212,17 @@ Vector2d FitEdge(const Place& place, const Vector2d& start) {
 // Log-likelihood ratio of a bar, whose contour on `side` is the curve, to edges
 // in space, mean over places: one edge by each contour, and the curve itself.
 // Minus infinity if too few views show both contours.
-double LogLikelihoodRatio(const std::vector<Place>& places,
+double LogLikelihoodRatio(const std::vector<BarPlace>& places,
                           const Bar& bar,
                           double side,
                           double edge_sigma_px) {
   double ratio = 0, num_views = 0, num_both = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Place& place = places[i];
+    const BarPlace& place = places[i];
     const Vector2d to_side = bar.radius_px * place.outward;
     const Vector2d edge1 = FitEdge(place, bar.axis[i] + to_side);
     const Vector2d edge2 = FitEdge(place, bar.axis[i] - to_side);
-    for (const PlaceInView& seen : place.views) {
+    for (const BarPlaceInView& seen : place.views) {
       const auto residual = [&](double at_px) {
         return NearestResidual(seen.edges_px, at_px);
       };
@@ -253,19 +252,19 @@ double LogLikelihoodRatio(const std::vector<Place>& places,
 }
 
 // Of the bar near `start_radius_px`, whose contour on `side` is the curve.
-double LogLikelihoodRatio(const std::vector<Place>& places,
+double LogLikelihoodRatio(const std::vector<BarPlace>& places,
                           double start_radius_px,
                           double side,
                           double edge_sigma_px) {
   constexpr double kNoBar = -std::numeric_limits<double>::infinity();
   Bar bar{start_radius_px, {}};
-  for (const Place& place : places) {
+  for (const BarPlace& place : places) {
     bar.axis.push_back(-side * start_radius_px * place.outward);
   }
-  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
+  for (int iteration = 0; iteration < kNumBarIterations; ++iteration) {
     Adjust(places, &bar);
   }
-  if (bar.radius_px < kMinRadiusPx || bar.radius_px > kMaxRadiusPx) {
+  if (bar.radius_px < kMinBarRadiusPx || bar.radius_px > kMaxBarRadiusPx) {
     return kNoBar;
   }
   double distance_px = 0;
@@ -280,7 +279,7 @@ double LogLikelihoodRatio(const std::vector<Place>& places,
 }
 
 // Of the likeliest bar; minus infinity without any.
-double LogLikelihoodRatio(const std::vector<Place>& places,
+double LogLikelihoodRatio(const std::vector<BarPlace>& places,
                           double edge_sigma_px) {
   double best = -std::numeric_limits<double>::infinity();
   if (places.empty()) return best;

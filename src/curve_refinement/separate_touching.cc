@@ -21,11 +21,11 @@ namespace {
 
 constexpr double kMaxGapPx = 100;
 constexpr double kBesidePx = 8;
-constexpr double kMaxAngleDeg = 30;
+constexpr double kMaxBranchAngleDeg = 30;
 constexpr double kMaxDetour = 1.5;
 constexpr double kMinBranchPx = 15;
 constexpr double kMaxBranchPx = 60;
-constexpr double kMaxRmsPx = 0.4;
+constexpr double kMaxBranchRmsPx = 0.4;
 constexpr double kMaxShare = 0.6;  // of the distances without exchange
 
 struct OpenEnd {
@@ -93,7 +93,7 @@ class MeetingFinder {
   static bool AreFacing(const OpenEnd& a, const OpenEnd& b) {
     const Eigen::Vector3d way = b.position - a.position;
     const double gap = way.norm();
-    const double least = std::cos(DegToRad(kMaxAngleDeg)) * gap;
+    const double least = std::cos(DegToRad(kMaxBranchAngleDeg)) * gap;
     return gap > 0 && gap <= kMaxGapPx * std::min(a.pixel, b.pixel) &&
            a.outward.dot(way) > least && -b.outward.dot(way) > least;
   }
@@ -125,7 +125,7 @@ class MeetingFinder {
       const CurveSample& sample = curves_[c].samples[k];
       const double cosine = sample.tangent.dot(end.outward);
       const double distance = (sample.position - end.position).norm();
-      if (std::abs(cosine) < std::cos(DegToRad(kMaxAngleDeg)) ||
+      if (std::abs(cosine) < std::cos(DegToRad(kMaxBranchAngleDeg)) ||
           LeadsToEnd(idx, c, k)) {
         continue;
       }
@@ -192,7 +192,7 @@ class MeetingFinder {
         exchanged <
             kMaxShare * std::hypot(joined, DistanceFromParabola(before, after));
     meeting.rms_px = (meeting.exchange ? exchanged : joined) / pixel;
-    if (!(meeting.rms_px <= kMaxRmsPx)) return false;
+    if (!(meeting.rms_px <= kMaxBranchRmsPx)) return false;
     return meeting.exchange ? ImagesShow(a.branch, after, pixel) &&
                                   ImagesShow(before, b.branch, pixel)
                             : ImagesShow(a.branch, b.branch, pixel);

@@ -12,8 +12,7 @@
 namespace curvix {
 namespace {
 
-constexpr std::size_t kMinNumSamples = 5;
-constexpr double kReachSigmas = 3;
+constexpr std::size_t kMinNumSmoothedSamples = 5;
 
 // One sample seen from the one that moves: signed arc length and position.
 struct Neighbor {
@@ -32,7 +31,7 @@ class Smoother {
   CurveSample Smooth(std::size_t i) const {
     const std::vector<Neighbor> neighbors = Neighbors(i);
     CurveSample result = curve_.samples[i];
-    if (neighbors.size() < kMinNumSamples) return result;
+    if (neighbors.size() < kMinNumSmoothedSamples) return result;
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
     for (const Neighbor& n : neighbors) {
@@ -52,7 +51,7 @@ class Smoother {
   std::vector<Neighbor> Neighbors(std::size_t i) const {
     std::vector<Neighbor> neighbors;
     for (const SampleAround& near :
-         SamplesAround(curve_, i, kReachSigmas * bandwidth_)) {
+         SamplesAround(curve_, i, kKernelReach * bandwidth_)) {
       neighbors.push_back(Weighted(near));
     }
     return neighbors;

@@ -4,15 +4,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/angles.h"
+#include "base/infinity.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kMaxAccidents = 0.01;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMaxFalseDiscoveries = 0.01;
 
 // The inverse of a covariance whose second dimension may not exist.
 Eigen::Matrix2d Information(const Eigen::Matrix2d& covariance, int dimensions) {
@@ -187,7 +186,7 @@ double LargestChance(std::vector<Test> tests) {
     if (test.chance == 1) break;
     passed += test.weight;
     const double accidents = (failed + test.weight) * test.chance;
-    if (accidents <= kMaxAccidents * passed) largest = test.chance;
+    if (accidents <= kMaxFalseDiscoveries * passed) largest = test.chance;
   }
   return largest;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/infinity.h"
 #include "fitting/fit_conic.h"
 
 namespace curvix {
@@ -20,7 +21,6 @@ constexpr std::size_t kMaxSearched = 400;  // samples that the search looks at
 constexpr std::size_t kMinSamples = 10;
 // A link that costs as much as so many more arcs is not made longer.
 constexpr std::size_t kHopelessArcs = 3;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // What describes a primitive with two ends, and what neighbours share.
 constexpr std::size_t kLineParameters = 6;
@@ -288,7 +288,7 @@ std::optional<Primitive> Line(const FitSamples& curve, bool closed) {
   if (!line || closed) return std::nullopt;
   return Primitive{*line, 0, curve.size(), false};
 }
-std::optional<Primitive> Arc(const FitSamples& curve, bool closed) {
+std::optional<Primitive> FittedArc(const FitSamples& curve, bool closed) {
   return OnCurve(FitCircle(curve), curve, closed);
 }
 std::optional<Primitive> Ellipse(const FitSamples& curve, bool closed) {
@@ -306,7 +306,7 @@ struct Single {
   std::size_t num_parameters;  // of the shape, without its ends
 };
 
-constexpr Single kSingles[] = {{Line, 4}, {Arc, 6}, {Ellipse, 8}};
+constexpr Single kSingles[] = {{Line, 4}, {FittedArc, 6}, {Ellipse, 8}};
 
 }  // namespace
 

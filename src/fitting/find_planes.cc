@@ -21,7 +21,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Indices = std::vector<std::size_t>;
 
-constexpr double kMaxAccidents = 0.01;
+constexpr double kMaxAccidentalPlanes = 0.01;
 constexpr double kMinSine = 0.3;  // between two lines that span a plane
 
 // w = offset + slopes (u, v), of (u, v, w) in the frame, whose z is the normal.
@@ -35,7 +35,7 @@ struct Plane {
 
 // What an end, a centre or a normal says about a plane: row * (offset, slopes)
 // = value.
-struct Observation {
+struct PlaneObservation {
   Vector3d row;
   double value = 0;
   double variance = 0;
@@ -103,10 +103,10 @@ class PlaneFinder {
     return sorted;
   }
 
-  Observation PointOn(const Plane& plane,
-                      const Vector3d& point,
-                      const Matrix3d& covariance,
-                      double size) const {
+  PlaneObservation PointOn(const Plane& plane,
+                           const Vector3d& point,
+                           const Matrix3d& covariance,
+                           double size) const {
     const Vector3d local = plane.frame.transpose() * (point - plane.point);
     const Vector3d normal = plane.frame.col(2);
     return {{1, local.x(), local.y()},
@@ -118,10 +118,10 @@ class PlaneFinder {
 
   // Of one fit; ends in nodes that are in `known` are left out, and the others
   // put there.
-  std::vector<Observation> Of(const Plane& plane,
-                              const LineOrArc& feature,
-                              std::set<int>* known) const {
-    std::vector<Observation> observations;
+  std::vector<PlaneObservation> Of(const Plane& plane,
+                                   const LineOrArc& feature,
+                                   std::set<int>* known) const {
+    std::vector<PlaneObservation> observations;
     if (feature.is_arc()) {
       observations.push_back(PointOn(
           plane, feature.point, feature.point_covariance, feature.size));
@@ -152,9 +152,9 @@ class PlaneFinder {
     return observations;
   }
 
-  std::vector<Observation> OfAll(const Plane& plane,
-                                 const Indices& members) const {
-    std::vector<Observation> all;
+  std::vector<PlaneObservation> OfAll(const Plane& plane,
+                                      const Indices& members) const {
+    std::vector<PlaneObservation> all;
     std::set<int> known;
     for (const std::size_t i : members) {
       const auto own = Of(plane, features_[i], &known);
@@ -186,8 +186,8 @@ class PlaneFinder {
     Matrix3d information = Matrix3d::Zero();
     Vector3d right = Vector3d::Zero();
     double squares = 0;
-    const std::vector<Observation> all = OfAll(plane, members);
-    for (const Observation& o : all) {
+    const std::vector<PlaneObservation> all = OfAll(plane, members);
+    for (const PlaneObservation& o : all) {
       information += o.row * o.row.transpose() / o.variance;
       right += o.row * o.value / o.variance;
       squares += o.value * o.value / o.variance;
@@ -214,7 +214,7 @@ class PlaneFinder {
     const double off = plane.frame.col(2).dot(first - plane.point);
     if (std::abs(off) > (1 + 1e-9) * kNear * feature.size) return false;
     const double limit = ChiSquaredLimit(1);
-    for (const Observation& o : Of(plane, feature, nullptr)) {
+    for (const PlaneObservation& o : Of(plane, feature, nullptr)) {
       const double variance = o.variance + o.row.dot(plane.covariance * o.row);
       if (!(std::abs(o.value) <= o.bound) ||
           o.value * o.value > limit * variance) {
@@ -229,7 +229,8 @@ class PlaneFinder {
     std::size_t worst = 0;
     double most = -1;
     for (std::size_t k = 0; k < members.size(); ++k) {
-      for (const Observation& o : Of(plane, features_[members[k]], nullptr)) {
+      for (const PlaneObservation& o :
+           Of(plane, features_[members[k]], nullptr)) {
         const double squared = o.value * o.value / o.variance;
         if (squared > most) worst = k;
         most = std::max(most, squared);
@@ -265,7 +266,7 @@ class PlaneFinder {
                      std::size_t num_candidates) const {
     std::vector<double> chances;
     const double limit = ChiSquaredLimit(1);
-    for (const Observation& o : OfAll(plane, members)) {
+    for (const PlaneObservation& o : OfAll(plane, members)) {
       chances.push_back(2 * std::min(std::sqrt(limit * o.variance), o.bound) /
                         o.chance_scale);
     }
@@ -275,7 +276,7 @@ class PlaneFinder {
     for (std::size_t k = 3; k < chances.size(); ++k) {
       accidents *= std::min(1.0, n * chances[k]);
     }
-    return chances.size() > 3 && accidents < kMaxAccidents;
+    return chances.size() > 3 && accidents < kMaxAccidentalPlanes;
   }
 
   FitGroup GroupOf(const Plane& plane, const Indices& members) const {

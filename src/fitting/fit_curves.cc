@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "base/check.h"
+#include "base/infinity.h"
 #include "base/median.h"
 #include "base/parallel.h"
 #include "fitting/choose_primitives.h"
@@ -46,7 +46,6 @@ double UsualSigma(const Curve& curve) {
 // Of each sample, along the curve, to its nearer end; infinite if it is closed.
 std::vector<double> DistancesToEnd(const Curve& curve) {
   const std::size_t n = curve.samples.size();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<double> distances(n, kInfinity);
   if (curve.closed) return distances;
   const auto step = [&](std::size_t i) {

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/infinity.h"
 #include "geometry/directions.h"
 
 namespace curvix {
@@ -68,7 +68,6 @@ Interval RayProjection::SeenAlong(const Line2& line,
   const Eigen::Vector3d ray = at_infinity_ * pixel.homogeneous();
   const Eigen::Vector3d near_end = nearest * ray + epipole_;
   const Eigen::Vector3d far_end = ray + epipole_ / farthest;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!(near_end.z() > 0) || !(far_end.z() > 0)) return {-kInfinity, kInfinity};
   const double a = line.Direction().dot(near_end.hnormalized());
   const double b = line.Direction().dot(far_end.hnormalized());

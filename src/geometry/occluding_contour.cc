@@ -10,7 +10,7 @@
 namespace curvix {
 namespace {
 
-constexpr int kNumIterations = 3;
+constexpr int kNumContourIterations = 3;
 // In measurements: keep the system regular, the radius before the place.
 constexpr double kPriorOfPlace = 1e-8;
 constexpr double kPriorOfRadius = 1e-5;
@@ -36,7 +36,7 @@ double FitRadius(const OccludingContour& contour,
     distances(i) = seen.px;
   }
   Eigen::Vector3d solution(0, 0, contour.radius);
-  for (int iteration = 0; iteration < kNumIterations; ++iteration) {
+  for (int iteration = 0; iteration < kNumContourIterations; ++iteration) {
     const Eigen::VectorXd weights =
         (distances + rows * solution).unaryExpr([sigma_px](double residual) {
           return CauchyWeight(residual, sigma_px);

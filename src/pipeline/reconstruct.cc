@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/option_table.h"
 #include "curve_drawing/group_edges.h"
 #include "curve_drawing/grow_curves.h"
@@ -233,7 +234,7 @@ Result<EdgeSketch> SketchEdges(const Scene& scene,
   RunRecorder run(progress);
   EdgeSketch sketch =
       Sketch(scene, MakePosedViews(scene), edge_maps, options, run);
-  if (run.cancelled()) return run.CancelledStatus();
+  if (run.cancelled()) return CancelledStatus();
   return sketch;
 }
 
@@ -251,7 +252,7 @@ Result<Reconstruction> CurvesFromSketch(const Scene& scene,
   RunRecorder run(progress);
   Reconstruction result =
       Connect(scene, MakePosedViews(scene), edge_maps, sketch, options, run);
-  if (run.cancelled()) return run.CancelledStatus();
+  if (run.cancelled()) return CancelledStatus();
   return result;
 }
 
@@ -267,7 +268,7 @@ Result<Reconstruction> ReconstructCurves(const Scene& scene,
   const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
   Reconstruction result =
       Connect(scene, views, edge_maps, sketch, options, run);
-  if (run.cancelled()) return run.CancelledStatus();
+  if (run.cancelled()) return CancelledStatus();
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_recorder.h"
 
+#include "base/cancelled.h"
 #include "base/free_memory.h"
 #include "base/parallel.h"
 
@@ -81,10 +82,6 @@ Status RunRecorder::ForEach(std::size_t n,
   }
   const auto total = static_cast<int>(n);
   return Tell(total, total) ? Status() : CancelledStatus();
-}
-
-Status RunRecorder::CancelledStatus() const {
-  return {StatusCode::kCancelled, "interrupted; nothing was written"};
 }
 
 }  // namespace curvix

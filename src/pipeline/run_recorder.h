@@ -42,7 +42,6 @@ class RunRecorder {
                  const std::function<Status(std::size_t)>& f);
 
   bool cancelled() const { return cancelled_; }
-  Status CancelledStatus() const;
   Report TakeReport() { return std::move(report_); }
 
  private:

@@ -27,7 +27,7 @@ constexpr double kPriorLossScale = 3;
 // image. COLMAP's cameras are hardly off by more.
 constexpr double kLensPriorPx = 3;
 // Edges are matched again after each solution, so none needs to be exact.
-constexpr int kMaxNumIterations = 25;
+constexpr int kMaxNumAdjustments = 25;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 
@@ -62,7 +62,7 @@ Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& turn) {
 }
 
 // Cauchy's: grows with the logarithm of squares beyond `scale2`.
-struct Loss {
+struct CauchyLoss {
   double scale2 = 1;
 
   double operator()(double square) const {
@@ -72,8 +72,8 @@ struct Loss {
     return 1 / std::sqrt(1 + square / scale2);
   }
 };
-constexpr Loss kLoss{1};
-constexpr Loss kPriorLoss{kPriorLossScale * kPriorLossScale};
+constexpr CauchyLoss kLoss{1};
+constexpr CauchyLoss kPriorLoss{kPriorLossScale * kPriorLossScale};
 
 // The state of the search.
 struct State {
@@ -91,9 +91,11 @@ std::vector<Rigid3> RigidIncrements(const State& state) {
   return increments;
 }
 
-class Search {
+class AdjustSearch {
  public:
-  Search(const PoseProblem& problem, const MovedCameras& start, int num_threads)
+  AdjustSearch(const PoseProblem& problem,
+               const MovedCameras& start,
+               int num_threads)
       : num_threads_(num_threads),
         min_gain_(problem.min_gain),
         owners_(OwnersOf(problem)),
@@ -121,7 +123,7 @@ class Search {
     double cost = Cost(state_);
     if (!std::isfinite(cost)) return false;
     double damping = kFirstDamping;
-    for (int i = 0; i < kMaxNumIterations && keep_going(); ++i) {
+    for (int i = 0; i < kMaxNumAdjustments && keep_going(); ++i) {
       State next = Next(damping);
       const double next_cost = Cost(next);
       if (!(next_cost < cost)) {
@@ -312,7 +314,7 @@ AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const MovedCameras& start,
                           int num_threads,
                           const std::function<bool()>& keep_going) {
-  Search search(problem, start, num_threads);
+  AdjustSearch search(problem, start, num_threads);
   AdjustedPoses adjusted;
   adjusted.moved = start;
   if (search.Run(keep_going)) {

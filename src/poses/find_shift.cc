@@ -15,8 +15,8 @@ constexpr double kFineStepPx = 0.125;
 constexpr double kClearly = 1.15;
 constexpr double kChanceDeviations = 4;
 
-double Votes(const std::vector<EdgesAround>& samples,
-             const Eigen::Vector2d& shift) {
+double NumVotes(const std::vector<EdgesAround>& samples,
+                const Eigen::Vector2d& shift) {
   double votes = 0;
   for (const EdgesAround& sample : samples) {
     const double along = sample.normal.dot(shift);
@@ -45,7 +45,7 @@ Best Search(const std::vector<EdgesAround>& samples,
   for (int i = -num_steps; i <= num_steps; ++i) {
     for (int k = -num_steps; k <= num_steps; ++k) {
       const Eigen::Vector2d shift = center + step_px * Eigen::Vector2d(k, i);
-      const double votes = Votes(samples, shift);
+      const double votes = NumVotes(samples, shift);
       if (votes > best.votes) best = {shift, votes};
     }
   }
@@ -56,7 +56,7 @@ Best Search(const std::vector<EdgesAround>& samples,
 
 Eigen::Vector2d FindShift(const std::vector<EdgesAround>& samples,
                           double reach_px) {
-  const double votes_of_none = Votes(samples, Eigen::Vector2d::Zero());
+  const double votes_of_none = NumVotes(samples, Eigen::Vector2d::Zero());
   const double asked = kClearly * votes_of_none +
                        kChanceDeviations * std::sqrt(votes_of_none + 1);
   // Most samples fit as they are: no shift can win so many votes.

@@ -12,11 +12,11 @@
 namespace curvix {
 namespace {
 
-constexpr int kNumIterations = 20;
+constexpr int kNumGaugeIterations = 20;
 constexpr double kMinLossScalePx = 0.05;
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix26d = Eigen::Matrix<double, 2, 6>;
 
 struct NormalEquations {
@@ -75,7 +75,7 @@ Rigid3 FixGauge(const std::vector<PosedView>& views,
                 const std::vector<SeenPlace>& places) {
   Rigid3 transform;
   if (places.empty()) return transform;
-  for (int i = 0; i < kNumIterations; ++i) {
+  for (int i = 0; i < kNumGaugeIterations; ++i) {
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     for (const SeenPlace& place : places) center += transform * place.position;
     center /= static_cast<double>(places.size());

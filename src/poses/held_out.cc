@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMaxErrorPx = 1;  // of places
 constexpr double kMaxPointErrorPx = 2;
-constexpr double kMinLossScalePx = 0.3;
+constexpr double kMinTruncationPx = 0.3;
 // Standard deviations, exceeded by chance once in some twenty times.
 constexpr double kContrary = 2;
 
@@ -60,10 +60,10 @@ std::vector<double> ErrorsOfPoint(const PointSample& point,
 
 // Errors over three times the smaller of their medians, or over 0.3 px; at most
 // 1, so that outliers and differences of perfect fits count little.
-class Loss {
+class TruncatedLoss {
  public:
-  Loss(std::vector<double> before, std::vector<double> after)
-      : scale_px_(std::max(kMinLossScalePx,
+  TruncatedLoss(std::vector<double> before, std::vector<double> after)
+      : scale_px_(std::max(kMinTruncationPx,
                            3 * std::min(MedianOr(1, std::move(before)),
                                         MedianOr(1, std::move(after))))) {}
   double operator()(double error_px) const {
@@ -175,14 +175,14 @@ SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
     from.push_back(pair.before);
     to.push_back(pair.after);
   }
-  const Loss loss_of_places(from, to);
+  const TruncatedLoss loss_of_places(from, to);
   GainsByCell places(cells);
   for (const ErrorPair& pair : pairs) {
     places.Add(PositionOf(held_out.places[pair.place_idx]),
                loss_of_places(pair.before) - loss_of_places(pair.after));
   }
-  const Loss loss_of_points(Concatenate(before.points),
-                            Concatenate(after.points));
+  const TruncatedLoss loss_of_points(Concatenate(before.points),
+                                     Concatenate(after.points));
   GainsByCell points(cells);
   for (std::size_t i = 0; i < held_out.points.size(); ++i) {
     for (std::size_t k = 0; k < before.points[i].size(); ++k) {

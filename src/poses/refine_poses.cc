@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cancelled.h"
 #include "base/median.h"
 #include "base/option_table.h"
 #include "base/parallel.h"
@@ -377,7 +378,7 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
     result = refine(false);
     result.reason += "; cameras stay: " + status.message();
   }
-  if (run.cancelled()) return run.CancelledStatus();
+  if (run.cancelled()) return CancelledStatus();
   return result;
 }
 

@@ -2,17 +2,15 @@
 #include "synthetic/primitive.h"
 
 #include "base/check.h"
+#include "base/infinity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Keeps [enter, exit] of `interval`, both ends on `face` where it cuts.
 void Clip(double enter, double exit, int face, RayInterval& interval) {

@@ -130,7 +130,9 @@ int NumBays(int num_views) {
 
 double Length(int num_views) { return kBayWidth * NumBays(num_views); }
 
-SolidPrimitive Block(const Vector3d& low, const Vector3d& high, bool is_added) {
+SolidPrimitive BlockBetween(const Vector3d& low,
+                            const Vector3d& high,
+                            bool is_added) {
   SolidPrimitive box;
   box.shape = PrimitiveShape::kBox;
   box.is_added = is_added;
@@ -164,12 +166,12 @@ void AddBay(int bay_idx, double x, std::vector<SolidPrimitive>& parts) {
   // Upstairs: a window; every third is lower.
   const double top = bay_idx % 3 == 2 ? 0.8 : 0.86;
   parts.push_back(
-      Block({x + 0.18, kBefore, 0.62}, {x + 0.42, 0.05, top}, false));
+      BlockBetween({x + 0.18, kBefore, 0.62}, {x + 0.42, 0.05, top}, false));
   // Downstairs: a door, a round window or a boss.
   switch (bay_idx % 3) {
     case 0:
       parts.push_back(
-          Block({x + 0.2, kBefore, 0.12}, {x + 0.4, 0.06, 0.42}, false));
+          BlockBetween({x + 0.2, kBefore, 0.12}, {x + 0.4, 0.06, 0.42}, false));
       return;
     case 1:
       parts.push_back(Round(x + 0.3, 0.29, 0.12, kBefore, 0.05, false));
@@ -284,11 +286,11 @@ std::vector<SolidPrimitive> Knobs() {
 std::vector<SolidPrimitive> Facade(int num_views) {
   const double length = Length(num_views);
   std::vector<SolidPrimitive> parts = {
-      Block({0, 0, 0}, {length, 0.12, 1}, true)};
+      BlockBetween({0, 0, 0}, {length, 0.12, 1}, true)};
   for (int i = 0; i < NumBays(num_views); ++i) AddBay(i, i * kBayWidth, parts);
   for (const auto& [low, high, out] :
        {std::array{0.0, 0.07, 0.05}, std::array{0.93, 1.0, 0.06}}) {
-    parts.push_back(Block({0, -out, low}, {length, 0.01, high}, true));
+    parts.push_back(BlockBetween({0, -out, low}, {length, 0.01, high}, true));
   }
   return parts;
 }
