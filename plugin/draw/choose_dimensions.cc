@@ -14,8 +14,7 @@ namespace curvix {
 namespace {
 
 constexpr int kMost = 10;
-constexpr double kSigmas = 3;
-constexpr double kParallelDeg = 1;
+constexpr double kAlikeSigmas = 3;
 
 std::string Text(const MeasuredDimension& m) {
   const double digits = -std::floor(std::log10(m.sigma));
@@ -31,7 +30,8 @@ bool AreAlike(const MeasuredDimension& a, const MeasuredDimension& b) {
                             std::sin(DegToRad(kParallelDeg));
   return a.drawn.is_radius == b.drawn.is_radius &&
          (a.drawn.is_radius || are_parallel) &&
-         std::abs(a.value - b.value) < kSigmas * std::hypot(a.sigma, b.sigma);
+         std::abs(a.value - b.value) <
+             kAlikeSigmas * std::hypot(a.sigma, b.sigma);
 }
 
 Eigen::Vector2d MiddleOf(const MeasuredDimension& m) {

@@ -17,10 +17,7 @@ namespace {
 
 constexpr std::size_t kMaxRows = 100;
 constexpr std::size_t kMaxPartners = 15;
-// Lines are parallel, for a distance, if nothing speaks against it and they are
-// nearly so.
-constexpr double kParallelDeg = 1;
-constexpr double kSigmas = 3;
+constexpr double kParallelSigmas = 3;
 
 struct Named {
   std::string name;
@@ -139,7 +136,7 @@ void AddPairsOfLines(const std::vector<Named>& lines, Table& table) {
       const double sigma =
           std::sqrt(DirectionVariance(a) + DirectionVariance(b));
       table.AddAngle(lines[i].name, lines[j].name, angle, sigma);
-      if (angle < std::min(kSigmas * sigma, DegToRad(kParallelDeg))) {
+      if (angle < std::min(kParallelSigmas * sigma, DegToRad(kParallelDeg))) {
         AddDistance(lines[i], lines[j], table);
       }
     }

@@ -21,8 +21,8 @@ namespace curvix {
 namespace {
 
 constexpr int kNumPhotos = 16;
-constexpr int kPhotoSize = 640;    // pixels
-constexpr int kNumSizeDigits = 6;  // of coordinates, with respect to the scene
+constexpr int kPhotoSize = 640;            // pixels
+constexpr int kNumCoordinateDigits = 6;    // with respect to the scene
 constexpr std::size_t kNumPoints = 10000;  // of the model
 
 std::string Base64(std::string_view bytes) {
@@ -144,16 +144,18 @@ Json CurveJson(const Curve& curve,
           {"v", SupportingViews(curve)}};
 }
 
-// So many that the size of the curves has kNumSizeDigits.
+// So many that the size of the curves has kNumCoordinateDigits.
 int NumDecimals(const CurveSource& curves) {
   Eigen::AlignedBox3d box;
   curves.ForEach([&](std::size_t, const Curve& curve) {
     for (const CurveSample& sample : curve.samples) box.extend(sample.position);
   });
   const double size = box.isEmpty() ? 1 : box.diagonal().norm();
-  if (!(size > 0)) return kNumSizeDigits;
+  if (!(size > 0)) return kNumCoordinateDigits;
   return std::clamp(
-      kNumSizeDigits - static_cast<int>(std::floor(std::log10(size))), 0, 15);
+      kNumCoordinateDigits - static_cast<int>(std::floor(std::log10(size))),
+      0,
+      15);
 }
 
 Json NodesJson(const std::vector<CurveNode>& nodes) {

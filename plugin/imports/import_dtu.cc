@@ -77,8 +77,9 @@ Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
     }
     projections[*number] = world->topRows<3>();
   }
-  if (projections.empty())
+  if (projections.empty()) {
     return BrokenDtu(file.string() + " has no world_mat_0");
+  }
   return projections;
 }
 
@@ -89,8 +90,9 @@ Result<Matrix34d> ReadPos(const fs::path& file) {
   Matrix34d projection;
   for (int i = 0; i < 12; ++i) {
     const auto value = ParseNumber<double>(TakeWord(rest));
-    if (!value)
+    if (!value) {
       return BrokenDtu(file.string() + " does not hold 3 x 4 numbers");
+    }
     projection(i / 4, i % 4) = *value;
   }
   if (TakeWord(rest).empty()) return projection;

@@ -45,8 +45,9 @@ Result<ParLine> ParseParLine(std::string_view text,
   result.pose.calibration = Eigen::Map<const Matrix3dRowMajor>(numbers.data());
   const auto rotation =
       RotationFromMatrix(Eigen::Map<const Matrix3dRowMajor>(&numbers[9]));
-  if (!rotation)
+  if (!rotation) {
     return BrokenMiddlebury(file, line, "holds no rotation matrix");
+  }
   result.pose.cam_from_world = {
       *rotation, Eigen::Map<const Eigen::Vector3d>(&numbers[18])};
   return result;

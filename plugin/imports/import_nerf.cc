@@ -96,8 +96,9 @@ Result<Camera> Pinhole(const Fields& fields,
                        std::optional<double> first_pixel) {
   if (const json* const rows = fields.Find("camera_intrinsics")) {
     const auto matrix = ReadMatrix(rows, 3, 3);
-    if (!matrix)
+    if (!matrix) {
       return BrokenTransforms("camera_intrinsics is not a 3 x 3 matrix");
+    }
     return CameraFromCalibration(
         *matrix, image.width, image.height, first_pixel.value_or(0));
   }
@@ -209,8 +210,9 @@ Result<Rigid3> NerfPose(const json& frame) {
   const auto found = frame.find("transform_matrix");
   const json* const rows = found == frame.end() ? nullptr : &*found;
   const auto matrix = ReadMatrix(rows, 3, 4);
-  if (!matrix)
+  if (!matrix) {
     return BrokenTransforms("transform_matrix is not a 4 x 4 matrix");
+  }
   const auto bottom = rows->size() > 3 ? ReadMatrix(rows, 4, 4) : std::nullopt;
   if (rows->size() > 3 &&
       (!bottom || bottom->row(3) != Eigen::RowVector4d(0, 0, 0, 1))) {

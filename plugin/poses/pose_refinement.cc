@@ -208,8 +208,9 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   Result<Bundle> refined =
       Refiner(settings, log_path, progress, &result).Run(input);
   if (!refined.ok()) {
-    if (refined.status().code() == StatusCode::kCancelled)
-      return CancelledStatus();
+    if (refined.status().code() == StatusCode::kCancelled) {
+      return refined.status();
+    }
     KeepAfterFailure(refined.status().message(), log_path, &result);
     return result;
   }

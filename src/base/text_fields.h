@@ -59,12 +59,14 @@ std::optional<T> ParseNumber(std::string_view word) {
   return value;
 }
 
-// `text` without the blanks around it; line ends stay.
+// White space within a line.
+constexpr std::string_view kBlanks = " \t\r\v\f";
+
+// `text` without the blanks around it.
 inline std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\v\f";
-  const std::size_t begin = text.find_first_not_of(kBlank);
+  const std::size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
 
 // Takes the next line off `text`, without its "\n" or "\r\n".

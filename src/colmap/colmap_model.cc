@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
 #include "colmap/links.h"
 
@@ -89,10 +90,9 @@ Status RefuseForeignFiles(const fs::path& folder, ColmapFormat format) {
 
 // Names that the text format cannot hold.
 Status RefuseUnwritableNames(const ColmapModel& model) {
-  constexpr std::string_view kSpaces = " \t\r\v\f";
   for (const ColmapImage& image : model.images) {
-    const bool padded = kSpaces.find(image.name.front()) != kSpaces.npos ||
-                        kSpaces.find(image.name.back()) != kSpaces.npos;
+    const bool padded = kBlanks.find(image.name.front()) != kBlanks.npos ||
+                        kBlanks.find(image.name.back()) != kBlanks.npos;
     if (padded || image.name.find('\n') != std::string::npos) {
       return {StatusCode::kInvalidArgument,
               "The image name \"" + image.name +

@@ -11,8 +11,6 @@
 namespace curvix {
 namespace {
 
-constexpr std::string_view kSpaces = " \t\r\v\f";
-
 // The lines of a text, trimmed, with their numbers from 1.
 class LineReader {
  public:
@@ -58,7 +56,7 @@ class WordReader {
   bool AtEnd() const { return failed_ || rest_.empty(); }
 
   std::string_view Word() {
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpaces));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
     rest_ = Trimmed(rest_.substr(word.size()));
     failed_ = failed_ || word.empty();
     return word;
@@ -83,7 +81,7 @@ class WordReader {
   // "-1" means none.
   std::uint64_t Point3DId() {
     if (rest_ == "-1" || (rest_.substr(0, 2) == "-1" && rest_.size() > 2 &&
-                          kSpaces.find(rest_[2]) != std::string_view::npos)) {
+                          kBlanks.find(rest_[2]) != std::string_view::npos)) {
       Word();
       return kNoPoint3D;
     }

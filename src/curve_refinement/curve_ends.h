@@ -13,7 +13,7 @@
 
 namespace curvix {
 
-// Along a curve from a corner, what blur has rounded.
+// Blur rounds a corner so far along either of its curves.
 constexpr double kRoundedPx = 2.5;
 
 // Bandwidths to which Gaussian weights along a curve reach.

@@ -8,12 +8,12 @@
 namespace curvix {
 namespace {
 
-constexpr std::size_t kMinNumPointsOfRange = 16;
+constexpr std::size_t kMinNumPointsForRange = 16;
 constexpr std::size_t kMaxNumWrong = 2;  // on either side
 constexpr double kMinRange = 0.2;        // of the median
 
 DepthRange RangeAround(std::vector<double> inverse_depths, double margin) {
-  if (inverse_depths.size() < kMinNumPointsOfRange) return {};
+  if (inverse_depths.size() < kMinNumPointsForRange) return {};
   std::sort(inverse_depths.begin(), inverse_depths.end());
   const double least = inverse_depths[kMaxNumWrong];
   const double most = inverse_depths[inverse_depths.size() - 1 - kMaxNumWrong];

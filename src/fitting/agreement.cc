@@ -11,7 +11,7 @@
 namespace curvix {
 namespace {
 
-constexpr double kMaxFalseDiscoveries = 0.01;
+constexpr double kMaxFalseDiscoveryRate = 0.01;
 
 // The inverse of a covariance whose second dimension may not exist.
 Eigen::Matrix2d Information(const Eigen::Matrix2d& covariance, int dimensions) {
@@ -186,7 +186,7 @@ double LargestChance(std::vector<Test> tests) {
     if (test.chance == 1) break;
     passed += test.weight;
     const double accidents = (failed + test.weight) * test.chance;
-    if (accidents <= kMaxFalseDiscoveries * passed) largest = test.chance;
+    if (accidents <= kMaxFalseDiscoveryRate * passed) largest = test.chance;
   }
   return largest;
 }

@@ -283,15 +283,15 @@ void OfferSplines(const FitSamples& curve, bool closed, Choice& choice) {
 // The single primitives that a curve may be, by number of parameters.
 using SingleFit = std::optional<Primitive> (*)(const FitSamples&, bool);
 
-std::optional<Primitive> Line(const FitSamples& curve, bool closed) {
+std::optional<Primitive> SingleLine(const FitSamples& curve, bool closed) {
   const auto line = FitLine(curve);
   if (!line || closed) return std::nullopt;
   return Primitive{*line, 0, curve.size(), false};
 }
-std::optional<Primitive> FittedArc(const FitSamples& curve, bool closed) {
+std::optional<Primitive> SingleArc(const FitSamples& curve, bool closed) {
   return OnCurve(FitCircle(curve), curve, closed);
 }
-std::optional<Primitive> Ellipse(const FitSamples& curve, bool closed) {
+std::optional<Primitive> SingleEllipse(const FitSamples& curve, bool closed) {
   const std::optional<Conic> ellipse = FitEllipse(curve);
   if (!ellipse) return std::nullopt;
   double sigma = 0;
@@ -306,7 +306,8 @@ struct Single {
   std::size_t num_parameters;  // of the shape, without its ends
 };
 
-constexpr Single kSingles[] = {{Line, 4}, {FittedArc, 6}, {Ellipse, 8}};
+constexpr Single kSingles[] = {
+    {SingleLine, 4}, {SingleArc, 6}, {SingleEllipse, 8}};
 
 }  // namespace
 

@@ -25,7 +25,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // Times as much as the standard deviations of what they hold weigh relations:
 // they are met to a millionth of what a fit moves.
 constexpr double kHard = 1e3;
-constexpr double kMaxAdjustedSigmas = 3;
+constexpr double kMaxAdjustmentSigmas = 3;
 
 // The inverse of the root of a covariance, for weights; 0 if it has none.
 template <int kRows>
@@ -151,7 +151,7 @@ class Adjustment {
   std::set<FitKey> MovedTooFar() const {
     std::set<FitKey> far;
     const auto is_far = [](const auto& whitening, const auto& move) {
-      return !((whitening * move).norm() <= kMaxAdjustedSigmas);
+      return !((whitening * move).norm() <= kMaxAdjustmentSigmas);
     };
     std::vector<bool> point_is_far;
     for (std::size_t k = 0; k < points_.size(); ++k) {

@@ -9,6 +9,9 @@
 
 namespace curvix {
 
+// Lines with a smaller angle between them can be parallel.
+constexpr double kParallelDeg = 1;
+
 struct KnownDirection {
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();  // unit, of either sign
   double length = 0;    // of the line or arc, world units, > 0

@@ -27,7 +27,7 @@ constexpr double kPriorLossScale = 3;
 // image. COLMAP's cameras are hardly off by more.
 constexpr double kLensPriorPx = 3;
 // Edges are matched again after each solution, so none needs to be exact.
-constexpr int kMaxNumAdjustments = 25;
+constexpr int kMaxNumSteps = 25;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kDampingFactor = 10;
 
@@ -91,9 +91,9 @@ std::vector<Rigid3> RigidIncrements(const State& state) {
   return increments;
 }
 
-class AdjustSearch {
+class PoseAdjuster {
  public:
-  AdjustSearch(const PoseProblem& problem,
+  PoseAdjuster(const PoseProblem& problem,
                const MovedCameras& start,
                int num_threads)
       : num_threads_(num_threads),
@@ -123,7 +123,7 @@ class AdjustSearch {
     double cost = Cost(state_);
     if (!std::isfinite(cost)) return false;
     double damping = kFirstDamping;
-    for (int i = 0; i < kMaxNumAdjustments && keep_going(); ++i) {
+    for (int i = 0; i < kMaxNumSteps && keep_going(); ++i) {
       State next = Next(damping);
       const double next_cost = Cost(next);
       if (!(next_cost < cost)) {
@@ -314,23 +314,24 @@ AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const MovedCameras& start,
                           int num_threads,
                           const std::function<bool()>& keep_going) {
-  AdjustSearch search(problem, start, num_threads);
+  PoseAdjuster adjuster(problem, start, num_threads);
   AdjustedPoses adjusted;
   adjusted.moved = start;
-  if (search.Run(keep_going)) {
-    adjusted.moved = {RigidIncrements(search.state()), search.Cameras()};
+  if (adjuster.Run(keep_going)) {
+    adjusted.moved = {RigidIncrements(adjuster.state()), adjuster.Cameras()};
   }
-  adjusted.costs = search.CostsBySample();
+  adjusted.costs = adjuster.CostsBySample();
   std::size_t next = 0;
   for (const PoseSample& sample : problem.samples) {
     OccludingContour& contour = adjusted.contours.emplace_back(sample.contour);
-    const Eigen::Vector3d& offset = search.state().offsets[next++];
+    const Eigen::Vector3d& offset = adjuster.state().offsets[next++];
     contour.axis.position +=
         AxesAcross(contour.axis.tangent) * offset.head<2>();
     contour.radius += offset.z();
   }
   for (const PointSample& point : problem.points) {
-    adjusted.points.push_back(point.position + search.state().offsets[next++]);
+    adjusted.points.push_back(point.position +
+                              adjuster.state().offsets[next++]);
   }
   return adjusted;
 }

@@ -33,7 +33,7 @@ Status CannotBeInverted(const View& view) {
 // about half of the places.
 constexpr std::size_t kNumQueryEdges = 2500;
 constexpr std::size_t kNumQueryEdgesPerView = 50;
-constexpr double kPosedGateSigmas = 4;
+constexpr double kEdgeGateSigmas = 4;
 constexpr double kMaxTangentialPx = 1;
 constexpr double kMinCosine = 0.9659258;  // 15 degrees
 // More views add little, and the cost grows with the square of their number.
@@ -110,7 +110,7 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
   Options options = options_;
   options.hypotheses.location_tolerance_px = 2 * sigma_px;
   options.validation.max_distance_px =
-      std::max(options.validation.max_distance_px, kPosedGateSigmas * sigma_px);
+      std::max(options.validation.max_distance_px, kEdgeGateSigmas * sigma_px);
   const bool is_as_input = moved_.cameras == scene_.cameras;
   const int num_threads = options_.runtime.num_threads;
   std::vector<EdgeMap> carried;
