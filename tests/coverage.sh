@@ -20,7 +20,7 @@ cmake --preset coverage --log-level=NOTICE
 cmake --build --preset coverage ${targets[@]+--target "${targets[@]}"}
 find "$build" -name '*.gcda' -delete
 ctest --preset coverage --parallel "$(nproc)" --timeout 1800 \
-  --exclude-regex ^end_to_end/faults_test "$@"
+  --exclude-regex '^end_to_end/(Colmap)?Faults\.' "$@"
 
 lcov --quiet --capture --directory "$build" --base-directory . --no-external \
   --output-file "$build/coverage.info"

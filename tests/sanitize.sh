@@ -14,14 +14,17 @@ case "${1:-}" in
     ctest --preset asan --parallel "$(nproc)" --timeout 1800
     ;;
   thread)
-    tests=(base_parallel_test end_to_end_program_test
-      invariance_reconstruction_invariance_test pipeline_reconstruct_test
-      poses_refine_poses_test)
+    declare -A cases=(
+      [base_tests]='Concatenate.*:ParallelFor*'
+      [end_to_end_tests]='ProgramAlone.*:ProgramRun.*'
+      [invariance_tests]='*ReconstructionInvariance.*'
+      [pipeline_tests]='ReconstructCurves.*:*WhyEmptyOf.*'
+      [poses_tests]='RefinePosesWithCurves.*')
     export TSAN_OPTIONS="halt_on_error=1:suppressions=$PWD/tests/thread_sanitizer.supp"
     cmake --preset tsan --log-level=NOTICE
-    cmake --build --preset tsan --target "${tests[@]}"
-    for test in "${tests[@]}"; do
-      "build-tsan/tests/$test"
+    cmake --build --preset tsan --target "${!cases[@]}"
+    for program in "${!cases[@]}"; do
+      "build-tsan/tests/$program" --gtest_filter="${cases[$program]}"
     done
     ;;
   *)

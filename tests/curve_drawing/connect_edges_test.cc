@@ -11,10 +11,7 @@
 namespace curvix {
 namespace {
 
-// About one pixel at the origin; see RingOfViews.
-constexpr double kPx = 0.0075;
-
-Edge3d EdgeAt(double x, double y, double sign = 1) {
+Edge3d EdgeAtPx(double x, double y, double sign = 1) {
   return {{x * kPx, y * kPx, 0}, sign * Eigen::Vector3d::UnitX(), {}};
 }
 
@@ -34,8 +31,8 @@ ConnectivityGraph Connected(const std::vector<Edge3d>& edges) {
 }
 
 TEST(ConnectEdges, TakesTheNearestOnEitherSide) {
-  const auto graph =
-      Connected({EdgeAt(0, 0), EdgeAt(2, 0), EdgeAt(1, 0), EdgeAt(3, 0)});
+  const auto graph = Connected(
+      {EdgeAtPx(0, 0), EdgeAtPx(2, 0), EdgeAtPx(1, 0), EdgeAtPx(3, 0)});
   Validate(graph);
   EXPECT_EQ(graph.forward[0], 2);
   EXPECT_EQ(graph.forward[2], 1);
@@ -46,7 +43,7 @@ TEST(ConnectEdges, TakesTheNearestOnEitherSide) {
 
 TEST(ConnectEdges, FlipsEdgesThatOpposeTheSmallestIndex) {
   const auto graph =
-      Connected({EdgeAt(1, 0, -1), EdgeAt(0, 0), EdgeAt(2, 0, -1)});
+      Connected({EdgeAtPx(1, 0, -1), EdgeAtPx(0, 0), EdgeAtPx(2, 0, -1)});
   Validate(graph);
   EXPECT_EQ(graph.flipped, (std::vector<bool>{false, true, false}));
   EXPECT_EQ(graph.forward[0], 1);
@@ -55,8 +52,8 @@ TEST(ConnectEdges, FlipsEdgesThatOpposeTheSmallestIndex) {
 
 TEST(ConnectEdges, DoesNotJumpToAParallelTrack) {
   // The next edge of the other track is nearer along the tangent.
-  const auto graph =
-      Connected({EdgeAt(0, 0), EdgeAt(1, 1.4), EdgeAt(2, 0), EdgeAt(3, 1.4)});
+  const auto graph = Connected(
+      {EdgeAtPx(0, 0), EdgeAtPx(1, 1.4), EdgeAtPx(2, 0), EdgeAtPx(3, 1.4)});
   EXPECT_EQ(graph.forward[0], 2);
   EXPECT_EQ(graph.forward[1], 3);
 }
@@ -64,18 +61,19 @@ TEST(ConnectEdges, DoesNotJumpToAParallelTrack) {
 TEST(ConnectEdges, ConnectsOnlyEdgesThatChooseEachOther) {
   // 0 and 1 both see 2 ahead; 2 prefers 1.
   const auto graph =
-      Connected({EdgeAt(0, 0.6), EdgeAt(0.3, 0), EdgeAt(1.5, 0)});
+      Connected({EdgeAtPx(0, 0.6), EdgeAtPx(0.3, 0), EdgeAtPx(1.5, 0)});
   Validate(graph);
   EXPECT_EQ(graph.backward[2], 1);
   EXPECT_NE(graph.forward[0], 2);
 }
 
 TEST(ConnectEdges, RespectsStepAngleAndLinks) {
-  EXPECT_FALSE(Connected({EdgeAt(0, 0), EdgeAt(6, 0)}).forward[0].has_value());
-  Edge3d turned = EdgeAt(1, 0);
+  EXPECT_FALSE(
+      Connected({EdgeAtPx(0, 0), EdgeAtPx(6, 0)}).forward[0].has_value());
+  Edge3d turned = EdgeAtPx(1, 0);
   turned.tangent = Eigen::Vector3d::UnitY();
-  EXPECT_FALSE(Connected({EdgeAt(0, 0), turned}).forward[0].has_value());
-  const auto unlinked = ConnectEdges({EdgeAt(0, 0), EdgeAt(1, 0)},
+  EXPECT_FALSE(Connected({EdgeAtPx(0, 0), turned}).forward[0].has_value());
+  const auto unlinked = ConnectEdges({EdgeAtPx(0, 0), EdgeAtPx(1, 0)},
                                      NeighborhoodGraph::FromRows({{}, {}}),
                                      RingOfViews(8),
                                      {},
@@ -85,15 +83,17 @@ TEST(ConnectEdges, RespectsStepAngleAndLinks) {
 
 TEST(ConnectEdges, TakesDegenerateInput) {
   EXPECT_EQ(Connected({}).NumEdges(), 0u);
-  EXPECT_FALSE(Connected({EdgeAt(0, 0)}).forward[0].has_value());
-  const auto heap = Connected(std::vector<Edge3d>(5, EdgeAt(0, 0)));
+  EXPECT_FALSE(Connected({EdgeAtPx(0, 0)}).forward[0].has_value());
+  const auto heap = Connected(std::vector<Edge3d>(5, EdgeAtPx(0, 0)));
   Validate(heap);
   for (const auto& next : heap.forward) EXPECT_FALSE(next.has_value());
 }
 
 TEST(ThinEdges, MakesOneOfLinkedEdgesInOnePlace) {
-  std::vector<Edge3d> edges = {
-      EdgeAt(0, 0), EdgeAt(0, 0.6, -1), EdgeAt(0.1, -0.6), EdgeAt(5, 0)};
+  std::vector<Edge3d> edges = {EdgeAtPx(0, 0),
+                               EdgeAtPx(0, 0.6, -1),
+                               EdgeAtPx(0.1, -0.6),
+                               EdgeAtPx(5, 0)};
   edges[0].support = {{0, 3}, {4, 1}};
   edges[1].support = {{0, 4}, {2, 1}};
   edges[2].support = {{2, 9}, {4, 9}};
@@ -109,7 +109,7 @@ TEST(ThinEdges, MakesOneOfLinkedEdgesInOnePlace) {
 }
 
 TEST(ThinEdges, LeavesUnlinkedAndCrossingEdgesAlone) {
-  std::vector<Edge3d> edges = {EdgeAt(0, 0), EdgeAt(0, 0.1)};
+  std::vector<Edge3d> edges = {EdgeAtPx(0, 0), EdgeAtPx(0, 0.1)};
   const auto unlinked = NeighborhoodGraph::FromRows({{}, {}});
   EXPECT_EQ(ThinEdges(edges, unlinked, RingOfViews(8), {}, 1).edges.size(), 2u);
   edges[1].tangent = Eigen::Vector3d::UnitY();
@@ -120,7 +120,7 @@ TEST(ThinEdges, LeavesUnlinkedAndCrossingEdgesAlone) {
 TEST(ThinEdges, KeepsAllWithoutSpacing) {
   ConnectivityOptions options;
   options.sample_spacing_px = 0;
-  const std::vector<Edge3d> edges(3, EdgeAt(0, 0));
+  const std::vector<Edge3d> edges(3, EdgeAtPx(0, 0));
   const ThinnedEdges thinned =
       ThinEdges(edges, Complete(3), RingOfViews(8), options, 1);
   EXPECT_EQ(thinned.edges.size(), 3u);

@@ -13,9 +13,6 @@
 namespace curvix {
 namespace {
 
-// About one pixel at the origin; see RingOfViews.
-constexpr double kPx = 0.0075;
-
 const std::vector<PosedView>& Views() {
   static const std::vector<PosedView> views = RingOfViews(8);
   return views;

@@ -10,9 +10,6 @@
 namespace curvix {
 namespace {
 
-// About one pixel at the origin; see RingOfViews.
-constexpr double kPx = 0.0075;
-
 // Walks a pixel at a time and turns by so many degrees after each step.
 Curve Walked(const std::vector<double>& turns_deg) {
   Curve curve;
@@ -29,7 +26,7 @@ Curve Walked(const std::vector<double>& turns_deg) {
   return curve;
 }
 
-std::vector<double> Straight(std::size_t num_steps) {
+std::vector<double> NoTurns(std::size_t num_steps) {
   return std::vector<double>(num_steps, 0);
 }
 
@@ -42,9 +39,9 @@ std::vector<std::size_t> PieceSizes(const std::vector<Curve>& curves) {
 }
 
 TEST(SplitCorners, CutsASharpAndARoundedCornerOnce) {
-  std::vector<double> sharp = Straight(60);
+  std::vector<double> sharp = NoTurns(60);
   sharp[29] = 60;
-  std::vector<double> rounded = Straight(60);
+  std::vector<double> rounded = NoTurns(60);
   for (const std::size_t k : {28u, 29u, 30u, 31u}) rounded[k] = 15;
   for (const auto& turns : {sharp, rounded}) {
     const auto sizes = PieceSizes({Walked(turns)});
@@ -63,7 +60,7 @@ TEST(SplitCorners, LeavesCirclesOfAnyRadius) {
 }
 
 TEST(SplitCorners, OpensAPolygonIntoItsSides) {
-  std::vector<double> hexagon = Straight(180);
+  std::vector<double> hexagon = NoTurns(180);
   for (std::size_t k = 29; k < 180; k += 30) hexagon[k] = 60;
   Curve curve = Walked(hexagon);
   curve.closed = true;
@@ -78,7 +75,7 @@ TEST(SplitCorners, OpensAPolygonIntoItsSides) {
 TEST(SplitCorners, LeavesWhatHasNoArmsAndWhatItIsToldToLeave) {
   EXPECT_TRUE(PieceSizes({}).empty());
   EXPECT_EQ(PieceSizes({Walked({90, 90, 90})}), std::vector<std::size_t>{3});
-  std::vector<double> sharp = Straight(60);
+  std::vector<double> sharp = NoTurns(60);
   sharp[29] = 90;
   ConnectivityOptions options;
   options.max_corner_deg = 180;

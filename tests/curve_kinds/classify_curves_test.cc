@@ -7,11 +7,11 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "base/angles.h"
 #include "geometry/posed_views.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_views.h"
@@ -20,8 +20,6 @@ namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 // A half-plane that begins at a line parallel to z.
 struct Surface {

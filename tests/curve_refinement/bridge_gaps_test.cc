@@ -10,13 +10,14 @@
 namespace curvix {
 namespace {
 
-constexpr CurveRefinementOptions kOptions = {.max_gap_px = 15};
+constexpr CurveRefinementOptions kBridgeOptions = {.max_gap_px = 15};
 
 // In views that show `edges`.
-std::vector<Curve> BridgeIn(const std::vector<PosedView>& views,
-                            const std::vector<Curve>& curves,
-                            const CurveRefinementOptions& options = kOptions,
-                            const std::vector<Edge2d>& edges = {}) {
+std::vector<Curve> BridgeIn(
+    const std::vector<PosedView>& views,
+    const std::vector<Curve>& curves,
+    const CurveRefinementOptions& options = kBridgeOptions,
+    const std::vector<Edge2d>& edges = {}) {
   EdgeMap map;
   map.edges = edges;
   const std::vector<EdgeMap> maps(views.size(), map);
@@ -102,7 +103,7 @@ TEST(BridgeGaps, FillsALineWithoutClaimingSupport) {
 TEST(BridgeGaps, GapsAreLimited) {
   EXPECT_EQ(Bridge(BrokenLine(13)).size(), 1u);
   EXPECT_EQ(Bridge(BrokenLine(16)).size(), 2u);
-  CurveRefinementOptions options = kOptions;
+  CurveRefinementOptions options = kBridgeOptions;
   options.max_gap_px = 0;
   EXPECT_EQ(BridgeIn(FrontalViews(), BrokenLine(5), options).size(), 2u);
 }
@@ -110,14 +111,15 @@ TEST(BridgeGaps, GapsAreLimited) {
 TEST(BridgeGaps, LongGapsAreClosedWhereTheImagesShowThem) {
   std::vector<Edge2d> edges = ImageOfTheLine();
   const auto bridged =
-      BridgeIn(FrontalViews(), BrokenLine(25), kOptions, edges);
+      BridgeIn(FrontalViews(), BrokenLine(25), kBridgeOptions, edges);
   ASSERT_EQ(bridged.size(), 1u);
   for (const CurveSample& sample : bridged[0].samples) {
     EXPECT_FALSE(sample.support.empty());
   }
   edges.erase(edges.begin() + 130, edges.begin() + 150);  // 5 to 15 px
-  EXPECT_EQ(BridgeIn(FrontalViews(), BrokenLine(25), kOptions, edges).size(),
-            2u);
+  EXPECT_EQ(
+      BridgeIn(FrontalViews(), BrokenLine(25), kBridgeOptions, edges).size(),
+      2u);
 }
 
 TEST(BridgeGaps, SmallRingsClose) {

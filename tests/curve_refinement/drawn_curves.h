@@ -19,6 +19,9 @@ namespace curvix {
 // World units per pixel in the plane y = 0.
 inline constexpr double kPixel = 0.01;
 
+// Of the edges that a detector finds in images.
+inline constexpr double kEdgeSigmaPx = 0.15;
+
 // One camera before the plane y = 0, all of which is equally deep.
 inline std::vector<PosedView> FrontalViews() {
   return {LookAt({0, -8, 0}, {0, 0, 0})};

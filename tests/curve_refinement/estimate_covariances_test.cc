@@ -10,21 +10,13 @@
 
 #include "base/median.h"
 #include "curve_refinement/fit_to_images.h"
-#include "tests/curve_refinement/drawn_curves.h"
+#include "tests/curve_refinement/seen_curves.h"
 #include "tests/support/random.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kEdgeSigmaPx = 0.15;
-
-constexpr CurveRefinementOptions kOptions = {.smoothing_px = 2.5};
-
-struct SeenCurves {
-  std::vector<Curve> curves;
-  std::vector<PosedView> views;
-  std::vector<EdgeMap> edge_maps;
-};
+constexpr CurveRefinementOptions kFitOptions = {.smoothing_px = 2.5};
 
 // Views from directions `step` radian apart, on a wavy half circle.
 std::vector<PosedView> ViewsAround(int num_views, double step) {
@@ -69,9 +61,14 @@ void Disturb(double shared_px,
   }
 }
 
-std::vector<Curve> Estimate(const SeenCurves& seen) {
-  return EstimateCovariances(
-      seen.curves, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, kOptions, 1);
+std::vector<Curve> WithCovariances(const SeenCurves& seen) {
+  return EstimateCovariances(seen.curves,
+                             seen.views,
+                             seen.edge_maps,
+                             {},
+                             kEdgeSigmaPx,
+                             kFitOptions,
+                             1);
 }
 
 SeenCurves DisturbedLines(int num_lines,
@@ -114,9 +111,9 @@ TEST(EstimateCovariances, ErrorsAreAsLargeAsTheySay) {
                                 seen.edge_maps,
                                 {},
                                 kEdgeSigmaPx,
-                                kOptions,
+                                kFitOptions,
                                 1);
-      EXPECT_NEAR(NormalisedSpread(Estimate(seen)), 1, 0.3)
+      EXPECT_NEAR(NormalisedSpread(WithCovariances(seen)), 1, 0.3)
           << num_views << " views, " << shared_px << " and " << own_px << " px";
     }
   }
@@ -147,18 +144,22 @@ TEST(EstimateCovariances, TheSameViewAgainTellsNothingNew) {
       }
     }
   }
-  EXPECT_NEAR(MeanSigma(Estimate(twice)) / MeanSigma(Estimate(once)), 1, 0.1);
+  EXPECT_NEAR(
+      MeanSigma(WithCovariances(twice)) / MeanSigma(WithCovariances(once)),
+      1,
+      0.1);
 }
 
 TEST(EstimateCovariances, ViewsFarApartTellMore) {
   const SeenCurves few = DisturbedLines(20, ViewsAround(6, 0.5), 0.1, 0);
   const SeenCurves many = DisturbedLines(20, ViewsAround(24, 0.125), 0.1, 0);
-  EXPECT_LT(MeanSigma(Estimate(many)), 0.75 * MeanSigma(Estimate(few)));
+  EXPECT_LT(MeanSigma(WithCovariances(many)),
+            0.75 * MeanSigma(WithCovariances(few)));
 }
 
 TEST(EstimateCovariances, DepthIsLessSureThanTheImagePlane) {
   const SeenCurves seen = DisturbedLines(1, ViewsAround(5, 0.05), 0.05, 0);
-  const CurveSample sample = Estimate(seen)[0].samples[20];
+  const CurveSample sample = WithCovariances(seen)[0].samples[20];
   const Eigen::Vector3d depth(0, std::cos(0.1), -std::sin(0.1));
   const Eigen::Vector3d sideways = Eigen::Vector3d::UnitX().cross(depth);
   EXPECT_GT(depth.dot(sample.covariance * depth),
@@ -172,7 +173,7 @@ TEST(EstimateCovariances, DepthIsLessSureThanTheImagePlane) {
 
 TEST(EstimateCovariances, OneViewTellsNothing) {
   const SeenCurves seen = DisturbedLines(1, FrontalViews(), 0.05, 0);
-  const Curve line = Estimate(seen)[0];
+  const Curve line = WithCovariances(seen)[0];
   for (std::size_t k = 0; k < line.samples.size(); ++k) {
     EXPECT_EQ(line.samples[k].sigma, seen.curves[0].samples[k].sigma);
     EXPECT_EQ(line.samples[k].covariance, Eigen::Matrix3d::Zero());
@@ -182,17 +183,22 @@ TEST(EstimateCovariances, OneViewTellsNothing) {
 TEST(EstimateCovariances, DoesNotDependOnTheUnit) {
   const double factor = 1000;
   SeenCurves seen = DisturbedLines(2, ViewsAround(8, 0.25), 0.1, 0.05);
-  const double sigma = MeanSigma(Estimate(seen));
+  const double sigma = MeanSigma(WithCovariances(seen));
   seen.curves = Scaled(std::move(seen.curves), factor);
   seen.views = Scaled(std::move(seen.views), factor);
-  EXPECT_NEAR(MeanSigma(Estimate(seen)) / (factor * sigma), 1, 1e-9);
+  EXPECT_NEAR(MeanSigma(WithCovariances(seen)) / (factor * sigma), 1, 1e-9);
 }
 
 TEST(EstimateCovariances, ThreadsChangeNothing) {
   const SeenCurves seen = DisturbedLines(7, ViewsAround(8, 0.25), 0.1, 0.05);
-  const std::vector<Curve> one = Estimate(seen);
-  const std::vector<Curve> three = EstimateCovariances(
-      seen.curves, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, kOptions, 3);
+  const std::vector<Curve> one = WithCovariances(seen);
+  const std::vector<Curve> three = EstimateCovariances(seen.curves,
+                                                       seen.views,
+                                                       seen.edge_maps,
+                                                       {},
+                                                       kEdgeSigmaPx,
+                                                       kFitOptions,
+                                                       3);
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t k = 0; k < one[i].samples.size(); ++k) {
       EXPECT_EQ(one[i].samples[k].covariance, three[i].samples[k].covariance);

@@ -5,21 +5,13 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/curve_refinement/drawn_curves.h"
+#include "tests/curve_refinement/seen_curves.h"
 #include "tests/support/random.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kEdgeSigmaPx = 0.15;
-
 const ResponseCurve kResponse = {{0.5, 0.3}};
-
-struct SeenCurves {
-  std::vector<Curve> curves;
-  std::vector<PosedView> views;
-  std::vector<EdgeMap> edge_maps;
-};
 
 // A light and a dark side, as behind an edge of the object another background
 // may show in each view.
@@ -35,14 +27,10 @@ void SetSides(Random& random, Edge2d& edge) {
 
 // Eighty lines in eight views. All edges of a line in a view have the same
 // sides, and lie where `response` puts them, but for noise.
-SeenCurves See(const Eigen::Vector2d& response_px, int length_px = 40) {
+SeenCurves SeeLines(const Eigen::Vector2d& response_px, int length_px = 40) {
   Random random(3);
   SeenCurves seen;
-  for (int i = 0; i < 8; ++i) {
-    const double angle = 0.2 * i;
-    seen.views.push_back(LookAt(
-        {4 * std::sin(angle), -8, 1.5 * std::cos(2 * angle)}, {0, 0, 0}));
-  }
+  seen.views = EightViews();
   for (int i = 0; i < 80; ++i) {
     const double angle = std::numbers::pi * i / 80;
     const Eigen::Vector3d half =
@@ -71,61 +59,62 @@ SeenCurves See(const Eigen::Vector2d& response_px, int length_px = 40) {
   return seen;
 }
 
-Eigen::Vector2d Estimate(const SeenCurves& seen, int num_threads = 1) {
+Eigen::Vector2d EstimatedResponse(const SeenCurves& seen, int num_threads = 1) {
   return EstimateResponseCurve(
              seen.curves, seen.views, seen.edge_maps, kEdgeSigmaPx, num_threads)
       .px;
 }
 
 TEST(EstimateResponseCurve, IsFoundFromHowViewsDiffer) {
-  const Eigen::Vector2d found = Estimate(See(kResponse.px));
+  const Eigen::Vector2d found = EstimatedResponse(SeeLines(kResponse.px));
   EXPECT_LT((found - kResponse.px).norm(), 0.1);
 }
 
 TEST(EstimateResponseCurve, OneOfItsPartsMayBeAll) {
   const Eigen::Vector2d gamma(0.6, 0), shoulder(0, 0.6);
-  EXPECT_LT((Estimate(See(gamma)) - gamma).norm(), 0.1);
-  EXPECT_LT((Estimate(See(shoulder)) - shoulder).norm(), 0.1);
+  EXPECT_LT((EstimatedResponse(SeeLines(gamma)) - gamma).norm(), 0.1);
+  EXPECT_LT((EstimatedResponse(SeeLines(shoulder)) - shoulder).norm(), 0.1);
 }
 
 TEST(EstimateResponseCurve, WithoutResponseThereIsNone) {
-  EXPECT_LT(Estimate(See({0, 0})).norm(), 0.05);
+  EXPECT_LT(EstimatedResponse(SeeLines({0, 0})).norm(), 0.05);
 }
 
 TEST(EstimateResponseCurve, BrightnessDoesNotGrowFasterThanLight) {
-  EXPECT_EQ(Estimate(See(-kResponse.px)), Eigen::Vector2d::Zero());
+  EXPECT_EQ(EstimatedResponse(SeeLines(-kResponse.px)),
+            Eigen::Vector2d::Zero());
 }
 
 TEST(EstimateResponseCurve, OnePlaceInFourViewsTellsLittle) {
-  SeenCurves seen = See(kResponse.px, 8);
+  SeenCurves seen = SeeLines(kResponse.px, 8);
   seen.curves.resize(1);
   for (CurveSample& sample : seen.curves[0].samples) sample.support.resize(4);
-  EXPECT_LT(Estimate(seen).norm(), 0.2 * kResponse.px.norm());
+  EXPECT_LT(EstimatedResponse(seen).norm(), 0.2 * kResponse.px.norm());
 }
 
 TEST(EstimateResponseCurve, WithoutCurvesThereIsNone) {
-  EXPECT_EQ(Estimate({}), Eigen::Vector2d::Zero());
+  EXPECT_EQ(EstimatedResponse({}), Eigen::Vector2d::Zero());
 }
 
 TEST(EstimateResponseCurve, EdgesOfUnknownLevelTellNothing) {
-  SeenCurves seen = See(kResponse.px);
+  SeenCurves seen = SeeLines(kResponse.px);
   for (EdgeMap& map : seen.edge_maps) {
     for (Edge2d& edge : map.edges) edge.level = Eigen::half(0);
   }
-  EXPECT_EQ(Estimate(seen), Eigen::Vector2d::Zero());
+  EXPECT_EQ(EstimatedResponse(seen), Eigen::Vector2d::Zero());
 }
 
 TEST(EstimateResponseCurve, DoesNotDependOnTheUnit) {
-  SeenCurves seen = See(kResponse.px);
-  const Eigen::Vector2d found = Estimate(seen);
+  SeenCurves seen = SeeLines(kResponse.px);
+  const Eigen::Vector2d found = EstimatedResponse(seen);
   seen.curves = Scaled(std::move(seen.curves), 1000);
   seen.views = Scaled(std::move(seen.views), 1000);
-  EXPECT_LT((Estimate(seen) - found).norm(), 1e-6);
+  EXPECT_LT((EstimatedResponse(seen) - found).norm(), 1e-6);
 }
 
 TEST(EstimateResponseCurve, ThreadsChangeNothing) {
-  const SeenCurves seen = See(kResponse.px);
-  EXPECT_EQ(Estimate(seen, 1), Estimate(seen, 3));
+  const SeenCurves seen = SeeLines(kResponse.px);
+  EXPECT_EQ(EstimatedResponse(seen, 1), EstimatedResponse(seen, 3));
 }
 
 }  // namespace

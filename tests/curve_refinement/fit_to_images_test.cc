@@ -3,13 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/curve_refinement/drawn_curves.h"
+#include "tests/curve_refinement/seen_curves.h"
 #include "tests/support/random.h"
 
 namespace curvix {
 namespace {
-
-constexpr double kEdgeSigmaPx = 0.15;
 
 constexpr double kNoisePx = 0.3;
 
@@ -20,20 +18,16 @@ struct SeenCurve {
   std::vector<EdgeMap> edge_maps;
 };
 
-SeenCurve See(Curve curve) {
+SeenCurve SeeFromEightViews(Curve curve) {
   SeenCurve seen;
-  for (int i = 0; i < 8; ++i) {
-    const double angle = 0.2 * i;
-    seen.views.push_back(LookAt(
-        {4 * std::sin(angle), -8, 1.5 * std::cos(2 * angle)}, {0, 0, 0}));
-  }
+  seen.views = EightViews();
   std::vector<Curve> curves = {std::move(curve)};
   seen.edge_maps = SupportByEdges(seen.views, curves);
   seen.truth = std::move(curves[0]);
   return seen;
 }
 
-Curve WithNoise(Curve curve) {
+Curve Noisy(Curve curve) {
   Random random(11);
   for (CurveSample& sample : curve.samples) {
     sample.position += kNoisePx * kPixel * random.Across(sample.tangent);
@@ -44,7 +38,7 @@ Curve WithNoise(Curve curve) {
 Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
   CurveRefinementOptions options;
   options.smoothing_px = smoothing_px;
-  return FitToImages({WithNoise(seen.truth)},
+  return FitToImages({Noisy(seen.truth)},
                      seen.views,
                      seen.edge_maps,
                      {},
@@ -55,7 +49,8 @@ Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
 
 TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
   for (const double radius_px : {30.0, 100.0}) {
-    const SeenCurve seen = See(Arc(radius_px, 0, 2 * std::numbers::pi));
+    const SeenCurve seen =
+        SeeFromEightViews(Arc(radius_px, 0, 2 * std::numbers::pi));
     for (const CurveSample& sample : Fit(seen).samples) {
       EXPECT_NEAR(sample.position.norm() / kPixel, radius_px, 0.08);
       EXPECT_NEAR(sample.position.y() / kPixel, 0, 0.25);  // the depth
@@ -67,9 +62,10 @@ TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
 TEST(FitToImages, BlurDoesNotShrinkCircles) {
   const double radius_px = 30;
   const double blur_px = 1.2;
-  SeenCurve blurred = See(Arc(radius_px - blur_px * blur_px / (2 * radius_px),
-                              0,
-                              2 * std::numbers::pi));
+  SeenCurve blurred =
+      SeeFromEightViews(Arc(radius_px - blur_px * blur_px / (2 * radius_px),
+                            0,
+                            2 * std::numbers::pi));
   for (EdgeMap& map : blurred.edge_maps) {
     for (Edge2d& edge : map.edges) {
       edge.sharpness = static_cast<float>(1 / (blur_px * blur_px));
@@ -86,7 +82,7 @@ TEST(FitToImages, BlurDoesNotShrinkCircles) {
 }
 
 TEST(FitToImages, NoiseOfTheImagesIsSmoothedAway) {
-  SeenCurve seen = See(Line(InPlane(-50, 0), InPlane(50, 0)));
+  SeenCurve seen = SeeFromEightViews(Line(InPlane(-50, 0), InPlane(50, 0)));
   Random random(2);
   for (EdgeMap& map : seen.edge_maps) {
     for (Edge2d& edge : map.edges) {
@@ -108,7 +104,7 @@ TEST(FitToImages, ACornerIsNotRounded) {
   const Curve other = Line(InPlane(0, 1), InPlane(0, 40));
   corner.samples.insert(
       corner.samples.end(), other.samples.begin(), other.samples.end());
-  const SeenCurve seen = See(corner);
+  const SeenCurve seen = SeeFromEightViews(corner);
   const Curve fitted = Fit(seen);
   for (std::size_t k = 0; k < fitted.samples.size(); ++k) {
     EXPECT_LT((fitted.samples[k].position - corner.samples[k].position).norm(),
@@ -118,7 +114,7 @@ TEST(FitToImages, ACornerIsNotRounded) {
 }
 
 TEST(FitToImages, WrongEdgesHardlyPull) {
-  SeenCurve seen = See(Line(InPlane(-50, 0), InPlane(50, 0)));
+  SeenCurve seen = SeeFromEightViews(Line(InPlane(-50, 0), InPlane(50, 0)));
   for (Edge2d& edge : seen.edge_maps[3].edges) edge.position.y() += 1;
   for (const CurveSample& sample : Fit(seen).samples) {
     EXPECT_LT(sample.position.tail<2>().norm(), 0.1 * kPixel);
@@ -126,14 +122,14 @@ TEST(FitToImages, WrongEdgesHardlyPull) {
 }
 
 TEST(FitToImages, NoWidthMovesNothing) {
-  const SeenCurve seen = See(Arc(30, 0, 2));
-  EXPECT_EQ(LargestDistance({Fit(seen, 0)}, {WithNoise(seen.truth)}), 0);
+  const SeenCurve seen = SeeFromEightViews(Arc(30, 0, 2));
+  EXPECT_EQ(LargestDistance({Fit(seen, 0)}, {Noisy(seen.truth)}), 0);
 }
 
 TEST(FitToImages, DoesNotDependOnTheUnit) {
   const double factor = 1000;
-  const SeenCurve seen = See(Arc(40, 0, 3));
-  const std::vector<Curve> noisy = {WithNoise(seen.truth)};
+  const SeenCurve seen = SeeFromEightViews(Arc(40, 0, 3));
+  const std::vector<Curve> noisy = {Noisy(seen.truth)};
   const std::vector<Curve> fitted =
       FitToImages(noisy, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, {}, 1);
   const std::vector<Curve> large = FitToImages(Scaled(noisy, factor),

@@ -9,11 +9,11 @@
 namespace curvix {
 namespace {
 
-constexpr CurveRefinementOptions kOptions = {.junction_reach_px = 10,
-                                             .max_junction_gap_px = 1};
+constexpr CurveRefinementOptions kMeetOptions = {.junction_reach_px = 10,
+                                                 .max_junction_gap_px = 1};
 
 std::vector<Curve> Meet(const std::vector<Curve>& curves) {
-  return MeetAtJunctions(curves, FrontalViews(), kOptions);
+  return MeetAtJunctions(curves, FrontalViews(), kMeetOptions);
 }
 
 // From `gap_px` to 60 px away from `corner`.
@@ -107,7 +107,7 @@ TEST(MeetAtJunctions, ClosedCurvesAndShortOnesStay) {
 }
 
 TEST(MeetAtJunctions, NoReachChangesNothing) {
-  CurveRefinementOptions options = kOptions;
+  CurveRefinementOptions options = kMeetOptions;
   options.junction_reach_px = 0;
   EXPECT_EQ(
       LargestDistance(MeetAtJunctions(Corner(90, 4), FrontalViews(), options),
@@ -119,7 +119,7 @@ TEST(MeetAtJunctions, DoesNotDependOnTheUnit) {
   const double factor = 1000;
   const std::vector<Curve> curves = Corner(70, 5);
   const std::vector<Curve> met = MeetAtJunctions(
-      Scaled(curves, factor), Scaled(FrontalViews(), factor), kOptions);
+      Scaled(curves, factor), Scaled(FrontalViews(), factor), kMeetOptions);
   EXPECT_LT(LargestDistance(met, Scaled(Meet(curves), factor)), 1e-9 * factor);
 }
 

@@ -9,8 +9,7 @@
 namespace curvix {
 namespace {
 
-constexpr double kNoisePx = 0.1;
-constexpr double kEdgeSigmaPx = 0.15;
+constexpr double kRoughnessPx = 0.1;
 
 // The sides of a square of 100 px: noisy, broken in the middle, and not
 // reaching the corners; and a curve whose place the views hardly tell.
@@ -25,7 +24,7 @@ std::vector<Curve> RoughSquare() {
   }
   for (Curve& curve : curves) {
     for (CurveSample& sample : curve.samples) {
-      sample.position += kNoisePx * kPixel * random.Across(sample.tangent);
+      sample.position += kRoughnessPx * kPixel * random.Across(sample.tangent);
     }
   }
   curves.push_back(Line(InPlane(-20, 0), InPlane(20, 0)));
@@ -53,8 +52,8 @@ TEST(RefineCurves, DrawsASquareAsFourSidesBetweenCorners) {
         num_meeting += end.position == other.samples.back().position;
       }
       EXPECT_EQ(num_meeting, 2);
-      EXPECT_NEAR(std::abs(end.position.x()) / kPixel, 50, 3 * kNoisePx);
-      EXPECT_NEAR(std::abs(end.position.z()) / kPixel, 50, 3 * kNoisePx);
+      EXPECT_NEAR(std::abs(end.position.x()) / kPixel, 50, 3 * kRoughnessPx);
+      EXPECT_NEAR(std::abs(end.position.z()) / kPixel, 50, 3 * kRoughnessPx);
     }
   }
 }

@@ -13,10 +13,10 @@
 namespace curvix {
 namespace {
 
-constexpr CurveRefinementOptions kOptions = {.max_dilution = 2.5,
-                                             .max_blurred_share = 0.2};
+constexpr CurveRefinementOptions kSelectOptions = {.max_dilution = 2.5,
+                                                   .max_blurred_share = 0.2};
 constexpr double kGoodScatterPx = 0.1;
-constexpr double kEdgeSigmaPx = 0.2;
+constexpr double kSceneSigmaPx = 0.2;
 
 struct Drawn {
   double dilution = 1;
@@ -39,9 +39,9 @@ std::vector<PosedView> Around(int num_views) {
 // support them; blurred ones come from a third view, or, if they are half of
 // all or all, from one of the two or both. If all n views supported a curve,
 // its dilution would be sqrt(2 / n).
-class Scene {
+class DrawnScene {
  public:
-  explicit Scene(int num_views = 16)
+  explicit DrawnScene(int num_views = 16)
       : views_(Around(num_views)), edge_maps_(views_.size()) {
     for (int k = 0; k < 4000; ++k) {  // what else the views show
       for (EdgeMap& map : edge_maps_) {
@@ -63,7 +63,7 @@ class Scene {
     for (std::size_t k = 0; k < count; ++k) {
       CurveSample& sample = curve.samples[k];
       sample.evidence = idx;
-      sample.sigma = kEdgeSigmaPx * drawn.dilution * kPixel;
+      sample.sigma = kSceneSigmaPx * drawn.dilution * kPixel;
       const double offset_px =
           drawn.scatter_px / 1.4826 * (k % 2 == 0 ? 1 : -1);
       sample.support = {AddEdge(sample, 0, share >= 0.5, offset_px)};
@@ -80,14 +80,14 @@ class Scene {
     return idx;
   }
 
-  SelectedCurves Select(const CurveRefinementOptions& options = kOptions,
+  SelectedCurves Select(const CurveRefinementOptions& options = kSelectOptions,
                         double unit = 1) const {
     const std::vector<PosedView> views = Scaled(views_, unit);
     return SelectCurves(Scaled(curves_, unit),
                         views,
                         edge_maps_,
                         ImageSupport(views, edge_maps_, 1),
-                        kEdgeSigmaPx,
+                        kSceneSigmaPx,
                         options,
                         1);
   }
@@ -121,7 +121,7 @@ class Scene {
 enum class Kind { kEdge, kOccludingContour, kNone };
 
 // What becomes of a curve in a scene with two good ones.
-Kind KindOf(const Drawn& drawn, Scene scene = Scene()) {
+Kind KindOf(const Drawn& drawn, DrawnScene scene = DrawnScene()) {
   scene.Add({});
   scene.Add({});
   const double idx = scene.Add(drawn);
@@ -140,7 +140,7 @@ Kind KindOf(const Drawn& drawn, Scene scene = Scene()) {
 // above it.
 void ExpectLimit(double dilution,
                  const Drawn& drawn,
-                 const Scene& scene = Scene(),
+                 const DrawnScene& scene = DrawnScene(),
                  Kind beyond = Kind::kOccludingContour) {
   Drawn at_limit = drawn;
   at_limit.dilution = 0.999 * dilution;
@@ -159,9 +159,10 @@ TEST(SelectCurves, AsksForMoreWhereEdgesScatterMoreThanInThisScene) {
 }
 
 TEST(SelectCurves, AsksForLessWhereTheViewsCannotTellMore) {
-  ExpectLimit(6 * std::sqrt(2.0 / 8), {}, Scene(8));
-  ExpectLimit(1.6 * 2.5, {}, Scene(4));
-  ExpectLimit(1.6 * 2.5, {}, Scene(2));  // both in one plane with the curve
+  ExpectLimit(6 * std::sqrt(2.0 / 8), {}, DrawnScene(8));
+  ExpectLimit(1.6 * 2.5, {}, DrawnScene(4));
+  ExpectLimit(
+      1.6 * 2.5, {}, DrawnScene(2));  // both in one plane with the curve
 }
 
 // The two sharp views alone have a dilution of 1.
@@ -172,10 +173,10 @@ TEST(SelectCurves, AsksForMoreOfBlurredCurves) {
 }
 
 TEST(SelectCurves, AsksThatSharpViewsAloneTellThePlace) {
-  CurveRefinementOptions options = kOptions;
+  CurveRefinementOptions options = kSelectOptions;
   options.max_blurred_share = 0.9;
   for (const double share : {0.3, 0.5}) {
-    Scene scene;
+    DrawnScene scene;
     scene.Add({});
     scene.Add({.dilution = 0.1, .blurred_share = share});
     EXPECT_EQ(scene.Select(options).edges.size(), share < 0.5 ? 2u : 1u);
@@ -190,17 +191,17 @@ TEST(SelectCurves, LeavesShadingEdgesOut) {
 }
 
 TEST(SelectCurves, KeepsBlurredCurvesIfAsked) {
-  Scene scene;
+  DrawnScene scene;
   scene.Add({});
   scene.Add({.dilution = 2.4, .blurred_share = 1});
   scene.Add({.dilution = 2.6, .blurred_share = 1});
-  CurveRefinementOptions options = kOptions;
+  CurveRefinementOptions options = kSelectOptions;
   options.max_blurred_share = 1;
   EXPECT_EQ(scene.Select(options).edges.size(), 2u);
 }
 
 TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
-  Scene scene;
+  DrawnScene scene;
   for (int i = 0; i < 5; ++i) {
     scene.Add({.dilution = 5, .scatter_px = 0.5});
     scene.Add({.scatter_px = 0.5, .blurred_share = 0.1});
@@ -209,7 +210,7 @@ TEST(SelectCurves, LearnsTheScatterFromCurvesThatAreSharpAndWellKnown) {
 }
 
 TEST(SelectCurves, LearnsTheScatterFromSoftCurvesIfNoneIsSharp) {
-  Scene scene;
+  DrawnScene scene;
   for (const double dilution : {0.5, 2.4, 2.6}) {
     scene.Add({.dilution = dilution,
                .scatter_px = 5 * kGoodScatterPx,
@@ -223,15 +224,15 @@ TEST(SelectCurves, KeepsCurvesOfUnknownSigma) {
 }
 
 TEST(SelectCurves, KeepsAllIfAsked) {
-  Scene scene;
+  DrawnScene scene;
   scene.Add({.dilution = 1000, .blurred_share = 1});
-  CurveRefinementOptions options = kOptions;
+  CurveRefinementOptions options = kSelectOptions;
   options.max_dilution = 0;
   EXPECT_EQ(scene.Select(options).edges.size(), 1u);
 }
 
 TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
-  Scene scene;
+  DrawnScene scene;
   for (const double dilution : {1, 5, 2, 1, 6}) {
     scene.Add({.dilution = dilution});
     scene.Add({.dilution = 1, .blurred_share = 0.5});
@@ -251,12 +252,12 @@ TEST(SelectCurves, KeepsTheOrderAndLabelsContours) {
 }
 
 TEST(SelectCurves, DoesNotDependOnTheUnit) {
-  Scene scene;
+  DrawnScene scene;
   for (const double dilution : {1.0, 2.49, 2.51}) {
     scene.Add({.dilution = dilution});
   }
-  EXPECT_EQ(scene.Select(kOptions, 1000).edges.size(), 2u);
-  EXPECT_EQ(scene.Select(kOptions, 1).edges.size(), 2u);
+  EXPECT_EQ(scene.Select(kSelectOptions, 1000).edges.size(), 2u);
+  EXPECT_EQ(scene.Select(kSelectOptions, 1).edges.size(), 2u);
 }
 
 }  // namespace

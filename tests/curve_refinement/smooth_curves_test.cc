@@ -9,10 +9,10 @@
 namespace curvix {
 namespace {
 
-constexpr CurveRefinementOptions kOptions = {.smoothing_px = 2.5};
+constexpr CurveRefinementOptions kSmoothOptions = {.smoothing_px = 2.5};
 
 std::vector<Curve> Smooth(const std::vector<Curve>& curves) {
-  return SmoothCurves(curves, FrontalViews(), kOptions, 1);
+  return SmoothCurves(curves, FrontalViews(), kSmoothOptions, 1);
 }
 
 Curve WithNoise(Curve curve, double noise_px) {
@@ -92,7 +92,7 @@ TEST(SmoothCurves, ShortCurvesStay) {
 }
 
 TEST(SmoothCurves, NoWidthMovesNothing) {
-  CurveRefinementOptions options = kOptions;
+  CurveRefinementOptions options = kSmoothOptions;
   options.smoothing_px = 0;
   const std::vector<Curve> noisy = {WithNoise(LongLine(), 0.3)};
   EXPECT_EQ(
@@ -105,16 +105,17 @@ TEST(SmoothCurves, ThreadsChangeNothing) {
   for (int i = 1; i < 8; ++i) {
     noisy.push_back(WithNoise(Arc(10 * i, 0, 3), 0.1 * i));
   }
-  EXPECT_EQ(LargestDistance(SmoothCurves(noisy, FrontalViews(), kOptions, 3),
-                            Smooth(noisy)),
-            0);
+  EXPECT_EQ(
+      LargestDistance(SmoothCurves(noisy, FrontalViews(), kSmoothOptions, 3),
+                      Smooth(noisy)),
+      0);
 }
 
 TEST(SmoothCurves, DoesNotDependOnTheUnit) {
   const double factor = 1000;
   const std::vector<Curve> noisy = {WithNoise(Arc(40, 0, 4), 0.2)};
   const std::vector<Curve> smooth = SmoothCurves(
-      Scaled(noisy, factor), Scaled(FrontalViews(), factor), kOptions, 1);
+      Scaled(noisy, factor), Scaled(FrontalViews(), factor), kSmoothOptions, 1);
   EXPECT_LT(LargestDistance(smooth, Scaled(Smooth(noisy), factor)),
             1e-9 * factor);
 }

@@ -64,7 +64,7 @@ TEST(MarksOf, UprightTextIsReadFromTheRight) {
   }
 }
 
-TEST(Sheet, DimensionsAreEntitiesWithBlocks) {
+TEST(EncodeDxfSheet, DimensionsAreEntitiesWithBlocks) {
   Sheet sheet = MadeSheet();
   SheetDimension radius = Dimension({30, 30}, {60, 70});
   radius.is_radius = true;

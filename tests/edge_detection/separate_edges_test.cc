@@ -19,7 +19,7 @@ const Eigen::Vector2d kTangent(std::cos(kTurn), std::sin(kTurn));
 const Eigen::Vector2d kAcross(-std::sin(kTurn), std::cos(kTurn));
 
 // On a line so far across the others, brighter ahead if `strength` > 0.
-Edge2d EdgeAt(double across_px, double strength) {
+Edge2d EdgeAcross(double across_px, double strength) {
   Edge2d edge;
   edge.position = Eigen::Vector2d(50, 50) + across_px * kAcross;
   edge.angle =
@@ -56,13 +56,18 @@ struct TwoSteps {
   // What a detector finds of them.
   std::array<Edge2d, 2> Edges() const {
     const double first = PeakNear(0), second = PeakNear(distance_px);
-    return {EdgeAt(first, Gradient(first)), EdgeAt(second, Gradient(second))};
+    return {EdgeAcross(first, Gradient(first)),
+            EdgeAcross(second, Gradient(second))};
   }
 };
 
 // With more edges that stand alone.
 std::vector<Edge2d> AmongOthers(const std::array<Edge2d, 2>& edges) {
-  return {EdgeAt(-40, 20), edges[0], edges[1], EdgeAt(40, 20), EdgeAt(25, 20)};
+  return {EdgeAcross(-40, 20),
+          edges[0],
+          edges[1],
+          EdgeAcross(40, 20),
+          EdgeAcross(25, 20)};
 }
 
 TEST(SeparateEdges, TwoStepsStandWhereTheyAre) {
@@ -97,24 +102,24 @@ double MoveOfFirst(const std::vector<Edge2d>& edges) {
 }
 
 TEST(SeparateEdges, EdgesAloneStay) {
-  EXPECT_EQ(MoveOfFirst({EdgeAt(0, 20)}), 0);
-  EXPECT_EQ(MoveOfFirst({EdgeAt(0, 20), EdgeAt(6, -20)}), 0);
+  EXPECT_EQ(MoveOfFirst({EdgeAcross(0, 20)}), 0);
+  EXPECT_EQ(MoveOfFirst({EdgeAcross(0, 20), EdgeAcross(6, -20)}), 0);
 }
 
 TEST(SeparateEdges, EdgesOnTheSameLineStay) {
-  Edge2d next = EdgeAt(0.1, 20);
+  Edge2d next = EdgeAcross(0.1, 20);
   next.position += 0.5 * kTangent;
-  EXPECT_EQ(MoveOfFirst({EdgeAt(0, 20), next}), 0);
+  EXPECT_EQ(MoveOfFirst({EdgeAcross(0, 20), next}), 0);
 }
 
 TEST(SeparateEdges, EdgesThatCrossStay) {
-  Edge2d crossing = EdgeAt(3, 20);
+  Edge2d crossing = EdgeAcross(3, 20);
   crossing.angle += static_cast<float>(std::numbers::pi / 2);
-  EXPECT_EQ(MoveOfFirst({EdgeAt(0, 20), crossing}), 0);
+  EXPECT_EQ(MoveOfFirst({EdgeAcross(0, 20), crossing}), 0);
 }
 
 TEST(SeparateEdges, WithoutSharpnessAllStay) {
-  std::vector<Edge2d> edges = {EdgeAt(0, 20), EdgeAt(3, -20)};
+  std::vector<Edge2d> edges = {EdgeAcross(0, 20), EdgeAcross(3, -20)};
   for (Edge2d& edge : edges) edge.sharpness = 0;
   EXPECT_EQ(MoveOfFirst(edges), 0);
   std::vector<Edge2d> none;

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 constexpr double kNormalPx = 1.5;
 constexpr double kTangentialPx = 0.8;
 
-Edge2d At(double x, double y, double angle_rad) {
+Edge2d EdgeAtRad(double x, double y, double angle_rad) {
   Edge2d edge;
   edge.position = {x, y};
   edge.angle = static_cast<float>(angle_rad);
@@ -35,7 +35,7 @@ TEST(EdgePresence, NeverDeniesAnEdgeWithinReach) {
       const double angle = random.Uniform(-kPi, kPi);
       // Also at the border and beyond it.
       const Vector2d place(random.Uniform(-6, 46), random.Uniform(-6, 36));
-      const EdgePresence presence({At(place.x(), place.y(), angle)},
+      const EdgePresence presence({EdgeAtRad(place.x(), place.y(), angle)},
                                   40,
                                   30,
                                   kNormalPx,
@@ -56,7 +56,7 @@ TEST(EdgePresence, NeverDeniesAnEdgeWithinReach) {
 
 TEST(EdgePresence, DeniesFarPlacesAndOtherDirections) {
   const EdgePresence presence(
-      {At(20, 15, 0.3)}, 40, 30, kNormalPx, kTangentialPx, DegToRad(15));
+      {EdgeAtRad(20, 15, 0.3)}, 40, 30, kNormalPx, kTangentialPx, DegToRad(15));
   EXPECT_TRUE(presence.MayHave({20, 15}, Direction(0.3)));
   EXPECT_FALSE(presence.MayHave({20, 15}, Direction(0.3 + DegToRad(35))));
   EXPECT_FALSE(presence.MayHave({20, 15}, Direction(0.3 - DegToRad(35))));
@@ -74,9 +74,9 @@ TEST(EdgePresence, MayHaveWhatAnyOfTheEdgesMayHave) {
     return EdgePresence(some, 200, 90, kNormalPx, kTangentialPx, DegToRad(15));
   };
   for (int i = 0; i < 40; ++i) {
-    edges.push_back(At(random.Uniform(-6, 206),
-                       random.Uniform(-6, 96),
-                       random.Uniform(-kPi, kPi)));
+    edges.push_back(EdgeAtRad(random.Uniform(-6, 206),
+                              random.Uniform(-6, 96),
+                              random.Uniform(-kPi, kPi)));
     of_one.push_back(presence_of({edges.back()}));
   }
   const EdgePresence of_all = presence_of(edges);

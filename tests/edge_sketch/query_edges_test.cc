@@ -9,15 +9,15 @@
 namespace curvix {
 namespace {
 
-struct Contour {
+struct ContourSize {
   int num_edges = 0;
   float strength = 0;
 };
 
 // Contours one after the other.
-EdgeMap MapOf(const std::vector<Contour>& contours) {
+EdgeMap MapOf(const std::vector<ContourSize>& contours) {
   EdgeMap map;
-  for (const Contour& contour : contours) {
+  for (const ContourSize& contour : contours) {
     for (int i = 0; i < contour.num_edges; ++i) {
       const auto edge_idx = static_cast<std::int32_t>(map.edges.size());
       map.edges.emplace_back().strength = contour.strength;
@@ -31,7 +31,7 @@ EdgeMap MapOf(const std::vector<Contour>& contours) {
 
 // Whether all edges of the contour, or none, are among these.
 bool IsCandidate(const std::vector<bool>& are_candidates,
-                 const std::vector<Contour>& contours,
+                 const std::vector<ContourSize>& contours,
                  std::size_t contour_idx) {
   auto begin = are_candidates.begin();
   for (std::size_t i = 0; i < contour_idx; ++i) {
@@ -44,15 +44,15 @@ bool IsCandidate(const std::vector<bool>& are_candidates,
 
 TEST(AreSeedCandidates, WeighsLengthAndStrength) {
   // Of 101 edges the median has strength 1.
-  const std::vector<Contour> contours = {{51, 1},
-                                         {5, 1},
-                                         {6, 1},
-                                         {1, 5.5F},
-                                         {1, 6},
-                                         {2, 3},
-                                         {11, 0.5F},
-                                         {12, 0.5F},
-                                         {12, 0.25F}};
+  const std::vector<ContourSize> contours = {{51, 1},
+                                             {5, 1},
+                                             {6, 1},
+                                             {1, 5.5F},
+                                             {1, 6},
+                                             {2, 3},
+                                             {11, 0.5F},
+                                             {12, 0.5F},
+                                             {12, 0.25F}};
   const EdgeMap map = MapOf(contours);
   ASSERT_EQ(map.edges.size(), 101u);
   const std::vector<bool> are_candidates = AreSeedCandidates(map, {});

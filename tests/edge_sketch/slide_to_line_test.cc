@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 constexpr double kTolerancePx = 0.3;
 const Line2 kXAxis{{0, 1}, 0};
 
-Vector2d Direction(double degrees) {
+Vector2d DirectionDeg(double degrees) {
   return {std::cos(DegToRad(degrees)), std::sin(DegToRad(degrees))};
 }
 
@@ -29,7 +29,7 @@ std::optional<ImageEdge> Slide(double height_px,
                                double degrees,
                                const ConsolidationOptions& options = {}) {
   return SlideToLine(
-      {{10, height_px}, Direction(degrees)}, kXAxis, kTolerancePx, options);
+      {{10, height_px}, DirectionDeg(degrees)}, kXAxis, kTolerancePx, options);
 }
 
 TEST(SlideToLine, LandsOnTheLineAndKeepsItsTangent) {
@@ -38,7 +38,7 @@ TEST(SlideToLine, LandsOnTheLineAndKeepsItsTangent) {
     const auto moved = Slide(2, degrees);
     ASSERT_TRUE(moved);
     EXPECT_LT((moved->position - Vector2d(8, 0)).norm(), 1e-12);
-    EXPECT_LT(AngleDeg(moved->tangent, Direction(45)), 1e-6);
+    EXPECT_LT(AngleDeg(moved->tangent, DirectionDeg(45)), 1e-6);
   }
 }
 
@@ -63,7 +63,7 @@ TEST(SlideToLine, TurnsTowardsTheLineWhereTheSlideIsTooLong) {
         EXPECT_NEAR(moved->position.x(),
                     10 - sign * height / std::tan(DegToRad(30)),
                     1e-9);
-        EXPECT_LT(AngleDeg(moved->tangent, Direction(sign * 30)), 1e-6);
+        EXPECT_LT(AngleDeg(moved->tangent, DirectionDeg(sign * 30)), 1e-6);
       }
     }
   }
@@ -73,7 +73,7 @@ TEST(SlideToLine, TurnsNoFurtherThanTheNormalOfTheLine) {
   const auto moved = Slide(3 - 1e-9, 85);  // 3.01 px at 85 degrees, 3 at 90
   ASSERT_TRUE(moved);
   EXPECT_LT((moved->position - Vector2d(10, 0)).norm(), 1e-8);
-  EXPECT_LT(AngleDeg(moved->tangent, Direction(90)), 1e-6);
+  EXPECT_LT(AngleDeg(moved->tangent, DirectionDeg(90)), 1e-6);
 }
 
 TEST(SlideToLine, DropsWhatIsTooFarEvenTurned) {
@@ -90,7 +90,7 @@ TEST(SlideToLine, ShiftsAlongTheNormalWhatRunsAlongTheLineWithinTheTolerance) {
     const auto moved = Slide(height, 1, no_turn);
     ASSERT_TRUE(moved);
     EXPECT_LT((moved->position - Vector2d(10, 0)).norm(), 1e-12);
-    EXPECT_LT(AngleDeg(moved->tangent, Direction(1)), 1e-6);
+    EXPECT_LT(AngleDeg(moved->tangent, DirectionDeg(1)), 1e-6);
   }
   EXPECT_FALSE(Slide(0.31, 1, no_turn));
   EXPECT_FALSE(Slide(-0.31, 0, no_turn));
@@ -108,12 +108,12 @@ TEST(SlideToLine, DoesNotDependOnTheSignsOfNormalAndTangent) {
   Random random(1);
   ConsolidationOptions options;
   for (int trial = 0; trial < 2000; ++trial) {
-    const Vector2d normal = Direction(random.Uniform(-180, 180));
+    const Vector2d normal = DirectionDeg(random.Uniform(-180, 180));
     const Line2 line{normal, random.Uniform(-500, 500)};
     ImageEdge edge;
     // Some run exactly along the line.
     edge.tangent = trial % 10 == 0 ? line.Direction()
-                                   : Direction(random.Uniform(-180, 180));
+                                   : DirectionDeg(random.Uniform(-180, 180));
     edge.position = random.Uniform(-500, 500) * line.Direction() +
                     (random.Uniform(-3.5, 3.5) - line.offset) * normal;
     options.max_turn_deg = trial % 3 == 0 ? 0 : 10;
@@ -140,7 +140,7 @@ TEST(SlideToLine, NeverMovesFurtherThanTheLongestSlide) {
   int moved_count = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const ImageEdge edge{{0, random.Uniform(-3.5, 3.5)},
-                         Direction(random.Uniform(-180, 180))};
+                         DirectionDeg(random.Uniform(-180, 180))};
     const auto moved = SlideToLine(edge, kXAxis, kTolerancePx, {});
     if (!moved) continue;
     ++moved_count;

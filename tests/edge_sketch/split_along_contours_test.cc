@@ -13,7 +13,7 @@ namespace {
 using EdgeIdxs = std::vector<std::int32_t>;
 
 // A contour through all of `num_edges`, from the first to the last.
-std::vector<EdgeNeighbors> Contour(std::int32_t num_edges) {
+std::vector<EdgeNeighbors> ContourThrough(std::int32_t num_edges) {
   std::vector<EdgeNeighbors> neighbors(static_cast<std::size_t>(num_edges));
   for (std::int32_t i = 0; i + 1 < num_edges; ++i) {
     neighbors[static_cast<std::size_t>(i)].next = i + 1;
@@ -29,19 +29,19 @@ EdgeIdxs UpTo(std::int32_t num_edges) {
 }
 
 TEST(SplitAlongContours, TakesEveryOtherEdgeOfAContourFirst) {
-  const TwoTurns turns = SplitAlongContours(UpTo(5), Contour(5), 2);
+  const TwoTurns turns = SplitAlongContours(UpTo(5), ContourThrough(5), 2);
   EXPECT_EQ(turns.first, (EdgeIdxs{0, 2, 4}));
   EXPECT_EQ(turns.second, (EdgeIdxs{1, 3}));
 }
 
 TEST(SplitAlongContours, TakesFewerWithALargerStep) {
-  const TwoTurns turns = SplitAlongContours(UpTo(10), Contour(10), 4);
+  const TwoTurns turns = SplitAlongContours(UpTo(10), ContourThrough(10), 4);
   EXPECT_EQ(turns.first, (EdgeIdxs{0, 4, 8}));
   EXPECT_EQ(turns.second, (EdgeIdxs{1, 2, 3, 5, 6, 7, 9}));
 }
 
 TEST(SplitAlongContours, CountsOnlyTheEdgesThatAreAsked) {
-  const TwoTurns turns = SplitAlongContours({1, 2, 4}, Contour(5), 2);
+  const TwoTurns turns = SplitAlongContours({1, 2, 4}, ContourThrough(5), 2);
   EXPECT_EQ(turns.first, (EdgeIdxs{1, 4}));
   EXPECT_EQ(turns.second, (EdgeIdxs{2}));
 }

@@ -17,12 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr int kNotInstalled = 77;
 constexpr int kNumViews = 12;
-
-std::string Source(const std::string& path) {
-  return Quoted(std::string(CURVIX_SOURCE_DIR) + "/" + path);
-}
 
 // One run for all tests: a small part with lines, arcs and circles. The first
 // of its curves gets a kind.
@@ -82,9 +77,10 @@ TEST_F(AddOns, BlenderShowsCurvesAndCameras) {
   ASSERT_TRUE(WriteColmapModel(*model, text_model, ColmapFormat::kText).ok());
   const Outcome outcome = RunInShell(
       "blender --background --factory-startup --python-exit-code 1 --python " +
-      Source("tests/end_to_end/import_in_blender.py") + " -- " +
-      Source("plugin/blender/curvix_blender.py") + " " + Quoted(curves_path_) +
-      " " + Quoted(text_model) + " " + Quoted(workspace_ / "images") + " 2>&1");
+      Quoted(Source("tests/end_to_end/import_in_blender.py")) + " -- " +
+      Quoted(Source("plugin/blender/curvix_blender.py")) + " " +
+      Quoted(curves_path_) + " " + Quoted(text_model) + " " +
+      Quoted(workspace_ / "images") + " 2>&1");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string mark = "\nSEEN ";
   const std::size_t at = outcome.output.find(mark);
@@ -100,8 +96,9 @@ TEST_F(AddOns, BlenderShowsCurvesAndCameras) {
 
 TEST_F(AddOns, FreeCadHasEdgesAndSketches) {
   const Outcome outcome = RunInShell(
-      "/usr/bin/python3 " + Source("tests/end_to_end/import_in_freecad.py") +
-      " " + Source("plugin/freecad/curvix.FCMacro") + " " +
+      "/usr/bin/python3 " +
+      Quoted(Source("tests/end_to_end/import_in_freecad.py")) + " " +
+      Quoted(Source("plugin/freecad/curvix.FCMacro")) + " " +
       Quoted(curves_path_) + " 2>" + Quoted(folder_->path() / "log"));
   if (outcome.exit_code == kNotInstalled) {
     GTEST_SKIP() << "no freecad-python3";

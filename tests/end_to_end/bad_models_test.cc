@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 
+#include "base/infinity.h"
 #include "tests/end_to_end/bad_workspace.h"
 #include "tests/plugin/posed_points.h"
 
@@ -12,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::string InModel(const std::string& name) { return "sparse/0/" + name; }
 

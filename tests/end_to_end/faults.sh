@@ -5,4 +5,5 @@
 #   tests/end_to_end/faults.sh [rounds: 30] [build folder: build-tests]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-CURVIX_FAULT_ROUNDS="${1:-30}" "${2:-build-tests}/tests/end_to_end_faults_test"
+CURVIX_FAULT_ROUNDS="${1:-30}" "${2:-build-tests}/tests/end_to_end_tests" \
+  --gtest_filter='*Faults.*'

@@ -21,14 +21,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr int kNotInstalled = 77;
-
 bool IsInstalled(const std::string& program) {
   return RunInShell("command -v " + program).exit_code == 0;
-}
-
-std::string Source(const std::string& path) {
-  return std::string(CURVIX_SOURCE_DIR) + "/" + path;
 }
 
 // One run for all tests: a lathe-turned part in a dozen small photographs, one

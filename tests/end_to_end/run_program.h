@@ -13,6 +13,9 @@
 
 namespace curvix {
 
+// The exit code of scripts that miss what they need.
+inline constexpr int kNotInstalled = 77;
+
 struct Outcome {
   int exit_code = -1;  // -1: ended by a signal
   std::string output;  // stdout
@@ -38,6 +41,11 @@ inline Outcome RunProgram(const std::string& arguments) {
 
 inline std::string Quoted(const std::filesystem::path& path) {
   return "'" + path.string() + "'";
+}
+
+// A file of the repository.
+inline std::string Source(const std::string& path) {
+  return std::string(CURVIX_SOURCE_DIR) + "/" + path;
 }
 
 inline std::string Read(const std::filesystem::path& path) {

@@ -8,8 +8,6 @@
 namespace curvix {
 namespace {
 
-constexpr int kNotInstalled = 77;
-
 TEST(Workspaces, AreAsThePageSays) {
   const std::string source = CURVIX_SOURCE_DIR;
   const Outcome outcome = RunInShell(

@@ -8,45 +8,37 @@
 
 #include "evaluation/evaluate.h"
 #include "plugin/commands/evaluations.h"
+#include "tests/evaluation/true_line.h"
 
 namespace curvix {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kStep = 0.002;
 constexpr CurveKind kUnknown = CurveKind::kUnknown;
 constexpr CurveKind kCrease = CurveKind::kCrease;
 constexpr CurveKind kBoundary = CurveKind::kBoundary;
 constexpr CurveKind kMarking = CurveKind::kMarking;
 constexpr CurveKind kContour = CurveKind::kOccludingContour;
 
-// The segment from (0, y, 0) to (1, y, 0) as samples in the middle of each
-// step.
-void AddTrueLine(double y, CurveKind kind, int num_views, GroundTruth& truth) {
+// The segment from (0, y, 0) to (1, y, 0).
+void AddTrueMetre(double y, CurveKind kind, int num_views, GroundTruth& truth) {
   const int id = static_cast<int>(truth.samples.size());
-  for (int i = 0; i < 500; ++i) {
-    truth.samples.push_back({{(i + 0.5) * kStep, y, 0},
-                             Eigen::Vector3d::UnitX(),
-                             id,
-                             num_views,
-                             num_views,
-                             kind});
-  }
+  AddTrueLine({0, y, 0}, {1, y, 0}, id, num_views, truth, kind);
   truth.has_kinds |= kind != kUnknown;
 }
 
 // A metre each of a crease, a boundary and a marking.
 GroundTruth ThreeLines() {
   GroundTruth truth;
-  AddTrueLine(0, kCrease, 9, truth);
-  AddTrueLine(1, kBoundary, 9, truth);
-  AddTrueLine(2, kMarking, 9, truth);
+  AddTrueMetre(0, kCrease, 9, truth);
+  AddTrueMetre(1, kBoundary, 9, truth);
+  AddTrueMetre(2, kMarking, 9, truth);
   return truth;
 }
 
 // From (from, y, 0) to (to, y, 0).
-Curve Line(double y, double from, double to, CurveKind kind) {
+Curve LineOfKind(double y, double from, double to, CurveKind kind) {
   Curve curve;
   for (const double x : {from, to}) {
     CurveSample& sample = curve.samples.emplace_back();
@@ -69,9 +61,9 @@ double Said(const TrueKind& kind, CurveKind said) {
 }
 
 TEST(EvaluateKinds, TheTruthItselfIsAllRight) {
-  const KindAgreement kinds = Kinds({Line(0, 0, 1, kCrease),
-                                     Line(1, 0, 1, kBoundary),
-                                     Line(2, 0, 1, kMarking)},
+  const KindAgreement kinds = Kinds({LineOfKind(0, 0, 1, kCrease),
+                                     LineOfKind(1, 0, 1, kBoundary),
+                                     LineOfKind(2, 0, 1, kMarking)},
                                     ThreeLines());
   EXPECT_NEAR(*kinds.right, 100, 1e-9);
   ASSERT_EQ(kinds.kinds.size(), 3u);
@@ -88,11 +80,11 @@ TEST(EvaluateKinds, TheTruthItselfIsAllRight) {
 }
 
 TEST(EvaluateKinds, LengthsGoWhereTheyAreAndAsTheyAreSaid) {
-  const KindAgreement kinds = Kinds({Line(0, 0, 0.75, kCrease),
-                                     Line(0, 0.75, 1, kMarking),
-                                     Line(1, 0, 0.5, kUnknown),
-                                     Line(2, 0, 0.5, kCrease),
-                                     Line(2.5, 0, 0.3, kContour)},
+  const KindAgreement kinds = Kinds({LineOfKind(0, 0, 0.75, kCrease),
+                                     LineOfKind(0, 0.75, 1, kMarking),
+                                     LineOfKind(1, 0, 0.5, kUnknown),
+                                     LineOfKind(2, 0, 0.5, kCrease),
+                                     LineOfKind(2.5, 0, 0.3, kContour)},
                                     ThreeLines());
   const TrueKind& crease = kinds.kinds[0];
   EXPECT_NEAR(Said(crease, kCrease), 750, 1e-6);
@@ -109,7 +101,7 @@ TEST(EvaluateKinds, LengthsGoWhereTheyAreAndAsTheyAreSaid) {
 }
 
 TEST(EvaluateKinds, AKindChangesHalfwayBetweenTwoSamples) {
-  Curve curve = Line(0, 0, 1, kCrease);
+  Curve curve = LineOfKind(0, 0, 1, kCrease);
   curve.samples[1].kind = kMarking;
   const KindAgreement kinds = Kinds({curve}, ThreeLines());
   EXPECT_NEAR(Said(kinds.kinds[0], kCrease), 500, 2);
@@ -118,9 +110,9 @@ TEST(EvaluateKinds, AKindChangesHalfwayBetweenTwoSamples) {
 
 TEST(EvaluateKinds, TheNearerOfTwoTrueCurvesCounts) {
   GroundTruth truth;
-  AddTrueLine(0, kCrease, 9, truth);
-  AddTrueLine(0.004, kMarking, 9, truth);
-  const KindAgreement kinds = Kinds({Line(0.0015, 0, 1, kCrease)}, truth);
+  AddTrueMetre(0, kCrease, 9, truth);
+  AddTrueMetre(0.004, kMarking, 9, truth);
+  const KindAgreement kinds = Kinds({LineOfKind(0.0015, 0, 1, kCrease)}, truth);
   EXPECT_NEAR(Said(kinds.kinds[0], kCrease), 1000, 1e-6);
   EXPECT_EQ(Said(kinds.kinds[1], kCrease), 0);
   EXPECT_FALSE(kinds.kinds[1].right.has_value());
@@ -128,8 +120,8 @@ TEST(EvaluateKinds, TheNearerOfTwoTrueCurvesCounts) {
 
 TEST(EvaluateKinds, WhatFewViewsSeeCountsInTheLengthAlone) {
   GroundTruth truth = ThreeLines();
-  AddTrueLine(3, kMarking, 2, truth);
-  const KindAgreement kinds = Kinds({Line(2, 0, 1, kMarking)}, truth);
+  AddTrueMetre(3, kMarking, 2, truth);
+  const KindAgreement kinds = Kinds({LineOfKind(2, 0, 1, kMarking)}, truth);
   EXPECT_NEAR(kinds.kinds[2].length_mm, 2000, 1e-6);
   EXPECT_NEAR(kinds.kinds[2].visible_length_mm, 1000, 1e-6);
   EXPECT_NEAR(*kinds.kinds[2].visible_recall_5, 100, 1e-9);
@@ -137,9 +129,9 @@ TEST(EvaluateKinds, WhatFewViewsSeeCountsInTheLengthAlone) {
 
 TEST(EvaluateKinds, TruthOfAnUnknownKindIsNeitherRightNorWrong) {
   GroundTruth truth = ThreeLines();
-  AddTrueLine(3, kUnknown, 9, truth);
-  const KindAgreement kinds =
-      Kinds({Line(0, 0, 1, kCrease), Line(3, 0, 1, kCrease)}, truth);
+  AddTrueMetre(3, kUnknown, 9, truth);
+  const KindAgreement kinds = Kinds(
+      {LineOfKind(0, 0, 1, kCrease), LineOfKind(3, 0, 1, kCrease)}, truth);
   EXPECT_NEAR(*kinds.right, 100, 1e-9);
   EXPECT_EQ(kinds.kinds[0].kind, kUnknown);
   EXPECT_FALSE(kinds.kinds[0].right.has_value());
@@ -148,8 +140,9 @@ TEST(EvaluateKinds, TruthOfAnUnknownKindIsNeitherRightNorWrong) {
 
 TEST(EvaluateKinds, WithoutKindsInTheTruthThereAreNone) {
   GroundTruth truth;
-  AddTrueLine(0, kUnknown, 9, truth);
-  const auto evaluation = EvaluateCurves({{Line(0, 0, 1, kCrease)}}, truth, {});
+  AddTrueMetre(0, kUnknown, 9, truth);
+  const auto evaluation =
+      EvaluateCurves({{LineOfKind(0, 0, 1, kCrease)}}, truth, {});
   EXPECT_FALSE(evaluation->kinds.has_value());
   std::ostringstream table, json;
   PrintEvaluation(*evaluation, EvaluationFormat::kTable, table);
@@ -159,10 +152,10 @@ TEST(EvaluateKinds, WithoutKindsInTheTruthThereAreNone) {
 }
 
 TEST(EvaluateKinds, ArePrintedAsATableAndAsJson) {
-  const auto evaluation =
-      EvaluateCurves({{Line(0, 0, 0.75, kCrease), Line(0, 0.75, 1, kMarking)}},
-                     ThreeLines(),
-                     {});
+  const auto evaluation = EvaluateCurves(
+      {{LineOfKind(0, 0, 0.75, kCrease), LineOfKind(0, 0.75, 1, kMarking)}},
+      ThreeLines(),
+      {});
   std::ostringstream table, text;
   PrintEvaluation(*evaluation, EvaluationFormat::kTable, table);
   EXPECT_THAT(

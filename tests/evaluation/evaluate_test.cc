@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation/evaluate.h"
 #include "plugin/commands/evaluations.h"
+#include "tests/evaluation/true_line.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,8 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kStep = 0.002;
-
 Curve Polyline(const std::vector<Eigen::Vector3d>& points) {
   Curve curve;
   for (const Eigen::Vector3d& point : points) {
@@ -24,22 +23,6 @@ Curve Polyline(const std::vector<Eigen::Vector3d>& points) {
     curve.samples.push_back(sample);
   }
   return curve;
-}
-
-// A segment as samples in the middle of each step, seen by `num_views`.
-void AddTrueLine(const Eigen::Vector3d& from,
-                 const Eigen::Vector3d& to,
-                 int curve_id,
-                 int num_views,
-                 GroundTruth& truth) {
-  const double length = (to - from).norm();
-  const Eigen::Vector3d tangent = (to - from) / length;
-  const int n = static_cast<int>(std::lround(length / kStep));
-  for (int i = 0; i < n; ++i) {
-    const Eigen::Vector3d position = from + (i + 0.5) * kStep * tangent;
-    truth.samples.push_back(
-        {position, tangent, curve_id, num_views, num_views});
-  }
 }
 
 // One true line along x, one metre long.

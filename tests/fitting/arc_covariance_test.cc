@@ -4,9 +4,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/angles.h"
 #include "fitting/fit_conic.h"
 #include "gtest/gtest.h"
 #include "tests/support/random.h"
@@ -15,17 +15,16 @@ namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi;
-constexpr double kSigma = 0.001;
+constexpr double kArcSigma = 0.001;
 constexpr double kRadius = 0.4;
-const Vector3d kCenter(0.3, -0.2, 0.5);
+const Vector3d kArcCenter(0.3, -0.2, 0.5);
 
 // One curve: a line, the arc of `sweep` that goes on from it, a line. With a
 // corner of a quarter turn at both joints, or smoothly.
 CurveSet ArcBetweenLines(double sweep, bool has_corners, Random& random) {
   std::vector<Vector3d> points;
   const auto on_arc = [&](double t) -> Vector3d {
-    return kCenter + kRadius * Vector3d(std::cos(t), std::sin(t), 0);
+    return kArcCenter + kRadius * Vector3d(std::cos(t), std::sin(t), 0);
   };
   const auto along = [&](double t) -> Vector3d {
     return has_corners ? Vector3d(std::cos(t), std::sin(t), 0)
@@ -49,8 +48,8 @@ CurveSet ArcBetweenLines(double sweep, bool has_corners, Random& random) {
     s.tangent = (points[next] - points[i > 0 ? i - 1 : 0]).normalized();
     const Eigen::Matrix3d across =
         Eigen::Matrix3d::Identity() - s.tangent * s.tangent.transpose();
-    s.position = points[i] + kSigma * across * random.NormalVector();
-    s.sigma = kSigma;
+    s.position = points[i] + kArcSigma * across * random.NormalVector();
+    s.sigma = kArcSigma;
   }
   return set;
 }
@@ -69,7 +68,7 @@ Eigen::Array2d Normalised(double sweep, bool has_corners) {
       ++num_arcs;
       const double error = fit.major.norm() - kRadius;
       radius += std::pow(error / fit.radius_sigma, 2);
-      const Vector3d off = fit.center - kCenter;
+      const Vector3d off = fit.center - kArcCenter;
       const Eigen::Matrix3d covariance =
           fit.arc_covariance.topLeftCorner<3, 3>();
       center += off.dot(covariance.ldlt().solve(off)) / 3;
@@ -97,7 +96,7 @@ TEST(FitThrough, ReachesNodesThatAreFarFromAShallowArc) {
   FitSamples samples;
   for (int i = 0; i <= 50; ++i) {
     samples.push_back(
-        {arc.At(0.01 * i), kSigma, 0, 0, Eigen::Matrix3d::Zero()});
+        {arc.At(0.01 * i), kArcSigma, 0, 0, Eigen::Matrix3d::Zero()});
   }
   for (const double move : {-0.02, -0.012, 0.005, 0.02}) {
     for (const Vector3d& aside : {Vector3d(0, 0, 0), Vector3d(0, 0, 0.01)}) {
@@ -107,7 +106,7 @@ TEST(FitThrough, ReachesNodesThatAreFarFromAShallowArc) {
       ASSERT_TRUE(through) << move;
       for (const Vector3d& node : {start, end}) {
         const Vector3d foot = through->At(NearestParameter(*through, node));
-        EXPECT_LT((foot - node).norm(), 0.1 * kSigma) << move;
+        EXPECT_LT((foot - node).norm(), 0.1 * kArcSigma) << move;
       }
       EXPECT_EQ(through->a, through->b);
     }

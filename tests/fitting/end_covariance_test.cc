@@ -14,7 +14,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSigma = 0.001;
+constexpr double kBoxSigma = 0.001;
 
 // Three edges of a box that meet at the origin; independent errors. A sample is
 // better known along z than across it, as depth is worse than the image.
@@ -28,7 +28,7 @@ CurveSet Corner(Random& random) {
       CurveSample& s = curve.samples.emplace_back();
       s.tangent = along;
       s.position = i / 60.0 * along;
-      const Vector3d sigmas = kSigma * across * Vector3d(1, 1, 0.2);
+      const Vector3d sigmas = kBoxSigma * across * Vector3d(1, 1, 0.2);
       s.covariance = sigmas.cwiseAbs2().asDiagonal();
       s.sigma = std::sqrt(s.covariance.trace() / 2);
       if (i > 0) s.position += sigmas.cwiseProduct(random.NormalVector());

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/angles.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/support/random.h"
@@ -19,7 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::ElementsAre;
-constexpr double kPi = std::numbers::pi;
 constexpr double kSigma = 0.001;
 
 // `n` samples of position(t), t from 0 to 1, with errors of kSigma.

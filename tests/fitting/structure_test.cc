@@ -17,18 +17,18 @@ namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kSigma = 0.0005;
+constexpr double kPartSigma = 0.0005;
 constexpr int kSteps = 60;
 
 void Measure(Curve& curve, Random& random) {
   const std::size_t n = curve.samples.size();
   for (std::size_t i = 0; i < n; ++i) {
     CurveSample& s = curve.samples[i];
-    s.sigma = kSigma;
+    s.sigma = kPartSigma;
     const bool is_junction = !curve.closed && (i == 0 || i + 1 == n);
     const Eigen::Matrix3d across =
         Eigen::Matrix3d::Identity() - s.tangent * s.tangent.transpose();
-    if (!is_junction) s.position += kSigma * across * random.NormalVector();
+    if (!is_junction) s.position += kPartSigma * across * random.NormalVector();
   }
 }
 
@@ -86,7 +86,7 @@ CurveSet Part(std::uint64_t seed) {
   return set;
 }
 
-FittedCurves Fit(const CurveSet& set, bool regularize) {
+FittedCurves FitPart(const CurveSet& set, bool regularize) {
   CurveFittingOptions options;
   options.regularize = regularize;
   return FitCurves(set, {}, options, 1);
@@ -109,7 +109,7 @@ using testing::ElementsAre;
 using testing::IsSupersetOf;
 
 TEST(Structure, OfAPart) {
-  const FitStructure structure = Fit(Part(5), false).structure;
+  const FitStructure structure = FitPart(Part(5), false).structure;
   EXPECT_THAT(Groups(structure, GroupKind::kParallel),
               ElementsAre(ElementsAre(0, 2, 4, 6, 8, 10),
                           ElementsAre(1, 3, 5, 7, 9, 11),
@@ -138,8 +138,8 @@ TEST(Structure, MovesWithTheWorld) {
   for (const Curve& curve : Part(5).curves) {
     moved.curves.push_back(MoveCurve(s, curve));
   }
-  const FitStructure one = MoveFits(s, Fit(Part(5), true)).structure;
-  const FitStructure two = Fit(moved, true).structure;
+  const FitStructure one = MoveFits(s, FitPart(Part(5), true)).structure;
+  const FitStructure two = FitPart(moved, true).structure;
   ASSERT_EQ(one.groups.size(), two.groups.size());
   for (std::size_t g = 0; g < one.groups.size(); ++g) {
     const FitGroup& a = one.groups[g];
@@ -162,7 +162,7 @@ TEST(Structure, OfUncertainLinesIsNotFound) {
   for (Curve& curve : set.curves) {
     for (CurveSample& s : curve.samples) s.sigma = 0.1;
   }
-  EXPECT_TRUE(Fit(set, false).structure.groups.empty());
+  EXPECT_TRUE(FitPart(set, false).structure.groups.empty());
 }
 
 double SumOfSquares(const FittedCurves& fitted) {
@@ -200,7 +200,7 @@ void ExpectHeld(const FittedCurves& fitted) {
         EXPECT_NEAR(fit.major.norm(), first.major.norm(), kExact);
       } else if (group.kind == GroupKind::kCoplanar) {
         // The plane turns a little.
-        EXPECT_NEAR(normal.dot(fit.start - first.start), 0, 3 * kSigma);
+        EXPECT_NEAR(normal.dot(fit.start - first.start), 0, 3 * kPartSigma);
       } else {
         EXPECT_NEAR(Axis(fitted, i).cross(axis).norm(), 0, kExact);
       }
@@ -217,8 +217,8 @@ void ExpectHeld(const FittedCurves& fitted) {
 TEST(Regularize, HoldsWhatWasFoundAndComesNearerToTheTruth) {
   double before = 0, after = 0;
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const FittedCurves free = Fit(Part(seed), false);
-    const FittedCurves fitted = Fit(Part(seed), true);
+    const FittedCurves free = FitPart(Part(seed), false);
+    const FittedCurves fitted = FitPart(Part(seed), true);
     before += SumOfSquares(free);
     after += SumOfSquares(fitted);
     ExpectHeld(fitted);

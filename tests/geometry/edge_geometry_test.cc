@@ -33,10 +33,6 @@ SpaceEdge RandomEdge(Random& random) {
   return {0.5 * random.UnitVector(), random.UnitVector()};
 }
 
-Vector2d PixelOf(const PosedView& view, const Vector3d& x) {
-  return view.Pixel(view.InCamera(x));
-}
-
 TEST(TriangulateEdge, UndoesProjection) {
   Random random(1);
   int triangulated = 0;

@@ -60,10 +60,6 @@ Vector3d RandomPoint(Random& random) {
                   random.Uniform(3, 7));
 }
 
-Vector2d PixelOf(const PosedView& view, const Vector3d& x) {
-  return view.Pixel(view.InCamera(x));
-}
-
 TEST(EpipolarPencil, GivesAPointTheSameAngleInBothViews) {
   Random random(1);
   for (const Rig& rig : Rigs()) {

@@ -9,7 +9,7 @@
 namespace curvix {
 namespace {
 
-constexpr double kSigmaPx = 0.5;
+constexpr double kContourSigmaPx = 0.5;
 constexpr double kRadius = 0.05;  // some six pixels
 
 // What the views of one side see of an upright cylinder around the origin: the
@@ -44,9 +44,9 @@ OccludingContour AdjustTwice(
     const OccludingContour& start,
     const std::vector<PlaneMeasurement>& measurements) {
   return AdjustOccludingContour(
-      AdjustOccludingContour(start, measurements, kSigmaPx),
+      AdjustOccludingContour(start, measurements, kContourSigmaPx),
       measurements,
-      kSigmaPx);
+      kContourSigmaPx);
 }
 
 double DistanceOfAxisFromOrigin(const OccludingContour& contour) {
@@ -57,7 +57,7 @@ TEST(AdjustOccludingContour, FindsAxisAndRadiusOfACylinder) {
   const auto measurements = MeasureCylinder(kRadius, 5);
   OccludingContour contour = StartAt({0.01, 0.045, 0});
   for (int i = 0; i < 4; ++i)
-    contour = AdjustOccludingContour(contour, measurements, kSigmaPx);
+    contour = AdjustOccludingContour(contour, measurements, kContourSigmaPx);
   EXPECT_NEAR(std::abs(contour.radius), kRadius, 0.02 * kRadius);
   EXPECT_LT(DistanceOfAxisFromOrigin(contour), 0.02 * kRadius);
 }
@@ -109,7 +109,7 @@ TEST(AdjustOccludingContour, KeepsItsSideWhenAskedAgain) {
   const OccludingContour once =
       AdjustTwice(StartAt({0.01, 0.045, 0}), measurements);
   const OccludingContour again =
-      AdjustOccludingContour(once, measurements, kSigmaPx);
+      AdjustOccludingContour(once, measurements, kContourSigmaPx);
   EXPECT_GT(once.outward.dot(again.outward), 0.99);
   EXPECT_NEAR(once.radius, again.radius, 0.01 * kRadius);
 }

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
+#include <vector>
+
+#include "tests/model/end_ties.h"
 
 namespace curvix {
 namespace {
@@ -28,19 +30,6 @@ std::vector<double> PlacesOf(const Curve& curve) {
 }
 
 using Places = std::vector<double>;
-
-constexpr EndIdx Front(std::size_t curve) { return 2 * curve; }
-constexpr EndIdx Back(std::size_t curve) { return 2 * curve + 1; }
-
-EndTies Tied(std::size_t num_curves,
-             const std::vector<std::pair<EndIdx, EndIdx>>& pairs) {
-  EndTies ties(2 * num_curves);
-  for (const auto& [a, b] : pairs) {
-    ties[a] = b;
-    ties[b] = a;
-  }
-  return ties;
-}
 
 // One sample, half-way.
 std::vector<CurveSample> Middle(const CurveSample& from,

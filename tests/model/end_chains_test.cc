@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <vector>
+
+#include "tests/model/end_ties.h"
 
 namespace curvix {
 namespace {
@@ -26,19 +28,6 @@ std::vector<std::string> Drawings(const EndTies& ties) {
   }
   return drawings;
 }
-
-EndTies Tied(std::size_t num_items,
-             const std::vector<std::pair<EndIdx, EndIdx>>& pairs) {
-  EndTies ties(2 * num_items);
-  for (const auto& [a, b] : pairs) {
-    ties[a] = b;
-    ties[b] = a;
-  }
-  return ties;
-}
-
-constexpr EndIdx Front(std::size_t item) { return 2 * item; }
-constexpr EndIdx Back(std::size_t item) { return 2 * item + 1; }
 
 TEST(FollowEnds, GivesEveryItemOnce) {
   EXPECT_EQ(Drawings({}), std::vector<std::string>{});

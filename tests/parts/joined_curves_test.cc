@@ -19,9 +19,6 @@ namespace {
 
 using Curves = std::vector<Curve>;
 
-// About one pixel at the origin; see RingOfViews.
-constexpr double kPx = 0.0075;
-
 const std::vector<PosedView>& Views() {
   static const std::vector<PosedView> views = RingOfViews(8);
   return views;

@@ -17,7 +17,6 @@ namespace curvix {
 namespace {
 
 constexpr double kHalfHeight = 0.8;
-constexpr double kPixel = 1.0 / 65;
 
 struct UprightCylinder {
   double radius = 0;
@@ -66,7 +65,7 @@ TEST_P(OccludingContours, AreLeftOutAndRimsStay) {
       ReconstructCurves(cylinder.scene, cylinder.edge_maps, Options());
   ASSERT_TRUE(result.ok()) << result.status().message();
   const WireAgreement agreement =
-      Compare(result->curves, cylinder.truth, kPixel);
+      Compare(result->curves, cylinder.truth, kWirePx);
   EXPECT_GT(agreement.accurate, 0.99);
   EXPECT_GT(agreement.found, 0.98);
 }
@@ -112,7 +111,7 @@ TEST(KeptOccludingContours, AreLabelled) {
     (MainKind(curve) == CurveKind::kOccludingContour ? contours : edges)
         .curves.push_back(curve);
   }
-  EXPECT_GT(Compare(edges, cylinder.truth, kPixel).accurate, 0.99);
+  EXPECT_GT(Compare(edges, cylinder.truth, kWirePx).accurate, 0.99);
   EXPECT_FALSE(contours.curves.empty());
   for (const Curve& contour : contours.curves) {
     for (const CurveSample& sample : contour.samples) {

@@ -19,8 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr double kSize = 2;          // of the cube
-constexpr double kPixel = 1.0 / 65;  // at the cube
+constexpr double kSize = 2;  // of the cube
 
 TEST(ReconstructCurves, FindsExactCurvesOnce) {
   const WireScene wires = MakeWireScene(CubeAndCircle(), 16);
@@ -31,7 +30,7 @@ TEST(ReconstructCurves, FindsExactCurvesOnce) {
       Compare(result->curves, wires.truth, 1e-3 * kSize);
   EXPECT_EQ(result->curves.curves.size(), wires.truth.size());
   EXPECT_GT(agreement.accurate, 0.99);
-  EXPECT_LT(agreement.worst_distance, kPixel);  // ends may stand out
+  EXPECT_LT(agreement.worst_distance, kWirePx);  // ends may stand out
   EXPECT_GT(agreement.found, 0.98);
   EXPECT_NEAR(agreement.length_ratio, 1, 0.02);
   EXPECT_EQ(std::count_if(result->curves.curves.begin(),
@@ -46,9 +45,9 @@ TEST(ReconstructCurves, FindsExactCurvesAsThePaperDoes) {
   const auto result =
       ReconstructCurves(wires.scene, wires.edge_maps, PaperOptions());
   ASSERT_TRUE(result.ok()) << result.status().message();
-  const WireAgreement agreement = Compare(result->curves, wires.truth, kPixel);
+  const WireAgreement agreement = Compare(result->curves, wires.truth, kWirePx);
   EXPECT_GT(agreement.accurate, 0.99);
-  EXPECT_LT(agreement.worst_distance, 2 * kPixel);
+  EXPECT_LT(agreement.worst_distance, 2 * kWirePx);
   EXPECT_GT(agreement.found, 0.9);
 }
 

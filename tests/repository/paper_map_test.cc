@@ -111,19 +111,19 @@ TEST(Pages, WalksThroughTheCodeAreShort) {
 }
 
 // "src/paper/align_edges.h" -> "src/paper".
-std::string FolderOf(const std::string& file) {
+std::string ParentOf(const std::string& file) {
   return file.substr(0, file.rfind('/'));
 }
 
 TEST(PaperMap, KnowsEveryFolderOfTheMethod) {
   std::set<std::string> known = {"src/model"};  // what passes between stages
   for (const std::string& name : NamedFiles(ReadSource(kMap))) {
-    known.insert(FolderOf(Locate(name)));
+    known.insert(ParentOf(Locate(name)));
   }
   for (const std::string& file : FilesBelow({"src"}, {".h"})) {
     if (IsOutsideThePaper(PaperLine(file))) continue;
-    EXPECT_TRUE(known.contains(FolderOf(file)))
-        << kMap << " names no file of " << FolderOf(file);
+    EXPECT_TRUE(known.contains(ParentOf(file)))
+        << kMap << " names no file of " << ParentOf(file);
   }
 }
 

@@ -33,6 +33,9 @@ std::vector<TestCurve> CubeCurves();
 // is about 1/125 at the origin.
 std::vector<PosedView> RingOfViews(int num_views);
 
+// About one pixel at the origin in these views.
+inline constexpr double kPx = 0.0075;
+
 // The 2D edges of the curves in each view, exact and half a pixel apart, in the
 // order of the curves; where on the curve the first lies is random. Every curve
 // is taken as visible in all views, and must be in front of them.

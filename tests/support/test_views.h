@@ -37,6 +37,11 @@ inline PosedView LookAt(const Eigen::Vector3d& center,
   return MakeView(rotation, center);
 }
 
+inline Eigen::Vector2d PixelOf(const PosedView& view,
+                               const Eigen::Vector3d& x) {
+  return view.Pixel(view.InCamera(x));
+}
+
 // The views as COLMAP would describe them, each with its own camera. Names
 // count from view_000.
 inline Scene ToScene(const std::vector<PosedView>& views) {

@@ -19,9 +19,11 @@ struct WireScene {
 };
 
 // `num_views` cameras of 400 x 400 pixels, about 6 from the origin, all around
-// at irregular places above and below, looking at it: one pixel is about 1/65
-// there. Curves hide nothing.
+// at irregular places above and below, looking at it. Curves hide nothing.
 WireScene MakeWireScene(std::vector<TestCurve> truth, int num_views);
+
+// About one pixel at the origin in these views.
+inline constexpr double kWirePx = 1.0 / 65;
 
 // A cube of side 2 around the origin and a circle of radius 0.6 inside it.
 std::vector<TestCurve> CubeAndCircle();

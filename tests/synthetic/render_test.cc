@@ -29,14 +29,14 @@ RenderedImage RenderPlain(const Solid& solid, const Rigid3& pose) {
   return Render(solid, Surfaces(solid, {}), SmallCamera(), pose);
 }
 
-float PixelAt(const RenderedImage& image, int x, int y) {
+float GreyAt(const RenderedImage& image, int x, int y) {
   return image.grey[static_cast<std::size_t>(y * image.width + x)];
 }
 
 double SumOfRow(const RenderedImage& image, int row) {
   double sum = 0;
   for (int column = 0; column < image.width; ++column) {
-    sum += static_cast<double>(PixelAt(image, column, row));
+    sum += static_cast<double>(GreyAt(image, column, row));
   }
   return sum;
 }
@@ -62,8 +62,8 @@ TEST(RenderTest, PixelsOnAStraightEdgeAddUpToItsExactPosition) {
       const double angle = DegToRad(degrees);
       const RenderedImage image =
           RenderPlain(WallUpTo(x, angle), FromTheFront());
-      const double face = static_cast<double>(PixelAt(image, 0, 16));
-      const double behind = static_cast<double>(PixelAt(image, 63, 16));
+      const double face = static_cast<double>(GreyAt(image, 0, 16));
+      const double behind = static_cast<double>(GreyAt(image, 63, 16));
       for (int row = 8; row < 24; ++row) {
         const double covered =
             (SumOfRow(image, row) - image.width * behind) / (face - behind);
@@ -81,15 +81,14 @@ TEST(RenderTest, PixelsOfADiscAddUpToItsExactArea) {
   disc.size = {1.2345, 0.1, 2};
   disc.world_from_own.translation = {0.031, -0.017, 0};
   const RenderedImage image = RenderPlain(Solid({disc}), FromTheFront());
-  const double face = static_cast<double>(PixelAt(image, 32, 16));
-  const double behind = static_cast<double>(PixelAt(image, 0, 0));
+  const double face = static_cast<double>(GreyAt(image, 32, 16));
+  const double behind = static_cast<double>(GreyAt(image, 0, 0));
   double area = 0;
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const double share =
-          (static_cast<double>(PixelAt(image, x, y)) - behind) /
-          (face - behind);
+          (static_cast<double>(GreyAt(image, x, y)) - behind) / (face - behind);
       area += share;
       moment += share * Eigen::Vector2d(x + 0.5, y + 0.5);
     }
@@ -113,8 +112,8 @@ TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
         Eigen::Quaterniond::FromTwoVectors(-eye, Eigen::Vector3d::UnitZ());
     pose.translation = -(pose.rotation * eye);
     const RenderedImage image = RenderPlain(solid, pose);
-    greys.push_back(static_cast<double>(PixelAt(image, 32, 16)));
-    greys.push_back(static_cast<double>(PixelAt(image, 0, 0)));
+    greys.push_back(static_cast<double>(GreyAt(image, 32, 16)));
+    greys.push_back(static_cast<double>(GreyAt(image, 0, 0)));
   }
   for (std::size_t i = 0; i < greys.size(); i += 2) {
     EXPECT_GT(std::abs(greys[i] - greys[i + 1]), 20);  // from the background
@@ -158,7 +157,7 @@ TEST(RenderTest, LampsOnlyBrightenAndMoveWithTheView) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        const float change = PixelAt(image, x, y) - PixelAt(plain, x, y);
+        const float change = GreyAt(image, x, y) - GreyAt(plain, x, y);
         EXPECT_GE(change, -2);  // areas are measured to 1/100
         if (change > 5) sum += Eigen::Vector3d(x, y, 1);
       }
