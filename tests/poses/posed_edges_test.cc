@@ -22,7 +22,7 @@ class PosedEdgesTest : public testing::Test {
     return edges_.input_views()[view_idx].center.normalized();
   }
 
-  const Options options_;
+  const Options options_ = {};
   const WireScene wires_ = MakeWireScene(CubeAndCircle(), 50);
   const PosedEdges edges_{wires_.scene, wires_.edge_maps, options_};
 };

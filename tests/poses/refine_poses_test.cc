@@ -150,7 +150,7 @@ TEST(RefinePosesWithCurves, LeavesTruePosesAlone) {
 TEST(RefinePosesWithCurves, LeavesPosesAloneThatPointsFit) {
   Scene scene = Disturbed(Wires().scene, 0.5);
   Random random(6);
-  for (int k = 0; k < 200; ++k) {
+  for (std::size_t k = 0; k < 200; ++k) {
     ScenePoint& point = scene.points.emplace_back();
     point.position = 0.5 * random.UnitVector();
     for (std::size_t i = k % 3; i < scene.views.size(); i += 3) {

@@ -47,7 +47,8 @@ std::vector<std::string> LocalLinks(const std::string& text) {
 // GitHub's name of a heading: lower case, '-' for blanks, no other signs.
 std::string Anchor(const std::string& heading) {
   std::string anchor;
-  for (const unsigned char c : heading) {
+  for (const char sign : heading) {
+    const auto c = static_cast<unsigned char>(sign);
     const bool is_kept = std::isalnum(c) || c == '-' || c == '_' || c >= 0x80;
     if (is_kept) anchor += static_cast<char>(std::tolower(c));
     if (c == ' ') anchor += '-';
