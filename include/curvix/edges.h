@@ -101,6 +101,8 @@ struct SketchCounts {
   std::int64_t rivals = 0;       // confirmed, but another explains their edges
   // 2D edges that show a 3D edge or are next to one.
   std::int64_t used_edges = 0;
+  // Not queried, see ValidationOptions::min_view_angle_deg.
+  std::int64_t repeated_views = 0;
 };
 
 struct EdgeSketch {

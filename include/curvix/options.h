@@ -104,6 +104,9 @@ struct ValidationOptions {
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;
+  // With kEveryView: of views that see the same places at a smaller ray angle,
+  // one is queried. Degrees, >= 0; 0: all are.
+  double min_view_angle_deg = 0.5;
 };
 
 // Sec. 5, Fig. 6.

@@ -59,6 +59,17 @@ StageCounts CountFits(const FittedCurves& fitted) {
           {"nodes", static_cast<std::int64_t>(fitted.nodes.size())}};
 }
 
+namespace {
+
+std::string RepeatedViewsText(std::int64_t num_views) {
+  if (num_views == 0) return "";
+  return GroupDigits(num_views) +
+         " views left out, which repeat others "
+         "(Validation.min_view_angle_deg)";
+}
+
+}  // namespace
+
 RunStages::RunStages(std::filesystem::path folder,
                      RunProgress& progress,
                      RunRecord& record)
@@ -137,8 +148,10 @@ Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
     Save(key, *sketch);
   }
   record_.result.edge_sigma_px = sketch->edge_sigma_px;
-  FinishStage(
-      stopwatch.Read("sketch_edges"), CountsOf(*sketch), "", is_resumed);
+  FinishStage(stopwatch.Read("sketch_edges"),
+              CountsOf(*sketch),
+              RepeatedViewsText(sketch->counts.repeated_views),
+              is_resumed);
   return sketch;
 }
 

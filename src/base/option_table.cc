@@ -154,6 +154,8 @@ void AddRows(ValidationOptions& o, Section row) {
       "least support, share of the best hypothesis");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
       "every_view: fewest views of exclusive support");
+  row("min_view_angle_deg", &o.min_view_angle_deg, Between(0, 90), "deg", "",
+      "every_view: one of several views this near in direction is used");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {

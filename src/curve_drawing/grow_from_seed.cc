@@ -185,6 +185,7 @@ class Grower {
     Votes votes(indices_.size());
     trusted.clear();
     for (std::size_t v = 0; v < indices_.size(); ++v) {
+      if (neighbors_[v].empty()) continue;
       const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
       if (!look) continue;
       ++grown.num_looks;

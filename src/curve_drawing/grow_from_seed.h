@@ -26,8 +26,9 @@ struct Growth {
 // The input of GrowCurves(). All references must outlive it.
 struct GrowthInput {
   const std::vector<PosedView>& views;
-  const std::vector<ViewIndex>& indices;                    // by view
-  const std::vector<std::vector<ViewNeighbor>>& neighbors;  // by view
+  const std::vector<ViewIndex>& indices;  // by view
+  // By view; views without neighbors are not queried.
+  const std::vector<std::vector<ViewNeighbor>>& neighbors;
   double edge_sigma_px = 0;
   const CurveGrowthOptions& options;
 };

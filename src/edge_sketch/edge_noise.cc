@@ -17,7 +17,8 @@
 namespace curvix {
 namespace {
 
-constexpr std::size_t kNumQueryEdges = 4000;  // in all views
+// In all views that overlap another.
+constexpr std::size_t kNumQueryEdges = 4000;
 // The sketch must see larger distances than it expects.
 constexpr double kPilotSigmas = 2;
 constexpr std::size_t kMinNumSupports = 6;
@@ -55,7 +56,10 @@ void AddDistances(const Edge3d& edge,
 double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
   const double least_px = input.sigma_px;
   std::size_t num_edges = 0;
-  for (const EdgeMap& map : input.edge_maps) num_edges += map.edges.size();
+  for (std::size_t i = 0; i < input.edge_maps.size(); ++i) {
+    if (!input.overlaps[i].empty())
+      num_edges += input.edge_maps[i].edges.size();
+  }
   SketchInput pilot = input;
   pilot.sigma_px = kPilotSigmas * least_px;
   pilot.h1_step = std::max<std::size_t>(1, num_edges / kNumQueryEdges);

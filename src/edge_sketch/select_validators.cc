@@ -4,24 +4,11 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 #include "base/angles.h"
 
 namespace curvix {
 namespace {
-
-using Overlaps = std::vector<std::vector<ViewOverlap>>;
-
-// What view `other` is to a view with `overlaps`; nullptr: nothing.
-const ViewOverlap* Find(const std::vector<ViewOverlap>& overlaps, int other) {
-  const auto found = std::lower_bound(
-      overlaps.begin(),
-      overlaps.end(),
-      other,
-      [](const ViewOverlap& overlap, int idx) { return overlap.other < idx; });
-  return found != overlaps.end() && found->other == other ? &*found : nullptr;
-}
 
 // A view that may be chosen and its ray angle to the nearest chosen one.
 struct Candidate {
@@ -61,8 +48,9 @@ std::vector<int> SelectValidators(const Overlaps& overlaps,
                                   int max_num) {
   std::vector<int> chosen;
   if (overlaps.size() <= static_cast<std::size_t>(max_num)) {
-    chosen.resize(overlaps.size());
-    std::iota(chosen.begin(), chosen.end(), 0);
+    for (std::size_t i = 0; i < overlaps.size(); ++i) {
+      if (!overlaps[i].empty()) chosen.push_back(static_cast<int>(i));
+    }
     return chosen;
   }
   std::vector<Candidate> candidates;
@@ -92,7 +80,7 @@ Overlaps OverlapsAmong(const Overlaps& overlaps,
   for (const int view_idx : chosen) {
     const auto i = static_cast<std::size_t>(view_idx);
     for (const int other : chosen) {
-      if (const ViewOverlap* overlap = Find(overlaps[i], other)) {
+      if (const ViewOverlap* overlap = FindOverlap(overlaps[i], other)) {
         among[i].push_back(*overlap);
       }
     }

@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <unsupported/Eigen/BVH>
 #include <utility>
 
+#include "base/angles.h"
 #include "base/median.h"
 #include "base/point_tree.h"
 #include "geometry/epipolar.h"
@@ -21,6 +23,8 @@ namespace {
 constexpr std::size_t kMinNumPoints = 8;
 constexpr std::size_t kMaxNumPlaces = 64;
 constexpr std::size_t kMaxNumCameras = 64;  // that a working depth is from
+// Views that see this share of each other's places may repeat each other.
+constexpr double kRepeatedShare = 0.9;
 // Shares of the baseline below this have no direction.
 constexpr double kMinAcross = 1e-6;
 
@@ -202,7 +206,6 @@ class PlacesIndex {
 std::optional<ViewOverlap> Overlap(const PosedView& view,
                                    const std::vector<Eigen::Vector3d>& places,
                                    const PosedView& other) {
-  if (ShareCenter(view, other)) return std::nullopt;
   std::vector<double> angles;
   for (const Eigen::Vector3d& place : places) {
     const Eigen::Vector3d x = other.InCamera(place);
@@ -212,18 +215,50 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
     angles.push_back(std::atan2(ray1.cross(ray2).norm(), ray1.dot(ray2)));
   }
   if (angles.empty()) return std::nullopt;
-  const Eigen::Vector3d baseline = (other.center - view.center).normalized();
-  const Eigen::Vector3d axis = OpticalAxis(view);
-  const Eigen::Vector3d across = baseline - axis * axis.dot(baseline);
   ViewOverlap overlap;
   overlap.share =
       static_cast<double>(angles.size()) / static_cast<double>(places.size());
   overlap.ray_angle_rad = Median(std::move(angles));
+  if (ShareCenter(view, other)) return overlap;
+  const Eigen::Vector3d baseline = (other.center - view.center).normalized();
+  const Eigen::Vector3d axis = OpticalAxis(view);
+  const Eigen::Vector3d across = baseline - axis * axis.dot(baseline);
   if (across.norm() > kMinAcross) overlap.baseline_across = across.normalized();
   return overlap;
 }
 
+std::vector<std::size_t> ByFallingNumberOfPoints(
+    std::size_t num_views, const std::vector<ScenePoint>& points) {
+  std::vector<std::size_t> num_points(num_views, 0);
+  for (const ScenePoint& point : points) {
+    for (const int view_idx : point.view_idxs) {
+      ++num_points[static_cast<std::size_t>(view_idx)];
+    }
+  }
+  std::vector<std::size_t> order(num_views);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+    return num_points[a] > num_points[b];
+  });
+  return order;
+}
+
+bool SeesTheSame(const ViewOverlap& overlap, double min_angle_rad) {
+  return overlap.share >= kRepeatedShare &&
+         overlap.ray_angle_rad < min_angle_rad;
+}
+
 }  // namespace
+
+const ViewOverlap* FindOverlap(const std::vector<ViewOverlap>& overlaps,
+                               int other) {
+  const auto found = std::lower_bound(
+      overlaps.begin(),
+      overlaps.end(),
+      other,
+      [](const ViewOverlap& overlap, int idx) { return overlap.other < idx; });
+  return found != overlaps.end() && found->other == other ? &*found : nullptr;
+}
 
 std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views,
@@ -250,11 +285,10 @@ std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
   return places;
 }
 
-std::vector<std::vector<ViewOverlap>> FindOverlaps(
-    const std::vector<PosedView>& views,
-    const std::vector<ScenePoint>& points) {
+Overlaps FindOverlaps(const std::vector<PosedView>& views,
+                      const std::vector<ScenePoint>& points) {
   const auto places = FindPlaces(views, points);
-  std::vector<std::vector<ViewOverlap>> overlaps(views.size());
+  Overlaps overlaps(views.size());
   if (views.size() < 2) return overlaps;
   const PlacesIndex index(places);
   std::vector<std::vector<std::size_t>> candidates(views.size());
@@ -270,6 +304,31 @@ std::vector<std::vector<ViewOverlap>> FindOverlaps(
         overlaps[i].push_back(*overlap);
       }
     }
+  }
+  return overlaps;
+}
+
+Overlaps OfDistinctViews(Overlaps overlaps,
+                         const std::vector<ScenePoint>& points,
+                         const ValidationOptions& options) {
+  const double min_angle_rad = DegToRad(options.min_view_angle_deg);
+  std::vector<bool> is_repeated(overlaps.size(), false);
+  for (const std::size_t i : ByFallingNumberOfPoints(overlaps.size(), points)) {
+    if (is_repeated[i]) continue;
+    for (const ViewOverlap& overlap : overlaps[i]) {
+      const auto j = static_cast<std::size_t>(overlap.other);
+      const ViewOverlap* back = FindOverlap(overlaps[j], static_cast<int>(i));
+      if (SeesTheSame(overlap, min_angle_rad) && back &&
+          SeesTheSame(*back, min_angle_rad)) {
+        is_repeated[j] = true;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    if (is_repeated[i]) overlaps[i].clear();
+    std::erase_if(overlaps[i], [&](const ViewOverlap& overlap) {
+      return is_repeated[static_cast<std::size_t>(overlap.other)];
+    });
   }
   return overlaps;
 }

@@ -3,6 +3,7 @@
 // Deviation: sparse points where there are any, else the cameras' geometry.
 #pragma once
 
+#include <curvix/options.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
 #include <vector>
@@ -28,10 +29,25 @@ struct ViewOverlap {
 std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 
+// Of the overlaps of one view, by view_idx, that with `other`; nullptr: none.
+const ViewOverlap* FindOverlap(const std::vector<ViewOverlap>& overlaps,
+                               int other);
+
+using Overlaps = std::vector<std::vector<ViewOverlap>>;  // by view_idx
+
 // For each view the views that overlap it, by view_idx: those that see some of
-// its places. Views with the same centre do not overlap, since they see no
-// depth together. The time grows with the number of overlapping pairs.
-std::vector<std::vector<ViewOverlap>> FindOverlaps(
-    const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
+// its places. The time grows with the number of overlapping pairs.
+Overlaps FindOverlaps(const std::vector<PosedView>& views,
+                      const std::vector<ScenePoint>& points);
+
+// Two views repeat each other if either sees nine tenths of the places of the
+// other at a median ray angle below options.min_view_angle_deg: neighbouring
+// frames of a video, say. They show the same edges wherever these are in depth,
+// so together they confirm no more than one of them does. Of such views the one
+// with most sparse points remains (ties: the smaller index); the others overlap
+// none here. With 0, all remain.
+Overlaps OfDistinctViews(Overlaps overlaps,
+                         const std::vector<ScenePoint>& points,
+                         const ValidationOptions& options);
 
 }  // namespace curvix

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 // "CVXSTAGE" in the byte order of the machine.
 constexpr std::uint64_t kMagic = 0x4547415453585643;
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 Status Other(const fs::path& path) {
   return {StatusCode::kNotFound,

@@ -7,10 +7,10 @@
 //     (floats), level, crowding (halves), indices of the previous and the next
 //     edge (int32, -1: none)
 //   sketch.bin: view pairs, edges asked, hypotheses, without support,
-//     weaker alternatives, 2D edges used (int64 each); edge sigma in pixels
-//     (double); number of 3D edges; per edge: position, tangent (3 doubles
-//     each), sigma, evidence (doubles), number of supports, per support view
-//     and edge (int32 each)
+//     weaker alternatives, 2D edges used, repeated views (int64 each); edge
+//     sigma in pixels (double); number of 3D edges; per edge: position, tangent
+//     (3 doubles each), sigma, evidence (doubles), number of supports, per
+//     support view and edge (int32 each)
 //   curve_poses.bin: number of views; per view: rotation x, y, z, w and
 //     translation (7 doubles); number of cameras; per camera: model, width,
 //     height (int32 each), number of parameters, these (doubles); accepted (1
@@ -95,6 +95,7 @@ void Fields(Archive& archive, EdgeSketch& sketch) {
           counts.unsupported,
           counts.rivals,
           counts.used_edges,
+          counts.repeated_views,
           sketch.edge_sigma_px);
   List(archive, sketch.edges, kEdge3dBytes);
 }

@@ -144,8 +144,8 @@ Reconstruction Connect(const Scene& scene,
     result.edges = sketch.edges;
     const std::vector<ViewIndex> indices =
         IndexViews(views, edge_maps, num_threads);
-    const auto neighbors =
-        NeighborsInDirection(FindOverlaps(views, scene.points));
+    const auto neighbors = NeighborsInDirection(OfDistinctViews(
+        FindOverlaps(views, scene.points), scene.points, options.validation));
     result.curves.curves = GrowCurves(
         sketch.edges,
         {views, indices, neighbors, sketch.edge_sigma_px, options.curve_growth},

@@ -9,7 +9,8 @@ namespace curvix {
 
 Counts CountsOf(const EdgeSketch& sketch) {
   const SketchCounts& c = sketch.counts;
-  return {{"view pairs", c.view_pairs},
+  return {{"repeated views", c.repeated_views},
+          {"view pairs", c.view_pairs},
           {"edges asked", c.h1_edges},
           {"hypotheses", c.hypotheses},
           {"hypotheses without support", c.unsupported},

@@ -45,6 +45,7 @@ class Seen {
   }
 
   std::vector<EdgeMap>& maps() { return maps_; }
+  std::vector<std::vector<ViewNeighbor>>& neighbors() { return neighbors_; }
 
   // A seed on the curve, `off_px` beside it, supported by these views.
   Edge3d Seed(std::size_t curve_idx,
@@ -145,6 +146,22 @@ TEST(GrowCurves, OneSeedGivesAWholeCircleOnce) {
   EXPECT_NEAR(Length(curves[0]), kCircle.length, 4 * kPixel);
   for (const CurveSample& sample : curves[0].samples) {
     EXPECT_LT(seen.DistancePx(sample.position), 0.3);
+  }
+}
+
+TEST(GrowCurves, ViewsWithoutNeighborsAreNotQueried) {
+  constexpr std::int32_t kNumQueried = 9;
+  Seen seen({kLine});
+  for (std::size_t v = kNumQueried; v < kNumViews; ++v) {
+    seen.neighbors()[v].clear();
+  }
+  const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.3)});
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_NEAR(Length(curves[0]), kLine.length, 4 * kPixel);
+  for (const CurveSample& sample : curves[0].samples) {
+    for (const EdgeRef& ref : sample.support) {
+      EXPECT_LT(ref.view_idx, kNumQueried);
+    }
   }
 }
 

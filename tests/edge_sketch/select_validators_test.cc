@@ -25,6 +25,12 @@ TEST(SelectValidators, TakesAllOfFewViews) {
   EXPECT_THAT(SelectValidators(Ring(5), 3, {1}, 5), ElementsAre(0, 1, 2, 3, 4));
 }
 
+TEST(SelectValidators, TakesNoneThatOverlapsNothing) {
+  auto overlaps = Ring(5);
+  overlaps[2].clear();
+  EXPECT_THAT(SelectValidators(overlaps, 3, {1}, 5), ElementsAre(0, 1, 3, 4));
+}
+
 TEST(SelectValidators, SpreadsThemOverAllDirections) {
   const auto chosen = SelectValidators(Ring(200), 7, {17, 197}, 25);
   EXPECT_THAT(chosen, SizeIs(25));

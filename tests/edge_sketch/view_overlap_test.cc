@@ -124,7 +124,7 @@ TEST(FindOverlaps, HasOverlapInForwardMotion) {
   EXPECT_EQ(overlap->baseline_across, Vector3d::Zero());
 }
 
-TEST(FindOverlaps, FindsNoneWhereTheCameraOnlyTurned) {
+TEST(FindOverlaps, RaysAreTheSameWhereTheCameraOnlyTurned) {
   Random random(3);
   for (const Vector3d& center : {Vector3d(0, 0, 0), Vector3d(1e3, -2e3, 7)}) {
     std::vector<PosedView> views;
@@ -136,8 +136,67 @@ TEST(FindOverlaps, FindsNoneWhereTheCameraOnlyTurned) {
           -(views.back().rotation.transpose() * views.back().translation);
     }
     for (const auto& others : FindOverlaps(views, {})) {
-      EXPECT_TRUE(others.empty());
+      EXPECT_FALSE(others.empty());
+      for (const ViewOverlap& overlap : others) {
+        EXPECT_LT(overlap.ray_angle_rad, 1e-9);
+        EXPECT_EQ(overlap.baseline_across, Vector3d::Zero());
+      }
     }
+  }
+}
+
+// A ring of views, and after them `num_frames` frames next to view 0, each a
+// tenth of a degree on.
+std::vector<PosedView> RingAndFrames(int num_views, int num_frames) {
+  std::vector<PosedView> views = RingOfViews(num_views);
+  for (int i = 1; i <= num_frames; ++i) {
+    const Eigen::AngleAxisd turn(DegToRad(0.1 * i), Vector3d::UnitZ());
+    views.push_back(LookAt(turn * views.front().center, {0, 0, 0}));
+  }
+  return views;
+}
+
+TEST(OfDistinctViews, OneOfSeveralFramesRemains) {
+  const std::vector<PosedView> views = RingAndFrames(12, 3);
+  std::vector<ScenePoint> points = Ball({0, 0, 0}, views.size(), 50);
+  // More points are seen sharply in frame 13.
+  for (std::size_t i = 0; i < points.size(); i += 5) points[i].view_idxs = {13};
+  for (const bool has_points : {false, true}) {
+    const std::size_t remaining = has_points ? 13 : 0;
+    const std::vector<ScenePoint> known =
+        has_points ? points : std::vector<ScenePoint>();
+    const Overlaps overlaps =
+        OfDistinctViews(FindOverlaps(views, known), known, {});
+    for (const std::size_t i : {0U, 12U, 13U, 14U}) {
+      EXPECT_EQ(overlaps[i].empty(), i != remaining) << i;
+    }
+    for (std::size_t i = 1; i < 12; ++i) {
+      EXPECT_EQ(overlaps[i].size(), 11u);
+      for (const ViewOverlap& overlap : overlaps[i]) {
+        EXPECT_TRUE(overlap.other < 12 ? overlap.other != 0 || !has_points
+                                       : overlap.other == 13 && has_points);
+      }
+    }
+  }
+}
+
+TEST(OfDistinctViews, ZeroDegreesKeepAll) {
+  const std::vector<PosedView> views = RingAndFrames(5, 2);
+  for (const auto& others : OfDistinctViews(
+           FindOverlaps(views, {}), {}, {.min_view_angle_deg = 0})) {
+    EXPECT_EQ(others.size(), 6u);
+  }
+}
+
+TEST(OfDistinctViews, WhatShowsMoreOrLessIsNoRepetition) {
+  std::vector<PosedView> views = RingOfViews(8);
+  // From the same place: another direction, and a much longer lens.
+  views.push_back(LookAt(views[0].center, {2.5, 2.5, 0}));
+  views.push_back(views[0]);
+  views.back().calibration.topLeftCorner<2, 2>() *= 5;
+  for (const auto& others : OfDistinctViews(
+           FindOverlaps(views, Ball({0, 0, 0}, views.size(), 100)), {}, {})) {
+    EXPECT_FALSE(others.empty());
   }
 }
 

@@ -30,18 +30,22 @@ WireScene Wires() {
   return wires;
 }
 
+Reconstruction RunWith(Options options, const WireScene& wires) {
+  options.alignment.num_iterations =
+      std::min(options.alignment.num_iterations, 50);  // for speed
+  auto result = ReconstructCurves(wires.scene, wires.edge_maps, options);
+  EXPECT_TRUE(result.ok()) << result.status().message();
+  EXPECT_FALSE(result->curves.curves.empty());
+  return *std::move(result);
+}
+
 class ReconstructionInvariance : public ::testing::TestWithParam<const char*> {
  protected:
   static Reconstruction Run(const WireScene& wires, int num_threads = 2) {
     Options options =
         std::string(GetParam()) == "paper" ? PaperOptions() : Options();
-    options.alignment.num_iterations =
-        std::min(options.alignment.num_iterations, 50);  // for speed
     options.runtime.num_threads = num_threads;
-    auto result = ReconstructCurves(wires.scene, wires.edge_maps, options);
-    EXPECT_TRUE(result.ok()) << result.status().message();
-    EXPECT_FALSE(result->curves.curves.empty());
-    return *std::move(result);
+    return RunWith(options, wires);
   }
 };
 
@@ -76,6 +80,34 @@ TEST_P(ReconstructionInvariance, TheOrderOfViewsMakesNoDifference) {
   std::reverse(reversed.scene.views.begin(), reversed.scene.views.end());
   std::reverse(reversed.edge_maps.begin(), reversed.edge_maps.end());
   ExpectSameSet(Run(reversed).curves, expected.curves, 1e-9);
+}
+
+TEST(RepeatedViews, MakeNoDifference) {
+  const WireScene wires = Wires();
+  WireScene video = wires;
+  for (int times = 0; times < 3; ++times) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      video.scene.views.push_back(wires.scene.views[i]);
+      video.edge_maps.push_back(wires.edge_maps[i]);
+    }
+  }
+  for (const bool grows : {false, true}) {
+    SCOPED_TRACE(grows ? "grown" : "linked");
+    for (std::size_t i = 0; i < video.edge_maps.size(); ++i) {
+      video.edge_maps[i].num_dropped_over_limit = grows ? 1'000'000 : 0;
+    }
+    WireScene single = wires;
+    for (EdgeMap& map : single.edge_maps) {
+      map.num_dropped_over_limit = grows ? 1'000'000 : 0;
+    }
+    const Reconstruction expected = RunWith({}, single);
+    ExpectSameSet(RunWith({}, video).curves, expected.curves, 1e-9);
+    Options all_views;
+    all_views.validation.min_view_angle_deg = 0;
+    const Reconstruction counted = RunWith(all_views, video);
+    EXPECT_GT(counted.edges.front().support.size(),
+              expected.edges.front().support.size());
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets,

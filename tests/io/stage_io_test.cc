@@ -43,7 +43,7 @@ std::vector<EdgeMap> SomeEdgeMaps() {
 
 EdgeSketch SomeSketch() {
   EdgeSketch sketch;
-  sketch.counts = {1, 2, 3, 4, 5, 6'000'000'000};
+  sketch.counts = {1, 2, 3, 4, 5, 6'000'000'000, 7};
   sketch.edge_sigma_px = 0.23;
   for (int i = 0; i < 3; ++i) {
     Edge3d edge;
@@ -111,6 +111,7 @@ TEST_F(StageIo, GivesASketchBackBitByBit) {
   EXPECT_EQ(read->counts.view_pairs, 1);
   EXPECT_EQ(read->counts.unsupported, 4);
   EXPECT_EQ(read->counts.used_edges, 6'000'000'000);
+  EXPECT_EQ(read->counts.repeated_views, 7);
   EXPECT_EQ(read->edge_sigma_px, 0.23);
   ExpectIdentical(read->edges, sketch.edges);
 }
