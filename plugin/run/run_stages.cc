@@ -10,6 +10,16 @@
 #include "plugin/base/text.h"
 
 namespace curvix {
+namespace {
+
+std::string RepeatedViewsText(std::int64_t num_views) {
+  if (num_views == 0) return "";
+  return GroupDigits(num_views) +
+         " views left out, which repeat others "
+         "(Validation.min_view_angle_deg)";
+}
+
+}  // namespace
 
 StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
   std::int64_t num_edges = 0, num_masked = 0;
@@ -58,17 +68,6 @@ StageCounts CountFits(const FittedCurves& fitted) {
           {"splines", splines},
           {"nodes", static_cast<std::int64_t>(fitted.nodes.size())}};
 }
-
-namespace {
-
-std::string RepeatedViewsText(std::int64_t num_views) {
-  if (num_views == 0) return "";
-  return GroupDigits(num_views) +
-         " views left out, which repeat others "
-         "(Validation.min_view_angle_deg)";
-}
-
-}  // namespace
 
 RunStages::RunStages(std::filesystem::path folder,
                      RunProgress& progress,

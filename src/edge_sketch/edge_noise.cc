@@ -57,8 +57,8 @@ double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
   const double least_px = input.sigma_px;
   std::size_t num_edges = 0;
   for (std::size_t i = 0; i < input.edge_maps.size(); ++i) {
-    if (!input.overlaps[i].empty())
-      num_edges += input.edge_maps[i].edges.size();
+    if (input.overlaps[i].empty()) continue;
+    num_edges += input.edge_maps[i].edges.size();
   }
   SketchInput pilot = input;
   pilot.sigma_px = kPilotSigmas * least_px;
