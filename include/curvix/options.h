@@ -172,8 +172,9 @@ struct CurveGrowthOptions {
   // of views, times its contrast over that of the scene. >= 0.
   double min_significance = 14.0;
   // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
-  // are dropped as texture: joints of brick, tiles. No curve grows from a 2D
-  // edge that is more crowded. >= 0; 0: nothing is texture.
+  // are texture, joints of brick or tiles, and dropped unless they are four
+  // times as significant as others must be. No curve grows from a 2D edge that
+  // is more crowded. >= 0; 0: nothing is texture.
   double max_crowding = 0.35;
 
   bool IsTexture(double crowding) const {

@@ -207,7 +207,8 @@ void AddRows(CurveGrowthOptions& o, Section row) {
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
       "smallest significance of a curve");
   row("max_crowding", &o.max_crowding, AtLeast(0), "", "",
-      "largest crowding of curves (median) and seeds; more is texture; 0: any");
+      "largest crowding of curves (median) and seeds; more is texture, and has to "
+      "be four times as significant; 0: any");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {

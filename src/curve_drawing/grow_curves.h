@@ -27,9 +27,8 @@ namespace curvix {
 // at its last supported sample before a gap of more than options.max_gap_px; it
 // is closed where it returns to its seed.
 //
-// Curves below options.min_significance or above options.max_crowding
-// (keep_significant.h) are dropped, and their edges are not free for other
-// curves. The uncertainty of their position does not matter: the sigma of a
+// Curves that are insignificant or texture (keep_significant.h) are dropped, and
+// their edges are not free for other curves. The uncertainty of their position does not matter: the sigma of a
 // sample is that of a 3D edge with the same support, before short streaks of
 // hits are dropped.
 //

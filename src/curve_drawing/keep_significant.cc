@@ -11,6 +11,10 @@
 namespace curvix {
 namespace {
 
+// Fine texture hardly reaches this multiple of the least significance, long
+// edges of windows and shutters beside each other do.
+constexpr double kTimesAsSignificant = 4;
+
 const Edge2d& EdgeOf(const EdgeRef& ref,
                      const std::vector<ViewIndex>& indices) {
   const EdgeMap& map = *indices[static_cast<std::size_t>(ref.view_idx)].edges;
@@ -69,14 +73,14 @@ std::vector<Curve> KeepSignificant(std::vector<GrownCurve> curves,
   const double typical_strength = sum / std::max(1.0, num_samples);
   std::vector<Curve> kept;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    if (are_texture[i]) continue;
     const auto num_looks =
         static_cast<double>(std::max<std::int64_t>(1, curves[i].num_looks));
     const double contrast =
         typical_strength > 0 ? strengths[i] / typical_strength : 1;
     const double significance =
         SumOfEvidence(curves[i].curve) / std::sqrt(num_looks) * contrast;
-    if (significance >= options.min_significance) {
+    const double factor = are_texture[i] ? kTimesAsSignificant : 1;
+    if (significance >= factor * options.min_significance) {
       kept.push_back(std::move(curves[i].curve));
     }
   }

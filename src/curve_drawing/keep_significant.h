@@ -24,14 +24,15 @@ struct GrownCurve {
 double MedianCrowding(const std::vector<EdgeRef>& edges,
                       const std::vector<ViewIndex>& indices);
 
-// Drops texture, and what may be there by chance:
-//  - curves whose edges have a MedianCrowding() above options.max_crowding;
+// Drops what may be there by chance, and texture:
 //  - curves whose significance is below options.min_significance: the sum of
 //    their log-likelihood ratios (evidence.h) over the square root of the
 //    number of queries, which is proportional to what chance gives, times the
 //    mean strength of their 2D edges over that of all curves. Weak edges are
 //    more often reflections, shading, noise and compression artifacts. Without
-//    any strength, that factor is 1.
+//    any strength, that factor is 1;
+//  - curves whose edges have a MedianCrowding() above options.max_crowding and
+//    whose significance is below four times that.
 //
 // `indices` by view. The others stay in their order.
 std::vector<Curve> KeepSignificant(std::vector<GrownCurve> curves,

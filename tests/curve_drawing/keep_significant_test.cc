@@ -68,16 +68,17 @@ TEST_F(KeepSignificantTest, DoesWithoutStrengths) {
   EXPECT_TRUE(Keep({}, 0).empty());
 }
 
-TEST_F(KeepSignificantTest, DropsTexture) {
+TEST_F(KeepSignificantTest, DropsTextureThatIsNotFourTimesAsSignificant) {
   const std::vector<GrownCurve> curves = {Grown(8, 5, 16, 0),
                                           Grown(8, 5, 16, 1)};
   options_.max_crowding = 0.375;
-  const std::vector<Curve> kept = Keep(curves, 0, {1, 1}, {0.375, 0.5});
+  const std::vector<Curve> kept = Keep(curves, 2.51, {1, 1}, {0.375, 0.5});
   ASSERT_EQ(kept.size(), 1u);
   EXPECT_EQ(kept[0].samples[0].support[0].edge_idx, 0);
+  EXPECT_EQ(Keep(curves, 2.49, {1, 1}, {0.375, 0.5}).size(), 2u);
   options_.max_crowding = 0;
-  EXPECT_EQ(Keep(curves, 0, {1, 1}, {0.375, 0.5}).size(), 2u)
-      << "0 drops nothing";
+  EXPECT_EQ(Keep(curves, 9, {1, 1}, {0.375, 0.5}).size(), 2u)
+      << "nothing is texture";
 }
 
 TEST(MedianCrowding, IsThatOfTheEdges) {
