@@ -21,8 +21,9 @@ namespace {
 constexpr std::size_t kNumQueryEdges = 4000;
 // The sketch must see larger distances than it expects.
 constexpr double kPilotSigmas = 2;
-constexpr std::size_t kMinNumSupports = 6;
-constexpr double kNumParameters = 3;  // a place across a contour, its radius
+constexpr std::size_t kMinNumSupports = 4;
+// A place across a contour, its radius; fewer than the supports.
+constexpr double kNumParameters = 3;
 constexpr std::size_t kMinNumDistances = 100;
 constexpr double kSigmasOfMedianDistance = 1.4826;
 
