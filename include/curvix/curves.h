@@ -61,8 +61,8 @@ struct CurveSample {
   // squared; 0: not estimated.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   // The most probable kind of curve here, and its probability; kUnknown: 0.
-  // Occluding contours of CurveRefinementOptions::keep_occluding_contours, which
-  // may also be what views show by chance: 1.
+  // Occluding contours of CurveRefinementOptions::keep_occluding_contours,
+  // which may also be what views show by chance: 1.
   CurveKind kind = CurveKind::kUnknown;
   float kind_probability = 0;
 };

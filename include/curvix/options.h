@@ -104,8 +104,8 @@ struct ValidationOptions {
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;
-  // With kEveryView: of views that see the same places at a smaller ray angle,
-  // one is queried. Degrees, >= 0; 0: all are.
+  // With kEveryView: of views that see nine tenths of the same at a smaller ray
+  // angle, one is queried. Degrees, 0..90; 0: all are.
   double min_view_angle_deg = 0.5;
 };
 
@@ -173,8 +173,8 @@ struct CurveGrowthOptions {
   double min_significance = 14.0;
   // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
   // are texture, joints of brick or tiles, and dropped unless they are four
-  // times as significant as others must be. No curve grows from a 2D edge that
-  // is more crowded. >= 0; 0: nothing is texture.
+  // times as significant as min_significance. No curve grows from a 2D edge
+  // that is more crowded. >= 0; 0: nothing is texture.
   double max_crowding = 0.35;
 
   bool IsTexture(double crowding) const {

@@ -33,6 +33,10 @@ std::string GroupDigits(std::int64_t number) {
   return text;
 }
 
+std::string Plural(std::int64_t count, const std::string& noun) {
+  return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string DurationText(double seconds) {
   if (seconds < 59.95) {
     return FormatText("%.1f s", std::max(seconds, 0.0));

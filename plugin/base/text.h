@@ -20,6 +20,9 @@ std::string WrapText(const std::string& text, std::size_t indent);
 // "171204" as "171 204".
 std::string GroupDigits(std::int64_t number);
 
+// "1 view", "1 200 views".
+std::string Plural(std::int64_t count, const std::string& noun);
+
 // "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
 std::string DurationText(double seconds);
 

@@ -187,10 +187,6 @@ Json RunJson(const RunRecord& record) {
   return json;
 }
 
-std::string Plural(std::int64_t count, const std::string& noun) {
-  return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 // "  detect_edges  24 views, 81 234 edges"
 std::string StageLine(const StageReport& stage) {
   constexpr std::size_t kCountsColumn = 18;

@@ -14,9 +14,9 @@ namespace {
 
 std::string RepeatedViewsText(std::int64_t num_views) {
   if (num_views == 0) return "";
-  return GroupDigits(num_views) +
-         " views left out, which repeat others "
-         "(Validation.min_view_angle_deg)";
+  return Plural(num_views, "view") +
+         (num_views == 1 ? " that repeats another" : " that repeat others") +
+         " left out (Validation.min_view_angle_deg)";
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ void AddRows(ValidationOptions& o, Section row) {
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
       "every_view: fewest views of exclusive support");
   row("min_view_angle_deg", &o.min_view_angle_deg, Between(0, 90), "deg", "",
-      "every_view: one of several views this near in direction is used");
+      "every_view: of views that show the same from nearer, one is queried");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {
@@ -207,8 +207,8 @@ void AddRows(CurveGrowthOptions& o, Section row) {
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
       "smallest significance of a curve");
   row("max_crowding", &o.max_crowding, AtLeast(0), "", "",
-      "largest crowding of curves (median) and seeds; more is texture, and has to "
-      "be four times as significant; 0: any");
+      "largest crowding of curves (median) and seeds; more is texture, and has "
+      "to be four times as significant; 0: any");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <tuple>
 #include <utility>
-#include <utility>
 
 #include "base/check.h"
 #include "base/parallel.h"

@@ -27,10 +27,10 @@ namespace curvix {
 // at its last supported sample before a gap of more than options.max_gap_px; it
 // is closed where it returns to its seed.
 //
-// Curves that are insignificant or texture (keep_significant.h) are dropped, and
-// their edges are not free for other curves. The uncertainty of their position does not matter: the sigma of a
-// sample is that of a 3D edge with the same support, before short streaks of
-// hits are dropped.
+// Curves that KeepSignificant() drops keep their edges from other curves. The
+// uncertainty of a position does not matter: a curve goes on where images show
+// it. The sigma of a sample is that of a 3D edge with the same support, before
+// short streaks of hits are dropped.
 //
 // The curves are in the order of their seeds.
 std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,

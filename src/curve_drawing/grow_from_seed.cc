@@ -67,6 +67,7 @@ class Grower {
   Grower(const GrowthInput& input, const ClaimedEdges& claimed)
       : views_(input.views),
         indices_(input.indices),
+        are_repeated_(input.are_repeated),
         neighbors_(input.neighbors),
         sigma_px_(input.edge_sigma_px),
         options_(input.options),
@@ -185,7 +186,7 @@ class Grower {
     Votes votes(indices_.size());
     trusted.clear();
     for (std::size_t v = 0; v < indices_.size(); ++v) {
-      if (neighbors_[v].empty()) continue;
+      if (are_repeated_[v]) continue;
       const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
       if (!look) continue;
       ++grown.num_looks;
@@ -284,6 +285,7 @@ class Grower {
 
   const std::vector<PosedView>& views_;
   const std::vector<ViewIndex>& indices_;
+  const std::vector<bool>& are_repeated_;
   const std::vector<std::vector<ViewNeighbor>>& neighbors_;
   double sigma_px_;
   const CurveGrowthOptions& options_;

@@ -27,7 +27,8 @@ struct Growth {
 struct GrowthInput {
   const std::vector<PosedView>& views;
   const std::vector<ViewIndex>& indices;  // by view
-  // By view; views without neighbors are not queried.
+  const std::vector<bool>& are_repeated;  // by view; these are not queried
+  // By view.
   const std::vector<std::vector<ViewNeighbor>>& neighbors;
   double edge_sigma_px = 0;
   const CurveGrowthOptions& options;

@@ -33,7 +33,7 @@ struct Turn {
   double pixel = 0;  // world units
 };
 
-// Between tangents half an branch before and behind a sample.
+// Between tangents half a branch before and behind a sample.
 double TurnAround(const Curve& curve, std::size_t k, double pixel) {
   const auto around = SamplesAround(curve, k, kCornerBranchPx / 2 * pixel);
   const auto [first, last] = std::minmax_element(

@@ -58,7 +58,7 @@ double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
   const double least_px = input.sigma_px;
   std::size_t num_edges = 0;
   for (std::size_t i = 0; i < input.edge_maps.size(); ++i) {
-    if (input.overlaps[i].empty()) continue;
+    if (input.distinct.overlaps[i].empty()) continue;
     num_edges += input.edge_maps[i].edges.size();
   }
   SketchInput pilot = input;

@@ -42,14 +42,15 @@ void Choose(const Overlaps& overlaps,
 
 }  // namespace
 
-std::vector<int> SelectValidators(const Overlaps& overlaps,
+std::vector<int> SelectValidators(const DistinctViews& views,
                                   int h1,
                                   const std::vector<int>& partners,
                                   int max_num) {
+  const Overlaps& overlaps = views.overlaps;
   std::vector<int> chosen;
   if (overlaps.size() <= static_cast<std::size_t>(max_num)) {
     for (std::size_t i = 0; i < overlaps.size(); ++i) {
-      if (!overlaps[i].empty()) chosen.push_back(static_cast<int>(i));
+      if (!views.are_repeated[i]) chosen.push_back(static_cast<int>(i));
     }
     return chosen;
   }

@@ -11,20 +11,17 @@ namespace curvix {
 // More query views cost time and change little.
 inline constexpr int kMaxNumValidators = 64;
 
-// All views that overlap another, if there are at most `max_num` (>= 1) views
-// in all. Else h1, its `partners`, and of the views that overlap h1 those that
-// differ most in direction, max_num in all: repeatedly the view with the
-// largest ray angle to the nearest view chosen so far; ties: the smaller index.
-// Ascending. `overlaps` is FindOverlaps() of all views.
-std::vector<int> SelectValidators(
-    const std::vector<std::vector<ViewOverlap>>& overlaps,
-    int h1,
-    const std::vector<int>& partners,
-    int max_num = kMaxNumValidators);
+// All distinct views, if there are at most `max_num` (>= 1) views in all. Else
+// h1, its `partners`, and of the views that overlap h1 those that differ most
+// in direction, max_num in all: repeatedly the view with the largest ray angle
+// to the nearest view chosen so far; ties: the smaller index. Ascending.
+std::vector<int> SelectValidators(const DistinctViews& views,
+                                  int h1,
+                                  const std::vector<int>& partners,
+                                  int max_num = kMaxNumValidators);
 
 // The overlaps among the views of `chosen` (ascending); none for other views.
-std::vector<std::vector<ViewOverlap>> OverlapsAmong(
-    const std::vector<std::vector<ViewOverlap>>& overlaps,
-    const std::vector<int>& chosen);
+Overlaps OverlapsAmong(const Overlaps& overlaps,
+                       const std::vector<int>& chosen);
 
 }  // namespace curvix

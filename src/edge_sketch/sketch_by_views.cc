@@ -60,17 +60,17 @@ class ViewSketcher {
     H1View view;
     const auto i = static_cast<std::size_t>(h1);
     const std::vector<int> partners =
-        SelectPartners(input_.overlaps[i], input_.options.hypotheses);
+        SelectPartners(input_.distinct.overlaps[i], input_.options.hypotheses);
     const std::vector<int> validators =
-        SelectValidators(input_.overlaps, h1, partners);
-    for (const ViewOverlap& overlap : input_.overlaps[i]) {
+        SelectValidators(input_.distinct, h1, partners);
+    for (const ViewOverlap& overlap : input_.distinct.overlaps[i]) {
       if (!std::binary_search(
               validators.begin(), validators.end(), overlap.other)) {
         view.not_asked.push_back(overlap.other);
       }
     }
-    view.neighbors =
-        NeighborsInDirection(OverlapsAmong(input_.overlaps, validators));
+    view.neighbors = NeighborsInDirection(
+        OverlapsAmong(input_.distinct.overlaps, validators));
     const std::size_t fewest_supports =
         FewestSupports(input_.options.validation, NumOnThisSide(h1));
     std::vector<std::optional<HypothesisViews>> pairs(partners.size());
@@ -126,7 +126,7 @@ class ViewSketcher {
   // View h1, and those that look from nearly the same direction.
   std::size_t NumOnThisSide(int h1) const {
     const std::vector<ViewOverlap>& overlaps =
-        input_.overlaps[static_cast<std::size_t>(h1)];
+        input_.distinct.overlaps[static_cast<std::size_t>(h1)];
     return 1 + static_cast<std::size_t>(
                    std::count_if(overlaps.begin(),
                                  overlaps.end(),
@@ -343,8 +343,9 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
   UsedEdges used(input.edge_maps);
   EdgeSketch sketch;
   sketch.edge_sigma_px = input.sigma_px;
-  std::vector<bool> done(input.views.size(), false);
-  const int total = static_cast<int>(input.views.size());
+  std::vector<bool> done = input.distinct.are_repeated;
+  const auto total =
+      static_cast<int>(std::count(done.begin(), done.end(), false));
   for (int step = 0; step_done(step, total); ++step) {
     const auto h1 = NextView(input, used.num_unused(), done);
     if (!h1) break;

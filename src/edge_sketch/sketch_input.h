@@ -24,7 +24,7 @@ struct SketchInput {
   const std::vector<EdgeMap>& edge_maps;
   // Of each view, with AddPresence(); for SketchByViews.
   const std::vector<ViewIndex>& indices;
-  const std::vector<std::vector<ViewOverlap>>& overlaps;
+  const DistinctViews& distinct;
   const std::vector<DepthRange>& depths;  // of each view
   const Options& options;
   // Standard deviation of a 2D edge across its tangent. Pixels, > 0.

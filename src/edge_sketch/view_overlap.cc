@@ -218,8 +218,8 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
   ViewOverlap overlap;
   overlap.share =
       static_cast<double>(angles.size()) / static_cast<double>(places.size());
-  overlap.ray_angle_rad = Median(std::move(angles));
   if (ShareCenter(view, other)) return overlap;
+  overlap.ray_angle_rad = Median(std::move(angles));
   const Eigen::Vector3d baseline = (other.center - view.center).normalized();
   const Eigen::Vector3d axis = OpticalAxis(view);
   const Eigen::Vector3d across = baseline - axis * axis.dot(baseline);
@@ -227,18 +227,54 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
   return overlap;
 }
 
+// FindOverlaps() and views with the same centre, whose ray angle is 0.
+Overlaps FindAllOverlaps(const std::vector<PosedView>& views,
+                         const std::vector<ScenePoint>& points) {
+  const auto places = FindPlaces(views, points);
+  Overlaps overlaps(views.size());
+  if (views.size() < 2) return overlaps;
+  const PlacesIndex index(places);
+  std::vector<std::vector<std::size_t>> candidates(views.size());
+  for (std::size_t j = 0; j < views.size(); ++j) {
+    for (const std::size_t i : index.SeenBy(views[j])) {
+      if (i != j) candidates[i].push_back(j);
+    }
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (const std::size_t j : candidates[i]) {
+      if (auto overlap = Overlap(views[i], places[i], views[j])) {
+        overlap->other = static_cast<int>(j);
+        overlaps[i].push_back(*overlap);
+      }
+    }
+  }
+  return overlaps;
+}
+
+void DropNarrow(double max_angle_rad, Overlaps* overlaps) {
+  for (std::vector<ViewOverlap>& others : *overlaps) {
+    std::erase_if(others, [&](const ViewOverlap& overlap) {
+      return overlap.ray_angle_rad <= max_angle_rad;
+    });
+  }
+}
+
 std::vector<std::size_t> ByFallingNumberOfPoints(
-    std::size_t num_views, const std::vector<ScenePoint>& points) {
-  std::vector<std::size_t> num_points(num_views, 0);
+    const std::vector<EdgeMap>& edge_maps,
+    const std::vector<ScenePoint>& points) {
+  std::vector<std::size_t> num_points(edge_maps.size(), 0);
   for (const ScenePoint& point : points) {
     for (const int view_idx : point.view_idxs) {
       ++num_points[static_cast<std::size_t>(view_idx)];
     }
   }
-  std::vector<std::size_t> order(num_views);
+  const auto rank = [&](std::size_t i) {
+    return std::pair(num_points[i], edge_maps[i].edges.size());
+  };
+  std::vector<std::size_t> order(edge_maps.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return num_points[a] > num_points[b];
+    return rank(a) > rank(b);
   });
   return order;
 }
@@ -287,50 +323,42 @@ std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
 
 Overlaps FindOverlaps(const std::vector<PosedView>& views,
                       const std::vector<ScenePoint>& points) {
-  const auto places = FindPlaces(views, points);
-  Overlaps overlaps(views.size());
-  if (views.size() < 2) return overlaps;
-  const PlacesIndex index(places);
-  std::vector<std::vector<std::size_t>> candidates(views.size());
-  for (std::size_t j = 0; j < views.size(); ++j) {
-    for (const std::size_t i : index.SeenBy(views[j])) {
-      if (i != j) candidates[i].push_back(j);
-    }
-  }
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (const std::size_t j : candidates[i]) {
-      if (auto overlap = Overlap(views[i], places[i], views[j])) {
-        overlap->other = static_cast<int>(j);
-        overlaps[i].push_back(*overlap);
-      }
-    }
-  }
+  Overlaps overlaps = FindAllOverlaps(views, points);
+  DropNarrow(0, &overlaps);
   return overlaps;
 }
 
-Overlaps OfDistinctViews(Overlaps overlaps,
-                         const std::vector<ScenePoint>& points,
-                         const ValidationOptions& options) {
-  const double min_angle_rad = DegToRad(options.min_view_angle_deg);
-  std::vector<bool> is_repeated(overlaps.size(), false);
-  for (const std::size_t i : ByFallingNumberOfPoints(overlaps.size(), points)) {
-    if (is_repeated[i]) continue;
+DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
+                                const std::vector<EdgeMap>& edge_maps,
+                                const std::vector<ScenePoint>& points,
+                                const Options& options) {
+  const bool may_repeat =
+      options.hypotheses.view_selection == ViewSelection::kEveryView;
+  const double min_angle_rad =
+      may_repeat ? DegToRad(options.validation.min_view_angle_deg) : 0;
+  DistinctViews distinct{std::vector<bool>(views.size(), false),
+                         FindAllOverlaps(views, points)};
+  Overlaps& overlaps = distinct.overlaps;
+  std::vector<bool>& are_repeated = distinct.are_repeated;
+  for (const std::size_t i : ByFallingNumberOfPoints(edge_maps, points)) {
+    if (are_repeated[i] || edge_maps[i].edges.empty()) continue;
     for (const ViewOverlap& overlap : overlaps[i]) {
       const auto j = static_cast<std::size_t>(overlap.other);
       const ViewOverlap* back = FindOverlap(overlaps[j], static_cast<int>(i));
       if (SeesTheSame(overlap, min_angle_rad) && back &&
           SeesTheSame(*back, min_angle_rad)) {
-        is_repeated[j] = true;
+        are_repeated[j] = true;
       }
     }
   }
+  DropNarrow(min_angle_rad, &overlaps);
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
-    if (is_repeated[i]) overlaps[i].clear();
+    if (are_repeated[i]) overlaps[i].clear();
     std::erase_if(overlaps[i], [&](const ViewOverlap& overlap) {
-      return is_repeated[static_cast<std::size_t>(overlap.other)];
+      return are_repeated[static_cast<std::size_t>(overlap.other)];
     });
   }
-  return overlaps;
+  return distinct;
 }
 
 }  // namespace curvix

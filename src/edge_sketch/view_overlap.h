@@ -3,6 +3,7 @@
 // Deviation: sparse points where there are any, else the cameras' geometry.
 #pragma once
 
+#include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
@@ -36,18 +37,28 @@ const ViewOverlap* FindOverlap(const std::vector<ViewOverlap>& overlaps,
 using Overlaps = std::vector<std::vector<ViewOverlap>>;  // by view_idx
 
 // For each view the views that overlap it, by view_idx: those that see some of
-// its places. The time grows with the number of overlapping pairs.
+// its places. Views with the same centre do not overlap. The time grows with
+// the number of overlapping pairs.
 Overlaps FindOverlaps(const std::vector<PosedView>& views,
                       const std::vector<ScenePoint>& points);
 
+struct DistinctViews {
+  std::vector<bool> are_repeated;  // by view: another one shows the same
+  Overlaps overlaps;               // among the others
+};
+
 // Two views repeat each other if either sees nine tenths of the places of the
-// other at a median ray angle below options.min_view_angle_deg: neighbouring
-// frames of a video, say. They show the same edges wherever these are in depth,
-// so together they confirm no more than one of them does. Of such views the one
-// with most sparse points remains (ties: the smaller index); the others overlap
-// none here. With 0, all remain.
-Overlaps OfDistinctViews(Overlaps overlaps,
-                         const std::vector<ScenePoint>& points,
-                         const ValidationOptions& options);
+// other at a median ray angle below options.validation.min_view_angle_deg:
+// neighbouring frames of a video, say. They show the same edges wherever these
+// are in depth, so together they confirm no more than one of them does. In the
+// order of falling numbers of sparse points (ties: of edges, then by view_idx),
+// each view that is left and has edges leaves out those that repeat it. Views
+// that see less of the same remain but do not overlap. With 0, and without
+// ViewSelection::kEveryView, none is repeated, and the overlaps are those of
+// FindOverlaps().
+DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
+                                const std::vector<EdgeMap>& edge_maps,
+                                const std::vector<ScenePoint>& points,
+                                const Options& options);
 
 }  // namespace curvix

@@ -162,8 +162,10 @@ EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
   const int most = input.options.hypotheses.max_num_view_pairs;
   while (static_cast<int>(done.size()) < most && !EnoughUsed(input, used) &&
          step_done(static_cast<int>(done.size()), most)) {
-    const auto pair = NextViewPair(
-        input.overlaps, used.num_unused(), done, input.options.hypotheses);
+    const auto pair = NextViewPair(input.distinct.overlaps,
+                                   used.num_unused(),
+                                   done,
+                                   input.options.hypotheses);
     if (!pair) break;
     done.push_back(*pair);
     const auto h1 = static_cast<std::size_t>(pair->h1);

@@ -72,7 +72,9 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
     text << "None of " << counts.hypotheses
          << " edge pairs is confirmed by enough other views. Are the poses "
             "right to about a pixel, and do at least "
-         << FewestSupports(options.validation, edge_maps.size())
+         << FewestSupports(options.validation,
+                           edge_maps.size() -
+                               static_cast<std::size_t>(counts.repeated_views))
          << " views see each part of the scene?";
   } else if (num_curves > 0) {
     text << "None of " << num_curves
@@ -144,12 +146,17 @@ Reconstruction Connect(const Scene& scene,
     result.edges = sketch.edges;
     const std::vector<ViewIndex> indices =
         IndexViews(views, edge_maps, num_threads);
-    const auto neighbors = NeighborsInDirection(OfDistinctViews(
-        FindOverlaps(views, scene.points), scene.points, options.validation));
-    result.curves.curves = GrowCurves(
-        sketch.edges,
-        {views, indices, neighbors, sketch.edge_sigma_px, options.curve_growth},
-        num_threads);
+    const DistinctViews distinct =
+        FindDistinctViews(views, edge_maps, scene.points, options);
+    const auto neighbors = NeighborsInDirection(distinct.overlaps);
+    result.curves.curves = GrowCurves(sketch.edges,
+                                      {views,
+                                       indices,
+                                       distinct.are_repeated,
+                                       neighbors,
+                                       sketch.edge_sigma_px,
+                                       options.curve_growth},
+                                      num_threads);
     run.End(CountsOf(result.curves));
   } else {
     GroupIntoCurves(views, edge_maps, sketch, options, run, result);

@@ -9,14 +9,17 @@ namespace curvix {
 
 Counts CountsOf(const EdgeSketch& sketch) {
   const SketchCounts& c = sketch.counts;
-  return {{"repeated views", c.repeated_views},
-          {"view pairs", c.view_pairs},
-          {"edges asked", c.h1_edges},
-          {"hypotheses", c.hypotheses},
-          {"hypotheses without support", c.unsupported},
-          {"weaker rivals", c.rivals},
-          {"3D edges", static_cast<std::int64_t>(sketch.edges.size())},
-          {"2D edges used", c.used_edges}};
+  Counts counts = {{"view pairs", c.view_pairs},
+                   {"edges asked", c.h1_edges},
+                   {"hypotheses", c.hypotheses},
+                   {"hypotheses without support", c.unsupported},
+                   {"weaker rivals", c.rivals},
+                   {"3D edges", static_cast<std::int64_t>(sketch.edges.size())},
+                   {"2D edges used", c.used_edges}};
+  if (c.repeated_views > 0) {
+    counts.emplace(counts.begin(), "repeated views", c.repeated_views);
+  }
+  return counts;
 }
 
 Counts CountsOf(const CurveSet& curves) {

@@ -2,8 +2,6 @@
 #include "pipeline/sketch_edges.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <utility>
 
 #include "edge_sketch/depth_range.h"
 #include "edge_sketch/edge_noise.h"
@@ -14,17 +12,6 @@
 #include "paper/sketch_by_pairs.h"
 
 namespace curvix {
-namespace {
-
-// Views that overlap another.
-std::int64_t NumOverlapping(const Overlaps& overlaps) {
-  return std::count_if(overlaps.begin(),
-                       overlaps.end(),
-                       [](const auto& others) { return !others.empty(); });
-}
-
-}  // namespace
-
 bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options) {
   return options.curve_growth.enabled && AreCrowded(edge_maps);
 }
@@ -34,14 +21,15 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
                        const std::vector<ScenePoint>& points,
                        const Options& options,
                        const StepDone& step_done) {
-  Overlaps overlaps = FindOverlaps(views, points);
+  const DistinctViews distinct =
+      FindDistinctViews(views, edge_maps, points, options);
   const auto depths =
       FindDepthRanges(views, points, options.hypotheses.depth_margin);
   std::vector<ViewIndex> indices;
   SketchInput input{views,
                     edge_maps,
                     indices,
-                    overlaps,
+                    distinct,
                     depths,
                     options,
                     options.hypotheses.EdgeSigmaPx()};
@@ -49,15 +37,13 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView: {
-      const std::int64_t num_overlapping = NumOverlapping(overlaps);
-      overlaps =
-          OfDistinctViews(std::move(overlaps), points, options.validation);
       indices = IndexViews(views, edge_maps, options.runtime.num_threads);
       AddPresence(options.validation, options.runtime.num_threads, indices);
       input.sigma_px = EstimateEdgeSigma(input, step_done);
       input.finds_seeds = CurvesGrow(edge_maps, options);
       EdgeSketch sketch = SketchByViews(input, step_done);
-      sketch.counts.repeated_views = num_overlapping - NumOverlapping(overlaps);
+      sketch.counts.repeated_views = std::count(
+          distinct.are_repeated.begin(), distinct.are_repeated.end(), true);
       return sketch;
     }
   }

@@ -52,10 +52,10 @@ PosedEdges::PosedEdges(const Scene& scene,
       input_views_(MakePosedViews(scene)),
       views_(input_views_),
       indices_(IndexViews(views_, edge_maps, options.runtime.num_threads)),
-      overlaps_(FindOverlaps(views_, scene.points)),
+      distinct_(FindDistinctViews(views_, edge_maps, scene.points, options)),
       depths_(FindDepthRanges(
           views_, scene.points, options.hypotheses.depth_margin)),
-      neighbors_(NeighborsInDirection(overlaps_)),
+      neighbors_(NeighborsInDirection(FindOverlaps(views_, scene.points))),
       moved_(Unmoved()) {}
 
 const Camera& PosedEdges::CameraOf(std::size_t view_idx) const {
@@ -125,7 +125,7 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
       SketchByViews({views_,
                      is_as_input ? edge_maps_ : carried,
                      indices,
-                     overlaps_,
+                     distinct_,
                      depths_,
                      options,
                      sigma_px,

@@ -115,7 +115,7 @@ class PosedEdges {
   const std::vector<PosedView> input_views_;
   std::vector<PosedView> views_;  // indices_ points into it
   std::vector<ViewIndex> indices_;
-  std::vector<std::vector<ViewOverlap>> overlaps_;
+  DistinctViews distinct_;
   std::vector<DepthRange> depths_;
   std::vector<std::vector<ViewNeighbor>> neighbors_;
   MovedCameras moved_;

@@ -45,7 +45,7 @@ class Seen {
   }
 
   std::vector<EdgeMap>& maps() { return maps_; }
-  std::vector<std::vector<ViewNeighbor>>& neighbors() { return neighbors_; }
+  std::vector<bool>& are_repeated() { return are_repeated_; }
 
   // A seed on the curve, `off_px` beside it, supported by these views.
   Edge3d Seed(std::size_t curve_idx,
@@ -77,7 +77,9 @@ class Seen {
                          EdgeDensity(maps_[i], 800, 800)});
     }
     return GrowCurves(
-        seeds, {views_, indices, neighbors_, kSigmaPx, options}, num_threads);
+        seeds,
+        {views_, indices, are_repeated_, neighbors_, kSigmaPx, options},
+        num_threads);
   }
 
   // The length of a step at the sample, which is a pixel in an image.
@@ -112,6 +114,7 @@ class Seen {
   std::vector<TestCurve> curves_;
   std::vector<PosedView> views_;
   std::vector<EdgeMap> maps_;
+  std::vector<bool> are_repeated_ = std::vector<bool>(kNumViews, false);
   std::vector<std::vector<ViewNeighbor>> neighbors_;
 };
 
@@ -149,12 +152,12 @@ TEST(GrowCurves, OneSeedGivesAWholeCircleOnce) {
   }
 }
 
-TEST(GrowCurves, ViewsWithoutNeighborsAreNotQueried) {
+TEST(GrowCurves, RepeatedViewsAreNotQueried) {
   constexpr std::int32_t kNumQueried = 9;
   Seen seen({kLine});
-  for (std::size_t v = kNumQueried; v < kNumViews; ++v) {
-    seen.neighbors()[v].clear();
-  }
+  std::fill(seen.are_repeated().begin() + kNumQueried,
+            seen.are_repeated().end(),
+            true);
   const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.3)});
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_NEAR(Length(curves[0]), kLine.length, 4 * kPixel);

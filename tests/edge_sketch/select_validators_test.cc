@@ -17,18 +17,20 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-std::vector<std::vector<ViewOverlap>> Ring(int num_views) {
-  return FindOverlaps(RingOfViews(num_views), {});
+DistinctViews Ring(std::size_t num_views) {
+  return {std::vector<bool>(num_views, false),
+          FindOverlaps(RingOfViews(static_cast<int>(num_views)), {})};
 }
 
 TEST(SelectValidators, TakesAllOfFewViews) {
   EXPECT_THAT(SelectValidators(Ring(5), 3, {1}, 5), ElementsAre(0, 1, 2, 3, 4));
 }
 
-TEST(SelectValidators, TakesNoneThatOverlapsNothing) {
-  auto overlaps = Ring(5);
-  overlaps[2].clear();
-  EXPECT_THAT(SelectValidators(overlaps, 3, {1}, 5), ElementsAre(0, 1, 3, 4));
+TEST(SelectValidators, TakesNoneThatIsRepeated) {
+  DistinctViews views = Ring(5);
+  views.overlaps[1].clear();
+  views.are_repeated[2] = true;
+  EXPECT_THAT(SelectValidators(views, 3, {4}, 5), ElementsAre(0, 1, 3, 4));
 }
 
 TEST(SelectValidators, SpreadsThemOverAllDirections) {
@@ -46,16 +48,16 @@ TEST(SelectValidators, SpreadsThemOverAllDirections) {
 }
 
 TEST(SelectValidators, TakesViewsThatOverlapOnly) {
-  auto overlaps = Ring(20);
-  std::erase_if(overlaps[4],
+  DistinctViews views = Ring(20);
+  std::erase_if(views.overlaps[4],
                 [](const ViewOverlap& overlap) { return overlap.other > 9; });
-  for (const int view_idx : SelectValidators(overlaps, 4, {}, 12)) {
+  for (const int view_idx : SelectValidators(views, 4, {}, 12)) {
     EXPECT_LE(view_idx, 9);
   }
 }
 
 TEST(OverlapsAmong, KeepsWhatConcernsTheChosenOnly) {
-  const auto overlaps = Ring(6);
+  const Overlaps overlaps = Ring(6).overlaps;
   const auto among = OverlapsAmong(overlaps, {1, 2, 4});
   ASSERT_THAT(among, SizeIs(6));
   for (const std::size_t i : {0U, 3U, 5U}) EXPECT_THAT(among[i], IsEmpty());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edge_sketch/view_overlap.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,6 +19,8 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::optional<ViewOverlap> OverlapOf(
     const std::vector<std::vector<ViewOverlap>>& overlaps, int i, int j) {
@@ -124,8 +127,7 @@ TEST(FindOverlaps, HasOverlapInForwardMotion) {
   EXPECT_EQ(overlap->baseline_across, Vector3d::Zero());
 }
 
-TEST(FindOverlaps, RaysAreTheSameWhereTheCameraOnlyTurned) {
-  Random random(3);
+TEST(FindOverlaps, FindsNoneWhereTheCameraOnlyTurned) {
   for (const Vector3d& center : {Vector3d(0, 0, 0), Vector3d(1e3, -2e3, 7)}) {
     std::vector<PosedView> views;
     for (int i = 0; i < 6; ++i) {
@@ -136,11 +138,7 @@ TEST(FindOverlaps, RaysAreTheSameWhereTheCameraOnlyTurned) {
           -(views.back().rotation.transpose() * views.back().translation);
     }
     for (const auto& others : FindOverlaps(views, {})) {
-      EXPECT_FALSE(others.empty());
-      for (const ViewOverlap& overlap : others) {
-        EXPECT_LT(overlap.ray_angle_rad, 1e-9);
-        EXPECT_EQ(overlap.baseline_across, Vector3d::Zero());
-      }
+      EXPECT_TRUE(others.empty());
     }
   }
 }
@@ -156,47 +154,99 @@ std::vector<PosedView> RingAndFrames(int num_views, int num_frames) {
   return views;
 }
 
-TEST(OfDistinctViews, OneOfSeveralFramesRemains) {
+// Of views that all have as many edges.
+DistinctViews Distinct(const std::vector<PosedView>& views,
+                       const std::vector<ScenePoint>& points = {},
+                       const Options& options = {}) {
+  std::vector<EdgeMap> edge_maps(views.size());
+  for (EdgeMap& map : edge_maps) map.edges.resize(5);
+  return FindDistinctViews(views, edge_maps, points, options);
+}
+
+std::vector<std::size_t> Repeated(const DistinctViews& distinct) {
+  std::vector<std::size_t> repeated;
+  for (std::size_t i = 0; i < distinct.are_repeated.size(); ++i) {
+    if (distinct.are_repeated[i]) repeated.push_back(i);
+  }
+  return repeated;
+}
+
+TEST(FindDistinctViews, OneOfSeveralFramesRemains) {
   const std::vector<PosedView> views = RingAndFrames(12, 3);
   std::vector<ScenePoint> points = Ball({0, 0, 0}, views.size(), 50);
+  EXPECT_THAT(Repeated(Distinct(views)), ElementsAre(12, 13, 14));
+  EXPECT_THAT(Repeated(Distinct(views, points)), ElementsAre(12, 13, 14));
   // More points are seen sharply in frame 13.
   for (std::size_t i = 0; i < points.size(); i += 5) points[i].view_idxs = {13};
-  for (const bool has_points : {false, true}) {
-    const std::size_t remaining = has_points ? 13 : 0;
-    const std::vector<ScenePoint> known =
-        has_points ? points : std::vector<ScenePoint>();
-    const Overlaps overlaps =
-        OfDistinctViews(FindOverlaps(views, known), known, {});
-    for (const std::size_t i : {0U, 12U, 13U, 14U}) {
-      EXPECT_EQ(overlaps[i].empty(), i != remaining) << i;
-    }
-    for (std::size_t i = 1; i < 12; ++i) {
-      EXPECT_EQ(overlaps[i].size(), 11u);
-      for (const ViewOverlap& overlap : overlaps[i]) {
-        EXPECT_TRUE(overlap.other < 12 ? overlap.other != 0 || !has_points
-                                       : overlap.other == 13 && has_points);
-      }
+  const DistinctViews distinct = Distinct(views, points);
+  EXPECT_THAT(Repeated(distinct), ElementsAre(0, 12, 14));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::vector<ViewOverlap>& others = distinct.overlaps[i];
+    EXPECT_EQ(others.size(), distinct.are_repeated[i] ? 0 : 11) << i;
+    for (const ViewOverlap& overlap : others) {
+      EXPECT_FALSE(
+          distinct.are_repeated[static_cast<std::size_t>(overlap.other)]);
     }
   }
 }
 
-TEST(OfDistinctViews, ZeroDegreesKeepAll) {
-  const std::vector<PosedView> views = RingAndFrames(5, 2);
-  for (const auto& others : OfDistinctViews(
-           FindOverlaps(views, {}), {}, {.min_view_angle_deg = 0})) {
-    EXPECT_EQ(others.size(), 6u);
+TEST(FindDistinctViews, OneOfEqualViewsRemains) {
+  const std::vector<PosedView> views(4, RingOfViews(8)[3]);
+  EXPECT_THAT(Repeated(Distinct(views)), ElementsAre(1, 2, 3));
+  EXPECT_TRUE(Distinct({}).overlaps.empty());
+}
+
+// A view is left out by one that remains, not by one that is left out.
+TEST(FindDistinctViews, RepetitionDoesNotPropagate) {
+  const std::vector<PosedView> ring = RingAndFrames(1, 8);
+  const std::vector<ScenePoint> points = Ball({0, 0, 0}, 3, 50);
+  EXPECT_THAT(Repeated(Distinct({ring[0], ring[4], ring[8]}, points)),
+              ElementsAre(1));
+  EXPECT_THAT(Repeated(Distinct({ring[4], ring[0], ring[8]}, points)),
+              ElementsAre(1, 2));
+}
+
+TEST(FindDistinctViews, AViewWithoutEdgesLeavesOutNone) {
+  const std::vector<PosedView> views = RingAndFrames(6, 2);
+  std::vector<EdgeMap> edge_maps(views.size());
+  for (std::size_t i = 1; i < 7; ++i) edge_maps[i].edges.resize(3);
+  edge_maps[7].edges.resize(4);
+  const auto repeated = [&](const Options& options) {
+    return Repeated(FindDistinctViews(views, edge_maps, {}, options));
+  };
+  EXPECT_THAT(repeated({}), ElementsAre(0, 6)) << "7 has most edges";
+  edge_maps[6].edges.clear();
+  edge_maps[7].edges.clear();
+  EXPECT_THAT(repeated({}), IsEmpty()) << "no frame has edges";
+}
+
+TEST(FindDistinctViews, AreAllAtZeroDegreesAndInPairs) {
+  std::vector<PosedView> views = RingAndFrames(5, 2);
+  views.push_back(views.front());
+  Options zero;
+  zero.validation.min_view_angle_deg = 0;
+  Options pairs;
+  pairs.hypotheses.view_selection = ViewSelection::kUnusedEdges;
+  for (const Options& options : {zero, pairs}) {
+    const DistinctViews distinct = Distinct(views, {}, options);
+    EXPECT_THAT(Repeated(distinct), IsEmpty());
+    EXPECT_EQ(distinct.overlaps[0].size(), 6u) << "not with its copy";
+    EXPECT_EQ(distinct.overlaps[1].size(), 7u);
   }
 }
 
-TEST(OfDistinctViews, WhatShowsMoreOrLessIsNoRepetition) {
+TEST(FindDistinctViews, WhatShowsMoreOrLessRemainsButDoesNotOverlap) {
   std::vector<PosedView> views = RingOfViews(8);
   // From the same place: another direction, and a much longer lens.
   views.push_back(LookAt(views[0].center, {2.5, 2.5, 0}));
   views.push_back(views[0]);
   views.back().calibration.topLeftCorner<2, 2>() *= 5;
-  for (const auto& others : OfDistinctViews(
-           FindOverlaps(views, Ball({0, 0, 0}, views.size(), 100)), {}, {})) {
-    EXPECT_FALSE(others.empty());
+  const DistinctViews distinct =
+      Distinct(views, Ball({0, 0, 0}, views.size(), 100));
+  EXPECT_THAT(Repeated(distinct), IsEmpty());
+  for (const int other : {8, 9}) {
+    EXPECT_FALSE(FindOverlap(distinct.overlaps[0], other)) << other;
+    EXPECT_TRUE(FindOverlap(distinct.overlaps[3], other)) << other;
   }
 }
 

@@ -93,12 +93,9 @@ TEST(RepeatedViews, MakeNoDifference) {
   }
   for (const bool grows : {false, true}) {
     SCOPED_TRACE(grows ? "grown" : "linked");
-    for (std::size_t i = 0; i < video.edge_maps.size(); ++i) {
-      video.edge_maps[i].num_dropped_over_limit = grows ? 1'000'000 : 0;
-    }
     WireScene single = wires;
-    for (EdgeMap& map : single.edge_maps) {
-      map.num_dropped_over_limit = grows ? 1'000'000 : 0;
+    for (std::vector<EdgeMap>* maps : {&video.edge_maps, &single.edge_maps}) {
+      for (EdgeMap& map : *maps) map.spacing_px = grows ? 1 : 0.5;
     }
     const Reconstruction expected = RunWith({}, single);
     ExpectSameSet(RunWith({}, video).curves, expected.curves, 1e-9);

@@ -32,6 +32,26 @@ TEST(SketchEdges, DoesNotGrowWithTheNumberOfViews) {
   EXPECT_LT(static_cast<double>(of_many), 1.5 * static_cast<double>(of_few));
 }
 
+TEST(SketchEdges, CountsRepeatedViews) {
+  std::vector<PosedView> views = RingOfViews(16);
+  views.insert(views.end(), 2, views[5]);
+  const std::vector<EdgeMap> maps =
+      ExactEdgeMaps({CircleCurve({0, 0, 0}, 0.8)}, views, 1);
+  const auto sketch = [&](const std::vector<PosedView>& some) {
+    return SketchEdges(some,
+                       {maps.begin(), maps.begin() + some.size()},
+                       {},
+                       Options(),
+                       [](int, int) { return true; });
+  };
+  const EdgeSketch all = sketch(views);
+  EXPECT_EQ(all.counts.repeated_views, 2);
+  views.resize(16);
+  const EdgeSketch distinct = sketch(views);
+  EXPECT_EQ(distinct.counts.repeated_views, 0);
+  EXPECT_EQ(all.counts.h1_edges, distinct.counts.h1_edges);
+}
+
 // Seen in the first `num_views` of 32. Errors go on along a contour, for 16
 // edges.
 double EdgeSigmaOf(double noise_px, std::size_t num_views) {

@@ -41,6 +41,12 @@ TEST(GroupDigits, PutsASpaceEveryThreeDigits) {
   EXPECT_EQ(GroupDigits(-123), "-123");
 }
 
+TEST(Plural, HasAnSUnlessItIsOne) {
+  EXPECT_EQ(Plural(0, "view"), "0 views");
+  EXPECT_EQ(Plural(1, "view"), "1 view");
+  EXPECT_EQ(Plural(1200, "view"), "1 200 views");
+}
+
 TEST(DurationText, ChoosesTheUnitsThatMatter) {
   EXPECT_EQ(DurationText(0), "0.0 s");
   EXPECT_EQ(DurationText(-1), "0.0 s");
