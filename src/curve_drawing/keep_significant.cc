@@ -11,8 +11,8 @@
 namespace curvix {
 namespace {
 
-// Fine texture hardly reaches this multiple of the least significance, long
-// edges of windows and shutters beside each other do.
+// Joints of brick of a rendered house hardly reach this multiple of the least
+// significance; long edges of painted windows beside each other do.
 constexpr double kTimesAsSignificant = 4;
 
 const Edge2d& EdgeOf(const EdgeRef& ref,

@@ -81,7 +81,7 @@ Overlaps OverlapsAmong(const Overlaps& overlaps,
   for (const int view_idx : chosen) {
     const auto i = static_cast<std::size_t>(view_idx);
     for (const int other : chosen) {
-      if (const ViewOverlap* overlap = FindOverlap(overlaps[i], other)) {
+      if (const ViewOverlap* overlap = OverlapWith(overlaps[i], other)) {
         among[i].push_back(*overlap);
       }
     }

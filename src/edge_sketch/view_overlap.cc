@@ -286,7 +286,7 @@ bool SeesTheSame(const ViewOverlap& overlap, double min_angle_rad) {
 
 }  // namespace
 
-const ViewOverlap* FindOverlap(const std::vector<ViewOverlap>& overlaps,
+const ViewOverlap* OverlapWith(const std::vector<ViewOverlap>& overlaps,
                                int other) {
   const auto found = std::lower_bound(
       overlaps.begin(),
@@ -344,7 +344,7 @@ DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
     if (are_repeated[i] || edge_maps[i].edges.empty()) continue;
     for (const ViewOverlap& overlap : overlaps[i]) {
       const auto j = static_cast<std::size_t>(overlap.other);
-      const ViewOverlap* back = FindOverlap(overlaps[j], static_cast<int>(i));
+      const ViewOverlap* back = OverlapWith(overlaps[j], static_cast<int>(i));
       if (SeesTheSame(overlap, min_angle_rad) && back &&
           SeesTheSame(*back, min_angle_rad)) {
         are_repeated[j] = true;

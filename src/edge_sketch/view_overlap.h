@@ -31,7 +31,7 @@ std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 
 // Of the overlaps of one view, by view_idx, that with `other`; nullptr: none.
-const ViewOverlap* FindOverlap(const std::vector<ViewOverlap>& overlaps,
+const ViewOverlap* OverlapWith(const std::vector<ViewOverlap>& overlaps,
                                int other);
 
 using Overlaps = std::vector<std::vector<ViewOverlap>>;  // by view_idx

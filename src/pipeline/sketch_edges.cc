@@ -12,6 +12,7 @@
 #include "paper/sketch_by_pairs.h"
 
 namespace curvix {
+
 bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options) {
   return options.curve_growth.enabled && AreCrowded(edge_maps);
 }

@@ -245,8 +245,8 @@ TEST(FindDistinctViews, WhatShowsMoreOrLessRemainsButDoesNotOverlap) {
       Distinct(views, Ball({0, 0, 0}, views.size(), 100));
   EXPECT_THAT(Repeated(distinct), IsEmpty());
   for (const int other : {8, 9}) {
-    EXPECT_FALSE(FindOverlap(distinct.overlaps[0], other)) << other;
-    EXPECT_TRUE(FindOverlap(distinct.overlaps[3], other)) << other;
+    EXPECT_FALSE(OverlapWith(distinct.overlaps[0], other)) << other;
+    EXPECT_TRUE(OverlapWith(distinct.overlaps[3], other)) << other;
   }
 }
 
