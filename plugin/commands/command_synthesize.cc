@@ -83,7 +83,8 @@ const std::vector<std::string>& Solids() {
                                                  "facade",
                                                  "house",
                                                  "table",
-                                                 "knobs"};
+                                                 "knobs",
+                                                 "room"};
   return names;
 }
 
@@ -116,7 +117,7 @@ FlagSection ImageFlags(SynthesizeSettings* settings) {
                     .field = &o.num_views,
                     .min = 3,
                     .max = 10000,
-                    .help = "images: all around, or along a facade"}),
+                    .help = "images: all around, along a facade, or in a room"}),
            RowFlag({.name = "width",
                     .field = &o.width,
                     .min = 16,

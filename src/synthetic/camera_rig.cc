@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/angles.h"
-#include "base/check.h"
 #include "geometry/distortion.h"
 #include "synthetic/counter_random.h"
 
@@ -66,6 +65,23 @@ struct Motion {
             factor * shift};
   }
 };
+
+std::vector<Vector3d> InImage(const Rigid3& cam_from_world,
+                              const Camera& camera,
+                              const std::vector<Vector3d>& points) {
+  std::vector<Vector3d> inside;
+  for (const Vector3d& x : points) {
+    const Vector3d in_camera = cam_from_world * x;
+    if (!(in_camera.z() > 0)) continue;
+    const Eigen::Vector2d pixel =
+        ImageFromIdeal(camera, in_camera.hnormalized());
+    if (pixel.x() >= 0 && pixel.x() <= camera.width && pixel.y() >= 0 &&
+        pixel.y() <= camera.height) {
+      inside.push_back(x);
+    }
+  }
+  return inside;
+}
 
 double RmsMove(const Rigid3& from,
                const Rigid3& to,
@@ -143,8 +159,8 @@ Rigid3 Disturbed(const Rigid3& cam_from_world,
                  const std::vector<Vector3d>& points,
                  double rms_px,
                  std::uint64_t seed) {
-  CURVIX_CHECK(!points.empty(), "points to measure the disturbance on");
-  if (rms_px == 0) return cam_from_world;
+  const std::vector<Vector3d> inside = InImage(cam_from_world, camera, points);
+  if (rms_px == 0 || inside.empty()) return cam_from_world;
   const double distance = cam_from_world.translation.norm();
   Motion motion;
   for (int axis = 0; axis < 3; ++axis) {
@@ -156,7 +172,7 @@ Rigid3 Disturbed(const Rigid3& cam_from_world,
   double factor = 1e-3 * rms_px / kFocalPerSide / camera.width;
   for (int i = 0; i < 5; ++i) {
     const Rigid3 disturbed = motion.Times(factor) * cam_from_world;
-    factor *= rms_px / RmsMove(cam_from_world, disturbed, camera, points);
+    factor *= rms_px / RmsMove(cam_from_world, disturbed, camera, inside);
   }
   return motion.Times(factor) * cam_from_world;
 }

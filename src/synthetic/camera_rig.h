@@ -22,7 +22,8 @@ Result<Camera> MakeCamera(const SyntheticOptions& options);
 std::vector<Rigid3> MakePoses(int num_views, double radius, std::uint64_t seed);
 
 // `cam_from_world` turned and shifted in a random way (given by `seed`) by
-// which the projections of `points` move by rms_px, root mean square.
+// which the projections of those `points` that the image holds move by rms_px,
+// root mean square; unchanged if it holds none.
 Rigid3 Disturbed(const Rigid3& cam_from_world,
                  const Camera& camera,
                  const std::vector<Eigen::Vector3d>& points,

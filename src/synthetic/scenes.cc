@@ -118,6 +118,27 @@ void AddBottle(const Vector3d& foot, std::vector<SolidPrimitive>& parts) {
   parts.push_back(Tinted(0.6, Cylinder(at(0.44), up(0.04), 0.047)));
 }
 
+// In the room's own unit, its length.
+constexpr double kRoomWidth = 0.8;
+constexpr double kRoomHeight = 0.5;
+constexpr double kWallThickness = 0.06;
+
+// A top on four legs, which stand on the floor at z = 0.
+void AddDesk(const Vector3d& low,
+             const Vector3d& high,
+             std::vector<SolidPrimitive>& parts) {
+  constexpr double kTopHeight = 0.02;
+  constexpr double kLegWidth = 0.025;
+  const double under = high.z() - kTopHeight;
+  parts.push_back(Painted(kWood, Box({low.x(), low.y(), under}, high)));
+  for (const double x : {low.x(), high.x() - kLegWidth}) {
+    for (const double y : {low.y(), high.y() - kLegWidth}) {
+      parts.push_back(
+          Box({x, y, -0.01}, {x + kLegWidth, y + kLegWidth, under + 0.01}));
+    }
+  }
+}
+
 // In heights of the facade.
 constexpr double kBayWidth = 0.6;
 constexpr double kLengthPerView = 0.06;
@@ -281,6 +302,62 @@ std::vector<SolidPrimitive> Knobs() {
   AddBottle({0.8, 0.5, 0.2}, parts);
   parts.back().pattern = SurfacePattern::kNone;
   return parts;
+}
+
+std::vector<SolidPrimitive> Room() {
+  const Vector3d size(1, kRoomWidth, kRoomHeight);
+  const Vector3d wall = Vector3d::Constant(kWallThickness);
+  const double beyond = kWallThickness + kBeyond;
+  std::vector<SolidPrimitive> parts = {
+      Box(-wall, size + wall),
+      Without(Box({0, 0, 0}, size)),
+      // Doorway, window and its bars, and what is in the walls.
+      Without(Box({0.1, -beyond, -0.01}, {0.28, 0.05, 0.38})),
+      Without(Box({0.95, 0.2, 0.16}, {1 + beyond, 0.6, 0.4})),
+      Box({1.02, 0.39, 0.15}, {1.04, 0.41, 0.41}),
+      Box({1.02, 0.19, 0.29}, {1.04, 0.61, 0.31}),
+      Without(
+          Box({0.55, kRoomWidth - 0.05, 0.2}, {0.85, kRoomWidth + 0.04, 0.3})),
+      // Chimney, window board, shelf with books.
+      Painted(kBrick,
+              Box({0.1, kRoomWidth - 0.1, -0.01},
+                  {0.35, kRoomWidth + 0.01, kRoomHeight + 0.01})),
+      Box({0.94, 0.17, 0.135}, {1.01, 0.63, 0.15}),
+      Painted(kWood, Box({-0.01, 0.2, 0.3}, {0.07, 0.6, 0.315})),
+      Box({0.005, 0.25, 0.31}, {0.06, 0.27, 0.38}),
+      Painted(kPrint, Box({0.005, 0.29, 0.31}, {0.055, 0.35, 0.4})),
+      Box({0.005, 0.5, 0.31}, {0.05, 0.56, 0.36}),
+      // Pictures on the walls.
+      Painted(kPrint, Box({0.4, -0.005, 0.2}, {0.6, 0.012, 0.35})),
+      Painted(kPrint, Box({-0.005, 0.3, 0.1}, {0.012, 0.5, 0.22})),
+      Turned(15, Box({0.72, 0.1, -0.01}, {0.86, 0.24, 0.12})),
+      Cylinder({0.15, 0.55, -0.01}, {0, 0, 0.16}, 0.05)};
+  AddDesk({0.55, 0.5, 0}, {0.9, 0.7, 0.14}, parts);
+  parts.push_back(Cylinder({0.8, 0.6, 0.13}, {0, 0, 0.07}, 0.025));
+  parts.push_back(
+      Turned(20, Painted(kPrint, Box({0.6, 0.56, 0.13}, {0.7, 0.62, 0.16}))));
+  return parts;
+}
+
+std::vector<Rigid3> MakeRoomPoses(int num_views,
+                                  double length,
+                                  std::uint64_t seed) {
+  constexpr double kGoldenTurn = 2.399963229728653;  // radians
+  const double unit = length / (1 + 2 * kWallThickness);
+  std::vector<Rigid3> poses;
+  for (int i = 0; i < num_views; ++i) {
+    const std::uint64_t view_seed = Mix(seed, static_cast<std::uint64_t>(i));
+    std::uint64_t counter = 0;
+    const auto next = [&] { return Uniform(Mix(view_seed, counter++)) - 0.5; };
+    const double turn = kGoldenTurn * i;
+    const Vector3d towards(std::cos(turn), kRoomWidth * std::sin(turn), 0);
+    const Vector3d centre =
+        0.32 * towards + Vector3d(0, 0, 0.04 + 0.2 * next());
+    const Vector3d target = -0.4 * towards + 0.2 * Vector3d(next(), next(), 0) +
+                            Vector3d(0, 0, 0.25 * next() - 0.03);
+    poses.push_back(LookingAt(unit * centre, unit * target));
+  }
+  return poses;
 }
 
 std::vector<SolidPrimitive> Facade(int num_views) {

@@ -23,6 +23,16 @@ std::vector<SolidPrimitive> House();
 std::vector<SolidPrimitive> Table();
 std::vector<SolidPrimitive> Knobs();
 
+// Seen from within, of length one without its walls.
+std::vector<SolidPrimitive> Room();
+
+// cam_from_world of photographs taken within the room, which is centred on the
+// origin and has this `length` with its walls: all around, each towards the
+// opposite wall, at eye level.
+std::vector<Rigid3> MakeRoomPoses(int num_views,
+                                  double length,
+                                  std::uint64_t seed);
+
 // The front of a row of houses, of height one: it looks along -y and is as long
 // as a walk along it with `num_views` photographs. Ledges run along all of it;
 // doors and windows change from bay to bay.

@@ -178,6 +178,8 @@ std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
       return Table();
     case SyntheticSolid::kKnobs:
       return Knobs();
+    case SyntheticSolid::kRoom:
+      return Room();
     case SyntheticSolid::kPart:
       break;
   }

@@ -83,9 +83,14 @@ std::vector<Eigen::Vector3d> EveryFiftieth(
 
 std::vector<Rigid3> Poses(const SyntheticOptions& options, const Solid& solid) {
   const std::uint64_t seed = Mix(options.seed, kPoses);
-  return options.solid == SyntheticSolid::kFacade
-             ? MakeStreetPoses(options.num_views, options.scale, seed)
-             : MakePoses(options.num_views, solid.radius(), seed);
+  switch (options.solid) {
+    case SyntheticSolid::kFacade:
+      return MakeStreetPoses(options.num_views, options.scale, seed);
+    case SyntheticSolid::kRoom:
+      return MakeRoomPoses(options.num_views, options.scale, seed);
+    default:
+      return MakePoses(options.num_views, solid.radius(), seed);
+  }
 }
 
 // All that is known, with a kind each.

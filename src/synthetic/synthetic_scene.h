@@ -24,6 +24,7 @@ enum class SyntheticSolid {
   kHouse,     // a house with windows, ledges, an awning and a sign
   kTable,     // boxes, cards, a ball, a cup and a bottle on a table
   kKnobs,     // rounded blocks with knobs and a bottle
+  kRoom,      // a room from within: door, window, desk, shelf, pictures
 };
 
 struct SyntheticOptions {

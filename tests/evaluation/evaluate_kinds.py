@@ -32,7 +32,8 @@ SCENES = {
     'table': ['--solid', 'table', '--pattern', 'mixed', '--shadows', '1'],
     'shiny_table': ['--solid', 'table', '--pattern', 'mixed',
                     '--reflections', '1'],
-    'knobs': ['--solid', 'knobs', '--pattern', 'mixed', '--shadows', '1']}
+    'knobs': ['--solid', 'knobs', '--pattern', 'mixed', '--shadows', '1'],
+    'room': ['--solid', 'room', '--pattern', 'mixed', '--shadows', '1']}
 KINDS = ['crease', 'boundary', 'marking']
 SHARP = ['crease', 'boundary']
 

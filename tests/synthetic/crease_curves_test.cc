@@ -124,7 +124,8 @@ INSTANTIATE_TEST_SUITE_P(Solids,
                                            SyntheticSolid::kFacade,
                                            SyntheticSolid::kHouse,
                                            SyntheticSolid::kTable,
-                                           SyntheticSolid::kKnobs));
+                                           SyntheticSolid::kKnobs,
+                                           SyntheticSolid::kRoom));
 
 TEST(CreaseCurvesTest, OfASheetThatStandsAreOneCreaseAndThreeBoundaries) {
   SolidPrimitive sheet = Sheet({-0.1, 0, 0.5}, {0.3, 0, 0}, {0, 0, 0.2});

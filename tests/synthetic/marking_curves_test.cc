@@ -5,6 +5,7 @@
 #include "synthetic/bodies.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/render.h"
+#include "synthetic/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -117,10 +118,11 @@ INSTANTIATE_TEST_SUITE_P(Patterns,
 // shadows.
 double ShareOfJumps(const Solid& solid,
                     const Surfaces& surfaces,
+                    const std::vector<Rigid3>& poses,
                     const std::vector<TrueSample>& samples) {
   int num_seen = 0;
   int num_jumps = 0;
-  for (const Rigid3& pose : MakePoses(8, solid.radius(), 3)) {
+  for (const Rigid3& pose : poses) {
     const Vector3d eye = pose.Inverse().translation;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Vector3d ahead = samples[i].position - eye;
@@ -150,11 +152,14 @@ class EveryScene : public ::testing::TestWithParam<SyntheticSolid> {};
 TEST_P(EveryScene, JumpsAcrossItsMarkingsAndShadows) {
   const Solid solid = MakeSolid(GetParam(), 1, 3, SurfacePattern::kMixed);
   const Surfaces surfaces(solid, {.shadows = true});
+  const auto poses = GetParam() == SyntheticSolid::kRoom
+                         ? MakeRoomPoses(8, 1, 3)
+                         : MakePoses(8, solid.radius(), 3);
   const auto markings = SampleCurves(MarkingCurves(solid, surfaces), 0.02);
-  EXPECT_GT(ShareOfJumps(solid, surfaces, markings), 0.99);
+  EXPECT_GT(ShareOfJumps(solid, surfaces, poses, markings), 0.99);
   const auto shadows =
       SampleShadowEdges(solid, surfaces, CreaseCurves(solid), 0.01, 0);
-  EXPECT_GT(ShareOfJumps(solid, surfaces, shadows), 0.99);
+  EXPECT_GT(ShareOfJumps(solid, surfaces, poses, shadows), 0.99);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes,
@@ -162,7 +167,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes,
                          ::testing::Values(SyntheticSolid::kPart,
                                            SyntheticSolid::kHouse,
                                            SyntheticSolid::kTable,
-                                           SyntheticSolid::kKnobs));
+                                           SyntheticSolid::kKnobs,
+                                           SyntheticSolid::kRoom));
 
 TEST(SampleShadowEdgesTest, AreOnEdgesOfTheImages) {
   const Solid solid({Box({-0.5, -0.4, -0.05}, {0.5, 0.4, 0}),
