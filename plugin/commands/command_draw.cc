@@ -30,7 +30,8 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
         TextFlag("crop",
                  &s->crop,
                  "LEFT,BOTTOM,RIGHT,TOP: draw only what lies between, in the "
-                 "coordinates of the drawing"),
+                 "coordinates of the drawing; all: draw also what lies far "
+                 "from the rest"),
         TextFlag("photograph",
                  &s->photograph,
                  "name of an image to put beneath, rectified; auto: the one "

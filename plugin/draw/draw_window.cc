@@ -51,13 +51,13 @@ Result<DrawWindow> ParseWindow(const std::string& slice,
     }
     window.depth = {box[0], box[1]};
   }
-  if (!crop.empty()) {
+  if (!crop.empty() && crop != "all") {
     const std::vector<double> box = ParseBox(crop, 4);
     if (box.empty()) {
       return BadOption("--crop",
                        crop,
                        "left, bottom, right and top, in the coordinates of the "
-                       "drawing, as in --crop 0,0,2.5,3");
+                       "drawing, as in --crop 0,0,2.5,3, or all");
     }
     window.across = {box[0], box[2]};
     window.upwards = {box[1], box[3]};

@@ -24,7 +24,8 @@ struct DrawWindow {
   DrawRange upwards;
 };
 
-// Of --slice, "FROM,TO", and --crop, "LEFT,BOTTOM,RIGHT,TOP"; empty: all.
+// Of --slice, "FROM,TO", and --crop, "LEFT,BOTTOM,RIGHT,TOP" or "all"; empty:
+// all.
 // kInvalidArgument: they are neither.
 Result<DrawWindow> ParseWindow(const std::string& slice,
                                const std::string& crop);

@@ -10,7 +10,6 @@
 #include "base/file_io.h"
 #include "drawing/dimension_marks.h"
 #include "drawing/drawing_plane.h"
-#include "drawing/flat_fit.h"
 #include "drawing/sheet.h"
 #include "io/dxf_drawing.h"
 #include "io/svg_sheet.h"
@@ -20,18 +19,15 @@
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
+#include "plugin/draw/drawn_views.h"
 #include "plugin/draw/map_file.h"
 #include "plugin/draw/rectified_photograph.h"
-#include "plugin/draw/seen_from.h"
 #include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Between views on one sheet, of the extent of the largest.
-constexpr double kGapOfViews = 0.15;
 
 Status BadDrawing(std::string message) {
   return {StatusCode::kInvalidArgument, std::move(message)};
@@ -52,14 +48,6 @@ std::string ViewName(const std::string& plane) {
   return name + " (" + plane + ")";
 }
 
-// One elevation, plan or section.
-struct DrawnView {
-  DrawingPlane plane;
-  std::vector<SheetCurve> curves = {};
-  std::vector<MeasuredDimension> measured = {};  // of whole primitives
-  int num_unknown = 0;  // primitives that may be hidden or not
-};
-
 class Drafter {
  public:
   Drafter(const DrawSettings& settings, ProgressPrinter& progress)
@@ -70,12 +58,6 @@ class Drafter {
  private:
   Status Read();
   Status TakePlanes();
-  std::optional<bool> IsHidden(std::size_t curve_idx,
-                               const CurveFit& fit,
-                               DrawnView& view) const;
-  double ScaleSigma() const;
-  void Fill(DrawnView& view) const;
-  Status PlaceViews();
   Status TakePhotograph();
   Status LayOut();
   Status Write();
@@ -133,9 +115,14 @@ Status Drafter::TakePlanes() {
       const Eigen::Vector3d& offset = curves_.alignment->offset;
       plane.origin -= offset - offset.dot(plane.toward) * plane.toward;
     }
-    views_.push_back({plane});
-    Fill(views_.back());
+    views_.push_back({plane, window_});
   }
+  FillViews({curves_,
+             scene_,
+             settings_.hidden,
+             settings_.dimensions,
+             settings_.crop.empty()},
+            &views_);
   if (!(curves_.alignment && curves_.alignment->has_rotation) &&
       AxisPlane(settings_.plane.substr(0, 2))) {
     progress_.Note(
@@ -148,81 +135,6 @@ Status Drafter::TakePlanes() {
   if (fs::path(name_).filename() != name_ || name_.front() == '.') {
     return BadDrawing("--name is \"" + name_ +
                       "\"; it takes the name of a file, without folders");
-  }
-  return {};
-}
-
-// Whether to dash a primitive; nullopt: it is left out.
-std::optional<bool> Drafter::IsHidden(std::size_t curve_idx,
-                                      const CurveFit& fit,
-                                      DrawnView& view) const {
-  if (settings_.hidden == "solid") return false;
-  const SeenFrom seen =
-      SeenFromSide(fit, curves_.samples[curve_idx], view.plane.toward, scene_);
-  view.num_unknown += seen == SeenFrom::kUnknown ? 1 : 0;
-  if (seen != SeenFrom::kHidden) return false;
-  if (settings_.hidden == "omitted") return std::nullopt;
-  return true;
-}
-
-double Drafter::ScaleSigma() const {
-  return curves_.alignment ? curves_.alignment->scale_sigma() : 0;
-}
-
-// What the plane shows of the window.
-void Drafter::Fill(DrawnView& view) const {
-  const DrawingPlane& plane = view.plane;
-  view.curves.clear();
-  view.measured.clear();
-  view.num_unknown = 0;
-  for (std::size_t c = 0; c < curves_.fitted.curves.size(); ++c) {
-    for (const CurveFit& fit : curves_.fitted.curves[c].fits) {
-      const std::vector<CurveFit> parts = PartsInWindow(fit, plane, window_);
-      if (parts.empty()) continue;
-      const std::optional<bool> is_hidden = IsHidden(c, fit, view);
-      if (!is_hidden) continue;
-      for (const CurveFit& part : parts) {
-        std::optional<CurveFit> flat = FlatFit(part, plane);
-        if (!flat) continue;
-        const bool is_whole = part.start == fit.start && part.end == fit.end &&
-                              (fit.kind == FitKind::kLine ||
-                               (curves_.fitted.curves[c].fits.size() == 1 &&
-                                part.closed == fit.closed));
-        if (settings_.dimensions && is_whole && !*is_hidden) {
-          const auto measured = DimensionOf(fit, *flat, ScaleSigma());
-          if (measured) view.measured.push_back(*measured);
-        }
-        view.curves.push_back({*std::move(flat), *is_hidden});
-      }
-    }
-  }
-}
-
-// Others beside the first one: above it if they share its horizontal, else to
-// the right, as in third-angle projection.
-Status Drafter::PlaceViews() {
-  const DrawnView& first = views_.front();
-  const Eigen::AlignedBox2d around = BoundsOf(first.curves);
-  Eigen::AlignedBox2d all = around;
-  double extent = 0;
-  for (const DrawnView& view : views_) {
-    const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
-    if (!bounds.isEmpty()) extent = std::max(extent, bounds.sizes().maxCoeff());
-  }
-  const double gap = kGapOfViews * extent;
-  for (std::size_t i = 1; i < views_.size(); ++i) {
-    DrawnView& view = views_[i];
-    const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
-    if (bounds.isEmpty() || around.isEmpty()) continue;
-    const bool is_above = view.plane.right == first.plane.right;
-    const bool is_level = view.plane.up == first.plane.up;
-    Eigen::Vector2d shift(all.max().x() + gap - bounds.min().x(),
-                          is_level ? 0 : around.min().y() - bounds.min().y());
-    if (is_above) shift = {0, all.max().y() + gap - bounds.min().y()};
-    view.plane.origin -=
-        shift.x() * view.plane.right + shift.y() * view.plane.up;
-    Fill(view);
-    all.extend(bounds.translated(shift));
   }
   return {};
 }
@@ -350,7 +262,6 @@ Status Drafter::Write() {
 Result<DrawSummary> Drafter::Run() {
   for (const auto step : {&Drafter::Read,
                           &Drafter::TakePlanes,
-                          &Drafter::PlaceViews,
                           &Drafter::TakePhotograph,
                           &Drafter::LayOut}) {
     Status status = (this->*step)();
@@ -361,9 +272,17 @@ Result<DrawSummary> Drafter::Run() {
         return curve.is_hidden;
       });
   int num_unknown = 0;
-  for (const DrawnView& view : views_) num_unknown += view.num_unknown;
+  std::size_t num_far = 0;
+  for (const DrawnView& view : views_) {
+    num_unknown += view.num_unknown;
+    num_far += view.num_far;
+  }
   text_ += "Drew " + std::to_string(sheet_.curves.size()) +
            " primitives: " + Subtitle() + ", " + sheet_.scale_text + "\n";
+  if (num_far > 0) {
+    text_ += "Left out, far from the others: " + std::to_string(num_far) +
+             " (--crop all draws them)\n";
+  }
   if (settings_.hidden == "dashed") {
     text_ += "Hidden: " + std::to_string(num_hidden);
     if (num_unknown > 0) {

@@ -18,7 +18,8 @@ struct DrawSettings {
   bool from_behind = false;
   std::string hidden = "dashed";  // or "omitted" or "solid"
   std::string slice;              // "FROM,TO", along the normal; "": all
-  std::string crop;               // "LEFT,BOTTOM,RIGHT,TOP", as drawn; "": all
+  std::string crop;               // "LEFT,BOTTOM,RIGHT,TOP", as drawn; "all";
+                                  // "": without what is far from the rest
   std::string scale;              // "1:50"; "": as fits
   std::string paper = "a3";
   bool dimensions = false;

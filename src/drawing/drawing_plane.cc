@@ -27,6 +27,24 @@ double LengthAcross(const CurveFit& fit, const Eigen::Vector3d& normal) {
              : 0;
 }
 
+// Of the range between the quartiles of depths, how much is one plane.
+constexpr double kMainDepthWidth = 0.1;
+
+// Of the length in the plane with most, what the nearest needs to be taken.
+constexpr double kNearlyMost = 0.8;
+
+using WeightedDepths = std::vector<std::pair<double, double>>;
+
+// Below which `share` of `total` is; of depths that are sorted.
+double Quantile(const WeightedDepths& depths, double total, double share) {
+  double sum = 0;
+  for (const auto& [depth, weight] : depths) {
+    sum += weight;
+    if (sum >= share * total) return depth;
+  }
+  return depths.back().first;
+}
+
 }  // namespace
 
 std::optional<DrawingPlane> AxisPlane(std::string_view name) {
@@ -117,24 +135,42 @@ double MainDepth(const FittedCurves& fitted,
                  const DrawingPlane& plane,
                  double low,
                  double high) {
-  std::vector<std::pair<double, double>> depths;  // and lengths
+  // From the viewer on, so that depths grow away from the viewer.
+  const double away = plane.depth_axis.dot(plane.toward) > 0 ? -1 : 1;
+  WeightedDepths depths;
   double total = 0;
   for (const FittedCurve& curve : fitted.curves) {
     for (const CurveFit& fit : curve.fits) {
       const double length = LengthAcross(fit, plane.toward);
       const double depth = plane.Depth((fit.start + fit.end) / 2);
       if (!(length > 0 && depth >= low && depth <= high)) continue;
-      depths.emplace_back(depth, length);
+      depths.emplace_back(away * depth, length);
       total += length;
     }
   }
+  if (depths.empty()) return 0;
   std::sort(depths.begin(), depths.end());
-  double sum = 0;
+  const double width = kMainDepthWidth * (Quantile(depths, total, 0.75) -
+                                          Quantile(depths, total, 0.25));
+  std::vector<double> lengths;  // in a plane that begins at each depth
+  double within = 0;
+  std::size_t end = 0;
   for (const auto& [depth, length] : depths) {
-    sum += length;
-    if (2 * sum >= total) return depth;
+    while (end < depths.size() && depths[end].first <= depth + width) {
+      within += depths[end++].second;
+    }
+    lengths.push_back(within);
+    within -= length;
   }
-  return 0;
+  const double most = *std::max_element(lengths.begin(), lengths.end());
+  const auto nearest =
+      std::find_if(lengths.begin(), lengths.end(), [&](double length) {
+        return length >= kNearlyMost * most;
+      });
+  return away *
+         Quantile({depths.begin() + (nearest - lengths.begin()), depths.end()},
+                  *nearest,
+                  0.5);
 }
 
 }  // namespace curvix

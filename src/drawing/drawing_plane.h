@@ -60,8 +60,10 @@ DrawingPlane MainPlane(const FittedCurves& fitted,
                        const Eigen::Matrix3d& axes,
                        const std::vector<View>& views);
 
-// The depth at which most lines in the plane lie: the median, by length, of
-// those from `low` to `high`. 0: there is none.
+// The depth of the wall to look at, from `low` to `high`: the median depth of
+// the lines in a slice that has a tenth of the range between the quartiles of
+// all depths, by length. Of the slices with nearly the most length, the nearest
+// to the viewer. 0: there are no lines in the plane.
 double MainDepth(const FittedCurves& fitted,
                  const DrawingPlane& plane,
                  double low,

@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "base/angles.h"
+
 namespace curvix {
 
 using Eigen::Quaterniond;
@@ -66,6 +68,13 @@ SolidPrimitive Hole(const Vector3d& from, const Vector3d& to, double radius) {
   const Vector3d beyond = kBeyond * (to - from).normalized();
   return Without(Cylinder(from - beyond, to - from + 2 * beyond, radius),
                  kHoleAlbedo);
+}
+
+SolidPrimitive Turned(double degrees, SolidPrimitive primitive) {
+  primitive.world_from_own.rotation =
+      Eigen::AngleAxisd(DegToRad(degrees), Vector3d::UnitZ()) *
+      primitive.world_from_own.rotation;
+  return primitive;
 }
 
 SolidPrimitive Painted(SurfacePattern pattern, SolidPrimitive primitive) {

@@ -38,6 +38,9 @@ SolidPrimitive Hole(const Eigen::Vector3d& from,
                     const Eigen::Vector3d& to,
                     double radius);
 
+// Turned around the vertical axis through its centre.
+SolidPrimitive Turned(double degrees, SolidPrimitive primitive);
+
 SolidPrimitive Painted(SurfacePattern pattern, SolidPrimitive primitive);
 
 }  // namespace curvix

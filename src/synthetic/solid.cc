@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "synthetic/scenes.h"
+#include "synthetic/walks.h"
 
 namespace curvix {
 

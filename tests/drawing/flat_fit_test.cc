@@ -167,6 +167,31 @@ std::vector<View> Toward(const Vector3d& target,
   return ToScene(views).views;
 }
 
+TEST(DrawingPlane, MainDepthIsThatOfTheWallWithMostLines) {
+  FittedCurves house;
+  const auto add = [&](double depth, int num) {
+    for (int i = 0; i < num; ++i) {
+      CurveFit line;
+      line.start = {0, depth, 0};
+      line.end = {1, depth, 0};
+      house.curves.push_back({{line}});
+    }
+  };
+  add(2, 4);     // front
+  add(2.01, 1);  // its frames
+  add(9.9, 3);   // back
+  add(10.1, 4);
+  add(6, 1);
+  const DrawingPlane front = *AxisPlane("xz");
+  EXPECT_NEAR(MainDepth(house, front, -20, 20), 10, 0.3);
+  // With nearly as many lines, the front is nearer to the viewer.
+  add(2, 1);
+  EXPECT_EQ(MainDepth(house, front, -20, 20), 2);
+  EXPECT_NEAR(MainDepth(house, FromBehind(front), -20, 20), 10, 0.3);
+  EXPECT_NEAR(MainDepth(house, front, 5, 20), 10, 0.3);
+  EXPECT_EQ(MainDepth({}, front, -20, 20), 0);  // no lines
+}
+
 TEST(DrawingPlane, MainPlaneIsThatWhichMostViewsFace) {
   const FittedCurves facade = Facade();
   const DrawingPlane plane =
