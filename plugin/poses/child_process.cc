@@ -6,12 +6,15 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <sstream>
+#include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 namespace curvix {
 namespace {
@@ -20,6 +23,21 @@ namespace fs = std::filesystem;
 
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
 constexpr mode_t kLogMode = 0644;
+
+// That of this process, with `changes`.
+std::vector<std::string> Environment(const std::vector<std::string>& changes) {
+  std::vector<std::string> variables = changes;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string variable = *entry;
+    const std::string name = variable.substr(0, variable.find('=') + 1);
+    if (std::none_of(changes.begin(), changes.end(), [&](const auto& change) {
+          return change.starts_with(name);
+        })) {
+      variables.push_back(variable);
+    }
+  }
+  return variables;
+}
 
 // What posix_spawn is told; cleans up after itself.
 class SpawnSetup {
@@ -65,8 +83,12 @@ class SpawnSetup {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
+    std::vector<std::string> variables = Environment(child.environment);
+    std::vector<char*> envp;
+    for (std::string& variable : variables) envp.push_back(variable.data());
+    envp.push_back(nullptr);
     return posix_spawn(
-        pid, argv[0], &actions_, &attributes_, argv.data(), environ);
+        pid, argv[0], &actions_, &attributes_, argv.data(), envp.data());
   }
 
  private:

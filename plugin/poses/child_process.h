@@ -18,6 +18,8 @@ struct ChildProcess {
   double timeout_s = 0;
   // Asked some twenty times a second; false ends the child.
   std::function<bool()> keep_going;
+  // NAME=value, in place of what this process has under these names.
+  std::vector<std::string> environment = {};
 };
 
 struct ChildEnd {

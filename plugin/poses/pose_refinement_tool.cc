@@ -25,6 +25,11 @@ constexpr double kHelpTimeoutS = 20;
 // Ceres. COLMAP's default is 0, which takes up to 100 steps.
 constexpr char kFunctionTolerance[] = "0.000001";
 
+// Where glog keeps a log of each run of COLMAP, in place of /tmp.
+std::vector<std::string> LogsInto(const fs::path& folder) {
+  return {"GLOG_log_dir=" + folder.string()};
+}
+
 constexpr char kHowToInstall[] =
     "install it ('apt install colmap' on Debian and Ubuntu, else "
     "https://colmap.github.io), or name it with --colmap_path";
@@ -184,7 +189,8 @@ Result<std::string> HelpText(const std::vector<std::string>& arguments,
                                                 scratch.path(),
                                                 text_path,
                                                 timeout_s,
-                                                keep_going});
+                                                keep_going,
+                                                LogsInto(scratch.path())});
   if (!end.ok()) return end.status();
   if (end->kind == ChildEnd::Kind::kStopped) return CancelledStatus();
   if (end->kind == ChildEnd::Kind::kTimedOut) {
@@ -293,7 +299,8 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
                        scratch.path(),
                        run.log_path,
                        run.timeout_s,
-                       keep_going});
+                       keep_going,
+                       LogsInto(scratch.path())});
   if (!end.ok()) return end.status();
   Status ended = CheckEnd(*end, run.timeout_s);
   if (!ended.ok()) return ended;

@@ -3,6 +3,7 @@
 
 #include <signal.h>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -60,6 +61,16 @@ TEST_F(ChildProcessTest, PassesArgumentsWithoutAShell) {
   child.arguments = {"$HOME", "a b", "*", "'"};
   ASSERT_TRUE(RunChildProcess(child).ok());
   EXPECT_EQ(Read("log"), "$HOME a b * '\n");
+}
+
+TEST_F(ChildProcessTest, HasTheEnvironmentOfThisProcessWithChanges) {
+  ASSERT_EQ(setenv("CURVIX_KEPT", "kept", 1), 0);
+  ASSERT_EQ(setenv("CURVIX_CHANGED", "before", 1), 0);
+  ChildProcess child =
+      Shell("env | grep ^CURVIX_CHANGED; echo $CURVIX_KEPT $CURVIX_NEW");
+  child.environment = {"CURVIX_CHANGED=after", "CURVIX_NEW=new"};
+  ASSERT_TRUE(RunChildProcess(child).ok());
+  EXPECT_EQ(Read("log"), "CURVIX_CHANGED=after\nkept new\n");
 }
 
 TEST_F(ChildProcessTest, TellsTheSignal) {
