@@ -1,48 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drawing/main_part.h"
 
+#include <Eigen/Core>
 #include <algorithm>
-#include <cstddef>
 
 namespace curvix {
 namespace {
 
-constexpr double kMinGap = 0.3;          // of what the main part takes
+constexpr double kMinGap = 0.3;          // of the longer side of the main part
 constexpr double kMaxShareBeyond = 0.1;  // of the length
 
-// What one curve takes of one axis of the drawing.
-struct Extent {
-  double low = 0;
-  double high = 0;
-  double weight = 0;
+struct WeightedBox {
+  Eigen::AlignedBox2d bounds;
+  double length = 0;  // of the curve, nearly
 };
 
-double Middle(const Extent& extent) { return (extent.low + extent.high) / 2; }
-
-// From the quartiles of the middles on, what follows without a large gap.
-Extent MainExtent(std::vector<Extent> extents) {
-  std::sort(extents.begin(), extents.end(), [](const auto& a, const auto& b) {
-    return Middle(a) < Middle(b);
+// The middle below which `share` of the weight of `boxes` lies.
+double MiddleAt(double share,
+                int axis,
+                double total,
+                std::vector<WeightedBox> boxes) {
+  const auto middle = [&](const WeightedBox& box) {
+    return box.bounds.center()[axis];
+  };
+  std::sort(boxes.begin(), boxes.end(), [&](const auto& a, const auto& b) {
+    return middle(a) < middle(b);
   });
-  double total = 0;
-  for (const Extent& extent : extents) total += extent.weight;
   double below = 0;
-  Extent main = {Middle(extents.front()), Middle(extents.back())};
-  for (const Extent& extent : extents) {
-    if (below <= total / 4) main.low = Middle(extent);
-    below += extent.weight;
-    if (below <= 3 * total / 4) main.high = Middle(extent);
+  for (const WeightedBox& box : boxes) {
+    below += box.length;
+    if (below >= share * total) return middle(box);
   }
-  main.high = std::max(main.low, main.high);
+  return middle(boxes.back());
+}
+
+// From `main` on, with what follows without a large gap.
+Eigen::AlignedBox2d Grown(Eigen::AlignedBox2d main,
+                          const std::vector<WeightedBox>& boxes) {
   for (bool has_grown = true; has_grown;) {
     has_grown = false;
-    const double gap = kMinGap * (main.high - main.low);
-    for (const Extent& extent : extents) {
-      if (extent.low > main.high + gap || extent.high < main.low - gap)
-        continue;
-      if (extent.low >= main.low && extent.high <= main.high) continue;
-      main.low = std::min(main.low, extent.low);
-      main.high = std::max(main.high, extent.high);
+    const double gap = kMinGap * main.sizes().maxCoeff();
+    for (const WeightedBox& box : boxes) {
+      if (main.contains(box.bounds)) continue;
+      const Eigen::Array2d apart = (box.bounds.min() - main.max())
+                                       .cwiseMax(main.min() - box.bounds.max());
+      if ((apart > gap).any()) continue;
+      main.extend(box.bounds);
       has_grown = true;
     }
   }
@@ -52,28 +55,26 @@ Extent MainExtent(std::vector<Extent> extents) {
 }  // namespace
 
 Eigen::AlignedBox2d MainBoundsOf(const std::vector<SheetCurve>& curves) {
-  const Eigen::AlignedBox2d all = BoundsOf(curves);
-  if (all.isEmpty()) return all;
-  std::vector<Eigen::AlignedBox2d> boxes;
-  for (const SheetCurve& curve : curves) boxes.push_back(BoundsOf({curve}));
-  Eigen::AlignedBox2d main = all;
-  for (int axis = 0; axis < 2; ++axis) {
-    std::vector<Extent> extents;
-    for (const Eigen::AlignedBox2d& box : boxes) {
-      extents.push_back(
-          {box.min()[axis], box.max()[axis], box.diagonal().norm()});
-    }
-    const Extent extent = MainExtent(std::move(extents));
-    main.min()[axis] = extent.low;
-    main.max()[axis] = extent.high;
-  }
+  std::vector<WeightedBox> boxes;
   double length = 0;
-  double beyond = 0;
-  for (const Eigen::AlignedBox2d& box : boxes) {
-    length += box.diagonal().norm();
-    if (!main.contains(box)) beyond += box.diagonal().norm();
+  for (const SheetCurve& curve : curves) {
+    const Eigen::AlignedBox2d bounds = BoundsOf({curve});
+    boxes.push_back({bounds, bounds.diagonal().norm()});
+    length += boxes.back().length;
   }
-  return beyond > kMaxShareBeyond * length ? all : main;
+  if (boxes.empty()) return {};
+  // Between the quartiles.
+  Eigen::AlignedBox2d main;
+  for (int axis = 0; axis < 2; ++axis) {
+    main.min()[axis] = MiddleAt(0.25, axis, length, boxes);
+    main.max()[axis] = MiddleAt(0.75, axis, length, boxes);
+  }
+  main = Grown(main, boxes);
+  double beyond = 0;
+  for (const WeightedBox& box : boxes) {
+    if (!main.contains(box.bounds)) beyond += box.length;
+  }
+  return beyond > kMaxShareBeyond * length ? BoundsOf(curves) : main;
 }
 
 }  // namespace curvix

@@ -9,10 +9,10 @@
 
 namespace curvix {
 
-// The bounding box, in drawing units, of the curves without those that are
-// separated from all others by a gap as wide as three tenths of what the others
-// take, across or upwards. All curves count if those have more than a tenth of
-// the length.
+// The bounding box, in drawing units, of the curves without those that a gap
+// separates from the others: across or upwards as wide as three tenths of the
+// longer side of what these take. All curves count if those have more than a
+// tenth of the length.
 Eigen::AlignedBox2d MainBoundsOf(const std::vector<SheetCurve>& curves);
 
 }  // namespace curvix

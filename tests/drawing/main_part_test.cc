@@ -37,6 +37,8 @@ TEST(MainPart, IsAllOfACompactDrawing) {
   EXPECT_TRUE(IsAllOf(House()));
   EXPECT_TRUE(IsAllOf({LineTo(0, 0, 3, 1)}));
   EXPECT_TRUE(MainBoundsOf({}).isEmpty());
+  // Beside a pole.
+  EXPECT_TRUE(IsAllOf({LineTo(0, 0, 0, 20), LineTo(2, 4, 3, 4)}));
 }
 
 TEST(MainPart, DoesNotDependOnWhereMostOfTheLengthIs) {
