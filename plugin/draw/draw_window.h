@@ -24,9 +24,8 @@ struct DrawWindow {
   DrawRange upwards;
 };
 
-// Of --slice, "FROM,TO", and --crop, "LEFT,BOTTOM,RIGHT,TOP" or "all"; empty:
-// all.
-// kInvalidArgument: they are neither.
+// Of --slice, "FROM,TO", and --crop, "LEFT,BOTTOM,RIGHT,TOP". Empty, or "all"
+// as crop: without limits. kInvalidArgument: they are neither.
 Result<DrawWindow> ParseWindow(const std::string& slice,
                                const std::string& crop);
 

@@ -103,9 +103,9 @@ Status Drafter::TakePlanes() {
   Result<std::vector<DrawingPlane>> planes =
       ChoosePlanes(settings_.plane, curves_, scene_);
   if (!planes.ok()) return planes.status();
-  if (planes->size() > 1 &&
-      !(settings_.slice.empty() && settings_.crop.empty() &&
-        settings_.photograph.empty())) {
+  const bool is_cropped = !settings_.crop.empty() && settings_.crop != "all";
+  if (planes->size() > 1 && (is_cropped || !settings_.slice.empty() ||
+                             !settings_.photograph.empty())) {
     return BadDrawing("--slice, --crop and --photograph need a single --plane");
   }
   for (DrawingPlane& plane : *planes) {

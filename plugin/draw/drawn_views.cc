@@ -71,12 +71,16 @@ void Fill(const DrawnContent& content, DrawnView& view) {
 void LeaveOutFar(const DrawnContent& content, DrawnView& view) {
   const Eigen::AlignedBox2d bounds = MainBoundsOf(view.curves);
   if (bounds.isEmpty() || bounds.contains(BoundsOf(view.curves))) return;
-  const double margin = 1e-9 * bounds.sizes().maxCoeff();
+  view.num_far = static_cast<std::size_t>(std::count_if(
+      view.curves.begin(), view.curves.end(), [&](const SheetCurve& curve) {
+        return !bounds.contains(BoundsOf({curve}));
+      }));
+  // Bounds of arcs are those of some of their points. What is left out is much
+  // further away than this.
+  const double margin = 0.01 * bounds.sizes().maxCoeff();
   view.window.across = {bounds.min().x() - margin, bounds.max().x() + margin};
   view.window.upwards = {bounds.min().y() - margin, bounds.max().y() + margin};
-  const std::size_t num_all = view.curves.size();
   Fill(content, view);
-  view.num_far = num_all - view.curves.size();
 }
 
 void PlaceViews(const DrawnContent& content, std::vector<DrawnView>& views) {

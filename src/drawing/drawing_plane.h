@@ -62,8 +62,8 @@ DrawingPlane MainPlane(const FittedCurves& fitted,
 
 // The depth of the wall to look at, from `low` to `high`: the median depth of
 // the lines in a slice that has a tenth of the range between the quartiles of
-// all depths, by length. Of the slices with nearly the most length, the nearest
-// to the viewer. 0: there are no lines in the plane.
+// their depths, by length. Of the slices with nearly the most length, the
+// nearest to the viewer. 0: there are no such lines.
 double MainDepth(const FittedCurves& fitted,
                  const DrawingPlane& plane,
                  double low,

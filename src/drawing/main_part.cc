@@ -15,23 +15,30 @@ struct WeightedBox {
   double length = 0;  // of the curve, nearly
 };
 
-// The middle below which `share` of the weight of `boxes` lies.
-double MiddleAt(double share,
-                int axis,
-                double total,
-                std::vector<WeightedBox> boxes) {
-  const auto middle = [&](const WeightedBox& box) {
-    return box.bounds.center()[axis];
-  };
+// Of one axis, what the curves take without a break: the run with most length.
+// Ties: the lowest.
+Eigen::Vector2d HeaviestRun(int axis, std::vector<WeightedBox> boxes) {
   std::sort(boxes.begin(), boxes.end(), [&](const auto& a, const auto& b) {
-    return middle(a) < middle(b);
+    return a.bounds.min()[axis] < b.bounds.min()[axis];
   });
-  double below = 0;
+  Eigen::Vector2d heaviest, run;
+  double most = -1;
+  double length = -1;
   for (const WeightedBox& box : boxes) {
-    below += box.length;
-    if (below >= share * total) return middle(box);
+    const double low = box.bounds.min()[axis];
+    const double high = box.bounds.max()[axis];
+    if (length < 0 || low > run.y()) {
+      run = {low, high};
+      length = 0;
+    }
+    run.y() = std::max(run.y(), high);
+    length += box.length;
+    if (length > most) {
+      most = length;
+      heaviest = run;
+    }
   }
-  return middle(boxes.back());
+  return heaviest;
 }
 
 // From `main` on, with what follows without a large gap.
@@ -63,11 +70,11 @@ Eigen::AlignedBox2d MainBoundsOf(const std::vector<SheetCurve>& curves) {
     length += boxes.back().length;
   }
   if (boxes.empty()) return {};
-  // Between the quartiles.
   Eigen::AlignedBox2d main;
   for (int axis = 0; axis < 2; ++axis) {
-    main.min()[axis] = MiddleAt(0.25, axis, length, boxes);
-    main.max()[axis] = MiddleAt(0.75, axis, length, boxes);
+    const Eigen::Vector2d run = HeaviestRun(axis, boxes);
+    main.min()[axis] = run.x();
+    main.max()[axis] = run.y();
   }
   main = Grown(main, boxes);
   double beyond = 0;

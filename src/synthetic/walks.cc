@@ -166,10 +166,12 @@ std::vector<Rigid3> MakeRoomPoses(int num_views,
     const auto next = [&] { return Uniform(Mix(view_seed, counter++)) - 0.5; };
     const double turn = golden_angle * i;
     const Vector3d towards(std::cos(turn), kRoomWidth * std::sin(turn), 0);
-    const Vector3d centre =
-        0.32 * towards + Vector3d(0, 0, 0.04 + 0.2 * next());
-    const Vector3d target = -0.4 * towards + 0.2 * Vector3d(next(), next(), 0) +
-                            Vector3d(0, 0, 0.25 * next() - 0.03);
+    const double eye_level = 0.04 + 0.2 * next();
+    const double x = 0.2 * next();
+    const double y = 0.2 * next();
+    const double z = 0.25 * next() - 0.03;
+    const Vector3d centre = 0.32 * towards + Vector3d(0, 0, eye_level);
+    const Vector3d target = -0.4 * towards + Vector3d(x, y, z);
     poses.push_back(LookingAt(unit * centre, unit * target));
   }
   return poses;

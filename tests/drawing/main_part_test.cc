@@ -47,7 +47,7 @@ TEST(MainPart, DoesNotDependOnWhereMostOfTheLengthIs) {
                                     LineTo(0, 60, 100, 60),
                                     LineTo(0, 0, 0, 60),
                                     LineTo(100, 0, 100, 60)};
-  for (int i = 0; i < 1000; ++i) curves.push_back(LineTo(1, 1, 2, 3));
+  for (int i = 0; i < 2000; ++i) curves.push_back(LineTo(1, 1, 2, 3));
   EXPECT_TRUE(IsAllOf(curves));
 }
 

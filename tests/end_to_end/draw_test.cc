@@ -196,6 +196,11 @@ TEST_F(Draw, APhotographLiesBeneath) {
   EXPECT_FALSE(fs::exists(results_ / "drawing_auto.jpg"));
 }
 
+TEST_F(Draw, SeveralViewsAreDrawnWholeOnRequest) {
+  const Outcome outcome = Run("draw --plane xz,xy --crop all");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+}
+
 TEST_F(Draw, GeoPackageHasTheCurves) {
   if (RunInShell("command -v ogrinfo").exit_code != 0) {
     GTEST_SKIP() << "no gdal-bin";

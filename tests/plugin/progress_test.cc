@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // A printer with a clock in the test's hand.
-class Progress : public testing::Test {
+class ProgressTest : public testing::Test {
  protected:
   ProgressPrinter Printer(bool is_terminal) {
     return {stream_, is_terminal, [this] { return now_; }};
@@ -31,7 +31,7 @@ class Progress : public testing::Test {
   double now_ = 100;
 };
 
-TEST_F(Progress, PlainOutputIsOneLineAStage) {
+TEST_F(ProgressTest, PlainOutputIsOneLineAStage) {
   {
     ProgressPrinter printer = Printer(false);
     for (int done = 0; done <= 50; ++done) {
@@ -50,7 +50,7 @@ TEST_F(Progress, PlainOutputIsOneLineAStage) {
             "Connect ... \n");
 }
 
-TEST_F(Progress, TheBarIsRedrawnAtMostTenTimesASecond) {
+TEST_F(ProgressTest, TheBarIsRedrawnAtMostTenTimesASecond) {
   ProgressPrinter printer = Printer(true);
   for (int done = 0; done < 1000; ++done) {
     printer.Update("stage", done, 1000);
@@ -60,7 +60,7 @@ TEST_F(Progress, TheBarIsRedrawnAtMostTenTimesASecond) {
   EXPECT_LE(NumDraws(), 21);
 }
 
-TEST_F(Progress, TheBarForetellsTheRemainingTime) {
+TEST_F(ProgressTest, TheBarForetellsTheRemainingTime) {
   ProgressPrinter printer = Printer(true);
   printer.Update("stage", 0, 4);
   EXPECT_THAT(stream_.str(), Not(HasSubstr("left")));
@@ -69,14 +69,14 @@ TEST_F(Progress, TheBarForetellsTheRemainingTime) {
   EXPECT_THAT(stream_.str(), HasSubstr("1/4, 30.0 s left"));
 }
 
-TEST_F(Progress, AStageOfUnknownLengthHasNoBar) {
+TEST_F(ProgressTest, AStageOfUnknownLengthHasNoBar) {
   ProgressPrinter printer = Printer(true);
   printer.Update("read_model", 0, 0);
   EXPECT_THAT(stream_.str(), HasSubstr("Read model"));
   EXPECT_EQ(NumDraws(), 0);
 }
 
-TEST_F(Progress, TheFinishedLineReplacesTheBar) {
+TEST_F(ProgressTest, TheFinishedLineReplacesTheBar) {
   ProgressPrinter printer = Printer(true);
   printer.Update("stage", 5, 4);  // beyond the end
   now_ += 1;
@@ -87,7 +87,7 @@ TEST_F(Progress, TheFinishedLineReplacesTheBar) {
   EXPECT_THAT(stream_.str(), Not(HasSubstr("nothing")));
 }
 
-TEST_F(Progress, NotesAreLinesOfTheirOwn) {
+TEST_F(ProgressTest, NotesAreLinesOfTheirOwn) {
   for (const bool is_terminal : {true, false}) {
     stream_.str("");
     ProgressPrinter printer = Printer(is_terminal);
@@ -99,7 +99,7 @@ TEST_F(Progress, NotesAreLinesOfTheirOwn) {
 }
 
 // Last: there is no way back.
-TEST_F(Progress, InterruptsAskToStop) {
+TEST_F(ProgressTest, InterruptsAskToStop) {
   ProgressPrinter printer = Printer(false);
   EXPECT_TRUE(printer.Update("stage", 0, 4));
   CatchSignals();
