@@ -49,34 +49,14 @@ int NumBays(int num_views) {
 
 double Length(int num_views) { return kBayWidth * NumBays(num_views); }
 
-SolidPrimitive BlockBetween(const Vector3d& low,
-                            const Vector3d& high,
-                            bool is_added) {
-  SolidPrimitive box;
-  box.shape = PrimitiveShape::kBox;
-  box.is_added = is_added;
-  box.albedo = is_added ? 1 : 0.8;
-  box.size = (high - low) / 2;
-  box.world_from_own.translation = (low + high) / 2;
-  return box;
+SolidPrimitive Recess(const Vector3d& low, const Vector3d& high) {
+  return Without(Box(low, high), kHoleAlbedo);
 }
 
 // From y = `front` to y = `back`, further into the wall.
-SolidPrimitive Round(double x,
-                     double z,
-                     double radius,
-                     double front,
-                     double back,
-                     bool is_added) {
-  SolidPrimitive cylinder;
-  cylinder.shape = PrimitiveShape::kFrustum;
-  cylinder.is_added = is_added;
-  cylinder.albedo = is_added ? 1 : 0.8;
-  cylinder.size = {radius, radius, back - front};
-  cylinder.world_from_own = {
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY()),
-      {x, front, z}};
-  return cylinder;
+SolidPrimitive Disc(
+    double x, double z, double radius, double front, double back) {
+  return Cylinder({x, front, z}, {0, back - front, 0}, radius);
 }
 
 // The bay that begins at x.
@@ -84,19 +64,18 @@ void AddBay(int bay_idx, double x, std::vector<SolidPrimitive>& parts) {
   constexpr double kBefore = -0.2;  // so that no two faces coincide
   // Upstairs: a window; every third is lower.
   const double top = bay_idx % 3 == 2 ? 0.8 : 0.86;
-  parts.push_back(
-      BlockBetween({x + 0.18, kBefore, 0.62}, {x + 0.42, 0.05, top}, false));
+  parts.push_back(Recess({x + 0.18, kBefore, 0.62}, {x + 0.42, 0.05, top}));
   // Downstairs: a door, a round window or a boss.
   switch (bay_idx % 3) {
     case 0:
-      parts.push_back(
-          BlockBetween({x + 0.2, kBefore, 0.12}, {x + 0.4, 0.06, 0.42}, false));
+      parts.push_back(Recess({x + 0.2, kBefore, 0.12}, {x + 0.4, 0.06, 0.42}));
       return;
     case 1:
-      parts.push_back(Round(x + 0.3, 0.29, 0.12, kBefore, 0.05, false));
+      parts.push_back(
+          Without(Disc(x + 0.3, 0.29, 0.12, kBefore, 0.05), kHoleAlbedo));
       return;
     default:
-      parts.push_back(Round(x + 0.3, 0.29, 0.11, -0.05, 0.01, true));
+      parts.push_back(Disc(x + 0.3, 0.29, 0.11, -0.05, 0.01));
       return;
   }
 }
@@ -179,12 +158,11 @@ std::vector<Rigid3> MakeRoomPoses(int num_views,
 
 std::vector<SolidPrimitive> Facade(int num_views) {
   const double length = Length(num_views);
-  std::vector<SolidPrimitive> parts = {
-      BlockBetween({0, 0, 0}, {length, 0.12, 1}, true)};
+  std::vector<SolidPrimitive> parts = {Box({0, 0, 0}, {length, 0.12, 1})};
   for (int i = 0; i < NumBays(num_views); ++i) AddBay(i, i * kBayWidth, parts);
   for (const auto& [low, high, out] :
        {std::array{0.0, 0.07, 0.05}, std::array{0.93, 1.0, 0.06}}) {
-    parts.push_back(BlockBetween({0, -out, low}, {length, 0.01, high}, true));
+    parts.push_back(Box({0, -out, low}, {length, 0.01, high}));
   }
   return parts;
 }
