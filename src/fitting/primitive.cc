@@ -86,6 +86,7 @@ double CostOf(const Shape& shape, FitSpan samples) {
 
 bool Explains(const Shape& shape, FitSpan samples) {
   constexpr double kMinInlierShare = 0.9;
+  constexpr double kAxesAcross = 2;  // each with the standard deviation
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double sum = 0, num_inliers = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -94,7 +95,7 @@ bool Explains(const Shape& shape, FitSpan samples) {
     sum += ratio;
     ++num_inliers;
   }
-  return sum <= num_inliers &&
+  return sum <= kAxesAcross * num_inliers &&
          num_inliers >= kMinInlierShare * static_cast<double>(samples.size());
 }
 

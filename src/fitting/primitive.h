@@ -48,8 +48,8 @@ std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples);
 double CostOf(const Shape& shape, FitSpan samples);
 
 // Whether the shape explains the samples within their uncertainty: nine in ten
-// are no outliers, and those are off by a standard deviation or less, root mean
-// square.
+// are no outliers, and those are off by a standard deviation or less in each of
+// the two axes across the shape, root mean square.
 bool Explains(const Shape& shape, FitSpan samples);
 
 // Angles of the samples on a conic, each within half a turn of the one before.

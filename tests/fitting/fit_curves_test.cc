@@ -77,6 +77,17 @@ TEST(FitCurves, FindsALine) {
   EXPECT_GT(fit.inlier_share, 0.95);
 }
 
+// Samples that are off by nine tenths of sigma in each axis, and neighbours
+// alike.
+TEST(FitCurves, FindsALineInAnotherThatWavesWithinSigma) {
+  const double radius = 0.9 * std::sqrt(2) * kSigma;
+  const auto wave = [&](double t) {
+    const double angle = 12 * kPi * t;
+    return Vector3d(t, radius * std::cos(angle), radius * std::sin(angle));
+  };
+  EXPECT_EQ(KindName(FitOne(Sample(wave, 400, false, 0))), "line");
+}
+
 TEST(FitCurves, FindsAnArcAndItsRadius) {
   const CurveFit fit = FitOne(
       Sample([](double t) { return OnEllipse(0.5, 0.5, 0.3 + 1.5 * t); }, 120));
