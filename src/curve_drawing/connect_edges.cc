@@ -168,14 +168,4 @@ std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
   return curves;
 }
 
-std::vector<Curve> DropShortCurves(std::vector<Curve> curves,
-                                   const std::vector<PosedView>& views,
-                                   double min_length_px) {
-  std::erase_if(curves, [&](const Curve& curve) {
-    return curve.samples.size() < 2 ||
-           LengthInPixels(curve, views) < min_length_px;
-  });
-  return curves;
-}
-
 }  // namespace curvix

@@ -38,14 +38,8 @@ ConnectivityGraph ConnectEdges(const std::vector<Edge3d>& edges,
 // smallest edges; samples in walking order, tangents along the curve, support
 // carried over. A walk that returns to its start is a closed curve. Every edge
 // is in exactly one curve, once; an edge without neighbours is a curve of one
-// sample, for JoinCurves to take up or DropShortCurves to drop.
+// sample, for JoinCurves to take up or GroupEdges to drop.
 std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
                                const ConnectivityGraph& graph);
-
-// The curves of at least two samples that are at least `min_length_px` long, in
-// the same order.
-std::vector<Curve> DropShortCurves(std::vector<Curve> curves,
-                                   const std::vector<PosedView>& views,
-                                   double min_length_px);
 
 }  // namespace curvix

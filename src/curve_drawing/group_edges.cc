@@ -8,6 +8,7 @@
 #include "curve_drawing/join_curves.h"
 #include "curve_drawing/split_corners.h"
 #include "curve_drawing/thin_edges.h"
+#include "geometry/pixel_size.h"
 
 namespace curvix {
 
@@ -24,7 +25,10 @@ std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
   curves = DropDuplicates(std::move(curves), views, options);
   curves = JoinCurves(std::move(curves), views, options);
   curves = SplitCorners(curves, views, options);
-  return DropShortCurves(std::move(curves), views, options.min_length_px);
+  std::erase_if(curves, [&](const Curve& curve) {
+    return IsShort(curve, views, options.min_length_px);
+  });
+  return curves;
 }
 
 }  // namespace curvix

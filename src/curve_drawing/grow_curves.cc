@@ -2,14 +2,13 @@
 #include "curve_drawing/grow_curves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
 #include "curve_drawing/claimed_edges.h"
 #include "curve_drawing/keep_significant.h"
+#include "edge_sketch/evidence.h"
 
 namespace curvix {
 namespace {
@@ -17,23 +16,6 @@ namespace {
 // Curves that grow at the same time, for any number of threads. Those that use
 // the same edges grow again, so no result depends on it.
 constexpr std::size_t kNumAtOnce = 64;
-
-std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
-  std::vector<std::size_t> order(edges.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(
-      order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        // Ties must not depend on the last bits of sums.
-        const double first = std::round(1e6 * edges[a].evidence);
-        const double second = std::round(1e6 * edges[b].evidence);
-        if (first != second) return first > second;
-        return std::lexicographical_compare(edges[a].position.begin(),
-                                            edges[a].position.end(),
-                                            edges[b].position.begin(),
-                                            edges[b].position.end());
-      });
-  return order;
-}
 
 std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
                              const GrowthInput& input,

@@ -102,18 +102,12 @@ class Grower {
   }
 
  private:
-  PlaneMeasurement Measure(const EdgeRef& ref) const {
-    const ViewIndex& index = indices_[static_cast<std::size_t>(ref.view_idx)];
-    return MeasurePlane(
-        *index.view,
-        ToImageEdge(
-            index.edges->edges[static_cast<std::size_t>(ref.edge_idx)]));
-  }
-
   std::vector<PlaneMeasurement> MeasureAll(
       const std::vector<EdgeRef>& refs) const {
     std::vector<PlaneMeasurement> measurements;
-    for (const EdgeRef& ref : refs) measurements.push_back(Measure(ref));
+    for (const EdgeRef& ref : refs) {
+      measurements.push_back(MeasurePlane(ref, indices_));
+    }
     // Sums must not depend on the order of views.
     std::sort(
         measurements.begin(),
@@ -148,23 +142,13 @@ class Grower {
                       return claimed_.IsFree({view_idx, i}) &&
                              !own_.Contains({view_idx, i});
                     });
-    Look look{std::nullopt, VoteWithoutSupport()};
-    if (!nearest) return look;
-    look.hit = EdgeRef{view_idx, *nearest};
-    const ImageEdge found =
-        ToImageEdge(index.edges->edges[static_cast<std::size_t>(*nearest)]);
-    const Eigen::Vector2d normal(-found.tangent.y(), found.tangent.x());
-    const double angle = AngleOf(projected->tangent);
-    look.vote =
-        VoteWithSupport({normal.dot(projected->position - found.position),
-                         expected_px,
-                         UndirectedDifference(angle, AngleOf(found.tangent))},
-                        index.density.Density(projected->position, angle));
-    return look;
-  }
-
-  static double AngleOf(const Eigen::Vector2d& direction) {
-    return std::atan2(direction.y(), direction.x());
+    if (!nearest) return Look{std::nullopt, VoteWithoutSupport()};
+    const EdgeRef hit{view_idx, *nearest};
+    return Look{hit,
+                VoteWithSupport(index,
+                                *projected,
+                                expected_px,
+                                ToImageEdge(EdgeOf(hit, indices_)))};
   }
 
   // A step that is a pixel long in the view of `support` that sees it largest,
@@ -176,15 +160,13 @@ class Grower {
     return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
   }
 
-  // Moves the tip a step on; the hits that count are `trusted`, at first those
-  // of the step before.
-  GrownSample StepOn(CurveTip& tip,
-                     Streaks& streaks,
-                     std::vector<EdgeRef>& trusted) {
-    tip.Step(StepAlong(tip, trusted));
+  // What all views show at the tip. Adds the hits of views that support the
+  // curve steadily to `trusted`.
+  GrownSample LookAround(const CurveTip& tip,
+                         Streaks& streaks,
+                         std::vector<EdgeRef>& trusted) const {
     GrownSample grown;
     Votes votes(indices_.size());
-    trusted.clear();
     for (std::size_t v = 0; v < indices_.size(); ++v) {
       if (are_repeated_[v]) continue;
       const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
@@ -196,9 +178,20 @@ class Grower {
         trusted.push_back(*look->hit);
       }
     }
-    found_.insert(found_.end(), grown.hits.begin(), grown.hits.end());
     // Rounded, so that the order of views makes no difference.
     grown.evidence = std::round(1e6 * Evidence(votes, neighbors_)) / 1e6;
+    return grown;
+  }
+
+  // Moves the tip a step on, by the `trusted` hits of the last step and to
+  // those of this one.
+  GrownSample StepOn(CurveTip& tip,
+                     Streaks& streaks,
+                     std::vector<EdgeRef>& trusted) {
+    tip.Step(StepAlong(tip, trusted));
+    trusted.clear();
+    GrownSample grown = LookAround(tip, streaks, trusted);
+    found_.insert(found_.end(), grown.hits.begin(), grown.hits.end());
     tip.Correct(MeasureAll(trusted));
     grown.edge = tip.edge();
     grown.sigma = SigmaOf(grown, tip);

@@ -15,12 +15,6 @@ namespace {
 // significance; long edges of painted windows beside each other do.
 constexpr double kTimesAsSignificant = 4;
 
-const Edge2d& EdgeOf(const EdgeRef& ref,
-                     const std::vector<ViewIndex>& indices) {
-  const EdgeMap& map = *indices[static_cast<std::size_t>(ref.view_idx)].edges;
-  return map.edges[static_cast<std::size_t>(ref.edge_idx)];
-}
-
 std::vector<EdgeRef> SupportOf(const Curve& curve) {
   std::vector<EdgeRef> support;
   for (const CurveSample& sample : curve.samples) {

@@ -2,7 +2,9 @@
 // Paper: none (beyond it).
 #include "edge_sketch/evidence.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/angles.h"
 
@@ -51,6 +53,23 @@ double Evidence(const Votes& votes,
     if (sum > 0) evidence += sum / weights;
   }
   return evidence;
+}
+
+std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
+  std::vector<std::size_t> order(edges.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(
+      order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        // Ties must not depend on the last bits of sums.
+        const double first = std::round(1e6 * edges[a].evidence);
+        const double second = std::round(1e6 * edges[b].evidence);
+        if (first != second) return first > second;
+        return std::lexicographical_compare(edges[a].position.begin(),
+                                            edges[a].position.end(),
+                                            edges[b].position.begin(),
+                                            edges[b].position.end());
+      });
+  return order;
 }
 
 }  // namespace curvix

@@ -17,6 +17,8 @@
 // the sum of the positive averages: scattered support cancels.
 #pragma once
 
+#include <curvix/edges.h>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -47,5 +49,9 @@ using Votes = std::vector<std::optional<double>>;  // by view; none: no query
 // The log-likelihood ratio; `votes` and `neighbors` by view index. >= 0.
 double Evidence(const Votes& votes,
                 const std::vector<std::vector<ViewNeighbor>>& neighbors);
+
+// Indices of the edges by falling log-likelihood ratio, rounded to 1e-6; ties
+// by ascending position.
+std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges);
 
 }  // namespace curvix

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
+#include "edge_sketch/evidence.h"
 #include "geometry/pixel_size.h"
 #include "model/contours.h"
 
@@ -81,16 +81,6 @@ class Claims {
   std::vector<double> pixel_sizes_;
   std::vector<std::vector<std::int32_t>> owners_;
 };
-
-std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
-  std::vector<std::size_t> order(edges.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(
-      order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return edges[a].evidence > edges[b].evidence;
-      });
-  return order;
-}
 
 }  // namespace
 

@@ -126,37 +126,14 @@ std::optional<std::vector<EdgeRef>> FindSupport(
   return support;
 }
 
-ImageEdge EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views) {
-  return ToImageEdge(views[static_cast<std::size_t>(ref.view_idx)]
-                         .edges->edges[static_cast<std::size_t>(ref.edge_idx)]);
-}
-
 std::vector<PlaneMeasurement> Measure(const std::vector<EdgeRef>& support,
                                       const std::vector<ViewIndex>& views) {
   std::vector<PlaneMeasurement> measurements;
   measurements.reserve(support.size());
   for (const EdgeRef& ref : support) {
-    measurements.push_back(
-        MeasurePlane(*views[static_cast<std::size_t>(ref.view_idx)].view,
-                     EdgeOf(ref, views)));
+    measurements.push_back(MeasurePlane(ref, views));
   }
   return measurements;
-}
-
-double AngleOf(const Eigen::Vector2d& direction) {
-  return std::atan2(direction.y(), direction.x());
-}
-
-double VoteWithSupport(const ImageEdge& projected,
-                       double expected_px,
-                       const ImageEdge& support,
-                       const ViewIndex& view) {
-  const Eigen::Vector2d normal(-support.tangent.y(), support.tangent.x());
-  const double angle = AngleOf(projected.tangent);
-  const SupportFit fit{normal.dot(projected.position - support.position),
-                       expected_px,
-                       UndirectedDifference(angle, AngleOf(support.tangent))};
-  return VoteWithSupport(fit, view.density.Density(projected.position, angle));
 }
 
 // The vote of a view with this support, if any; nullopt if the estimate is too
@@ -169,7 +146,7 @@ std::optional<double> VoteOf(const ViewIndex& view,
   if (!projected) return std::nullopt;
   const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
   if (!expected_px) return std::nullopt;
-  return support ? VoteWithSupport(*projected, *expected_px, *support, view)
+  return support ? VoteWithSupport(view, *projected, *expected_px, *support)
                  : VoteWithoutSupport();
 }
 
@@ -185,7 +162,7 @@ Votes VotesOf(const EdgeEstimate& estimate,
   for (const std::int32_t view_idx : asked) {
     std::optional<ImageEdge> supporting;
     if (next != support.end() && next->view_idx == view_idx) {
-      supporting = EdgeOf(*next++, views);
+      supporting = ToImageEdge(EdgeOf(*next++, views));
     }
     const auto i = static_cast<std::size_t>(view_idx);
     votes[i] = VoteOf(views[i], supporting, estimate, search);

@@ -5,9 +5,11 @@
 #include <curvix/edges.h>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/grid_index.h"
 #include "edge_sketch/edge_density.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
 #include "model/posed_view.h"
@@ -28,5 +30,17 @@ inline std::optional<std::int32_t> NearestEdge(const ViewIndex& index,
                                                const Gate& gate) {
   return NearestEdge(index.grid, expected, gate);
 }
+
+// `views` by view index.
+const Edge2d& EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views);
+PlaneMeasurement MeasurePlane(const EdgeRef& ref,
+                              const std::vector<ViewIndex>& views);
+
+// The vote of a view (evidence.h) in which a 3D edge projects to `projected`,
+// with a standard deviation of the distance of `expected_px`, and is supported.
+double VoteWithSupport(const ViewIndex& view,
+                       const ImageEdge& projected,
+                       double expected_px,
+                       const ImageEdge& support);
 
 }  // namespace curvix

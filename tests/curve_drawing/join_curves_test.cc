@@ -144,15 +144,15 @@ TEST(DropDuplicates, KeepsAWholeRing) {
   EXPECT_EQ(kept[0].samples.size(), ring.samples.size());
 }
 
-TEST(DropShortCurves, MeasuresInPixelsOfTheNearestView) {
+TEST(IsShort, MeasuresInPixelsOfTheNearestView) {
   // The origin is 6.5 away, focal length 800.
   const double px = 6.5 / 800;
   Curve curve = Straight(0, 1);
   curve.samples[1].position.x() = 10 * px;
   EXPECT_NEAR(LengthInPixels(curve, Views()), 10, 0.2);
-  EXPECT_EQ(DropShortCurves({curve}, Views(), 9.5).size(), 1u);
-  EXPECT_EQ(DropShortCurves({curve}, Views(), 10.5).size(), 0u);
-  EXPECT_EQ(DropShortCurves({Straight(0, 0)}, Views(), 0).size(), 0u);
+  EXPECT_FALSE(IsShort(curve, Views(), 9.5));
+  EXPECT_TRUE(IsShort(curve, Views(), 10.5));
+  EXPECT_TRUE(IsShort(Straight(0, 0), Views(), 0));
 }
 
 }  // namespace
