@@ -171,12 +171,12 @@ double Length(const CurveFit& fit) {
   if (fit.kind == FitKind::kArc) {
     return fit.major.norm() * (fit.end_angle - fit.start_angle);
   }
-  constexpr int kNumSteps = 1000;
+  constexpr int kNumChords = 1000;
   double length = 0;
   Eigen::Vector3d last = PointAt(fit, 0);
-  for (int i = 1; i <= kNumSteps; ++i) {
+  for (int i = 1; i <= kNumChords; ++i) {
     const Eigen::Vector3d next =
-        PointAt(fit, static_cast<double>(i) / kNumSteps);
+        PointAt(fit, static_cast<double>(i) / kNumChords);
     length += (next - last).norm();
     last = next;
   }

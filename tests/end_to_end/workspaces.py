@@ -64,6 +64,15 @@ class Workspace:
     def files(self):
         return sorted(self.images.iterdir())
 
+    def read_points(self):
+        """(id, x, y, z, red, green, blue, error) and track of each point."""
+        at = 8
+        for _ in range(struct.unpack_from('<Q', self.points)[0]):
+            *point, length = struct.unpack_from('<QdddBBBdQ', self.points, at)
+            at += 51
+            yield point, struct.unpack_from(f'<{2 * length}I', self.points, at)
+            at += 8 * length
+
     def write_text(self, folder='sparse/0', end='\n', head='', points=True, between=' '):
         folder = self.path / folder
         shutil.rmtree(self.model)
@@ -75,13 +84,7 @@ class Workspace:
             lines.append(between.join(map(str, view[:10])))
             lines.append(between.join(f'{x} {y} {point}' for x, y, point in view[10]) if points else '')
         (folder / 'images.txt').write_bytes((head + end.join(lines) + end).encode('utf8', 'surrogateescape'))
-        lines, at = [], 8
-        for _ in range(struct.unpack_from('<Q', self.points)[0] if points else 0):
-            *point, length = struct.unpack_from('<QdddBBBdQ', self.points, at)
-            at += 51
-            track = struct.unpack_from(f'<{2 * length}I', self.points, at)
-            at += 8 * length
-            lines.append(between.join(map(str, [*point, *track])))
+        lines = [between.join(map(str, [*point, *track])) for point, track in self.read_points()] if points else []
         (folder / 'points3D.txt').write_bytes((head + end.join(lines) + end).encode())
 
     def rename(self, new_name, file_name=None):
@@ -305,6 +308,57 @@ def _(w):
 @row('text model with tabs', '')
 def _(w):
     w.write_text(between='\t')
+
+
+# What the exports of other programs have of their own.
+
+@row('text model as RealityScan exports it', 'exponents of three digits, names with spaces, blanks at the ends of lines')
+def _(w):
+    def real(number):
+        mantissa, exponent = f'{number:.16e}'.split('e')
+        return mantissa + ('' if int(exponent) == 0 else f'e{exponent[0]}{int(exponent[1:]):03}')
+
+    w.rename(lambda name: 'A (' + name.replace('view_', '').replace('.', ').'))
+    (w.model / 'images.txt').write_text('# Image list with two lines of data per image:\n' + ''.join(
+        ' '.join([str(view[0]), *map(real, view[1:8]), str(view[8]), view[9]]) + '\n' +
+        ''.join(f'{real(x)} {real(y)} {point} ' for x, y, point in view[10]) + '\n' for view in w.views))
+
+
+@row('text model as OpenMVG exports it', 'ids from 0, six digits, blank lines, tracks of features that are not listed and of images without a pose')
+def _(w):
+    shutil.rmtree(w.model)
+    w.model.mkdir()
+    (w.model / 'cameras.txt').write_text('# Number of cameras: X\n' + ''.join(
+        ' '.join([str(camera[1] - 1), camera[0], *(f'{number:.6g}' for number in camera[2:])]) + '\n\n' for camera in w.cameras))
+    (w.model / 'images.txt').write_text('# Number of images: X, mean observations per image: Y\n' + ''.join(
+        ' '.join([str(view[0] - 1), *(f'{number:.6g}' for number in view[1:8]), str(view[8] - 1), view[9], '\n']) +
+        ''.join(f'{x:.6g} {y:.6g} {point - 1} ' for x, y, point in view[10] if point >= 0) + '\n' for view in w.views))
+    (w.model / 'points3D.txt').write_text('# Number of points: X, mean track length: Y\n' + ''.join(
+        ' '.join([str(point[0] - 1), *(f'{number:.6g}' for number in point[1:4]), *map(str, point[4:7]), '0',
+                  *(f'{view - 1} {feature + 1000}' for view, feature in zip(track[::2], track[1::2])), '99 7']) + '\n'
+        for point, track in w.read_points()))
+
+
+@row('binary model as Metashape exports it', 'ids from 0, points without errors')
+def _(w):
+    with open(w.model / 'cameras.bin', 'wb') as file:
+        file.write(struct.pack('<Q', len(w.cameras)))
+        for camera in w.cameras:
+            file.write(struct.pack('<IiQQ4d', camera[1] - 1, 1, *camera[2:]))
+    with open(w.model / 'images.bin', 'wb') as file:
+        file.write(struct.pack('<Q', len(w.views)))
+        for view in w.views:
+            file.write(struct.pack('<I7dI', view[0] - 1, *view[1:8], view[8] - 1) + view[9].encode() + b'\0')
+            file.write(struct.pack('<Q', len(view[10])))
+            for x, y, point in view[10]:
+                file.write(struct.pack('<ddq', x, y, max(point - 1, -1)))
+    with open(w.model / 'points3D.bin', 'wb') as file:
+        points = list(w.read_points())
+        file.write(struct.pack('<Q', len(points)))
+        for point, track in points:
+            seen = [index - 1 + index_of_point % 2 for index_of_point, index in enumerate(track)]
+            file.write(struct.pack('<QdddBBBdQ', point[0] - 1, *point[1:7], 0, len(track) // 2))
+            file.write(struct.pack(f'<{len(seen)}I', *seen))
 
 
 @row('text model with comments and blank lines first', 'no points')
