@@ -146,10 +146,12 @@ def _(w):
     w.write_text(points=False)
 
 
-@row('`rigs.bin` and `frames.bin`', 'empty; `images.bin` has the poses')
+@row('`rigs.bin` and `frames.bin`', 'as COLMAP 4.2 writes them: a rig per camera, a frame per image; `images.bin` has the poses')
 def _(w):
-    for name in ('rigs.bin', 'frames.bin'):
-        (w.model / name).write_bytes(struct.pack('<Q', 0))
+    rigs = [struct.pack('<IIiI', camera[1], 1, 0, camera[1]) for camera in w.cameras]
+    frames = [struct.pack('<II7dIiIQ', view[0], view[8], *view[1:8], 1, 0, view[8], view[0]) for view in w.views]
+    for name, records in (('rigs.bin', rigs), ('frames.bin', frames)):
+        (w.model / name).write_bytes(struct.pack('<Q', len(records)) + b''.join(records))
 
 
 @row('database and other files beside the model and in `images/`', '')
