@@ -37,7 +37,8 @@ std::vector<ScenePoint> Ball(const Vector3d& center,
   Random random(1);
   std::vector<ScenePoint> points(static_cast<std::size_t>(count));
   for (ScenePoint& point : points) {
-    point.position = center + random.Uniform() * random.UnitVector();
+    const double radius = random.Uniform();
+    point.position = center + radius * random.UnitVector();
     for (std::size_t v = 0; v < num_views; ++v) {
       point.view_idxs.push_back(static_cast<int>(v));
     }
@@ -240,7 +241,7 @@ TEST(FindDistinctViews, WhatShowsMoreOrLessRemainsButDoesNotOverlap) {
   // From the same place: another direction, and a much longer lens.
   views.push_back(LookAt(views[0].center, {2.5, 2.5, 0}));
   views.push_back(views[0]);
-  views.back().calibration.topLeftCorner<2, 2>() *= 5;
+  views.back().calibration.topLeftCorner<2, 2>() *= 10;
   const DistinctViews distinct =
       Distinct(views, Ball({0, 0, 0}, views.size(), 100));
   EXPECT_THAT(Repeated(distinct), IsEmpty());

@@ -38,8 +38,9 @@ TEST(SketchEdges, CountsRepeatedViews) {
   const std::vector<EdgeMap> maps =
       ExactEdgeMaps({CircleCurve({0, 0, 0}, 0.8)}, views, 1);
   const auto sketch = [&](const std::vector<PosedView>& some) {
+    const auto num_views = static_cast<std::ptrdiff_t>(some.size());
     return SketchEdges(some,
-                       {maps.begin(), maps.begin() + some.size()},
+                       {maps.begin(), maps.begin() + num_views},
                        {},
                        Options(),
                        [](int, int) { return true; });
