@@ -183,8 +183,9 @@ class Grower {
     return grown;
   }
 
-  // Moves the tip a step on, by the `trusted` hits of the last step and to
-  // those of this one.
+  // Moves the tip a step on and corrects it by the hits of views that support
+  // the curve steadily. `trusted` are these hits: on entry those of the step
+  // before, which set the length of the step, afterwards those of this one.
   GrownSample StepOn(CurveTip& tip,
                      Streaks& streaks,
                      std::vector<EdgeRef>& trusted) {

@@ -36,8 +36,9 @@ const Edge2d& EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views);
 PlaneMeasurement MeasurePlane(const EdgeRef& ref,
                               const std::vector<ViewIndex>& views);
 
-// The vote of a view (evidence.h) in which a 3D edge projects to `projected`,
-// with a standard deviation of the distance of `expected_px`, and is supported.
+// The vote of a view (evidence.h) in which a 3D edge projects to `projected`
+// and the edge `support` supports it. `expected_px` is the expected standard
+// deviation of the distance between the two.
 double VoteWithSupport(const ViewIndex& view,
                        const ImageEdge& projected,
                        double expected_px,

@@ -86,7 +86,7 @@ double CostOf(const Shape& shape, FitSpan samples) {
 
 bool Explains(const Shape& shape, FitSpan samples) {
   constexpr double kMinInlierShare = 0.9;
-  constexpr double kAxesAcross = 2;  // each with the standard deviation
+  constexpr double kAxesAcross = 2;  // sigma is that of each
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double sum = 0, num_inliers = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {

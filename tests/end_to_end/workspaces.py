@@ -358,9 +358,9 @@ def _(w):
         points = list(w.read_points())
         file.write(struct.pack('<Q', len(points)))
         for point, track in points:
-            seen = [index - 1 + index_of_point % 2 for index_of_point, index in enumerate(track)]
             file.write(struct.pack('<QdddBBBdQ', point[0] - 1, *point[1:7], 0, len(track) // 2))
-            file.write(struct.pack(f'<{len(seen)}I', *seen))
+            for view, feature in zip(track[::2], track[1::2]):
+                file.write(struct.pack('<II', view - 1, feature))
 
 
 @row('text model with comments and blank lines first', 'no points')

@@ -77,9 +77,9 @@ TEST(FitCurves, FindsALine) {
   EXPECT_GT(fit.inlier_share, 0.95);
 }
 
-// Samples that are off by nine tenths of sigma in each axis, and neighbours
-// alike.
-TEST(FitCurves, FindsALineInAnotherThatWavesWithinSigma) {
+// Samples on a helix about the line, off by nine tenths of sigma along each
+// axis, root mean square.
+TEST(FitCurves, FindsALineWhoseNeighbouringSamplesErrAlike) {
   const double radius = 0.9 * std::sqrt(2) * kSigma;
   const auto wave = [&](double t) {
     const double angle = 12 * kPi * t;
