@@ -94,7 +94,7 @@ struct ValidationOptions {
   double max_angle_deg = 15.0;
   // M: fewest supporting validation views; >= 1. With kEveryView, more than
   // half of the views on one side will do, hypothesis views included.
-  int min_num_support_views = 4;
+  int min_num_support_views = 2;
   // With kEveryView: least log-likelihood ratio, see
   // docs/stages/sketch.md; natural logarithm, >= 0.
   double min_log_likelihood_ratio = 10.0;

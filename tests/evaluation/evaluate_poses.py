@@ -103,7 +103,7 @@ def read_lens(model):
 
 
 def project(poses, lens, points):
-    """Pixels, (views, points, 2)."""
+    """Pixels, (views, points, 2), and depths, (views, points)."""
     rotations = np.array([rotation for rotation, _ in poses])
     translations = np.array([translation for _, translation in poses])
     x = np.einsum('vij,pj->vpi', rotations, points) + translations[:, None]
@@ -113,7 +113,8 @@ def project(poses, lens, points):
     radial = 1 + k1 * r2 + k2 * r2 ** 2
     return np.stack([
         fx * (u * radial + 2 * p1 * u * v + p2 * (r2 + 2 * u ** 2)) + cx,
-        fy * (v * radial + 2 * p2 * u * v + p1 * (r2 + 2 * v ** 2)) + cy], 2)
+        fy * (v * radial + 2 * p2 * u * v + p1 * (r2 + 2 * v ** 2)) + cy],
+        2), x[..., 2]
 
 
 def moved(points, motion):
@@ -123,20 +124,24 @@ def moved(points, motion):
 
 
 def median_shift(model, true_model, points):
-    """Pixels, after the similarity that makes the shifts smallest."""
+    """Pixels, after the similarity that makes the shifts smallest. Of points
+    in the images, whose size is twice the principal point."""
     true_poses, poses = read_poses(true_model), read_poses(model)
     names = sorted(set(poses) & set(true_poses))
-    truth = project([true_poses[n] for n in names], read_lens(true_model),
-                    points)
+    true_lens = read_lens(true_model)
+    truth, depths = project([true_poses[n] for n in names], true_lens, points)
     ours = [poses[n] for n in names]
     lens = read_lens(model)
+    within = (depths > 0) & (np.abs(truth - true_lens[2:4])
+                             < true_lens[2:4]).all(axis=2)
 
     def shifts(motion):
-        return project(ours, lens, moved(points, motion)) - truth
+        pixels, _ = project(ours, lens, moved(points, motion))
+        return (pixels - truth)[within]
 
     fit = least_squares(lambda motion: shifts(motion).ravel(), np.zeros(7),
                         loss='soft_l1', x_scale='jac')
-    return np.median(np.linalg.norm(shifts(fit.x), axis=2))
+    return np.median(np.linalg.norm(shifts(fit.x), axis=1))
 
 
 def run(program, workspace, flags):
