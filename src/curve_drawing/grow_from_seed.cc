@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 
 #include "base/angles.h"
 #include "curve_drawing/curve_tip.h"
 #include "curve_drawing/grown_path.h"
+#include "edge_sketch/visible_side.h"
 #include "geometry/image_edge.h"
 #include "geometry/nearest_edge.h"
 #include "geometry/pixel_size.h"
@@ -83,6 +85,7 @@ class Grower {
     found_ = support;
     const CurveTip tip(
         {seed.position, seed.tangent}, MeasureAll(support), sigma_px_, pixel);
+    facing_ = ChooseSide(tip);
     const GrownSample first{tip.edge(),
                             tip.Sigma(),
                             seed.evidence,
@@ -160,6 +163,17 @@ class Grower {
     return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
   }
 
+  // The side from which the curve is seen, by the votes at its seed.
+  std::optional<Eigen::Vector3d> ChooseSide(const CurveTip& tip) const {
+    Votes votes(indices_.size());
+    for (std::size_t v = 0; v < indices_.size(); ++v) {
+      if (are_repeated_[v]) continue;
+      const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
+      if (look) votes[v] = look->vote;
+    }
+    return FindVisibleSide(tip.edge(), votes, neighbors_, indices_).facing;
+  }
+
   // What all views show at the tip. Adds the hits of views that support the
   // curve steadily to `trusted`.
   GrownSample LookAround(const CurveTip& tip,
@@ -171,8 +185,10 @@ class Grower {
       if (are_repeated_[v]) continue;
       const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
       if (!look) continue;
-      ++grown.num_looks;
-      votes[v] = look->vote;
+      if (IsInFront(views_[v].center, tip.edge(), facing_)) {
+        ++grown.num_looks;
+        votes[v] = look->vote;
+      }
       if (look->hit) grown.hits.push_back(*look->hit);
       if (streaks.Count(v, look->hit.has_value())) {
         trusted.push_back(*look->hit);
@@ -285,6 +301,7 @@ class Grower {
   const CurveGrowthOptions& options_;
   const ClaimedEdges& claimed_;
   OwnEdges own_;
+  std::optional<Eigen::Vector3d> facing_;  // of the curve, see VisibleSide
   std::vector<EdgeRef> found_;
 };
 

@@ -88,7 +88,8 @@ class ViewSketcher {
       view.partners.push_back({*std::move(pairs[k]),
                                {FirstViews(h1, partners[k], view.neighbors),
                                 validators,
-                                fewest_supports}});
+                                fewest_supports,
+                                input_.finds_seeds}});
     }
     return view;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "edge_sketch/visible_side.h"
 #include "geometry/image_edge.h"
 
 namespace curvix {
@@ -221,8 +222,12 @@ std::optional<TrackedEdge> TrackSupport(
       break;
     }
   }
-  tracked.evidence = Evidence(
-      VotesOf(asked, tracked.support, views, to_ask.all, search), neighbors);
+  const Votes votes =
+      VotesOf(asked, tracked.support, views, to_ask.all, search);
+  tracked.evidence =
+      to_ask.from_one_side
+          ? FindVisibleSide(asked.edge, votes, neighbors, views).evidence
+          : Evidence(votes, neighbors);
   if (tracked.evidence < options.min_log_likelihood_ratio) return std::nullopt;
   return tracked;
 }

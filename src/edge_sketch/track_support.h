@@ -20,7 +20,7 @@ namespace curvix {
 struct TrackedEdge {
   EdgeEstimate estimate;
   std::vector<EdgeRef> support;  // at most one per view, ascending
-  double evidence = 0;           // log-likelihood ratio: Evidence()
+  double evidence = 0;           // log-likelihood ratio
 };
 
 // The views that are queried for hypotheses of one pair of hypothesis views.
@@ -31,6 +31,10 @@ struct QueryViews {
   std::vector<std::int32_t> all;  // ascending
   // Fewest supporting views of a hypothesis, the hypothesis views included.
   std::size_t fewest_supports = 3;
+  // Whether log-likelihood ratios are those of the visible side
+  // (visible_side.h), or of all views. Of seeds: the curve that grows from one
+  // is tested again.
+  bool from_one_side = false;
 };
 
 // Largest distance of a support from the projected edge along the tangent;
