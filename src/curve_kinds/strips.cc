@@ -36,7 +36,7 @@ constexpr int kMinViews = 3;
 // The share of the views that must agree; others may be hidden.
 constexpr double kAgreeingShare = 0.7;
 // Strips that a view sees under a smaller angle are not compared.
-constexpr double kMinSine = 0.4;
+constexpr double kMinSine = 0.25;
 
 // The variance, in squared grey levels, by which strips of one surface differ:
 // noise, and a share of the variance of the strip for what resampling and
