@@ -31,9 +31,8 @@ struct QueryViews {
   std::vector<std::int32_t> all;  // ascending
   // Fewest supporting views of a hypothesis, the hypothesis views included.
   std::size_t fewest_supports = 3;
-  // Whether log-likelihood ratios are those of the visible side
-  // (visible_side.h), or of all views. Of seeds: the curve that grows from one
-  // is tested again.
+  // Whether views behind a surface have no vote (visible_side.h). For seeds:
+  // the curve that grows from one is tested again.
   bool from_one_side = false;
 };
 

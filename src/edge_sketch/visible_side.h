@@ -3,8 +3,8 @@
 //
 // A surface shows its edges and markings to the views in front of it only. Seen
 // along the tangent of an edge, these are the views in half a turn. A view
-// behind the surface has no vote on the edge, also if it is next to one in
-// front in direction.
+// behind the surface has no vote on the edge, even if a view next to it
+// in direction is in front.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,9 +32,9 @@ bool IsInFront(const Eigen::Vector3d& center,
                const std::optional<Eigen::Vector3d>& facing);
 
 // The side with the largest evidence. The prior probability of all around is
-// one half; all half turns are equally probable, so one that parts two views is
-// as probable as the angle between these is large. Ties: all around, then the
-// larger probability. `votes` and `neighbors` by view index.
+// one half. That of a half turn is proportional to the angle by which it can
+// turn before the views in front change. Ties: all around, then the larger
+// probability. `votes` and `neighbors` by view index.
 VisibleSide FindVisibleSide(
     const SpaceEdge& edge,
     const Votes& votes,

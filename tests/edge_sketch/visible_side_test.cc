@@ -2,7 +2,6 @@
 #include "edge_sketch/visible_side.h"
 
 #include <gtest/gtest.h>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
