@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -28,9 +29,11 @@ using Eigen::Vector3d;
 constexpr std::int64_t kMaxImageBytes = std::int64_t{1} << 30;
 
 // Places along a curve, in pixels, and how many to either side are taken
-// together.
+// together. They are not independent: their strips share errors of the poses
+// and what hides them. Each counts as this share of an independent one.
 constexpr double kStepPx = 8;
-constexpr int kReach = 4;
+constexpr int kReach = 5;
+constexpr float kIndependentShare = 0.35F;
 
 // Other curves and COLMAP's points as near as this are looked at, too.
 constexpr double kNearbyCurvePx = 40;
@@ -43,9 +46,9 @@ constexpr int kMinCreaseSteps = 3;
 
 // Before images are looked at, as where there is no texture: curves are mostly
 // edges of surfaces.
-constexpr double kPriorCrease = 0.9;
-constexpr double kPriorBoundary = 0.05;
-constexpr double kPriorMarking = 0.05;
+constexpr double kPriorCrease = 0.88;
+constexpr double kPriorBoundary = 0.02;
+constexpr double kPriorMarking = 0.1;
 
 struct KindProbability {
   CurveKind kind = CurveKind::kUnknown;
@@ -61,8 +64,8 @@ Vector3d Across(const Vector3d& tangent, const Vector3d& normal) {
   return tangent.cross(Vector3d::Unit(axis)).normalized();
 }
 
-// The sum over the neighbours within kReach. Those that do not see a direction
-// count as the mean of those that do, unless they are most.
+// The weighted sum over the neighbours within kReach. Those that do not see a
+// direction count as the mean of those that do, unless they are most.
 SurfaceEvidence SumAround(const std::vector<SurfaceEvidence>& evidence,
                           std::size_t at) {
   const std::size_t first = at < kReach ? 0 : at - kReach;
@@ -78,7 +81,7 @@ SurfaceEvidence SumAround(const std::vector<SurfaceEvidence>& evidence,
         sum.log_bayes[side][d] += log_bayes;
         ++seen;
       }
-      sum.log_bayes[side][d] *= num / seen;
+      sum.log_bayes[side][d] *= kIndependentShare * num / seen;
       if (2 * seen < num) {
         sum.log_bayes[side][d] = -std::numeric_limits<float>::infinity();
       }
@@ -146,7 +149,27 @@ struct Places {
   // Of all curves, one after the other: curve and position.
   std::vector<std::size_t> curves;
   std::vector<Vector3d> positions;
+  std::vector<std::vector<int>> views;  // that see them, ascending
 };
+
+std::vector<int> ViewsOf(const CurveSample& sample) {
+  std::vector<int> views;
+  for (const EdgeRef& ref : sample.support) views.push_back(ref.view_idx);
+  return views;
+}
+
+// Whether a point nearby is on what the views of a place see: of the views of
+// either, ascending, at least a third of the fewer see both. Other points may
+// be behind a surface.
+bool IsSeenBy(const std::vector<int>& views, const std::vector<int>& of_point) {
+  std::vector<int> common;
+  std::set_intersection(views.begin(),
+                        views.end(),
+                        of_point.begin(),
+                        of_point.end(),
+                        std::back_inserter(common));
+  return 3 * common.size() >= std::min(views.size(), of_point.size());
+}
 
 Places ChoosePlaces(const std::vector<Curve>& curves,
                     const std::vector<PosedView>& views) {
@@ -161,6 +184,7 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
     for (std::size_t sample : places.samples.back()) {
       places.curves.push_back(i);
       places.positions.push_back(curves[i].samples[sample].position);
+      places.views.push_back(ViewsOf(curves[i].samples[sample]));
     }
   }
   return places;
@@ -182,8 +206,8 @@ class Classifier {
         images_(images),
         places_(ChoosePlaces(curves, views)),
         places_tree_(places_.positions),
-        points_(PositionsOf(scene.points)),
-        points_tree_(points_) {
+        points_(scene.points),
+        points_tree_(PositionsOf(scene.points)) {
     for (const View& view : scene.views) {
       cameras_.push_back(&CameraOf(scene, view));
     }
@@ -194,28 +218,44 @@ class Classifier {
  private:
   std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
                                              const Curve& curve) const;
-  // On other curves, and COLMAP's.
+  // Places on other curves, and COLMAP's points, that the views of the sample
+  // see.
+  std::vector<Vector3d> CurvesNearby(std::size_t curve_idx,
+                                     const CurveSample& sample) const;
   std::vector<Vector3d> PointsNearby(std::size_t curve_idx,
-                                     const Vector3d& position) const;
+                                     const CurveSample& sample) const;
 
   const std::vector<PosedView>& views_;
   const std::vector<BlurredImage>& images_;
   std::vector<const Camera*> cameras_;
   Places places_;
   PointTree places_tree_;
-  std::vector<Vector3d> points_;
+  const std::vector<ScenePoint>& points_;
   PointTree points_tree_;
 };
 
-std::vector<Vector3d> Classifier::PointsNearby(std::size_t curve_idx,
-                                               const Vector3d& position) const {
-  const double pixel = places_.pixels[curve_idx];
+std::vector<Vector3d> Classifier::CurvesNearby(
+    std::size_t curve_idx, const CurveSample& sample) const {
+  const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
+  const std::vector<int> views = ViewsOf(sample);
   std::vector<Vector3d> nearby;
-  for (std::size_t i : places_tree_.Within(position, kNearbyCurvePx * pixel)) {
-    if (places_.curves[i] != curve_idx) nearby.push_back(places_.positions[i]);
+  for (std::size_t i : places_tree_.Within(sample.position, radius)) {
+    if (places_.curves[i] != curve_idx && IsSeenBy(views, places_.views[i])) {
+      nearby.push_back(places_.positions[i]);
+    }
   }
-  for (std::size_t i : points_tree_.Within(position, kNearbyPointPx * pixel)) {
-    nearby.push_back(points_[i]);
+  return nearby;
+}
+
+std::vector<Vector3d> Classifier::PointsNearby(
+    std::size_t curve_idx, const CurveSample& sample) const {
+  const double radius = kNearbyPointPx * places_.pixels[curve_idx];
+  const std::vector<int> views = ViewsOf(sample);
+  std::vector<Vector3d> nearby;
+  for (std::size_t i : points_tree_.Within(sample.position, radius)) {
+    if (IsSeenBy(views, points_[i].view_idxs)) {
+      nearby.push_back(points_[i].position);
+    }
   }
   return nearby;
 }
@@ -228,14 +268,19 @@ std::vector<SurfaceEvidence> Classifier::EvidenceAlong(
     const CurveSample& sample = curve.samples[i];
     // A frame that turns no more than the curve does.
     normal = Across(sample.tangent, normal);
+    const double pixel = places_.pixels[curve_idx];
+    std::vector<Vector3d> nearby = CurvesNearby(curve_idx, sample);
     const StripPlace place = {
         sample.position, sample.tangent, normal, sample.support};
-    evidence.push_back(CompareStrips(place, views_, cameras_, images_));
-    AddNearbyPoints(place,
-                    places_.pixels[curve_idx],
-                    views_,
-                    PointsNearby(curve_idx, sample.position),
-                    &evidence.back());
+    evidence.push_back(CompareStrips(place,
+                                     DistancesByDirection(place, pixel, nearby),
+                                     views_,
+                                     cameras_,
+                                     images_));
+    for (const Vector3d& point : PointsNearby(curve_idx, sample)) {
+      nearby.push_back(point);
+    }
+    AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
   }
   return evidence;
 }

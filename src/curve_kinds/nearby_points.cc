@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 
 namespace curvix {
@@ -23,6 +24,21 @@ constexpr double kDirectionSigma = kPi / 12;
 constexpr double kPointSigmaPx = 0.7;
 // Points nearby are not independent: they count as at most so many.
 constexpr double kMaxPoints = 6;
+
+// Of other curves, places at most as far along the tangent, in pixels, are
+// beside a place. Nearer ones show the same edge.
+constexpr double kMaxAlongPx = 6;
+constexpr double kMinBesidePx = 1;
+
+// The angle of a vector about the tangent, from the normal, radians.
+double AngleOf(const Vector3d& offset, const StripPlace& place) {
+  const Vector3d binormal = place.tangent.cross(place.normal);
+  return std::atan2(offset.dot(binormal), offset.dot(place.normal));
+}
+
+double DistanceAcross(const Vector3d& offset, const StripPlace& place) {
+  return (offset - offset.dot(place.tangent) * place.tangent).norm();
+}
 
 struct Direction {
   double angle = 0;  // about the tangent, from the normal, radians
@@ -48,27 +64,46 @@ double Ratio(const Direction& point, double angle) {
 
 }  // namespace
 
+CurveDistances DistancesByDirection(const StripPlace& place,
+                                    double pixel,
+                                    const std::vector<Vector3d>& positions) {
+  CurveDistances distances;
+  distances.fill(std::numeric_limits<double>::infinity());
+  for (const Vector3d& position : positions) {
+    const Vector3d offset = (position - place.position) / pixel;
+    const double distance = DistanceAcross(offset, place);
+    if (std::abs(offset.dot(place.tangent)) > kMaxAlongPx ||
+        distance < kMinBesidePx) {
+      continue;
+    }
+    // The directions to either side of the exact one.
+    const double steps =
+        AngleOf(offset, place) / (2 * kPi) * kNumDirections + kNumDirections;
+    for (const double step : {std::floor(steps), std::floor(steps) + 1}) {
+      double& nearest =
+          distances[static_cast<std::size_t>(step) % kNumDirections];
+      nearest = std::min(nearest, distance);
+    }
+  }
+  return distances;
+}
+
 void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Vector3d>& points,
                      SurfaceEvidence* evidence) {
-  const Vector3d binormal = place.tangent.cross(place.normal);
-  const auto angle_of = [&](const Vector3d& offset) {
-    return std::atan2(offset.dot(binormal), offset.dot(place.normal));
-  };
   std::vector<double> azimuths;
   for (const EdgeRef& ref : place.support) {
-    azimuths.push_back(angle_of(
-        views[static_cast<std::size_t>(ref.view_idx)].center - place.position));
+    const PosedView& view = views[static_cast<std::size_t>(ref.view_idx)];
+    azimuths.push_back(AngleOf(view.center - place.position, place));
   }
   std::array<std::vector<Direction>, 2> sides;
   for (const Vector3d& point : points) {
     const Vector3d offset = point - place.position;
-    const double distance_px =
-        (offset - offset.dot(place.tangent) * place.tangent).norm() / pixel;
+    const double distance_px = DistanceAcross(offset, place) / pixel;
     if (distance_px < kMinDistancePx) continue;
-    const double angle = angle_of(offset);
+    const double angle = AngleOf(offset, place);
     sides[IsOnFirstSide(angle, azimuths) ? 0 : 1].push_back(
         {angle, std::hypot(kDirectionSigma, kPointSigmaPx / distance_px)});
   }

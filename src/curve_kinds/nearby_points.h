@@ -11,6 +11,14 @@
 
 namespace curvix {
 
+// How far the nearest of the `positions` on other curves is in each direction,
+// pixels of length `pixel`, world units; those a few pixels beside the plane
+// across the curve count. Infinity without any.
+CurveDistances DistancesByDirection(
+    const StripPlace& place,
+    double pixel,
+    const std::vector<Eigen::Vector3d>& positions);
+
 // Adds what points nearby say: a point in the direction of a surface speaks
 // for it, one in another direction against it. `points` are on other curves or
 // COLMAP's, `pixel` is the length of a pixel at the place, world units.

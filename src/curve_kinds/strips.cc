@@ -29,7 +29,12 @@ constexpr double kReachPx = 15;
 // With this probability a surface does not reach as far, but to 7.5 px from the
 // curve.
 constexpr double kNarrowProbability = 0.2;
-constexpr int kNumNarrowPixels = 5 * kNumAlong;
+constexpr int kNumNarrowRows = 5;
+// With this probability a surface ends at the next curve in its direction. Its
+// strip is read up to the blur of that curve, if three rows are left.
+constexpr double kEndsAtCurveProbability = 0.5;
+constexpr double kOtherBlurPx = 1.5;
+constexpr int kMinRows = 3;
 
 constexpr std::size_t kMaxViews = 10;
 constexpr int kMinViews = 3;
@@ -147,15 +152,16 @@ class StripSet {
   Strip* Next() { return &strips_[static_cast<std::size_t>(num_)]; }
   void Keep() { ++num_; }
 
-  // Minus infinity if there are fewer than kMinViews.
-  float LogBayes() const;
+  // Minus infinity if there are fewer than kMinViews. `other_curve_px`: to the
+  // nearest other curve in the direction.
+  float LogBayes(double other_curve_px) const;
 
  private:
   using Gram = Eigen::Matrix<float, kMaxViews, kMaxViews>;
   // Of the first pixels of each strip less their mean.
   Gram InnerProducts(int num_pixels) const;
-  // That of the strips whose first pixels agree best.
-  double LogBayes(int num_pixels) const;
+  // That of the first rows of the strips that agree best.
+  double LogBayesOfRows(int num_rows) const;
 
   std::array<Strip, kMaxViews> strips_;
   int num_ = 0;
@@ -199,15 +205,30 @@ double DropWorst(const Gram& gram, int num, std::vector<int>* left) {
   }
 }
 
-float StripSet::LogBayes() const {
+// The logarithm of the Bayes factor of one of two surfaces, the first with
+// `probability`.
+double Mixture(double probability, double log_bayes, double other_log_bayes) {
+  return std::log(probability * std::exp(log_bayes) +
+                  (1 - probability) * std::exp(other_log_bayes));
+}
+
+float StripSet::LogBayes(double other_curve_px) const {
   if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
-  const double log_bayes =
-      std::log((1 - kNarrowProbability) * std::exp(LogBayes(kNumPixels)) +
-               kNarrowProbability * std::exp(LogBayes(kNumNarrowPixels)));
+  double log_bayes = Mixture(kNarrowProbability,
+                             LogBayesOfRows(kNumNarrowRows),
+                             LogBayesOfRows(kNumAcross));
+  const double readable_px = other_curve_px - kOtherBlurPx - kFirstAcrossPx;
+  if (readable_px < kNumAcross - 1) {
+    const int num_rows = static_cast<int>(std::floor(readable_px)) + 1;
+    log_bayes = Mixture(kEndsAtCurveProbability,
+                        num_rows < kMinRows ? 0 : LogBayesOfRows(num_rows),
+                        log_bayes);
+  }
   return std::max(static_cast<float>(log_bayes), kMinLogBayes);
 }
 
-double StripSet::LogBayes(int num_pixels) const {
+double StripSet::LogBayesOfRows(int num_rows) const {
+  const int num_pixels = num_rows * kNumAlong;
   const Gram gram = InnerProducts(num_pixels);
   std::vector<int> left;
   const double total = DropWorst(gram, num_, &left);
@@ -230,6 +251,7 @@ double StripSet::LogBayes(int num_pixels) const {
 }  // namespace
 
 SurfaceEvidence CompareStrips(const StripPlace& place,
+                              const CurveDistances& other_curves_px,
                               const std::vector<PosedView>& views,
                               const std::vector<const Camera*>& cameras,
                               const std::vector<BlurredImage>& images) {
@@ -259,7 +281,7 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     }
     for (std::size_t side = 0; side < 2; ++side) {
       evidence.log_bayes[side][static_cast<std::size_t>(d)] =
-          sides[side].LogBayes();
+          sides[side].LogBayes(other_curves_px[static_cast<std::size_t>(d)]);
     }
   }
   return evidence;

@@ -39,9 +39,14 @@ struct SurfaceEvidence {
   std::array<std::array<float, kNumDirections>, 2> log_bayes = {};
 };
 
+// How far the nearest other curve is in each direction, pixels; infinity: none
+// is near.
+using CurveDistances = std::array<double, kNumDirections>;
+
 // One view per scene view in `images`, `views` and `cameras`, whose ideal
-// pinholes the views are.
+// pinholes the views are. A surface may end at the nearest other curve.
 SurfaceEvidence CompareStrips(const StripPlace& place,
+                              const CurveDistances& other_curves_px,
                               const std::vector<PosedView>& views,
                               const std::vector<const Camera*>& cameras,
                               const std::vector<BlurredImage>& images);
