@@ -21,11 +21,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A half-plane that begins at a line parallel to z.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A half-plane that begins at a line parallel to z, or a strip of it.
 struct Surface {
   double angle_deg = 0;  // of its direction about z, from +x
   double phase = 0;      // of its paint
   Vector3d start = Vector3d::Zero();
+  double width = kInfinity;
 };
 
 // Waves in several directions, of 8 to 30 pixels.
@@ -45,8 +48,8 @@ std::pair<double, double> Hit(const Surface& surface,
   const Vector3d normal(-std::sin(angle), std::cos(angle), 0);
   const double depth = normal.dot(surface.start - center) / normal.dot(ray);
   const Vector3d at = center + depth * ray - surface.start;
-  if (!(depth > 0) || at.dot(across) < 0) {
-    return {std::numeric_limits<double>::infinity(), 0};
+  if (!(depth > 0) || at.dot(across) < 0 || at.dot(across) > surface.width) {
+    return {kInfinity, 0};
   }
   return {depth, Paint(at.dot(across), at.z(), surface.phase)};
 }
@@ -71,8 +74,7 @@ class ClassifyCurvesTest : public ::testing::Test {
       cv::Mat image(800, 800, CV_8U);
       for (int y = 0; y < image.rows; ++y) {
         for (int x = 0; x < image.cols; ++x) {
-          std::pair<double, double> nearest = {
-              std::numeric_limits<double>::infinity(), 128};
+          std::pair<double, double> nearest = {kInfinity, 128};
           for (const Surface& surface : surfaces) {
             nearest = std::min(nearest,
                                Hit(surface,
@@ -90,22 +92,30 @@ class ClassifyCurvesTest : public ::testing::Test {
     return MiddleOf(scene);
   }
 
-  static CurveSample MiddleOf(const Scene& scene) {
-    Curve curve;
-    for (int i = -30; i <= 30; ++i) {
-      CurveSample& sample = curve.samples.emplace_back();
-      sample.position = {0, 0, 0.004 * i};
-      sample.tangent = Vector3d::UnitZ();
-      for (std::size_t v = 0; v < scene.views.size(); ++v) {
-        sample.support.push_back({static_cast<int>(v), 0});
-      }
-    }
-    std::vector<Curve> curves = {curve};
+  CurveSample MiddleOf(const Scene& scene) const {
+    std::vector<Curve> curves = {CurveAt(0, scene)};
+    for (const double x : other_curves_) curves.push_back(CurveAt(x, scene));
     ClassifyCurves(scene, MakePosedViews(scene), 1, &curves);
     return curves[0].samples[30];
   }
 
+  int first_view_ = 0;                // of those that support the curves
+  std::vector<double> other_curves_;  // x of curves parallel to the edge
+
  private:
+  Curve CurveAt(double x, const Scene& scene) const {
+    Curve curve;
+    for (int i = -30; i <= 30; ++i) {
+      CurveSample& sample = curve.samples.emplace_back();
+      sample.position = {x, 0, 0.004 * i};
+      sample.tangent = Vector3d::UnitZ();
+      for (int v = first_view_; v < static_cast<int>(scene.views.size()); ++v) {
+        sample.support.push_back({v, 0});
+      }
+    }
+    return curve;
+  }
+
   const TemporaryFolder folder_;
 };
 
@@ -157,6 +167,32 @@ TEST_F(ClassifyCurvesTest, PointsTellTheSurfacesWhereThereIsNoTexture) {
   };
   EXPECT_EQ(kind_by_points({{0, 1}, {180, 2}}), CurveKind::kMarking);
   EXPECT_EQ(kind_by_points({{50, 1}, {130, 2}}), CurveKind::kCrease);
+}
+
+TEST_F(ClassifyCurvesTest, PointsThatOtherViewsSeeDoNotCount) {
+  first_view_ = 2;
+  const auto kind_by_points_of = [&](const std::vector<int>& views) {
+    std::vector<ScenePoint> points;
+    for (int i = -9; i <= 9; ++i) {
+      if (i == 0) continue;
+      ScenePoint& point = points.emplace_back();
+      point.position = {0.01 * i, 0, 0};
+      point.view_idxs = views;
+    }
+    return Classified({{50, 1}, {130, 2}}, 0, points).kind;
+  };
+  EXPECT_EQ(kind_by_points_of({0, 1}), CurveKind::kCrease);
+  EXPECT_EQ(kind_by_points_of({3, 4, 5}), CurveKind::kMarking);
+}
+
+TEST_F(ClassifyCurvesTest, SurfaceMayEndAtTheNextCurve) {
+  // To the right it ends before a wall one unit behind it.
+  const double width = 0.01;
+  const std::vector<Surface> surfaces = {
+      {0, 1, Vector3d::Zero(), width}, {180, 2}, {0, 3, {-9, 1, 0}}};
+  EXPECT_EQ(Classified(surfaces).kind, CurveKind::kBoundary);
+  other_curves_ = {width};
+  EXPECT_EQ(Classified(surfaces).kind, CurveKind::kMarking);
 }
 
 TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {
