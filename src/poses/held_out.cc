@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/median.h"
 #include "base/parallel.h"
@@ -15,6 +16,10 @@ namespace {
 constexpr double kMaxErrorPx = 1;  // of places
 constexpr double kMaxPointErrorPx = 2;
 constexpr double kMinTruncationPx = 0.3;
+// Edges of exact poses are half as far off; poses a quarter of a pixel off make
+// it twice as much.
+constexpr double kGoodEnoughPx = 0.06;
+constexpr double kNothingFitsPx = 1;
 // Standard deviations, exceeded by chance once in some twenty times.
 constexpr double kContrary = 2;
 
@@ -101,6 +106,32 @@ double LargestChernoffExponent(const std::vector<double>& gains) {
 
 }  // namespace
 
+bool PointsFit(const PoseObservationSet& held_out,
+               const HeldOutErrors& errors,
+               std::size_t num_views) {
+  std::vector<std::vector<double>> by_view(num_views);
+  for (std::size_t i = 0; i < held_out.points.size(); ++i) {
+    const auto& seen = held_out.points[i].observations;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      by_view[static_cast<std::size_t>(seen[k].view_idx)].push_back(
+          errors.points[i][k]);
+    }
+  }
+  return std::all_of(by_view.begin(), by_view.end(), [](auto& of_view) {
+    return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
+  });
+}
+
+bool EdgesFit(const PoseObservationSet& held_out,
+              const HeldOutErrors& errors,
+              const PosedEdges& edges) {
+  std::vector<double> of_places;
+  for (const ErrorPair& pair : PairErrors(held_out, errors, errors, edges)) {
+    of_places.push_back(pair.before);
+  }
+  return MedianOr(kNothingFitsPx, std::move(of_places)) < kGoodEnoughPx;
+}
+
 double SignificanceOf(const std::vector<double>& gains) {
   double sum = 0, squares = 0;
   for (const double gain : gains) {
@@ -164,11 +195,11 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
   return pairs;
 }
 
-SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
-                                 const SpaceCells& cells,
-                                 const HeldOutErrors& before,
-                                 const HeldOutErrors& after,
-                                 const PosedEdges& edges) {
+HeldOutGains CompareErrors(const PoseObservationSet& held_out,
+                           const SpaceCells& cells,
+                           const HeldOutErrors& before,
+                           const HeldOutErrors& after,
+                           const PosedEdges& edges) {
   const auto pairs = PairErrors(held_out, before, after, edges);
   std::vector<double> from, to;
   for (const ErrorPair& pair : pairs) {
@@ -191,15 +222,16 @@ SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
                      loss_of_points(after.points[i][k]));
     }
   }
-  return Together(places, points);
+  return {std::move(places), std::move(points)};
 }
 
-SignificanceOfGain Together(const GainsByCell& places,
-                            const GainsByCell& points) {
-  std::vector<double> all = places.Normalized();
-  const std::vector<double> of_points = points.Normalized();
+SignificanceOfGain Together(const HeldOutGains& gains) {
+  std::vector<double> all = gains.places.Normalized();
+  const std::vector<double> of_points = gains.points.Normalized();
   all.insert(all.end(), of_points.begin(), of_points.end());
-  return {places.Significance(), points.Significance(), SignificanceOf(all)};
+  return {gains.places.Significance(),
+          gains.points.Significance(),
+          SignificanceOf(all)};
 }
 
 bool IsBetter(const SignificanceOfGain& gain) {
@@ -208,6 +240,11 @@ bool IsBetter(const SignificanceOfGain& gain) {
 
 bool IsNoWorse(const SignificanceOfGain& gain) {
   return gain.all >= 0 && std::min(gain.places, gain.points) >= -kContrary;
+}
+
+bool MayBecomeBetter(const SignificanceOfGain& gain, int num_sets) {
+  const double share = static_cast<double>(num_sets) / SpaceCells::kNumSets;
+  return IsNoWorse(gain) && gain.all >= kSignificant * std::sqrt(share);
 }
 
 std::vector<bool> WorseViews(const std::vector<ErrorPair>& pairs,

@@ -3,6 +3,7 @@
 // that did not determine them.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <vector>
@@ -40,6 +41,16 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
                                   const HeldOutErrors& after,
                                   const PosedEdges& edges);
 
+// Whether poses are good enough. Points: if their errors are small in each of
+// the views, they contradict any other poses. Edges: if the errors of the
+// places are small, there is nothing to find.
+bool PointsFit(const PoseObservationSet& held_out,
+               const HeldOutErrors& errors,
+               std::size_t num_views);
+bool EdgesFit(const PoseObservationSet& held_out,
+              const HeldOutErrors& errors,
+              const PosedEdges& edges);
+
 // z of the sum of independent gains: if losses are as likely as gains, z or
 // more has a probability of at most exp(-z^2 / 2) (Chernoff's bound). At least
 // the sum over the root of the sum of squares; sqrt(2 n log 2) for n equal
@@ -54,13 +65,22 @@ class GainsByCell {
   void Add(const Eigen::Vector3d& position, double gain) {
     gains_[cells_.CellOf(position)] += gain;
   }
+  // Those of the same cells.
+  void Add(const GainsByCell& other) {
+    for (const auto& [cell, gain] : other.gains_) gains_[cell] += gain;
+  }
   double Significance() const;
   // The gains over the root of the sum of their squares.
   std::vector<double> Normalized() const;
 
  private:
-  const SpaceCells& cells_;
+  SpaceCells cells_;
   std::map<SpaceCells::Cell, double> gains_;
+};
+
+struct HeldOutGains {
+  GainsByCell places;
+  GainsByCell points;
 };
 
 // Significance of the gains of places, of points, and of both together, where
@@ -71,25 +91,28 @@ struct SignificanceOfGain {
   double all = 0;
 };
 
-SignificanceOfGain Together(const GainsByCell& places,
-                            const GainsByCell& points);
+SignificanceOfGain Together(const HeldOutGains& gains);
 
-SignificanceOfGain CompareErrors(const PoseObservationSet& held_out,
-                                 const SpaceCells& cells,
-                                 const HeldOutErrors& before,
-                                 const HeldOutErrors& after,
-                                 const PosedEdges& edges);
+HeldOutGains CompareErrors(const PoseObservationSet& held_out,
+                           const SpaceCells& cells,
+                           const HeldOutErrors& before,
+                           const HeldOutErrors& after,
+                           const PosedEdges& edges);
 
-// exp(-z^2 / 2) is 1 / 5000. A run tests at most five times, up to four camera
-// models and then the whole, so at most one run in a thousand accepts a gain by
-// chance.
-inline constexpr double kSignificant = 4.127;
+// exp(-z^2 / 2) is 1 / 9000. A run tests at most nine times, up to four camera
+// models and the whole with up to five sets of cells, so at most one run in a
+// thousand accepts a gain by chance.
+inline constexpr double kSignificant = 4.267;
 
 // Whether the gain is significant, and neither places nor points contradict it.
 bool IsBetter(const SignificanceOfGain& gain);
 
 // Whether neither places nor points show a loss.
 bool IsNoWorse(const SignificanceOfGain& gain);
+
+// Whether the gain of the first `num_sets` sets of cells will be significant if
+// all other sets gain alike.
+bool MayBecomeBetter(const SignificanceOfGain& gain, int num_sets);
 
 // Views in which the errors of the places grow significantly.
 std::vector<bool> WorseViews(const std::vector<ErrorPair>& pairs,

@@ -16,7 +16,6 @@ constexpr std::size_t kMinViewsOfPoint = 2;
 constexpr std::size_t kMinPoints = 100;
 constexpr int kMaxPointsPerView = 2000;  // for time and memory
 constexpr std::size_t kPointsPerHeldOut = 5;
-constexpr int kNumSets = 5;  // of cells
 constexpr double kCellsPerDistance = 10;
 
 std::optional<PointSample> SampleOf(const ScenePoint& point,
@@ -76,7 +75,8 @@ std::vector<PointSample> UsablePoints(const Scene& scene) {
 }
 
 ChosenPoints ChoosePoints(std::vector<PointSample> points,
-                          std::size_t num_views) {
+                          std::size_t num_views,
+                          int held_out_set) {
   std::stable_sort(
       points.begin(), points.end(), [](const auto& a, const auto& b) {
         return a.observations.size() > b.observations.size();
@@ -86,7 +86,7 @@ ChosenPoints ChoosePoints(std::vector<PointSample> points,
     return counts[static_cast<std::size_t>(seen.view_idx)];
   };
   ChosenPoints result;
-  std::size_t num_needed = 0;
+  auto num_needed = static_cast<std::size_t>(held_out_set);
   for (PointSample& point : points) {
     const bool is_needed = std::any_of(
         point.observations.begin(),
@@ -118,6 +118,12 @@ SpaceCells::SpaceCells(const std::vector<Eigen::Vector3d>& positions) {
   if (distance > 0) size_ = distance / kCellsPerDistance;
 }
 
+SpaceCells SpaceCells::StartingWith(int set) const {
+  SpaceCells cells = *this;
+  cells.first_set_ = set;
+  return cells;
+}
+
 SpaceCells::Cell SpaceCells::CellOf(const Eigen::Vector3d& position) const {
   const Eigen::Array3d cell = ((position - center_) / size_).array().floor();
   return {cell.x(), cell.y(), cell.z()};
@@ -125,7 +131,8 @@ SpaceCells::Cell SpaceCells::CellOf(const Eigen::Vector3d& position) const {
 
 int SpaceCells::SetOf(const Eigen::Vector3d& position) const {
   const Cell cell = CellOf(position);
-  const double rest = std::fmod(cell[0] + 2 * cell[1] + 3 * cell[2], kNumSets);
+  const double rest =
+      std::fmod(cell[0] + 2 * cell[1] + 3 * cell[2] - first_set_, kNumSets);
   return static_cast<int>(rest < 0 ? rest + kNumSets : rest);
 }
 

@@ -53,13 +53,15 @@ void VisitSeen(const PoseObservationSet& observations, const F& f) {
 std::vector<PointSample> UsablePoints(const Scene& scene);
 
 // `chosen`: points with the most views, as many as the views need, but every
-// fifth of these. `held_out`: all others. Ties: the order of `points`.
+// fifth of these, from the one after the first `held_out_set` on. `held_out`:
+// all others. Ties: the order of `points`.
 struct ChosenPoints {
   std::vector<PointSample> chosen;
   std::vector<PointSample> held_out;
 };
 ChosenPoints ChoosePoints(std::vector<PointSample> points,
-                          std::size_t num_views);
+                          std::size_t num_views,
+                          int held_out_set);
 
 // Cubic cells. Their side is a tenth of the median distance of positions from
 // their median. Each belongs to one of five sets of equal size; cells that
@@ -67,12 +69,16 @@ ChosenPoints ChoosePoints(std::vector<PointSample> points,
 class SpaceCells {
  public:
   using Cell = std::array<double, 3>;
+  static constexpr int kNumSets = 5;
 
   explicit SpaceCells(const std::vector<Eigen::Vector3d>& positions);
+  // The same cells, of which the given set is the first.
+  SpaceCells StartingWith(int set) const;
   Cell CellOf(const Eigen::Vector3d& position) const;
   int SetOf(const Eigen::Vector3d& position) const;  // 0 to 4; position: finite
 
  private:
+  int first_set_ = 0;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double size_ = 1;
 };

@@ -19,8 +19,8 @@
 
 namespace curvix {
 
-// More than a 3D edge needs, since there are many places.
-inline constexpr std::size_t kMinSupportsOfPlace = 6;
+// Two more than a place has unknowns: two of its axis and a radius.
+inline constexpr std::size_t kMinSupportsOfPlace = 5;
 
 // A place on a curve and the 2D edges that show it.
 struct CurvePlace {

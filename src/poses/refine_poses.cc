@@ -3,6 +3,9 @@
 // accepted; see docs/stages/poses.md.
 #include <curvix/refine_poses.h>
 #include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "base/cancelled.h"
@@ -21,22 +24,15 @@ namespace curvix {
 namespace {
 
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
-// Edges of exact poses are half as far off; poses a quarter of a pixel off make
-// it twice as much.
-constexpr double kGoodEnoughPx = 0.06;
-constexpr double kNothingFitsPx = 1;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
 // With fewer views, a lens is hardly distinguishable from poses and structure.
 constexpr int kMinViewsPerLens = 5;
 
-ErrorsOfViews Summarize(std::vector<double> errors) {
-  ErrorsOfViews summary;
-  for (const double error : errors) {
-    summary.mean_px += error / static_cast<double>(errors.size());
-  }
-  summary.median_px = MedianOr(0, std::move(errors));
-  return summary;
+ErrorsOfViews Summarize(const std::vector<double>& errors) {
+  const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+  const auto num = static_cast<double>(std::max<std::size_t>(1, errors.size()));
+  return {.mean_px = sum / num, .median_px = MedianOr(0, errors)};
 }
 
 class Refiner {
@@ -53,15 +49,50 @@ class Refiner {
     if (refine_intrinsics) shared_lenses_ = SharedLenses();
   }
 
-  CurvePoses Run() {
-    Begin();
-    if (DoPointsFit()) {
-      return AsTheyAre("the points are where the poses put them");
+  // Searches for better poses without the set of cells that is held out.
+  // `cells`: of an earlier search; nullopt: those of the places and points.
+  void Search(int held_out_set, const std::optional<SpaceCells>& cells) {
+    Begin(held_out_set, cells);
+    if (PointsFit(held_out_, before_, scene_.views.size())) {
+      reason_to_stay_ = "the points are where the poses put them";
+    } else if (held_out_.places.size() + held_out_.points.size() <
+               kMinHeldOut) {
+      reason_to_stay_ = "too little is left to judge by";
+    } else if (!search_.ShiftViews(observations_.places) &&
+               EdgesFit(held_out_, before_, search_.edges())) {
+      reason_to_stay_ = "the edges are where the poses put them";
+    } else {
+      Improve();
     }
-    const bool has_shifted = search_.ShiftViews(observations_.places);
-    if (!has_shifted && DoEdgesFit()) {
-      return AsTheyAre("the edges are where the poses put them");
-    }
+    RestoreWorseViews(Measure());
+    after_ = Measure();
+    gains_ = CompareErrors(held_out_, cells_, before_, after_, search_.edges());
+  }
+
+  const SpaceCells& cells() const { return cells_; }
+  const HeldOutGains& gains() const { return *gains_; }
+
+  // Adds those of another search, in which other cells were held out.
+  void Add(const HeldOutGains& gains) {
+    gains_->places.Add(gains.places);
+    gains_->points.Add(gains.points);
+  }
+
+  // Whether `num_searches` leave open if the poses are better.
+  bool IsOpen(int num_searches) const {
+    return reason_to_stay_.empty() && !IsAccepted() &&
+           MayBecomeBetter(Together(*gains_), num_searches) &&
+           !search_.is_stopped();
+  }
+
+  CurvePoses Finish() {
+    CurvePoses result = Judge();
+    if (result.accepted) AdjustToAll(&result);
+    return result;
+  }
+
+ private:
+  void Improve() {
     if (!observations_.points.empty()) AdjustToPoints();
     search_.AdjustInTurns(&observations_);
     if (observations_.points.empty() && HasMovedSinceSketch()) {
@@ -74,18 +105,15 @@ class Refiner {
       search_.AdjustInTurns(&observations_);
     }
     search_.RestoreGauge(&observations_);
-    CurvePoses result = Judge();
-    if (result.accepted) Finish(&result);
-    return result;
   }
 
- private:
   // Places and points by the input, and what of them is held out.
-  void Begin() {
+  void Begin(int held_out_set, const std::optional<SpaceCells>& cells) {
     ChosenPoints points =
-        ChoosePoints(UsablePoints(scene_), scene_.views.size());
+        ChoosePoints(UsablePoints(scene_), scene_.views.size(), held_out_set);
     observations_ = {search_.Sketch(), std::move(points.chosen)};
-    cells_ = SpaceCells(PositionsOf(observations_));
+    cells_ = cells.value_or(SpaceCells(PositionsOf(observations_)))
+                 .StartingWith(held_out_set);
     held_out_ = {TakeHeldOut(cells_, &observations_.places),
                  std::move(points.held_out)};
     last_held_out_ = held_out_.places;
@@ -106,37 +134,6 @@ class Refiner {
     return MeasureHeldOut(held_out_, num_threads_, search_.edges());
   }
 
-  // Saves the search if there is nothing to find.
-  bool DoEdgesFit() const {
-    std::vector<double> errors;
-    for (const ErrorPair& pair :
-         PairErrors(held_out_, before_, before_, search_.edges())) {
-      errors.push_back(pair.before);
-    }
-    return MedianOr(kNothingFitsPx, std::move(errors)) < kGoodEnoughPx;
-  }
-
-  // In each view. Then the points contradict any other poses.
-  bool DoPointsFit() const {
-    std::vector<std::vector<double>> errors(scene_.views.size());
-    for (std::size_t i = 0; i < held_out_.points.size(); ++i) {
-      const auto& seen = held_out_.points[i].observations;
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        errors[static_cast<std::size_t>(seen[k].view_idx)].push_back(
-            before_.points[i][k]);
-      }
-    }
-    return std::all_of(errors.begin(), errors.end(), [](auto& of_view) {
-      return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
-    });
-  }
-
-  CurvePoses AsTheyAre(const char* reason) {
-    CurvePoses result = Judge();
-    result.reason = reason;
-    return result;
-  }
-
   // Poses from points alone; then places by these.
   void AdjustToPoints() {
     observations_.places.clear();
@@ -150,11 +147,9 @@ class Refiner {
     for (const View& view : scene_.views) {
       ++counts[static_cast<std::size_t>(view.camera_idx)];
     }
-    std::vector<bool> is_shared;
-    for (const int count : counts) {
-      is_shared.push_back(count >= kMinViewsPerLens);
-    }
-    return is_shared;
+    std::vector<bool> shared;
+    for (const int count : counts) shared.push_back(count >= kMinViewsPerLens);
+    return shared;
   }
 
   // The shared cameras by models with more terms.
@@ -213,12 +208,12 @@ class Refiner {
                 const std::vector<double>& before,
                 const std::vector<double>& after) const {
     const std::vector<Eigen::Vector3d> positions = PositionsOf(test);
-    GainsByCell places(cells_), points(cells_);
+    HeldOutGains gains = {GainsByCell(cells_), GainsByCell(cells_)};
     for (std::size_t i = 0; i < positions.size(); ++i) {
-      GainsByCell& gains = i < test.places.size() ? places : points;
-      gains.Add(positions[i], before[i] - after[i]);
+      (i < test.places.size() ? gains.places : gains.points)
+          .Add(positions[i], before[i] - after[i]);
     }
-    return IsBetter(Together(places, points));
+    return IsBetter(Together(gains));
   }
 
   // Views in which errors grow keep their poses, unless lenses have changed,
@@ -241,19 +236,18 @@ class Refiner {
     result.num_points = observations_.points.size() + held_out_.points.size();
     result.num_check_samples = held_out_.places.size();
     result.num_check_points = held_out_.points.size();
-    RestoreWorseViews(Measure());
-    const HeldOutErrors after = Measure();
-    SummarizeErrors(after, &result);
-    Decide(CompareErrors(held_out_, cells_, before_, after, search_.edges()),
-           &result);
+    SummarizeErrors(&result);
+    result.accepted = IsAccepted();
+    result.reason = Reason();
+    result.significance = Together(*gains_).all;
     PutPoses(held_out_, &result);
     return result;
   }
 
-  void SummarizeErrors(const HeldOutErrors& after, CurvePoses* result) const {
+  void SummarizeErrors(CurvePoses* result) const {
     std::vector<double> from, to;
     for (const ErrorPair& pair :
-         PairErrors(held_out_, before_, after, search_.edges())) {
+         PairErrors(held_out_, before_, after_, search_.edges())) {
       from.push_back(pair.before);
       to.push_back(pair.after);
     }
@@ -261,31 +255,33 @@ class Refiner {
     result->before = Summarize(std::move(from));
     result->after = Summarize(std::move(to));
     result->points_before = Summarize(Concatenate(before_.points));
-    result->points_after = Summarize(Concatenate(after.points));
+    result->points_after = Summarize(Concatenate(after_.points));
   }
 
   // Cameras that are proven better are enough: the poses of the scene were made
   // for the old ones.
-  void Decide(const SignificanceOfGain& gain, CurvePoses* result) const {
-    result->significance = gain.all;
+  bool IsAccepted() const {
+    if (!reason_to_stay_.empty()) return false;
+    const SignificanceOfGain gain = Together(*gains_);
     const bool has_new_cameras = !search_.free_lenses().empty();
-    result->accepted = has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
-    result->reason = FormatText(
-        "what was held out comes nearer by %.1f standard deviations "
-        "(edges %.1f, points %.1f)",
-        gain.all,
-        gain.places,
-        gain.points);
-    if (!result->accepted) result->reason = "may be chance: " + result->reason;
-    if (result->num_check_samples + result->num_check_points < kMinHeldOut) {
-      result->accepted = false;
-      result->reason = "too little is left to judge by";
-    }
+    return has_new_cameras ? IsNoWorse(gain) : IsBetter(gain);
+  }
+
+  std::string Reason() const {
+    if (!reason_to_stay_.empty()) return reason_to_stay_;
+    const SignificanceOfGain gain = Together(*gains_);
+    return (IsAccepted() ? "" : "may be chance: ") +
+           FormatText(
+               "what was held out comes nearer by %.1f standard deviations "
+               "(edges %.1f, points %.1f)",
+               gain.all,
+               gain.places,
+               gain.points);
   }
 
   // Adjusts to all observations, held-out ones included; places are those found
   // by the nearly final poses.
-  void Finish(CurvePoses* result) {
+  void AdjustToAll(CurvePoses* result) {
     held_out_.places = std::move(last_held_out_);
     search_.Fit(&held_out_);
     observations_.places.insert(observations_.places.end(),
@@ -351,8 +347,27 @@ class Refiner {
   MovedCameras at_sketch_;                 // the last
   std::vector<CurvePlace> last_held_out_;  // of that sketch
   SpaceCells cells_{{}};
-  HeldOutErrors before_;
+  HeldOutErrors before_, after_;
+  std::optional<HeldOutGains> gains_;
+  std::string reason_to_stay_;
 };
+
+// Held out is one set of cells; as long as this leaves open if the poses are
+// better, other searches hold out other sets.
+CurvePoses Refine(const Scene& scene,
+                  const std::vector<EdgeMap>& edge_maps,
+                  const Options& options,
+                  bool refine_intrinsics,
+                  RunRecorder* run) {
+  Refiner refiner(scene, edge_maps, options, refine_intrinsics, run);
+  refiner.Search(0, std::nullopt);
+  for (int set = 1; set < SpaceCells::kNumSets && refiner.IsOpen(set); ++set) {
+    Refiner other(scene, edge_maps, options, refine_intrinsics, run);
+    other.Search(set, refiner.cells());
+    refiner.Add(other.gains());
+  }
+  return refiner.Finish();
+}
 
 }  // namespace
 
@@ -368,14 +383,12 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
   if (Status status = Validate(options); !status.ok()) return status;
   RunRecorder run(progress);
   run.Begin("refine_poses_with_curves");
-  const auto refine = [&](bool with_cameras) {
-    return Refiner(scene, edge_maps, options, with_cameras, &run).Run();
-  };
-  CurvePoses result = refine(refine_intrinsics);
+  CurvePoses result =
+      Refine(scene, edge_maps, options, refine_intrinsics, &run);
   // Later steps need the edges of the new cameras.
   if (const Status status = CanCarryEdges(scene, edge_maps, result.cameras);
       !status.ok()) {
-    result = refine(false);
+    result = Refine(scene, edge_maps, options, false, &run);
     result.reason += "; cameras stay: " + status.message();
   }
   if (run.cancelled()) return CancelledStatus();

@@ -156,7 +156,8 @@ TEST_F(InstalledColmap, GivesCurvesAsGoodAsThoseOfTruePoses) {
   EXPECT_LE(CurveError(PosesOf(*refined)), 1.1 * error_of_truth) << said;
   const auto left = AlignPoses(PosesOf(*refined), PosesOf(model));
   ASSERT_TRUE(left);
-  EXPECT_NEAR(left->scale, 1, 1e-6);
+  // Curves keep the unit of the structure, not that of the cameras.
+  EXPECT_NEAR(left->scale, 1, 1e-3);
 }
 
 TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
