@@ -131,9 +131,15 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
                      sigma_px,
                      std::max<std::size_t>(1, num_edges / num_asked)},
                     step_done);
+  const auto num_usual = std::count_if(
+      sketch.edges.begin(), sketch.edges.end(), [](const Edge3d& edge) {
+        return edge.support.size() >= kUsualSupportsOfPlace;
+      });
+  const std::size_t min_supports =
+      num_usual >= kManyPlaces ? kUsualSupportsOfPlace : kMinSupportsOfPlace;
   std::vector<CurvePlace> places;
   for (const Edge3d& edge : sketch.edges) {
-    if (edge.support.size() < kMinSupportsOfPlace) continue;
+    if (edge.support.size() < min_supports) continue;
     CurvePlace& place = places.emplace_back();
     place.contour.axis = {edge.position, edge.tangent};
     place.support = edge.support;

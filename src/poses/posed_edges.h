@@ -19,8 +19,11 @@
 
 namespace curvix {
 
-// Two more than a place has unknowns: two of its axis and a radius.
+// Two more than a place has unknowns: two of its axis and a radius. Where there
+// are many places, three more.
 inline constexpr std::size_t kMinSupportsOfPlace = 5;
+inline constexpr std::size_t kUsualSupportsOfPlace = 6;
+inline constexpr std::ptrdiff_t kManyPlaces = 1000;
 
 // A place on a curve and the 2D edges that show it.
 struct CurvePlace {
