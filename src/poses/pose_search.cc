@@ -129,8 +129,8 @@ void PoseSearch::FindEdges(std::vector<CurvePlace>* places) const {
     place.support =
         edges_.FindEdges(place.contour, edges_.QueryViews(place), gates_px);
   });
-  std::erase_if(*places, [](const CurvePlace& place) {
-    return place.support.size() < kMinSupportsOfPlace;
+  std::erase_if(*places, [&](const CurvePlace& place) {
+    return place.support.size() < edges_.min_supports();
   });
 }
 

@@ -31,6 +31,11 @@ Status CannotBeInverted(const View& view) {
 
 // Query edges in all views. About half of them lead to a place, and a view sees
 // about half of the places.
+// Of a place, whose unknowns are two of its axis and a radius; the larger where
+// there are many such places.
+constexpr std::size_t kFewSupports = 5;
+constexpr std::size_t kUsualSupports = 6;
+constexpr std::ptrdiff_t kManyPlaces = 1000;
 constexpr std::size_t kNumQueryEdges = 2500;
 constexpr std::size_t kNumQueryEdgesPerView = 50;
 constexpr double kEdgeGateSigmas = 4;
@@ -133,13 +138,12 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
                     step_done);
   const auto num_usual = std::count_if(
       sketch.edges.begin(), sketch.edges.end(), [](const Edge3d& edge) {
-        return edge.support.size() >= kUsualSupportsOfPlace;
+        return edge.support.size() >= kUsualSupports;
       });
-  const std::size_t min_supports =
-      num_usual >= kManyPlaces ? kUsualSupportsOfPlace : kMinSupportsOfPlace;
+  min_supports_ = num_usual >= kManyPlaces ? kUsualSupports : kFewSupports;
   std::vector<CurvePlace> places;
   for (const Edge3d& edge : sketch.edges) {
-    if (edge.support.size() < min_supports) continue;
+    if (edge.support.size() < min_supports_) continue;
     CurvePlace& place = places.emplace_back();
     place.contour.axis = {edge.position, edge.tangent};
     place.support = edge.support;

@@ -19,12 +19,6 @@
 
 namespace curvix {
 
-// Two more than a place has unknowns: two of its axis and a radius. Where there
-// are many places, three more.
-inline constexpr std::size_t kMinSupportsOfPlace = 5;
-inline constexpr std::size_t kUsualSupportsOfPlace = 6;
-inline constexpr std::ptrdiff_t kManyPlaces = 1000;
-
 // A place on a curve and the 2D edges that show it.
 struct CurvePlace {
   OccludingContour contour;
@@ -56,6 +50,8 @@ class PosedEdges {
   // Places on curves, from some thousand edges spread over the views. Edges are
   // searched within a few times `sigma_px` of their projections.
   std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
+  // The fewest supports of a place of the last sketch, and of one that is kept.
+  std::size_t min_supports() const { return min_supports_; }
 
   // The query views of a place, at most forty, ascending: its supporting views
   // (if more than forty, those that differ most in direction), and neighbours
@@ -122,6 +118,7 @@ class PosedEdges {
   std::vector<DepthRange> depths_;
   std::vector<std::vector<ViewNeighbor>> neighbors_;
   MovedCameras moved_;
+  std::size_t min_supports_ = 0;
 };
 
 // Whether EdgesWithCameras() has a result; else kInvalidArgument and the first
