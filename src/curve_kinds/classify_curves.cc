@@ -171,6 +171,21 @@ bool IsSeenBy(const std::vector<int>& views, const std::vector<int>& of_point) {
   return 3 * common.size() >= std::min(views.size(), of_point.size());
 }
 
+// The points within `radius` that the views of the sample see.
+// `views_of_points` by point, ascending.
+std::vector<std::size_t> SeenNear(
+    const PointTree& points,
+    const std::vector<std::vector<int>>& views_of_points,
+    const CurveSample& sample,
+    double radius) {
+  const std::vector<int> views = ViewsOf(sample);
+  std::vector<std::size_t> seen = points.Within(sample.position, radius);
+  std::erase_if(seen, [&](std::size_t i) {
+    return !IsSeenBy(views, views_of_points[i]);
+  });
+  return seen;
+}
+
 Places ChoosePlaces(const std::vector<Curve>& curves,
                     const std::vector<PosedView>& views) {
   Places places;
@@ -211,6 +226,9 @@ class Classifier {
     for (const View& view : scene.views) {
       cameras_.push_back(&CameraOf(scene, view));
     }
+    for (const ScenePoint& point : points_) {
+      views_of_points_.push_back(point.view_idxs);
+    }
   }
 
   void Classify(std::size_t curve_idx, Curve* curve) const;
@@ -218,11 +236,8 @@ class Classifier {
  private:
   std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
                                              const Curve& curve) const;
-  // Places on other curves, and COLMAP's points, that the views of the sample
-  // see.
+  // Places on other curves that the views of the sample see.
   std::vector<Vector3d> CurvesNearby(std::size_t curve_idx,
-                                     const CurveSample& sample) const;
-  std::vector<Vector3d> PointsNearby(std::size_t curve_idx,
                                      const CurveSample& sample) const;
 
   const std::vector<PosedView>& views_;
@@ -232,30 +247,15 @@ class Classifier {
   PointTree places_tree_;
   const std::vector<ScenePoint>& points_;
   PointTree points_tree_;
+  std::vector<std::vector<int>> views_of_points_;
 };
 
 std::vector<Vector3d> Classifier::CurvesNearby(
     std::size_t curve_idx, const CurveSample& sample) const {
   const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
-  const std::vector<int> views = ViewsOf(sample);
   std::vector<Vector3d> nearby;
-  for (std::size_t i : places_tree_.Within(sample.position, radius)) {
-    if (places_.curves[i] != curve_idx && IsSeenBy(views, places_.views[i])) {
-      nearby.push_back(places_.positions[i]);
-    }
-  }
-  return nearby;
-}
-
-std::vector<Vector3d> Classifier::PointsNearby(
-    std::size_t curve_idx, const CurveSample& sample) const {
-  const double radius = kNearbyPointPx * places_.pixels[curve_idx];
-  const std::vector<int> views = ViewsOf(sample);
-  std::vector<Vector3d> nearby;
-  for (std::size_t i : points_tree_.Within(sample.position, radius)) {
-    if (IsSeenBy(views, points_[i].view_idxs)) {
-      nearby.push_back(points_[i].position);
-    }
+  for (std::size_t i : SeenNear(places_tree_, places_.views, sample, radius)) {
+    if (places_.curves[i] != curve_idx) nearby.push_back(places_.positions[i]);
   }
   return nearby;
 }
@@ -277,8 +277,9 @@ std::vector<SurfaceEvidence> Classifier::EvidenceAlong(
                                      views_,
                                      cameras_,
                                      images_));
-    for (const Vector3d& point : PointsNearby(curve_idx, sample)) {
-      nearby.push_back(point);
+    for (std::size_t k : SeenNear(
+             points_tree_, views_of_points_, sample, kNearbyPointPx * pixel)) {
+      nearby.push_back(points_[k].position);
     }
     AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
   }

@@ -50,7 +50,7 @@ class PosedEdges {
   // Places on curves, from some thousand edges spread over the views. Edges are
   // searched within a few times `sigma_px` of their projections.
   std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
-  // The fewest supports of a place of the last sketch, and of one that is kept.
+  // The fewest supports that the last sketch asked of a place.
   std::size_t min_supports() const { return min_supports_; }
 
   // The query views of a place, at most forty, ascending: its supporting views

@@ -252,8 +252,8 @@ class Refiner {
       to.push_back(pair.after);
     }
     result->num_check_observations = from.size();
-    result->before = Summarize(std::move(from));
-    result->after = Summarize(std::move(to));
+    result->before = Summarize(from);
+    result->after = Summarize(to);
     result->points_before = Summarize(Concatenate(before_.points));
     result->points_after = Summarize(Concatenate(after_.points));
   }
