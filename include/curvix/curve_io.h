@@ -57,10 +57,11 @@ Status WriteDrawing(const std::filesystem::path& path,
                     const FittedCurves& fitted);
 
 // Writes the curves as a view sees them: .svg, in the pixels of its image. What
-// surfaces hide is drawn, too. Errors as WriteCurves.
+// the view does not show (ProjectedStretch) is drawn faintly. Errors as
+// WriteCurves.
 Status WriteProjection(const std::filesystem::path& path,
                        const CurveSource& curves,
-                       const View& view,
-                       const Camera& camera);
+                       const Scene& scene,
+                       int view_idx);
 
 }  // namespace curvix

@@ -128,6 +128,19 @@ std::vector<std::vector<Eigen::Vector2d>> ProjectCurve(const Curve& curve,
                                                        const View& view,
                                                        const Camera& camera);
 
+// Part of a curve in the image of a view: two pixels or more.
+struct ProjectedStretch {
+  std::vector<Eigen::Vector2d> pixels;
+  // Whether the view supports every third sample or more. What it does not
+  // show may be hidden.
+  bool is_shown = false;
+};
+
+// The same, divided where the view begins or ceases to show the curve.
+std::vector<ProjectedStretch> ProjectShownAndHidden(const Curve& curve,
+                                                    const Scene& scene,
+                                                    int view_idx);
+
 // Gives curves one after the other, as often as needed, so that writers and
 // fits keep only one in memory. For one thread.
 class CurveSource {

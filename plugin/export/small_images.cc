@@ -187,47 +187,20 @@ cv::Scalar Color(std::size_t curve_id) {
           static_cast<double>(red)};
 }
 
-void DrawLines(const std::vector<std::vector<Eigen::Vector2d>>& lines,
-               const cv::Scalar& color,
-               int width,
-               cv::Mat* image) {
+void DrawLine(const std::vector<Eigen::Vector2d>& line,
+              const cv::Scalar& color,
+              int width,
+              cv::Mat* image) {
   constexpr int kSubpixelBits = 4;
   const auto in_subpixels = [](double pixel) {
     return static_cast<int>(std::lround((pixel - 0.5) * (1 << kSubpixelBits)));
   };
-  for (const std::vector<Eigen::Vector2d>& line : lines) {
-    std::vector<cv::Point> points;
-    for (const Eigen::Vector2d& p : line) {
-      points.emplace_back(in_subpixels(p.x()), in_subpixels(p.y()));
-    }
-    cv::polylines(
-        *image, points, false, color, width, cv::LINE_AA, kSubpixelBits);
+  std::vector<cv::Point> points;
+  for (const Eigen::Vector2d& p : line) {
+    points.emplace_back(in_subpixels(p.x()), in_subpixels(p.y()));
   }
-}
-
-bool IsShownIn(int view_idx, const CurveSample& sample) {
-  return std::any_of(
-      sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {
-        return ref.view_idx == view_idx;
-      });
-}
-
-// The parts of `curve` of which the view supports every third sample or more.
-std::vector<Curve> StretchesShownIn(int view_idx, const Curve& curve) {
-  constexpr std::size_t kMaxGap = 3;
-  std::vector<Curve> stretches;
-  std::size_t last_shown = 0;
-  const std::size_t size = curve.samples.size();
-  for (std::size_t i = 0; i < size + (curve.closed ? 1 : 0); ++i) {
-    if (!IsShownIn(view_idx, curve.samples[i % size])) continue;
-    const bool goes_on = !stretches.empty() && i - last_shown <= kMaxGap;
-    if (!goes_on) stretches.emplace_back();
-    for (std::size_t k = goes_on ? last_shown + 1 : i; k <= i; ++k) {
-      stretches.back().samples.push_back(curve.samples[k % size]);
-    }
-    last_shown = i;
-  }
-  return stretches;
+  cv::polylines(
+      *image, points, false, color, width, cv::LINE_AA, kSubpixelBits);
 }
 
 }  // namespace
@@ -252,21 +225,25 @@ Result<std::string> OverlayPng(const CurveSource& curves,
   constexpr double kPhotoShare = 0.55;  // the rest is white
   constexpr double kPaleShare = 0.4;    // of a colour, the rest is white
   const View& view = scene.views[static_cast<std::size_t>(view_idx)];
-  const Camera& camera = CameraOf(scene, view);
   Result<cv::Mat> photo = ReadPhoto(view, cv::IMREAD_COLOR);
   if (!photo.ok()) return photo.status();
   photo->convertTo(*photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));
-  const int width = std::max(2, std::max(camera.width, camera.height) / 500);
-  curves.ForEach([&](std::size_t id, const Curve& curve) {
-    const cv::Scalar pale =
-        kPaleShare * Color(id) + cv::Scalar::all(255 * (1 - kPaleShare));
-    DrawLines(ProjectCurve(curve, view, camera), pale, width / 2, &*photo);
-  });
-  curves.ForEach([&](std::size_t id, const Curve& curve) {
-    for (const Curve& shown : StretchesShownIn(view_idx, curve)) {
-      DrawLines(ProjectCurve(shown, view, camera), Color(id), width, &*photo);
-    }
-  });
+  const int width = std::max(2, std::max(photo->cols, photo->rows) / 500);
+  // What is shown comes last, over all that may be hidden.
+  for (const bool is_shown : {false, true}) {
+    curves.ForEach([&](std::size_t id, const Curve& curve) {
+      const cv::Scalar pale =
+          kPaleShare * Color(id) + cv::Scalar::all(255 * (1 - kPaleShare));
+      for (const ProjectedStretch& stretch :
+           ProjectShownAndHidden(curve, scene, view_idx)) {
+        if (stretch.is_shown != is_shown) continue;
+        DrawLine(stretch.pixels,
+                 is_shown ? Color(id) : pale,
+                 is_shown ? width : width / 2,
+                 &*photo);
+      }
+    });
+  }
   return Encode(".png", *photo, {});
 }
 

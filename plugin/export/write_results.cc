@@ -8,7 +8,6 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model.h"
-#include "geometry/camera_of.h"
 #include "io/ply_lines.h"
 #include "measuring/moved_curves.h"
 #include "plugin/export/curves_as_points.h"
@@ -36,8 +35,10 @@ Status WriteSvg(const CurveRecord& record,
     return {StatusCode::kInvalidArgument,
             "svg_image is " + image + ", which is no image of the model"};
   }
-  return WriteProjection(
-      path, record.curves, *view, CameraOf(record.scene, *view));
+  return WriteProjection(path,
+                         record.curves,
+                         record.scene,
+                         static_cast<int>(view - views.begin()));
 }
 
 // A file of what `encode` gives, if all curves can be read.

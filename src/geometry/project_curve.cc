@@ -3,10 +3,67 @@
 #include <curvix/curves.h>
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
+#include "geometry/camera_of.h"
+
 namespace curvix {
+namespace {
+
+// Which samples the view shows: those that it supports, and those between two
+// of them if fewer than three.
+std::vector<bool> AreShown(const Curve& curve, int view_idx) {
+  constexpr std::size_t kMaxGap = 3;
+  const auto is_supported = [&](const CurveSample& sample) {
+    return std::any_of(
+        sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {
+          return ref.view_idx == view_idx;
+        });
+  };
+  const std::size_t size = curve.samples.size();
+  std::vector<bool> are_shown(size);
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < (curve.closed ? 2 : 1) * size; ++i) {
+    if (!is_supported(curve.samples[i % size])) continue;
+    const bool goes_on = last && i - *last <= kMaxGap;
+    for (std::size_t k = goes_on ? *last : i; k <= i; ++k) {
+      are_shown[k % size] = true;
+    }
+    last = i;
+  }
+  return are_shown;
+}
+
+// A segment is shown if both its samples are.
+std::vector<ProjectedStretch> Project(const Curve& curve,
+                                      const std::vector<bool>& are_shown,
+                                      const View& view,
+                                      const Camera& camera) {
+  const std::size_t size = curve.samples.size();
+  std::vector<std::optional<Eigen::Vector2d>> pixels;
+  for (const CurveSample& sample : curve.samples) {
+    pixels.push_back(ProjectPoint(sample.position, view, camera));
+  }
+  std::vector<ProjectedStretch> stretches;
+  bool goes_on = false;  // the last stretch ends at sample i
+  for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < size; ++i) {
+    const std::size_t next = (i + 1) % size;
+    const bool is_visible = pixels[i] && pixels[next];
+    if (is_visible) {
+      const bool is_shown = are_shown[i] && are_shown[next];
+      if (!goes_on || stretches.back().is_shown != is_shown) {
+        stretches.push_back({{*pixels[i]}, is_shown});
+      }
+      stretches.back().pixels.push_back(*pixels[next]);
+    }
+    goes_on = is_visible;
+  }
+  return stretches;
+}
+
+}  // namespace
 
 std::optional<Eigen::Vector2d> ProjectPoint(const Eigen::Vector3d& point,
                                             const View& view,
@@ -29,24 +86,19 @@ std::optional<Eigen::Vector2d> ProjectPoint(const Eigen::Vector3d& point,
 std::vector<std::vector<Eigen::Vector2d>> ProjectCurve(const Curve& curve,
                                                        const View& view,
                                                        const Camera& camera) {
-  std::vector<std::vector<Eigen::Vector2d>> segments;
-  std::vector<Eigen::Vector2d> segment;
-  const auto finish = [&] {
-    if (segment.size() > 1) segments.push_back(std::move(segment));
-    segment.clear();
-  };
-  const std::size_t size = curve.samples.size();
-  for (std::size_t i = 0; i < size + (curve.closed ? 1 : 0); ++i) {
-    const auto pixel =
-        ProjectPoint(curve.samples[i % size].position, view, camera);
-    if (pixel) {
-      segment.push_back(*pixel);
-    } else {
-      finish();
-    }
+  const std::vector<bool> none_shown(curve.samples.size());
+  std::vector<std::vector<Eigen::Vector2d>> stretches;
+  for (ProjectedStretch& stretch : Project(curve, none_shown, view, camera)) {
+    stretches.push_back(std::move(stretch.pixels));
   }
-  finish();
-  return segments;
+  return stretches;
+}
+
+std::vector<ProjectedStretch> ProjectShownAndHidden(const Curve& curve,
+                                                    const Scene& scene,
+                                                    int view_idx) {
+  const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+  return Project(curve, AreShown(curve, view_idx), view, CameraOf(scene, view));
 }
 
 }  // namespace curvix

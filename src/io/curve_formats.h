@@ -25,11 +25,12 @@ void EncodeVtpCurves(const CurveSource& curves, const ByteSink& sink);
 // origins lose no digits. kUnsupported beyond 4 GB.
 Status EncodeGlbCurves(const CurveSource& curves, const ByteSink& sink);
 
-// SVG in the pixels of the view: one path per curve in its colour, class
-// "curve", id "curve_<id>"; empty where the view does not see the curve.
+// SVG in the pixels of the view: one group per curve in its colour, class
+// "curve", id "curve_<id>", with a faint path of class "hidden" and one of
+// class "shown" (ProjectedStretch); empty if the curve is outside the image.
 void EncodeSvgCurves(const CurveSource& curves,
-                     const View& view,
-                     const Camera& camera,
+                     const Scene& scene,
+                     int view_idx,
                      const ByteSink& sink);
 
 // Per curve `o curve_<id>`, `v x y z r g b` per sample (colours in 0..1) and

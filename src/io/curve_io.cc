@@ -144,8 +144,8 @@ Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
 
 Status WriteProjection(const fs::path& path,
                        const CurveSource& curves,
-                       const View& view,
-                       const Camera& camera) {
+                       const Scene& scene,
+                       int view_idx) {
   if (path.extension() != ".svg") {
     return About(path,
                  {StatusCode::kInvalidArgument,
@@ -153,7 +153,7 @@ Status WriteProjection(const fs::path& path,
                       path.extension().string() + "\""});
   }
   return Write(path, curves, [&](const ByteSink& sink) {
-    EncodeSvgCurves(curves, view, camera, sink);
+    EncodeSvgCurves(curves, scene, view_idx, sink);
     return Status();
   });
 }

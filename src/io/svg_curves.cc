@@ -4,8 +4,10 @@
 
 #include <curvix/curves.h>
 #include <string>
+#include <vector>
 
 #include "base/text_fields.h"
+#include "geometry/camera_of.h"
 #include "io/curve_style.h"
 
 namespace curvix {
@@ -22,12 +24,35 @@ void AppendHexColor(const Rgb& color, std::string& out) {
   }
 }
 
+// A path of the stretches that are shown, or of the others; none if there are
+// none.
+void AppendPath(const std::vector<ProjectedStretch>& stretches,
+                bool is_shown,
+                const std::string& attributes,
+                std::string& out) {
+  std::string path;
+  for (const ProjectedStretch& stretch : stretches) {
+    if (stretch.is_shown != is_shown) continue;
+    char command = 'M';
+    for (const Eigen::Vector2d& point : stretch.pixels) {
+      path += command;
+      AppendFixed(point.x(), kDecimals, path);
+      path += ' ';
+      AppendFixed(point.y(), kDecimals, path);
+      command = 'L';
+    }
+  }
+  if (!path.empty()) out += "<path " + attributes + " d=\"" + path + "\"/>";
+}
+
 }  // namespace
 
 void EncodeSvgCurves(const CurveSource& curves,
-                     const View& view,
-                     const Camera& camera,
+                     const Scene& scene,
+                     int view_idx,
                      const ByteSink& sink) {
+  const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+  const Camera& camera = CameraOf(scene, view);
   const std::string size =
       std::to_string(camera.width) + " " + std::to_string(camera.height);
   sink("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size +
@@ -36,21 +61,16 @@ void EncodeSvgCurves(const CurveSource& curves,
        "\" fill=\"none\" stroke-width=\"1.5\" stroke-linecap=\"round\" "
        "stroke-linejoin=\"round\">\n");
   curves.ForEach([&](std::size_t id, const Curve& curve) {
-    std::string out = "<path class=\"curve\" id=\"curve_" + std::to_string(id) +
-                      "\" stroke=\"";
+    const std::vector<ProjectedStretch> stretches =
+        ProjectShownAndHidden(curve, scene, view_idx);
+    std::string out =
+        "<g class=\"curve\" id=\"curve_" + std::to_string(id) + "\" stroke=\"";
     AppendHexColor(CurveColor(id), out);
-    out += "\" d=\"";
-    for (const auto& segment : ProjectCurve(curve, view, camera)) {
-      char command = 'M';
-      for (const Eigen::Vector2d& point : segment) {
-        out += command;
-        AppendFixed(point.x(), kDecimals, out);
-        out += ' ';
-        AppendFixed(point.y(), kDecimals, out);
-        command = 'L';
-      }
-    }
-    sink(out + "\"/>\n");
+    out += "\">";
+    AppendPath(
+        stretches, false, "class=\"hidden\" stroke-opacity=\"0.25\"", out);
+    AppendPath(stretches, true, "class=\"shown\"", out);
+    sink(out + "</g>\n");
   });
   sink("</svg>\n");
 }

@@ -152,9 +152,10 @@ def read_glb(path):
 
 def read_svg(path):
     import xml.etree.ElementTree as ElementTree
-    paths = ElementTree.parse(path).getroot().findall('{http://www.w3.org/2000/svg}path')
-    assert all(path.get('class') == 'curve' for path in paths)
-    return len(paths)
+    groups = ElementTree.parse(path).getroot().findall('{http://www.w3.org/2000/svg}g')
+    assert all(group.get('class') == 'curve' for group in groups)
+    assert all(path.get('class') in ('hidden', 'shown') for group in groups for path in group)
+    return len(groups)
 
 
 def main():

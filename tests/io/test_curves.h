@@ -48,6 +48,8 @@ inline CurveSet MakeTestCurves() {
 // Three views with gaps between their image ids.
 inline Scene MakeTestScene() {
   Scene scene;
+  scene.cameras.resize(1);
+  scene.cameras[0].params = {100, 100, 50, 50};
   scene.views.resize(3);
   scene.views[0].image_id = 7;
   scene.views[1].image_id = 3;
