@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
-from mathutils import Matrix, Quaternion, Vector
+from mathutils import Matrix
 
 bl_info = {
     'name': 'Curves from photographs',
@@ -103,6 +103,12 @@ def material_of(kind):
         material = bpy.data.materials.new(name)
         color = [((COLORS[kind] >> shift & 255) / 255) ** 2.2 for shift in (16, 8, 0)]
         material.diffuse_color = (*color, 1)
+        material.use_nodes = True  # renders in its colour, in any light
+        nodes = material.node_tree.nodes
+        nodes.clear()
+        emission, output = nodes.new('ShaderNodeEmission'), nodes.new('ShaderNodeOutputMaterial')
+        emission.inputs['Color'].default_value = (*color, 1)
+        material.node_tree.links.new(emission.outputs[0], output.inputs['Surface'])
     return material
 
 
@@ -208,13 +214,70 @@ def read_model(folder):
         raise ValueError(f'The COLMAP model in {folder} cannot be read: {error}.') from None
 
 
-def add_cameras(model, image_path, parent, offset, size):
-    """Returns how many cameras there are, and how many photographs of them."""
+def rotation_of(q):
+    """In double precision, unlike Blender's own."""
+    w, x, y, z = np.array(q) / np.linalg.norm(q)
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def distortion_of(model_name, params, two):
+    """As Blender's Brown model: k1, k2, p1, p2. None: a lens that it does not have."""
+    given = params[3 + two:]
+    if model_name in ('SIMPLE_PINHOLE', 'PINHOLE'):
+        return 0, 0, 0, 0
+    if model_name in ('SIMPLE_RADIAL', 'RADIAL', 'OPENCV'):
+        return (*given, 0, 0, 0)[:4]
+    return None
+
+
+def add_photograph(data, path, camera, frame):
+    """Behind the camera `data`, undistorted. Returns whether its lens is one that Blender has."""
+    model_name, width, height, params = camera
+    two = TWO_FOCALS[model_name]
+    distortion = distortion_of(model_name, params, two)
+    background = data.background_images.new()
+    if distortion and any(distortion):
+        clip = bpy.data.movieclips.load(str(path))
+        clip.frame_start = bpy.context.scene.frame_current
+        lens = clip.tracking.camera
+        lens.sensor_width, lens.pixel_aspect = 36, 1
+        lens.units, lens.focal_length_pixels = 'PIXELS', params[0]
+        center = 'principal' if hasattr(lens, 'principal') else 'principal_point_pixels'  # until Blender 3.4, from 3.5
+        setattr(lens, center, (params[1 + two], height - params[2 + two]))
+        lens.distortion_model = 'BROWN'
+        lens.brown_k1, lens.brown_k2, p1, p2 = distortion
+        lens.brown_p1, lens.brown_p2 = p2, -p1  # in its order, with y up
+        background.source, background.clip = 'MOVIE_CLIP', clip
+        background.clip_user.use_render_undistorted = True
+    else:
+        background.image = bpy.data.images.load(str(path), check_existing=True)
+    # As wide as the frame, whatever its height.
+    background.frame_method = 'CROP' if height * frame[0] > width * frame[1] else 'FIT'
+    background.alpha = 1
+    data.show_background_images = True
+    return distortion is not None
+
+
+def add_cameras(model, image_path, parent, alignment, offset, center, size):
+    """Returns how many cameras there are, how many photographs of them, and how many of these are distorted."""
     cameras, images = model
+    images = sorted(images, key=lambda image: image[3])
     collection = bpy.data.collections.new('cameras')
     parent.children.link(collection)
-    num_photographs = 0
-    for q, t, camera_id, name in sorted(images, key=lambda image: image[3]):
+    scale, turn, shift = 1.0, np.eye(3), np.zeros(3)
+    if alignment:  # the model is not in the frame of the curves
+        scale, shift = alignment['scale'], np.array(alignment['translation'])
+        turn = rotation_of(alignment['rotation'])
+    scene = bpy.context.scene
+    if images:
+        first = next((image for image in images if image_path.name and (image_path / image[3]).is_file()), images[0])
+        scene.render.resolution_x, scene.render.resolution_y = cameras[first[2]][1:3]
+    frame = scene.render.resolution_x, scene.render.resolution_y
+    num_photographs = num_distorted = 0
+    for image in images:
+        q, t, camera_id, name = image
         model_name, width, height, params = cameras[camera_id]
         two = TWO_FOCALS[model_name]
         data = bpy.data.cameras.new(name)
@@ -222,25 +285,31 @@ def add_cameras(model, image_path, parent, offset, size):
         data.lens = params[0] / width * 36
         data.shift_x = 0.5 - params[1 + two] / width
         data.shift_y = (params[2 + two] - height / 2) / width
-        data.display_size = size
-        world_from_cam = Quaternion(q).normalized().to_matrix().transposed()
-        turn = (world_from_cam @ Matrix.Diagonal((1, -1, -1))).to_4x4()
+        data.display_size = size / 15
+        model_from_cam = rotation_of(q).T
+        position = scale * turn @ -(model_from_cam @ t) + shift
+        reach = float(np.linalg.norm(position - center)) + size
+        data.clip_start, data.clip_end = reach / 1000, reach * 10
+        matrix = np.eye(4)
+        matrix[:3, :3] = turn @ model_from_cam @ np.diag((1, -1, -1))
+        matrix[:3, 3] = position - offset
         thing = bpy.data.objects.new(name, data)
-        thing.matrix_world = Matrix.Translation(-(world_from_cam @ Vector(t)) - Vector(offset)) @ turn
+        thing.matrix_world = Matrix(matrix.tolist())
         collection.objects.link(thing)
-        photograph = image_path / name
-        if image_path.name and photograph.is_file():
-            background = data.background_images.new()
-            background.image = bpy.data.images.load(str(photograph), check_existing=True)
-            background.frame_method, background.alpha = 'FIT', 1
-            data.show_background_images = True
+        if image is first:
+            scene.camera = thing
+        if image_path.name and (image_path / name).is_file():
             num_photographs += 1
-    if collection.objects:
-        scene = bpy.context.scene
-        scene.camera = scene.camera or collection.objects[0]
-        _, width, height, params = cameras[min(images, key=lambda image: image[3])[2]]
-        scene.render.resolution_x, scene.render.resolution_y = width, height
-    return len(images), num_photographs
+            num_distorted += not add_photograph(data, image_path / name, cameras[camera_id], frame)
+    return len(images), num_photographs, num_distorted
+
+
+def show_all(size):
+    """Lets the 3D views of the window see as far as curves reach."""
+    for area in bpy.context.screen.areas if bpy.context.screen else ():
+        if area.type == 'VIEW_3D':
+            view = area.spaces.active
+            view.clip_start, view.clip_end = min(view.clip_start, size / 1000), max(view.clip_end, 100 * size)
 
 
 def paths_of_run(path):
@@ -266,6 +335,7 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
     collection = bpy.data.collections.new(path.stem)
     bpy.context.scene.collection.children.link(collection)
     collection['offset'] = offset.tolist()
+    show_all(size)
     add_curves(curves, collection, offset, size * thickness / 100, separate)
     said = f'{len(curves)} curves'
     if offset.any():
@@ -277,10 +347,13 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
         if model is None or not model.is_dir():
             said += '; no cameras: name the folder of the COLMAP model'
         else:
-            count, found = add_cameras(read_model(model), images, collection, offset, size / 15)
+            alignment = document.get('alignment', {}).get('world_from_model')
+            count, found, distorted = add_cameras(read_model(model), images, collection, alignment, offset, center, size)
             said += f', {count} cameras, {found} photographs'
             if found < count:
                 said += f'; {count - found} images are not in "{images}": name their folder'
+            if distorted:
+                said += f'; {distorted} photographs have a lens that Blender does not have, curves are beside them'
     return collection, said + '.'
 
 

@@ -11,7 +11,9 @@ by the cameras from the edges that support them.
 import collections
 import importlib.util
 import json
+import pathlib
 import sys
+import tempfile
 
 import bpy
 from bpy_extras.object_utils import world_to_camera_view
@@ -43,7 +45,7 @@ def pose_of(camera):
     return [list(row) for row in camera.matrix_world], data.lens, data.shift_x, data.shift_y
 
 
-def pixels_off(document):
+def pixels_off(document, offset=(0, 0, 0)):
     scene, off = bpy.context.scene, []
     bpy.context.view_layer.update()
     names = {image['image_id']: image for image in document['images']}
@@ -51,7 +53,8 @@ def pixels_off(document):
         for sample in curve['samples'][::10]:
             for image_id, x, y, residual in sample['support']:
                 image = names[image_id]
-                seen = world_to_camera_view(scene, bpy.data.objects[image['name']], Vector(sample['position']))
+                position = [x - by for x, by in zip(sample['position'], offset)]  # not in Blender's seven digits
+                seen = world_to_camera_view(scene, bpy.data.objects[image['name']], Vector(position))
                 at = Vector((seen.x * image['width'], (1 - seen.y) * image['height']))
                 off.append((at - Vector((x, y))).length)
     return sorted(off)[len(off) // 2]
@@ -71,6 +74,21 @@ poses = {thing.name: pose_of(thing) for thing in cameras}
 emptied()
 assert bpy.ops.import_curve.curvix(filepath=curves_path, model_path=text_model, image_path=images) == {'FINISHED'}
 assert {thing.name: pose_of(thing) for thing in things('CAMERA')} == poses
+
+# In millimetres, turned and far away, as `align` writes it; the model is as before.
+aligned = {**document, 'alignment': {'world_from_model': {
+    'scale': 1000, 'rotation': [0.5 ** 0.5, 0.5 ** 0.5, 0, 0], 'translation': [5e5, 4.8e6, 200]}}, 'curves': [
+        {**curve, 'fits': [], 'samples': [
+            {**sample, 'position': [5e5 + 1000 * x, 4.8e6 - 1000 * z, 200 + 1000 * y]}
+            for sample in curve['samples'] for x, y, z in [sample['position']]]} for curve in document['curves']]}
+aligned_path = pathlib.Path(tempfile.mkdtemp()) / 'curves.json'
+aligned_path.write_text(json.dumps(aligned))
+emptied()
+assert bpy.ops.import_curve.curvix(filepath=str(aligned_path), model_path=text_model, image_path=images) == {'FINISHED'}
+off = pixels_off(aligned, bpy.data.collections['curves']['offset'])
+assert off < seen['pixels_off'] + 0.1, off
+for thing in things('CAMERA'):
+    assert thing.data.clip_end > 2000, thing.data.clip_end
 
 emptied()
 assert bpy.ops.import_curve.curvix(filepath=curves_path, cameras=False, separate=True) == {'FINISHED'}

@@ -26,6 +26,9 @@ loader = importlib.machinery.SourceFileLoader('curvix', sys.argv[1])
 macro = importlib.util.module_from_spec(importlib.util.spec_from_loader('curvix', loader))
 loader.exec_module(macro)
 
+assert macro.millimetres_per_unit({'alignment': {'unit': 'm'}}) == 1000
+assert macro.millimetres_per_unit({}) is None
+
 
 def check_edges(features, fits, scale):
     """Each edge against its fit, in the order of the curves."""
