@@ -131,8 +131,8 @@ std::vector<std::vector<Eigen::Vector2d>> ProjectCurve(const Curve& curve,
 // Part of a curve in the image of a view: two pixels or more.
 struct ProjectedStretch {
   std::vector<Eigen::Vector2d> pixels;
-  // Whether the view supports every third sample or more. What it does not
-  // show may be hidden.
+  // Whether the view supports the samples, but for gaps of fewer than 20: edges
+  // are missed here and there. What it does not show may be hidden.
   bool is_shown = false;
 };
 

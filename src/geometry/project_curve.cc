@@ -12,10 +12,10 @@
 namespace curvix {
 namespace {
 
-// Which samples the view shows: those that it supports, and those between two
-// of them if fewer than three.
+// Which samples the view shows: those that it supports, and gaps of fewer than
+// kMaxGap.
 std::vector<bool> AreShown(const Curve& curve, int view_idx) {
-  constexpr std::size_t kMaxGap = 3;
+  constexpr std::size_t kMaxGap = 20;
   const auto is_supported = [&](const CurveSample& sample) {
     return std::any_of(
         sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {

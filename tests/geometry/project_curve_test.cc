@@ -18,7 +18,7 @@ Scene TwoViews() {
   Scene scene;
   Camera camera;
   camera.model = CameraModel::kPinhole;
-  camera.width = camera.height = 200;
+  camera.width = camera.height = 600;
   camera.params = {100, 100, 100, 100};
   scene.cameras = {camera};
   scene.views.resize(2);
@@ -58,28 +58,28 @@ TEST(ProjectShownAndHidden, DividesWhereSupportBeginsAndEnds) {
   EXPECT_THAT(Stretches(Line("1111")), ElementsAre("0-3"));
 }
 
-TEST(ProjectShownAndHidden, ShowsWhatIsBetweenSupportedSamplesUpToTwo) {
-  EXPECT_THAT(Stretches(Line("0--0")), ElementsAre("0-3 shown"));
-  EXPECT_THAT(Stretches(Line("0---0")), ElementsAre("0-4"));
-  EXPECT_THAT(Stretches(Line("00---00")),
-              ElementsAre("0-1 shown", "1-5", "5-6 shown"));
+TEST(ProjectShownAndHidden, ShowsGapsOfFewerThanTwentySamples) {
+  EXPECT_THAT(Stretches(Line("0" + std::string(19, '-') + "0")),
+              ElementsAre("0-20 shown"));
+  EXPECT_THAT(Stretches(Line("00" + std::string(20, '-') + "00")),
+              ElementsAre("0-1 shown", "1-22", "22-23 shown"));
 }
 
 TEST(ProjectShownAndHidden, GoesOnAcrossTheSeamOfClosedCurves) {
-  Curve curve = Line("0----0");
+  Curve curve = Line("0" + std::string(30, '-') + "0");
   curve.closed = true;
-  EXPECT_THAT(Stretches(curve), ElementsAre("0-5", "5-0 shown"));
-  curve = Line("-0--0-");
-  EXPECT_THAT(Stretches(curve), ElementsAre("0-1", "1-4 shown", "4-5"));
+  EXPECT_THAT(Stretches(curve), ElementsAre("0-31", "31-0 shown"));
+  curve = Line("--0" + std::string(30, '-') + "0--");
+  EXPECT_THAT(Stretches(curve), ElementsAre("0-35"));
   curve.closed = true;
-  EXPECT_THAT(Stretches(curve), ElementsAre("0-0 shown"));
+  EXPECT_THAT(Stretches(curve), ElementsAre("0-2 shown", "2-33", "33-0 shown"));
 }
 
 TEST(ProjectShownAndHidden, LeavesOutWhatIsOutsideTheImage) {
   Curve curve = Line("000000");
   curve.samples[2].position.z() = -10;
   EXPECT_THAT(Stretches(curve), ElementsAre("0-1 shown", "3-5 shown"));
-  curve.samples[4].position.x() = 11;
+  curve.samples[4].position.x() = 60;
   EXPECT_THAT(Stretches(curve), ElementsAre("0-1 shown"));
 }
 
