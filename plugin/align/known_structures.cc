@@ -22,24 +22,24 @@ Status BadDistance(const std::string& text, const std::string& why) {
               "--distance 12 31 1.250 or --distance 0,0,0 1,0.5,0 1.250"};
 }
 
-KnownPoint UsualPoint(const KnownStructures& structures) {
+CurveNode UsualPoint(const KnownStructures& structures) {
   std::vector<double> variances;
-  for (const KnownPoint& node : structures.nodes) {
+  for (const CurveNode& node : structures.fitted.nodes) {
     variances.push_back(node.covariance.trace() / 3);
   }
-  KnownPoint point;
+  CurveNode point;
   point.covariance =
       MedianOr(0, std::move(variances)) * Eigen::Matrix3d::Identity();
   return point;
 }
 
-Result<KnownPoint> FindPoint(std::string_view word,
-                             const KnownStructures& structures,
-                             const std::string& text) {
+Result<CurveNode> FindPoint(std::string_view word,
+                            const KnownStructures& structures,
+                            const std::string& text) {
   if (word.find(',') != std::string_view::npos) {
     const Result<Eigen::Vector3d> position = ParseVector("the point", word);
     if (!position.ok()) return BadDistance(text, position.status().message());
-    KnownPoint point = UsualPoint(structures);
+    CurveNode point = UsualPoint(structures);
     point.position = structures.model_from_world * *position;
     return point;
   }
@@ -50,8 +50,8 @@ Result<KnownPoint> FindPoint(std::string_view word,
                            "\" is no number of a "
                            "node and no point x,y,z");
   }
-  const std::size_t count = structures.nodes.size();
-  if (*id < count) return structures.nodes[*id];
+  const std::size_t count = structures.fitted.nodes.size();
+  if (*id < count) return structures.fitted.nodes[*id];
   return BadDistance(text,
                      "there is no node " + std::to_string(*id) +
                          (count == 0 ? "; curves.json has none"
@@ -71,9 +71,9 @@ Result<KnownDistance> ParseDistance(const std::string& text,
                        "it is not three words, or four with a "
                        "standard deviation");
   }
-  const Result<KnownPoint> a = FindPoint(first, structures, text);
+  const Result<CurveNode> a = FindPoint(first, structures, text);
   if (!a.ok()) return a.status();
-  const Result<KnownPoint> b = FindPoint(second, structures, text);
+  const Result<CurveNode> b = FindPoint(second, structures, text);
   if (!b.ok()) return b.status();
   const std::optional<double> value = ParseNumber<double>(length);
   const std::optional<double> error =
@@ -98,44 +98,35 @@ Result<KnownStructures> ReadStructures(const fs::path& folder) {
     result.model_from_world = file->alignment->world_from_model.Inverse();
   }
   result.fitted = MoveFits(result.model_from_world, std::move(file->fitted));
-  for (const CurveNode& node : result.fitted.nodes) {
-    result.nodes.push_back({node.position, node.covariance});
-  }
   return result;
 }
 
 Result<std::vector<KnownDistance>> ParseDistances(
     const std::string& text, const KnownStructures& structures) {
   std::vector<KnownDistance> distances;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
+  for (const std::string_view part : SplitAt(text, ';')) {
     Result<KnownDistance> distance =
-        ParseDistance(text.substr(begin, end - begin), structures);
+        ParseDistance(std::string(part), structures);
     if (!distance.ok()) return distance.status();
     distances.push_back(*std::move(distance));
-    begin = end + 1;
   }
   return distances;
 }
 
 Result<Eigen::Vector3d> ParseVector(const std::string& what,
                                     std::string_view text) {
+  const std::vector<std::string_view> parts = SplitAt(text, ',');
   Eigen::Vector3d vector;
-  std::string_view rest = text;
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t end = std::min(rest.find(','), rest.size());
-    const std::optional<double> value =
-        ParseNumber<double>(rest.substr(0, end));
-    const bool is_last = end == rest.size();
-    if (!value || !std::isfinite(*value) || is_last != (i == 2)) {
-      return Status(StatusCode::kInvalidArgument,
-                    what + " \"" + std::string(text) +
-                        "\" is not three numbers with commas between");
-    }
-    vector(i) = *value;
-    rest.remove_prefix(is_last ? end : end + 1);
+  bool is_good = parts.size() == 3;
+  for (std::size_t i = 0; is_good && i < 3; ++i) {
+    const std::optional<double> value = ParseNumber<double>(parts[i]);
+    is_good = value && std::isfinite(*value);
+    if (is_good) vector[static_cast<Eigen::Index>(i)] = *value;
   }
-  return vector;
+  if (is_good) return vector;
+  return Status(StatusCode::kInvalidArgument,
+                what + " \"" + std::string(text) +
+                    "\" is not three numbers with commas between");
 }
 
 }  // namespace curvix

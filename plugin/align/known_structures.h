@@ -14,13 +14,7 @@
 
 namespace curvix {
 
-struct KnownPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
 struct KnownStructures {
-  std::vector<KnownPoint> nodes;
   FittedCurves fitted;  // in the model's frame
   // Of the frame in which curves.json is; the identity without an alignment.
   Similarity3 model_from_world;

@@ -82,13 +82,10 @@ Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
                                                const CurvesFile& curves,
                                                const Scene& scene) {
   std::vector<DrawingPlane> planes;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    Result<DrawingPlane> plane =
-        ChoosePlane(text.substr(begin, end - begin), curves, scene);
+  for (const std::string_view part : SplitAt(text, ',')) {
+    Result<DrawingPlane> plane = ChoosePlane(std::string(part), curves, scene);
     if (!plane.ok()) return plane.status();
     planes.push_back(*std::move(plane));
-    begin = end + 1;
   }
   return planes;
 }

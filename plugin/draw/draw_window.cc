@@ -16,12 +16,10 @@ namespace {
 // below those of the second. Empty: it is not that.
 std::vector<double> ParseBox(std::string_view text, std::size_t count) {
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto number = ParseNumber<double>(text.substr(begin, end - begin));
+  for (const std::string_view part : SplitAt(text, ',')) {
+    const auto number = ParseNumber<double>(part);
     if (!number) return {};
     numbers.push_back(*number);
-    begin = end + 1;
   }
   if (numbers.size() != count) return {};
   for (std::size_t i = 0; i < count / 2; ++i) {

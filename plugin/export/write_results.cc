@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "colmap/colmap_model.h"
 #include "io/ply_lines.h"
 #include "measuring/moved_curves.h"
@@ -88,6 +89,27 @@ Status WriteOverlays(const CurveRecord& record,
   return {};
 }
 
+// "ply,dxf" to its parts. kInvalidArgument, with what there is, for another
+// name or none.
+Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
+  std::vector<std::string> known;
+  std::string choices;
+  for (const OutputFormat& format : OutputFormats()) {
+    known.emplace_back(format.name);
+    choices += (choices.empty() ? "" : ", ") + known.back();
+  }
+  std::vector<std::string> formats;
+  for (const std::string_view part : SplitAt(text, ',')) {
+    const std::string& name = formats.emplace_back(part);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      return Status(StatusCode::kInvalidArgument,
+                    "output_formats has \"" + name +
+                        "\"; it takes, with commas between: " + choices);
+    }
+  }
+  return formats;
+}
+
 Flag FormatsFlag(std::vector<std::string>* formats) {
   Flag flag;
   flag.name = "output_formats";
@@ -124,28 +146,6 @@ const std::vector<OutputFormat>& OutputFormats() {
       {"svg", "curves.svg", "the curves as one view sees them: browsers"},
       {"colmap", "curves_model/", "samples as points with tracks: COLMAP"},
       {"html", "viewer.html", "the curves in a browser"}};
-  return formats;
-}
-
-Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
-  std::vector<std::string> known;
-  std::string choices;
-  for (const OutputFormat& format : OutputFormats()) {
-    known.emplace_back(format.name);
-    choices += (choices.empty() ? "" : ", ") + known.back();
-  }
-  std::vector<std::string> formats;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name = text.substr(begin, end - begin);
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      return Status(StatusCode::kInvalidArgument,
-                    "output_formats has \"" + name +
-                        "\"; it takes, with commas between: " + choices);
-    }
-    formats.push_back(name);
-    begin = end + 1;
-  }
   return formats;
 }
 

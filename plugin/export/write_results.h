@@ -30,10 +30,6 @@ struct OutputFormat {
 // All that there are, in the order in which they are written.
 const std::vector<OutputFormat>& OutputFormats();
 
-// "ply,dxf" to its parts. kInvalidArgument, with what there is, for another
-// name or none.
-Result<std::vector<std::string>> ParseOutputFormats(const std::string& text);
-
 // The flags that change `settings`, which must outlive them.
 FlagSection OutputFlags(OutputSettings* settings);
 

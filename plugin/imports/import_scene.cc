@@ -14,35 +14,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsSame(const Camera& a, const Camera& b) {
-  return a.model == b.model && a.width == b.width && a.height == b.height &&
-         a.params == b.params;
-}
-
 // The id of `camera` in the model, to which it is added if it is new.
 std::uint32_t CameraId(const Camera& camera, ColmapModel* model) {
   // Backwards: a camera is mostly that of the view before.
   const auto same = std::find_if(
       model->cameras.rbegin(), model->cameras.rend(), [&](const auto& item) {
-        return IsSame(item.camera, camera);
+        return item.camera == camera;
       });
   if (same != model->cameras.rend()) return same->camera_id;
   const auto id = static_cast<std::uint32_t>(model->cameras.size() + 1);
   model->cameras.push_back({id, camera});
   return id;
-}
-
-// The names of the files in `folder`, sorted.
-std::vector<std::string> FileNames(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (!IsFile(entry->path())) continue;
-    names.push_back(entry->path().filename().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 bool IsImageName(const std::string& name) {
@@ -152,6 +134,18 @@ Result<fs::path> FindImageFolder(const fs::path& image_path,
   return places.front();
 }
 
+std::vector<std::string> FileNames(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (!IsFile(entry->path())) continue;
+    names.push_back(entry->path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::vector<std::string> ImageNames(const fs::path& folder,
                                     const std::string& filter) {
   std::vector<std::string> names = FileNames(folder);
@@ -159,15 +153,6 @@ std::vector<std::string> ImageNames(const fs::path& folder,
     return !IsImageName(name) || name.find(filter) == std::string::npos;
   });
   return names;
-}
-
-std::string FirstNames(const std::vector<std::string>& names) {
-  constexpr std::size_t kMany = 5;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) {
-    text += (i > 0 ? ", " : "") + names[i];
-  }
-  return names.size() > kMany ? text + ", ..." : text;
 }
 
 Result<fs::path> OnlyFile(const fs::path& folder,

@@ -76,13 +76,13 @@ Result<std::filesystem::path> FindImageFolder(
     const std::vector<std::filesystem::path>& places,
     const std::string& name);
 
+// The names of the files in `folder`, sorted. None if there is no such folder.
+std::vector<std::string> FileNames(const std::filesystem::path& folder);
+
 // The names of the files in `folder` whose extensions are those of images and
 // that hold `filter`, sorted. None if there is no such folder.
 std::vector<std::string> ImageNames(const std::filesystem::path& folder,
                                     const std::string& filter);
-
-// "a, b, c, d, e, ...": at most five.
-std::string FirstNames(const std::vector<std::string>& names);
 
 // The only file in `folder` whose name begins with `prefix` and ends with
 // `suffix`. kNotFound: none or several; the sentence names those.

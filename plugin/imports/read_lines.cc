@@ -235,14 +235,11 @@ void ReadTrack(Words& words, Lines& lines) {
 
 // How many files track_<i>.txt there are in a folder.
 std::size_t CountTracks(const fs::path& folder) {
-  std::size_t count = 0;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (name.starts_with("track_") && name.ends_with(".txt")) ++count;
-  }
-  return count;
+  const std::vector<std::string> names = FileNames(folder);
+  return static_cast<std::size_t>(
+      std::count_if(names.begin(), names.end(), [](const std::string& name) {
+        return name.starts_with("track_") && name.ends_with(".txt");
+      }));
 }
 
 Result<Lines> ReadTracks(const fs::path& folder, std::size_t count) {

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace curvix {
 
@@ -54,8 +55,14 @@ class ByteWriter {
     bytes_.append(bytes, sizeof(T));
   }
   void PutCount(std::size_t count) { Put(static_cast<std::uint64_t>(count)); }
+  // The characters, which hold no NUL, and a NUL.
+  void PutName(std::string_view name) {
+    bytes_ += name;
+    bytes_ += '\0';
+  }
   void Reserve(std::size_t num_bytes) { bytes_.reserve(num_bytes); }
-  const std::string& bytes() const { return bytes_; }
+  const std::string& bytes() const& { return bytes_; }
+  std::string bytes() && { return std::move(bytes_); }
 
  private:
   std::string bytes_;
@@ -85,6 +92,17 @@ class ByteReader {
     const auto count = Take<std::uint64_t>();
     if (count > bytes_.size() / min_bytes) ok_ = false;
     return ok_ ? static_cast<std::size_t>(count) : 0;
+  }
+  // The characters up to the next NUL, which is taken, too.
+  std::string TakeName() {
+    const std::size_t length = bytes_.find('\0');
+    if (!ok_ || length == std::string_view::npos) {
+      ok_ = false;
+      return "";
+    }
+    std::string name(bytes_.substr(0, length));
+    bytes_.remove_prefix(length + 1);
+    return name;
   }
   bool ok() const { return ok_; }
   bool AtEnd() const { return ok_ && bytes_.empty(); }

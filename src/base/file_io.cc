@@ -84,6 +84,10 @@ Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
   return file.Finish();
 }
 
+Status InFile(const std::filesystem::path& path, const Status& status) {
+  return {status.code(), path.string() + ": " + status.message() + "."};
+}
+
 Result<std::string> ReadFile(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {

@@ -53,6 +53,9 @@ class FileWriter {
 Status WriteFileAtomically(const std::filesystem::path& path,
                            std::string_view bytes);
 
+// The same status with the file that it is about, as a sentence.
+Status InFile(const std::filesystem::path& path, const Status& status);
+
 // All bytes of `path`. kNotFound if it is not a file that can be opened,
 // kDataLoss if it cannot be read to its end.
 Result<std::string> ReadFile(const std::filesystem::path& path);

@@ -1,34 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Values of the option table as text and back.
-#include <array>
-#include <charconv>
 #include <limits>
 #include <optional>
 #include <string_view>
 
 #include "base/check.h"
 #include "base/option_table.h"
+#include "base/text_fields.h"
 
 namespace curvix {
 namespace {
-
-// Independent of the locale; the shortest text that reads back as `value`.
-std::string NumberText(double value) {
-  std::array<char, 64> text;
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
-template <typename T>
-std::optional<T> ParseNumber(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  T value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (text.empty() || error != std::errc() || stop != end) return std::nullopt;
-  return value;
-}
 
 std::optional<bool> ParseSwitch(const std::string& text) {
   for (const char* yes : {"1", "true", "yes", "on"}) {
@@ -40,7 +21,7 @@ std::optional<bool> ParseSwitch(const std::string& text) {
   return std::nullopt;
 }
 
-std::optional<int> ParseChoice(const OptionRow& row, const std::string& text) {
+std::optional<int> ParseChoice(const OptionRow& row, std::string_view text) {
   for (std::size_t i = 0; i < row.choices.size(); ++i) {
     if (row.choices[i] == text) return static_cast<int>(i);
   }
@@ -95,15 +76,10 @@ struct FieldReader {
     // Where the kind is unknown, it is not another one.
     CurveKindSet kinds = CurveKindSet::None();
     kinds.Add(CurveKind::kUnknown);
-    std::string_view rest = text;
-    while (true) {
-      const std::size_t comma = rest.find(',');
-      const std::string name(rest.substr(0, comma));
+    for (const std::string_view name : SplitAt(text, ',')) {
       const auto kind = KindFromName(name);
       if (!kind || !ParseChoice(row, name)) return false;
       kinds.Add(*kind);
-      if (comma == std::string_view::npos) break;
-      rest.remove_prefix(comma + 1);
     }
     *field = kinds;
     return true;

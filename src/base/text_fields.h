@@ -3,6 +3,7 @@
 // in every locale.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdarg>
@@ -12,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace curvix {
 
@@ -22,6 +24,14 @@ void AppendNumber(T value, std::string& out) {
   const auto end =
       std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   out.append(text.data(), end);
+}
+
+// `value` as AppendNumber writes it.
+template <typename T>
+std::string NumberText(T value) {
+  std::string text;
+  AppendNumber(value, text);
+  return text;
 }
 
 // What std::printf would print: less than 512 bytes.
@@ -76,6 +86,18 @@ inline std::string_view TakeLine(std::string_view& text) {
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return line;
+}
+
+// The parts of `text` between the separators: one more than there are of these.
+inline std::vector<std::string_view> SplitAt(std::string_view text,
+                                             char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 // Takes the next word off `text`; empty at the end.

@@ -3,84 +3,16 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <type_traits>
+#include <utility>
 
+#include "base/bytes.h"
 #include "colmap/colmap_model_format.h"
 
 namespace curvix {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "COLMAP's binary files are read and written by copying bytes");
-
-// Reads values from the front of a string. The first read beyond the end
-// fails; from then on everything reads as zero and counts as none.
-class ByteReader {
- public:
-  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
-
-  bool failed() const { return failed_; }
-  std::size_t bytes_left() const { return bytes_.size(); }
-
-  template <typename T>
-  T Read() {
-    static_assert(std::is_arithmetic_v<T>);
-    T value{};
-    if (failed_ || bytes_.size() < sizeof(T)) {
-      failed_ = true;
-      return T{};
-    }
-    std::memcpy(&value, bytes_.data(), sizeof(T));
-    bytes_.remove_prefix(sizeof(T));
-    return value;
-  }
-
-  // A count of items of at least `item_size` bytes each; fails if they cannot
-  // be there.
-  std::size_t ReadCount(std::size_t item_size) {
-    const std::uint64_t count = Read<std::uint64_t>();
-    if (failed_ || count > bytes_.size() / item_size) {
-      failed_ = true;
-      return 0;
-    }
-    return static_cast<std::size_t>(count);
-  }
-
-  // The characters up to the next NUL, which is taken too.
-  std::string ReadName() {
-    const std::size_t length = bytes_.find('\0');
-    if (failed_ || length == std::string_view::npos) {
-      failed_ = true;
-      return "";
-    }
-    std::string name(bytes_.substr(0, length));
-    bytes_.remove_prefix(length + 1);
-    return name;
-  }
-
- private:
-  std::string_view bytes_;
-  bool failed_ = false;
-};
-
-class ByteWriter {
- public:
-  template <typename T>
-  void Write(std::type_identity_t<T> value) {
-    const std::size_t end = bytes_.size();
-    bytes_.resize(end + sizeof(T));
-    std::memcpy(bytes_.data() + end, &value, sizeof(T));
-  }
-  void WriteName(const std::string& name) {
-    bytes_ += name;
-    bytes_ += '\0';
-  }
-  std::string Take() { return std::move(bytes_); }
-
- private:
-  std::string bytes_;
-};
+              "ByteReader and ByteWriter copy bytes as they lie in memory");
 
 constexpr std::size_t kMinCameraSize = 4 + 4 + 8 + 8 + 2 * 8;
 constexpr std::size_t kMinImageSize = 4 + 7 * 8 + 4 + 1 + 8;
@@ -107,8 +39,8 @@ Result<std::vector<Item>> ParseAll(std::string_view bytes,
                                    std::size_t min_item_size,
                                    const ParseItem& parse_item) {
   ByteReader reader(bytes);
-  const std::size_t count = reader.ReadCount(min_item_size);
-  if (reader.failed()) {
+  const std::size_t count = reader.TakeCount(min_item_size);
+  if (!reader.ok()) {
     return Status(StatusCode::kDataLoss,
                   file + " is too short for the number of " + item_name +
                       "s that it announces; export the model again.");
@@ -117,13 +49,13 @@ Result<std::vector<Item>> ParseAll(std::string_view bytes,
   items.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     Result<Item> item = parse_item(reader);
-    if (reader.failed()) return Truncated(file, item_name, i, count);
+    if (!reader.ok()) return Truncated(file, item_name, i, count);
     if (!item.ok()) return item.status();
     items.push_back(std::move(item).value());
   }
-  if (reader.bytes_left() > 0) {
+  if (!reader.AtEnd()) {
     return Status(StatusCode::kDataLoss,
-                  file + " has " + std::to_string(reader.bytes_left()) +
+                  file + " has " + std::to_string(reader.rest().size()) +
                       " bytes more than its " + std::to_string(count) + " " +
                       item_name + "s take; export the model again.");
   }
@@ -137,32 +69,32 @@ int ImageSize(std::uint64_t size) {
 
 ColmapImage ParseImage(ByteReader& reader) {
   ColmapImage image;
-  image.image_id = reader.Read<std::uint32_t>();
+  image.image_id = reader.Take<std::uint32_t>();
   std::array<double, 4> wxyz;
-  for (double& q : wxyz) q = reader.Read<double>();
+  for (double& q : wxyz) q = reader.Take<double>();
   image.cam_from_world.rotation = RotationFromColmap(wxyz);
-  for (double& t : image.cam_from_world.translation) t = reader.Read<double>();
-  image.camera_id = reader.Read<std::uint32_t>();
-  image.name = reader.ReadName();
-  image.points2D.resize(reader.ReadCount(kPoint2DSize));
+  for (double& t : image.cam_from_world.translation) t = reader.Take<double>();
+  image.camera_id = reader.Take<std::uint32_t>();
+  image.name = reader.TakeName();
+  image.points2D.resize(reader.TakeCount(kPoint2DSize));
   for (ColmapPoint2D& point : image.points2D) {
-    point.x = reader.Read<double>();
-    point.y = reader.Read<double>();
-    point.point3D_id = reader.Read<std::uint64_t>();
+    point.x = reader.Take<double>();
+    point.y = reader.Take<double>();
+    point.point3D_id = reader.Take<std::uint64_t>();
   }
   return image;
 }
 
 ColmapPoint3D ParsePoint(ByteReader& reader) {
   ColmapPoint3D point;
-  point.point3D_id = reader.Read<std::uint64_t>();
-  for (double& x : point.position) x = reader.Read<double>();
-  for (std::uint8_t& c : point.rgb) c = reader.Read<std::uint8_t>();
-  point.error = reader.Read<double>();
-  point.track.resize(reader.ReadCount(kTrackElementSize));
+  point.point3D_id = reader.Take<std::uint64_t>();
+  for (double& x : point.position) x = reader.Take<double>();
+  for (std::uint8_t& c : point.rgb) c = reader.Take<std::uint8_t>();
+  point.error = reader.Take<double>();
+  point.track.resize(reader.TakeCount(kTrackElementSize));
   for (ColmapTrackElement& element : point.track) {
-    element.image_id = reader.Read<std::uint32_t>();
-    element.point2D_idx = reader.Read<std::uint32_t>();
+    element.image_id = reader.Take<std::uint32_t>();
+    element.point2D_idx = reader.Take<std::uint32_t>();
   }
   return point;
 }
@@ -173,10 +105,10 @@ CamerasOrError ParseCamerasBinary(std::string_view bytes,
                                   const std::string& file) {
   const auto parse_camera = [&](ByteReader& reader) -> Result<ColmapCamera> {
     ColmapCamera item;
-    item.camera_id = reader.Read<std::uint32_t>();
-    const int model_id = reader.Read<std::int32_t>();
-    item.camera.width = ImageSize(reader.Read<std::uint64_t>());
-    item.camera.height = ImageSize(reader.Read<std::uint64_t>());
+    item.camera_id = reader.Take<std::uint32_t>();
+    const int model_id = reader.Take<std::int32_t>();
+    item.camera.width = ImageSize(reader.Take<std::uint64_t>());
+    item.camera.height = ImageSize(reader.Take<std::uint64_t>());
     const std::optional<CameraModel> model = ModelFromId(model_id);
     if (!model) {
       const std::string name = model_id == 17
@@ -186,7 +118,7 @@ CamerasOrError ParseCamerasBinary(std::string_view bytes,
     }
     item.camera.model = *model;
     item.camera.params.resize(static_cast<std::size_t>(NumParams(*model)));
-    for (double& p : item.camera.params) p = reader.Read<double>();
+    for (double& p : item.camera.params) p = reader.Take<double>();
     return item;
   };
   return ParseAll<ColmapCamera>(
@@ -211,54 +143,54 @@ PointsOrError ParsePointsBinary(std::string_view bytes,
 
 std::string FormatCamerasBinary(const std::vector<ColmapCamera>& cameras) {
   ByteWriter writer;
-  writer.Write<std::uint64_t>(cameras.size());
+  writer.PutCount(cameras.size());
   for (const ColmapCamera& item : cameras) {
-    writer.Write<std::uint32_t>(item.camera_id);
-    writer.Write<std::int32_t>(static_cast<std::int32_t>(item.camera.model));
-    writer.Write<std::uint64_t>(static_cast<std::uint64_t>(item.camera.width));
-    writer.Write<std::uint64_t>(static_cast<std::uint64_t>(item.camera.height));
-    for (const double p : item.camera.params) writer.Write<double>(p);
+    writer.Put(item.camera_id);
+    writer.Put(static_cast<std::int32_t>(item.camera.model));
+    writer.Put(static_cast<std::uint64_t>(item.camera.width));
+    writer.Put(static_cast<std::uint64_t>(item.camera.height));
+    for (const double p : item.camera.params) writer.Put(p);
   }
-  return writer.Take();
+  return std::move(writer).bytes();
 }
 
 std::string FormatImagesBinary(const std::vector<ColmapImage>& images) {
   ByteWriter writer;
-  writer.Write<std::uint64_t>(images.size());
+  writer.PutCount(images.size());
   for (const ColmapImage& image : images) {
     const Eigen::Quaterniond q = image.cam_from_world.rotation.normalized();
-    writer.Write<std::uint32_t>(image.image_id);
-    for (const double x : {q.w(), q.x(), q.y(), q.z()}) writer.Write<double>(x);
+    writer.Put(image.image_id);
+    for (const double x : {q.w(), q.x(), q.y(), q.z()}) writer.Put(x);
     for (const double t : image.cam_from_world.translation) {
-      writer.Write<double>(t);
+      writer.Put(t);
     }
-    writer.Write<std::uint32_t>(image.camera_id);
-    writer.WriteName(image.name);
-    writer.Write<std::uint64_t>(image.points2D.size());
+    writer.Put(image.camera_id);
+    writer.PutName(image.name);
+    writer.PutCount(image.points2D.size());
     for (const ColmapPoint2D& point : image.points2D) {
-      writer.Write<double>(point.x);
-      writer.Write<double>(point.y);
-      writer.Write<std::uint64_t>(point.point3D_id);
+      writer.Put(point.x);
+      writer.Put(point.y);
+      writer.Put(point.point3D_id);
     }
   }
-  return writer.Take();
+  return std::move(writer).bytes();
 }
 
 std::string FormatPointsBinary(const std::vector<ColmapPoint3D>& points) {
   ByteWriter writer;
-  writer.Write<std::uint64_t>(points.size());
+  writer.PutCount(points.size());
   for (const ColmapPoint3D& point : points) {
-    writer.Write<std::uint64_t>(point.point3D_id);
-    for (const double x : point.position) writer.Write<double>(x);
-    for (const std::uint8_t c : point.rgb) writer.Write<std::uint8_t>(c);
-    writer.Write<double>(point.error);
-    writer.Write<std::uint64_t>(point.track.size());
+    writer.Put(point.point3D_id);
+    for (const double x : point.position) writer.Put(x);
+    for (const std::uint8_t c : point.rgb) writer.Put(c);
+    writer.Put(point.error);
+    writer.PutCount(point.track.size());
     for (const ColmapTrackElement& element : point.track) {
-      writer.Write<std::uint32_t>(element.image_id);
-      writer.Write<std::uint32_t>(element.point2D_idx);
+      writer.Put(element.image_id);
+      writer.Put(element.point2D_idx);
     }
   }
-  return writer.Take();
+  return std::move(writer).bytes();
 }
 
 }  // namespace curvix

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 #include <curvix/scene.h>
-#include <charconv>
 #include <optional>
-#include <system_error>
 
 #include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
@@ -24,10 +22,7 @@ class LineReader {
   // The next line that is not a comment; nullopt at the end.
   std::optional<std::string_view> Next() {
     while (!text_.empty()) {
-      const std::size_t end = text_.find('\n');
-      const std::string_view line = Trimmed(text_.substr(0, end));
-      text_.remove_prefix(end == std::string_view::npos ? text_.size()
-                                                        : end + 1);
+      const std::string_view line = Trimmed(TakeLine(text_));
       ++line_number_;
       if (line.empty() || line[0] != '#') return line;
     }
@@ -69,13 +64,9 @@ class WordReader {
 
   template <typename T>
   T Number() {
-    std::string_view word = Word();
-    if (!word.empty() && word[0] == '+') word.remove_prefix(1);
-    T value{};
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    failed_ = failed_ || error != std::errc() || stop != end;
-    return failed_ ? T{} : value;
+    const std::optional<T> value = ParseNumber<T>(Word());
+    failed_ = failed_ || !value;
+    return failed_ ? T{} : *value;
   }
 
   // "-1" means none.
@@ -185,11 +176,7 @@ class LineWriter {
   }
   template <typename T>
   requires std::is_arithmetic_v<T> LineWriter& operator<<(T number) {
-    std::array<char, 32> buffer;
-    const auto [end, error] =
-        std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
-    const std::size_t length = static_cast<std::size_t>(end - buffer.data());
-    return *this << std::string_view(buffer.data(), length);
+    return *this << std::string_view(NumberText(number));
   }
   void EndLine() { text_ += '\n'; }
   std::string Take() { return std::move(text_); }

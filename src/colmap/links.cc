@@ -25,4 +25,13 @@ bool LiesIn(const fs::path& path, const std::vector<fs::path>& folders) {
       });
 }
 
+std::string FirstNames(const std::vector<std::string>& names) {
+  constexpr std::size_t kMany = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) {
+    text += (i > 0 ? ", " : "") + names[i];
+  }
+  return names.size() > kMany ? text + ", ..." : text;
+}
+
 }  // namespace curvix

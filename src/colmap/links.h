@@ -30,6 +30,9 @@ inline bool IsFolder(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path, error);
 }
 
+// "a, b, c, d, e, ...": at most five.
+std::string FirstNames(const std::vector<std::string>& names);
+
 // The file in `folder` that `name`, relative to it, means: that of this name,
 // or, if there is none, the one with slashes for the backslashes of Windows.
 inline std::filesystem::path ImageFile(const std::filesystem::path& folder,

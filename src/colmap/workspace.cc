@@ -249,23 +249,12 @@ Status CheckOutputPath(const WorkspacePaths& paths, const fs::path& output) {
   }
 }
 
-// "a, b, c, d, e, ..." with at most five names.
-std::string FirstFive(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 5); ++i) {
-    text += (i > 0 ? ", " : "") + names[i];
-  }
-  return names.size() > 5 ? text + ", ..." : text;
-}
-
 // The names of the images that are not in `folder`, sorted.
 std::vector<std::string> MissingImages(const ColmapModel& model,
                                        const fs::path& folder) {
   std::vector<std::string> missing;
   for (const ColmapImage& image : model.images) {
-    std::error_code error;
-    if (fs::is_regular_file(ImageFile(folder, image.name), error)) continue;
-    missing.push_back(image.name);
+    if (!IsFile(ImageFile(folder, image.name))) missing.push_back(image.name);
   }
   std::sort(missing.begin(), missing.end());
   return missing;
@@ -273,13 +262,11 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
 
 // "" if there is none.
 fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
-  std::error_code error;
-  fs::path mask = ImageFile(folder, image_name + ".png");
-  if (fs::is_regular_file(mask, error)) return mask;
+  const fs::path mask = ImageFile(folder, image_name + ".png");
+  if (IsFile(mask)) return mask;
   const fs::path same_name = folder / image_name;
   const bool is_png = same_name.extension() == ".png";
-  return is_png && fs::is_regular_file(same_name, error) ? same_name
-                                                         : fs::path();
+  return is_png && IsFile(same_name) ? same_name : fs::path();
 }
 
 Status FindMasks(const WorkspacePaths& paths, Workspace* found) {
@@ -302,7 +289,7 @@ void NoteMissingMasks(const Workspace& workspace, WorkspaceScene* result) {
                           std::to_string(result->scene.views.size()) +
                           " images have no mask in " +
                           workspace.mask_path.string() +
-                          " and are used whole: " + FirstFive(names) + ".");
+                          " and are used whole: " + FirstNames(names) + ".");
 }
 
 constexpr std::size_t kMinViews = 3;
@@ -321,7 +308,7 @@ Status TooFewViews(const Workspace& workspace,
                   std::to_string(num_views + missing.size()) +
                   " images of the model " + workspace.model_path.string() +
                   " are in " + workspace.image_path.string() +
-                  " (missing: " + FirstFive(missing) +
+                  " (missing: " + FirstNames(missing) +
                   "), and curves need at least three. Name the right folder "
                   "with --image_path.");
 }
@@ -365,7 +352,7 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
         std::to_string(result.missing_images.size()) + " of " +
         std::to_string(result.model.images.size()) + " images are not in " +
         workspace.image_path.string() +
-        " and are skipped: " + FirstFive(result.missing_images) + ".");
+        " and are skipped: " + FirstNames(result.missing_images) + ".");
   }
   NoteMissingMasks(workspace, &result);
   return result;

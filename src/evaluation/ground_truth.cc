@@ -2,7 +2,6 @@
 #include "evaluation/ground_truth.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -25,16 +24,11 @@ std::optional<std::vector<double>> ParseRow(std::string_view line) {
     const std::size_t begin = line.find_first_not_of(kBlank);
     if (begin == std::string_view::npos) return row;
     line.remove_prefix(begin);
-    std::string_view word = line.substr(0, line.find_first_of(kBlank));
+    const std::string_view word = line.substr(0, line.find_first_of(kBlank));
     line.remove_prefix(word.size());
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const char* end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || stop != end || !std::isfinite(value)) {
-      return std::nullopt;
-    }
-    row.push_back(value);
+    const std::optional<double> value = ParseNumber<double>(word);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    row.push_back(*value);
   }
 }
 
@@ -77,9 +71,7 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
   GroundTruth truth;
   std::size_t num_columns = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const auto row = ParseRow(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const auto row = ParseRow(TakeLine(text));
     if (!row) return Broken(number);
     if (row->empty()) continue;
     if (num_columns == 0) num_columns = row->size();
@@ -133,10 +125,6 @@ std::filesystem::path ClassPath(std::filesystem::path path) {
   path += "_class";
   path += extension;
   return path;
-}
-
-Status InFile(const std::filesystem::path& path, const Status& status) {
-  return {status.code(), path.string() + ": " + status.message() + "."};
 }
 
 }  // namespace

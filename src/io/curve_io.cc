@@ -50,17 +50,12 @@ Result<CurveSet> Decode(const std::string& extension,
                     extension + "\"");
 }
 
-// The same status with the file that it is about.
-Status About(const fs::path& path, const Status& status) {
-  return {status.code(), path.string() + ": " + status.message() + "."};
-}
-
 // A file of what `encode` gives.
 Status Write(const fs::path& path,
              const std::function<Status(const ByteSink&)>& encode) {
   FileWriter file(path);
   if (const Status status = encode(file.Sink()); !status.ok()) {
-    return About(path, status);
+    return InFile(path, status);
   }
   return file.Finish();
 }
@@ -72,7 +67,7 @@ Status Write(const fs::path& path,
   FileWriter file(path);
   const Status status = encode(file.Sink());
   if (!curves.status().ok()) return curves.status();
-  return status.ok() ? file.Finish() : About(path, status);
+  return status.ok() ? file.Finish() : InFile(path, status);
 }
 
 }  // namespace
@@ -89,14 +84,14 @@ Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
   const Result<std::string> bytes = ReadFile(path);
   if (!bytes.ok()) return bytes.status();
   Result<CurveSet> curves = Decode(path.extension().string(), *bytes, scene);
-  if (!curves.ok()) return About(path, curves.status());
+  if (!curves.ok()) return InFile(path, curves.status());
   return curves;
 }
 
 Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
   if (path.extension() != ".ply") {
-    return About(path,
-                 {StatusCode::kInvalidArgument, "edges are written as .ply"});
+    return InFile(path,
+                  {StatusCode::kInvalidArgument, "edges are written as .ply"});
   }
   return Write(
       path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
@@ -111,7 +106,7 @@ Status ConcatenateEdges(const fs::path& path,
       const Result<std::string> bytes = ReadFile(part);
       if (!bytes.ok()) return bytes.status();
       const Result<std::string_view> edges = FindPlyEdges(*bytes);
-      if (!edges.ok()) return About(part, edges.status());
+      if (!edges.ok()) return InFile(part, edges.status());
       take(*edges);
     }
     return {};
@@ -121,7 +116,7 @@ Status ConcatenateEdges(const fs::path& path,
       for_each_part([&](std::string_view edges) { num_bytes += edges.size(); });
   if (!status.ok()) return status;
   const Result<std::string> header = PlyEdgesHeader(num_bytes);
-  if (!header.ok()) return About(path, header.status());
+  if (!header.ok()) return InFile(path, header.status());
   file.Append(*header);
   status = for_each_part(file.Sink());
   return status.ok() ? file.Finish() : status;
@@ -130,10 +125,10 @@ Status ConcatenateEdges(const fs::path& path,
 Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
   const std::string extension = path.extension().string();
   if (extension != ".dxf" && extension != ".step") {
-    return About(path,
-                 {StatusCode::kInvalidArgument,
-                  "fitted curves are written as .dxf or .step, not as \"" +
-                      extension + "\""});
+    return InFile(path,
+                  {StatusCode::kInvalidArgument,
+                   "fitted curves are written as .dxf or .step, not as \"" +
+                       extension + "\""});
   }
   return Write(path, [&](const ByteSink& sink) {
     extension == ".dxf" ? EncodeDxfDrawing(fitted, sink)
@@ -147,10 +142,10 @@ Status WriteProjection(const fs::path& path,
                        const Scene& scene,
                        int view_idx) {
   if (path.extension() != ".svg") {
-    return About(path,
-                 {StatusCode::kInvalidArgument,
-                  "projected curves are written as .svg, not as \"" +
-                      path.extension().string() + "\""});
+    return InFile(path,
+                  {StatusCode::kInvalidArgument,
+                   "projected curves are written as .svg, not as \"" +
+                       path.extension().string() + "\""});
   }
   return Write(path, curves, [&](const ByteSink& sink) {
     EncodeSvgCurves(curves, scene, view_idx, sink);

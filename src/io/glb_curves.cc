@@ -21,12 +21,6 @@ constexpr std::size_t kColorBytes = 4;
 constexpr int kLineLoop = 2;
 constexpr int kLineStrip = 3;
 
-std::string Text(double value) {
-  std::string text;
-  AppendNumber(value, text);
-  return text;
-}
-
 std::string VectorText(const Eigen::Vector3f& v) {
   std::string text = "[";
   for (int i = 0; i < 3; ++i) {
@@ -89,8 +83,8 @@ std::string Json(const Lists& lists, const Eigen::Vector3d& middle) {
       "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
       "\"nodes\":[{\"name\":\"curves\"";
   if (lists.primitives.empty()) return json + "}]}";
-  json += ",\"mesh\":0,\"translation\":[" + Text(middle.x()) + "," +
-          Text(middle.y()) + "," + Text(middle.z()) +
+  json += ",\"mesh\":0,\"translation\":[" + NumberText(middle.x()) + "," +
+          NumberText(middle.y()) + "," + NumberText(middle.z()) +
           "]}],\"meshes\":[{\"name\":\"curves\",\"primitives\":[" +
           lists.primitives +
           "]}],\"materials\":[{\"extensions\":{\"KHR_materials_unlit\":{}},"

@@ -14,7 +14,6 @@
 
 #include "base/angles.h"
 #include "base/text_fields.h"
-#include "io/drawing_layers.h"
 
 namespace curvix {
 namespace {
@@ -49,8 +48,7 @@ class Writer {
 
 // The grammar asks for a point in every real, and for a capital E.
 std::string Real(double value) {
-  std::string text;
-  AppendNumber(value, text);
+  std::string text = NumberText(value);
   const std::size_t exponent = text.find('e');
   if (exponent != std::string::npos) text[exponent] = 'E';
   if (text.find('.') == std::string::npos) {

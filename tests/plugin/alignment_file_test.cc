@@ -87,8 +87,10 @@ TEST(AlignmentFile, SaysWhatIsWrongWithIt) {
 
 KnownStructures TwoNodes() {
   KnownStructures structures;
-  structures.nodes.push_back({{0, 0, 0}, 1e-6 * Eigen::Matrix3d::Identity()});
-  structures.nodes.push_back({{1, 0, 0}, 1e-6 * Eigen::Matrix3d::Identity()});
+  for (const double x : {0, 1}) {
+    structures.fitted.nodes.push_back(
+        {{x, 0, 0}, {}, 1e-6 * Eigen::Matrix3d::Identity()});
+  }
   return structures;
 }
 
