@@ -12,6 +12,7 @@
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/run/run_steps.h"
 
@@ -269,11 +270,8 @@ Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
                                     ProgressPrinter& progress) {
   Status usable = CheckSettings(settings);
   if (!usable.ok()) return usable;
-  try {
-    return Aligner(settings, progress).Run();
-  } catch (const fs::filesystem_error& error) {
-    return Status(StatusCode::kInvalidArgument, error.what());
-  }
+  return CatchFileErrors(StatusCode::kInvalidArgument,
+                         [&] { return Aligner(settings, progress).Run(); });
 }
 
 }  // namespace curvix

@@ -2,7 +2,6 @@
 #include "plugin/base/command_line.h"
 
 #include <algorithm>
-#include <array>
 #include <boost/program_options.hpp>
 #include <map>
 #include <string_view>
@@ -36,20 +35,9 @@ po::options_description Describe(const std::vector<FlagSection>& sections) {
   return description;
 }
 
-// Options that had other names: old, new.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2>
-    kRenamed = {
-        {{"Validation.min_evidence", "Validation.min_log_likelihood_ratio"},
-         {"Validation.min_rival_support", "Validation.min_relative_support"}}};
-
 Status UnknownFlag(std::string token,
                    const std::vector<FlagSection>& sections) {
   token = token.substr(0, token.find('='));
-  for (const auto& [old_name, new_name] : kRenamed) {
-    if (!token.ends_with(old_name)) continue;
-    return BadArgument("The option '--" + std::string(old_name) +
-                       "' is now '--" + std::string(new_name) + "'");
-  }
   std::vector<std::string> names = {"help", "help_all"};
   for (const FlagSection& section : sections) {
     for (const Flag& flag : section.flags) names.push_back(flag.name);

@@ -2,12 +2,12 @@
 #include "plugin/draw/draw_workspace.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "drawing/dimension_marks.h"
 #include "drawing/drawing_plane.h"
 #include "drawing/sheet.h"
@@ -15,6 +15,7 @@
 #include "io/svg_sheet.h"
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
@@ -34,9 +35,7 @@ Status BadDrawing(std::string message) {
 }
 
 std::string Short(double value, int digits = 4) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
+  return FormatText("%.*g", digits, value);
 }
 
 // "front (xz)".
@@ -300,11 +299,8 @@ Result<DrawSummary> Drafter::Run() {
 
 Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress) {
-  try {
-    return Drafter(settings, progress).Run();
-  } catch (const fs::filesystem_error& error) {
-    return Status(StatusCode::kInvalidArgument, error.what());
-  }
+  return CatchFileErrors(StatusCode::kInvalidArgument,
+                         [&] { return Drafter(settings, progress).Run(); });
 }
 
 }  // namespace curvix

@@ -10,16 +10,6 @@
 namespace curvix {
 namespace {
 
-// Adds the edge to its image and to the track of the point.
-void AddObservation(std::uint64_t point_id,
-                    const Eigen::Vector2d& pixel,
-                    ColmapImage& image,
-                    ColmapPoint3D& point) {
-  point.track.push_back(
-      {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
-  image.points2D.push_back({pixel.x(), pixel.y(), point_id});
-}
-
 void AddSample(const CurveRecord& record,
                const CurveSample& sample,
                const std::array<std::uint8_t, 3>& color,
@@ -36,8 +26,7 @@ void AddSample(const CurveRecord& record,
   point.rgb = color;
   point.error = 0;
   for (const auto& [ref, edge] : edges) {
-    AddObservation(point.point3D_id,
-                   edge.pixel,
+    AddObservation(edge.pixel,
                    model.images[static_cast<std::size_t>(ref.view_idx)],
                    point);
     point.error += std::abs(edge.residual_px);
@@ -49,18 +38,7 @@ void AddSample(const CurveRecord& record,
 }  // namespace
 
 ColmapModel CurvesAsPoints(const CurveRecord& record) {
-  ColmapModel model;
-  for (std::size_t i = 0; i < record.scene.cameras.size(); ++i) {
-    model.cameras.push_back(
-        {static_cast<std::uint32_t>(i + 1), record.scene.cameras[i]});
-  }
-  for (const View& view : record.scene.views) {
-    model.images.push_back({view.image_id,
-                            view.cam_from_world,
-                            static_cast<std::uint32_t>(view.camera_idx + 1),
-                            view.name,
-                            {}});
-  }
+  ColmapModel model = ModelOfViews(record.scene);
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {
     for (const CurveSample& sample : curve.samples) {
       AddSample(record, sample, CurveColor(id), model);

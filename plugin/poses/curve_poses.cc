@@ -95,10 +95,8 @@ std::string ErrorsText(const CurvePoses& poses) {
 
 std::string CamerasText(const std::vector<CameraChange>& cameras) {
   if (cameras.empty()) return "";
-  std::string text = ", " +
-                     GroupDigits(static_cast<std::int64_t>(cameras.size())) +
-                     (cameras.size() == 1 ? " camera" : " cameras");
-  return text + " (" + std::string(ModelName(cameras.front().to.model)) +
+  return ", " + Plural(static_cast<std::int64_t>(cameras.size()), "camera") +
+         " (" + std::string(ModelName(cameras.front().to.model)) +
          FormatText(", %.2f px)", cameras.front().median_shift_px);
 }
 

@@ -112,11 +112,7 @@ ColmapModel ModelForColmap(const Bundle& bundle) {
     point.point3D_id = i + 1;
     point.position = source.position;
     for (const BundleObservation& seen : source.observations) {
-      ColmapImage& image = model.images[seen.view_idx];
-      point.track.push_back(
-          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
-      image.points2D.push_back(
-          {seen.pixel.x(), seen.pixel.y(), point.point3D_id});
+      AddObservation(seen.pixel, model.images[seen.view_idx], point);
     }
     model.points.push_back(std::move(point));
   }

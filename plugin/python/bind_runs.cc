@@ -157,22 +157,11 @@ Result<WorkspaceRun> ReconstructScene(const Scene& scene,
   return SceneJob(scene, settings, progress).Run(edges);
 }
 
-struct Paths {
-  fs::path workspace_path;
-  fs::path input_path;
-  fs::path image_path;
-  fs::path output_path;
-  fs::path mask_path;
-};
-
-RunSettings SettingsOf(const PythonOptions& options, const Paths& paths) {
+RunSettings SettingsOf(const PythonOptions& options,
+                       const WorkspacePaths& paths) {
   Check(Validate(options.settings.options));
   RunSettings settings = options.settings;
-  settings.workspace_path = paths.workspace_path;
-  settings.input_path = paths.input_path;
-  settings.image_path = paths.image_path;
-  settings.output_path = paths.output_path;
-  settings.mask_path = paths.mask_path;
+  static_cast<WorkspacePaths&>(settings) = paths;
   return settings;
 }
 
@@ -208,7 +197,7 @@ std::unique_ptr<PythonCurves> CurvesOf(WorkspaceRun run) {
   });
 }
 
-std::unique_ptr<PythonCurves> ReconstructWorkspace(const Paths& paths,
+std::unique_ptr<PythonCurves> ReconstructWorkspace(const WorkspacePaths& paths,
                                                    const PythonOptions& options,
                                                    const py::object& callback) {
   const RunSettings settings = SettingsOf(options, paths);
@@ -228,7 +217,7 @@ std::unique_ptr<PythonCurves> Reconstruct(const PythonScene& scene,
 }
 
 // One JSON object.
-std::string EvaluateHoldout(const Paths& paths,
+std::string EvaluateHoldout(const WorkspacePaths& paths,
                             const fs::path& curves_path,
                             int every,
                             const PythonOptions& options,
@@ -251,7 +240,7 @@ std::string EvaluateHoldout(const Paths& paths,
 }  // namespace
 
 void BindRuns(py::module_& module) {
-  py::class_<Paths>(module, "Paths")
+  py::class_<WorkspacePaths>(module, "Paths")
       .def(py::init<fs::path, fs::path, fs::path, fs::path, fs::path>());
   module.def("reconstruct_workspace", ReconstructWorkspace);
   module.def("reconstruct_scene", Reconstruct);

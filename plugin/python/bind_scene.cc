@@ -27,23 +27,6 @@ using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Numbers =
     py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
-struct CameraInput {
-  std::string model;
-  int width;   // 0: that of the first of its images
-  int height;  // alike
-  std::vector<double> params;
-};
-
-struct ViewInput {
-  std::string name;
-  fs::path image_path;
-  std::uint32_t image_id;
-  int camera_idx;
-  std::array<double, 4> quaternion;  // x y z w
-  std::array<double, 3> translation;
-  std::optional<ImageInMemory> image;  // in place of the file
-};
-
 // Shares the array, which may be freed by any thread.
 template <typename T>
 std::shared_ptr<const T[]> ValuesOf(const py::array& array) {
@@ -72,34 +55,53 @@ ImageInMemory ImageOf(const py::array& array) {
   Raise({StatusCode::kInvalidArgument, sentence});
 }
 
-Camera CameraOf(const CameraInput& input) {
-  const auto model = ModelFromName(input.model);
+Camera MakeCamera(const std::string& model_name,
+                  int width,  // 0: that of the first of its images
+                  int height,
+                  std::vector<double> params) {
+  const auto model = ModelFromName(model_name);
   if (!model) {
     Raise({StatusCode::kUnsupported,
-           "there is no camera model '" + input.model + "'"});
+           "there is no camera model '" + model_name + "'"});
   }
-  return {*model, input.width, input.height, input.params};
+  return {*model, width, height, std::move(params)};
 }
 
-View MakeView(const ViewInput& input, std::size_t num_cameras) {
-  if (input.camera_idx < 0 ||
-      static_cast<std::size_t>(input.camera_idx) >= num_cameras) {
-    RaiseArgument("the camera of view " + input.name + " is not there");
-  }
-  const auto& [x, y, z, w] = input.quaternion;
+// `quaternion`: x y z w. An `image` takes the place of the file.
+View MakeView(std::string name,
+              fs::path image_path,
+              std::uint32_t image_id,
+              int camera_idx,
+              const std::array<double, 4>& quaternion,
+              const std::array<double, 3>& translation,
+              const std::optional<py::array>& image) {
+  const auto& [x, y, z, w] = quaternion;
   View view;
   view.cam_from_world = {RotationFromColmap({w, x, y, z}),
-                         Eigen::Vector3d(input.translation.data())};
+                         Eigen::Vector3d(translation.data())};
   if (!view.cam_from_world.rotation.coeffs().allFinite() ||
       !view.cam_from_world.translation.allFinite()) {
-    RaiseArgument("the pose of view " + input.name + " is not finite");
+    RaiseArgument("the pose of view " + name + " is not finite");
   }
-  view.name = input.name;
-  view.image_path = input.image_path;
-  view.image_id = input.image_id;
-  view.camera_idx = input.camera_idx;
-  view.image = input.image;
+  view.name = std::move(name);
+  view.image_path = std::move(image_path);
+  view.image_id = image_id;
+  view.camera_idx = camera_idx;
+  if (image) view.image = ImageOf(*image);
   return view;
+}
+
+void CheckViews(const Scene& scene) {
+  std::set<std::string> names;
+  for (const View& view : scene.views) {
+    if (view.camera_idx < 0 ||
+        static_cast<std::size_t>(view.camera_idx) >= scene.cameras.size()) {
+      RaiseArgument("the camera of view " + view.name + " is not there");
+    }
+    if (!names.insert(view.name).second) {
+      RaiseArgument("two views are named " + view.name);
+    }
+  }
 }
 
 ImageSize SizeOf(const View& view) {
@@ -158,26 +160,17 @@ std::vector<ScenePoint> PointsOf(const Doubles& positions,
   return points;
 }
 
-PythonScene MakeScene(const std::vector<CameraInput>& cameras,
-                      const std::vector<ViewInput>& views,
-                      const Doubles& positions,
-                      const Numbers& observations,
-                      const Doubles& pixels) {
-  Scene scene;
-  for (const CameraInput& camera : cameras) {
-    scene.cameras.push_back(CameraOf(camera));
-  }
-  std::set<std::string> names;
-  for (const ViewInput& view : views) {
-    scene.views.push_back(MakeView(view, cameras.size()));
-    if (!names.insert(view.name).second) {
-      RaiseArgument("two views are named " + view.name);
-    }
-  }
+PythonScene SceneOf(std::vector<Camera> cameras,
+                    std::vector<View> views,
+                    const Doubles& positions,
+                    const Numbers& observations,
+                    const Doubles& pixels) {
+  Scene scene = {std::move(cameras), std::move(views), {}};
+  CheckViews(scene);
   FindSizes(scene);
   CheckSizesInMemory(scene);
   for (const Camera& camera : scene.cameras) Check(Validate(camera));
-  scene.points = PointsOf(positions, observations, pixels, views.size());
+  scene.points = PointsOf(positions, observations, pixels, scene.views.size());
   return {std::make_shared<const Scene>(std::move(scene)), nullptr};
 }
 
@@ -215,29 +208,10 @@ py::tuple FromColmap(const fs::path& workspace, const fs::path& images) {
       notes);
 }
 
-ViewInput MakeViewInput(std::string name,
-                        fs::path image_path,
-                        std::uint32_t image_id,
-                        int camera_idx,
-                        const std::array<double, 4>& quaternion,
-                        const std::array<double, 3>& translation,
-                        const std::optional<py::array>& image) {
-  ViewInput input = {std::move(name),
-                     std::move(image_path),
-                     image_id,
-                     camera_idx,
-                     quaternion,
-                     translation,
-                     std::nullopt};
-  if (image) input.image = ImageOf(*image);
-  return input;
-}
-
 void BindInput(py::module_& module) {
-  py::class_<CameraInput>(module, "CameraInput")
-      .def(py::init<std::string, int, int, std::vector<double>>());
-  py::class_<ViewInput>(module, "ViewInput")
-      .def(py::init(&MakeViewInput),
+  py::class_<Camera>(module, "CameraInput").def(py::init(&MakeCamera));
+  py::class_<View>(module, "ViewInput")
+      .def(py::init(&MakeView),
            py::arg("name"),
            py::arg("image_path"),
            py::arg("image_id"),
@@ -265,7 +239,7 @@ void BindScene(py::module_& module) {
   BindInput(module);
   py::class_<PythonScene>(module, "Scene")
       .def_static("from_colmap", FromColmap)
-      .def_static("make", MakeScene)
+      .def_static("make", SceneOf)
       .def("with_edges", WithEdges)
       .def("__len__",
            [](const PythonScene& scene) { return scene.scene->views.size(); })

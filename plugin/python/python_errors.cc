@@ -75,12 +75,8 @@ PyObject* ClassOf(StatusCode code) {
   return PyExc_RuntimeError;
 }
 
-// Names come from files and may hold any bytes.
 void Set(const Status& status) {
-  const std::string& text = status.message();
-  const auto sentence = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
-      text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
-  PyErr_SetObject(ClassOf(status.code()), sentence.ptr());
+  PyErr_SetObject(ClassOf(status.code()), Text(status.message()).ptr());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/cancelled.h"
 #include "base/stopwatch.h"
 #include "io/stage_io.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/run/part_files.h"
 #include "plugin/run/run_stages.h"
@@ -23,16 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPartsName = "parts";
-
-// "f" with exceptions of the file system as statuses.
-template <typename F>
-auto Guarded(const F& f) -> decltype(f()) {
-  try {
-    return f();
-  } catch (const fs::filesystem_error& error) {
-    return Status(StatusCode::kNotFound, error.what());
-  }
-}
 
 RunRecord RecordOf(const RunSettings& settings) {
   RunRecord record;
@@ -193,18 +184,22 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
 Result<ScenePartition> RunPartition(const RunSettings& settings,
                                     int max_views_per_part,
                                     RunProgress& progress) {
-  return Guarded(
-      [&] { return Partition(settings, max_views_per_part, progress); });
+  return CatchFileErrors(StatusCode::kNotFound, [&] {
+    return Partition(settings, max_views_per_part, progress);
+  });
 }
 
 Result<RunRecord> RunPart(const RunSettings& settings,
                           int part_idx,
                           RunProgress& progress) {
-  return Guarded([&] { return ReconstructPart(settings, part_idx, progress); });
+  return CatchFileErrors(StatusCode::kNotFound, [&] {
+    return ReconstructPart(settings, part_idx, progress);
+  });
 }
 
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
-  return Guarded([&] { return Merge(settings, progress); });
+  return CatchFileErrors(StatusCode::kNotFound,
+                         [&] { return Merge(settings, progress); });
 }
 
 }  // namespace curvix

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "colmap/workspace.h"
 #include "measuring/world_alignment.h"
 #include "plugin/export/write_results.h"
 #include "plugin/poses/curve_poses.h"
@@ -25,12 +26,7 @@ namespace curvix {
 std::string_view ProgramVersion();
 
 // What the user asked for. Empty paths: found under the workspace.
-struct RunSettings {
-  std::filesystem::path workspace_path;
-  std::filesystem::path input_path;
-  std::filesystem::path image_path;
-  std::filesystem::path output_path;
-  std::filesystem::path mask_path;  // "": no masks
+struct RunSettings : WorkspacePaths {
   std::string preset = "default";
   PoseRefinementSettings poses;
   OutputSettings output;

@@ -100,11 +100,7 @@ Status WriteCurveFiles(const CurveRecord& curves,
 }  // namespace
 
 Result<Workspace> FindInput(const RunSettings& settings) {
-  Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
-                                               settings.input_path,
-                                               settings.image_path,
-                                               settings.output_path,
-                                               settings.mask_path});
+  Result<Workspace> workspace = FindWorkspace(settings);
   if (!workspace.ok()) return workspace;
   Status usable = CheckOutputPath(*workspace);
   if (!usable.ok()) return usable;

@@ -12,6 +12,7 @@
 #include "base/cancelled.h"
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/poses/curve_poses.h"
 #include "plugin/poses/pose_refinement.h"
@@ -157,11 +158,8 @@ Status Job::WriteRefinedModel() {
 
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress) {
-  try {
-    return Job(settings, progress).Run();
-  } catch (const fs::filesystem_error& error) {
-    return Status(StatusCode::kNotFound, error.what());
-  }
+  return CatchFileErrors(StatusCode::kNotFound,
+                         [&] { return Job(settings, progress).Run(); });
 }
 
 }  // namespace curvix

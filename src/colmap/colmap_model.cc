@@ -285,7 +285,15 @@ Scene SceneFromColmapModel(const ColmapModel& model,
   return scene;
 }
 
-ColmapModel ModelOfScene(const Scene& scene) {
+void AddObservation(const Eigen::Vector2d& pixel,
+                    ColmapImage& image,
+                    ColmapPoint3D& point) {
+  point.track.push_back(
+      {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
+  image.points2D.push_back({pixel.x(), pixel.y(), point.point3D_id});
+}
+
+ColmapModel ModelOfViews(const Scene& scene) {
   ColmapModel model;
   for (const Camera& camera : scene.cameras) {
     const auto id = static_cast<std::uint32_t>(model.cameras.size() + 1);
@@ -298,18 +306,20 @@ ColmapModel ModelOfScene(const Scene& scene) {
                             view.name,
                             {}});
   }
+  return model;
+}
+
+ColmapModel ModelOfScene(const Scene& scene) {
+  ColmapModel model = ModelOfViews(scene);
   for (const ScenePoint& point : scene.points) {
     ColmapPoint3D made;
     made.point3D_id = model.points.size() + 1;
     made.position = point.position;
     for (std::size_t i = 0; i < point.pixels.size(); ++i) {
       if (!point.pixels[i].allFinite()) continue;
-      ColmapImage& image =
-          model.images[static_cast<std::size_t>(point.view_idxs[i])];
-      made.track.push_back(
-          {image.image_id, static_cast<std::uint32_t>(image.points2D.size())});
-      image.points2D.push_back(
-          {point.pixels[i].x(), point.pixels[i].y(), made.point3D_id});
+      AddObservation(point.pixels[i],
+                     model.images[static_cast<std::size_t>(point.view_idxs[i])],
+                     made);
     }
     model.points.push_back(std::move(made));
   }

@@ -110,8 +110,15 @@ Scene SceneFromColmapModel(const ColmapModel& model,
                            const std::filesystem::path& image_folder,
                            const std::vector<std::string>& left_out = {});
 
-// A scene as COLMAP would have it. The id of a camera or a point is its index
-// and one; pixels that are not known are left out.
+// Adds a 2D point to the image, and to the track of the point that it shows.
+void AddObservation(const Eigen::Vector2d& pixel,
+                    ColmapImage& image,
+                    ColmapPoint3D& point);
+
+// A scene as COLMAP would have it, and its cameras and images alone. The id of
+// a camera or a point is its index and one; pixels that are not known are left
+// out.
 ColmapModel ModelOfScene(const Scene& scene);
+ColmapModel ModelOfViews(const Scene& scene);
 
 }  // namespace curvix

@@ -138,11 +138,6 @@ TEST_F(CommandLine, SuggestsTheNearestName) {
                     Not(HasSubstr("did you mean"))));
 }
 
-TEST_F(CommandLine, NamesTheNewNameOfARenamedOption) {
-  EXPECT_THAT(Error({"--Validation.min_evidence", "3"}),
-              HasSubstr("is now '--Validation.min_log_likelihood_ratio'"));
-}
-
 TEST_F(CommandLine, DoesNotGuessAbbreviations) {
   EXPECT_THAT(Error({"--num_thread", "2"}), HasSubstr("'--num_threads'"));
   EXPECT_THAT(Error({"-w", "2"}), HasSubstr("'-w'"));

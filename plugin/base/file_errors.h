@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exceptions of the file system as statuses.
+#pragma once
+
+#include <curvix/status.h>
+#include <filesystem>
+
+namespace curvix {
+
+// f(), a Status or a Result; `code` with the system's reason if it throws
+// std::filesystem::filesystem_error.
+template <typename F>
+auto CatchFileErrors(StatusCode code, const F& f) -> decltype(f()) {
+  try {
+    return f();
+  } catch (const std::filesystem::filesystem_error& error) {
+    return Status(code, error.what());
+  }
+}
+
+}  // namespace curvix
