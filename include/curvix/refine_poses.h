@@ -32,7 +32,9 @@ struct CurvePoses {
   std::size_t num_check_observations = 0;
   // Distances of held-out samples, projected, from the nearest edges of like
   // direction; 1 where there is none within a pixel. The samples are fitted
-  // anew to the old poses (before) and to the new ones (after).
+  // anew to the old poses (before) and to the new ones (after). These numbers
+  // and errors, and those of points below, are of the fifth that is held out
+  // first.
   ErrorsOfViews before;
   ErrorsOfViews after;
   std::size_t num_points = 0;        // sparse points that took part
@@ -41,8 +43,9 @@ struct CurvePoses {
   // The points are fitted anew to the old and to the new poses.
   ErrorsOfViews points_before;
   ErrorsOfViews points_after;
-  // z: the gain of the held-out data over its standard deviation if gains and
-  // losses were equally likely; see RefinePosesWithCurves.
+  // z: the gain of the held-out data, of all fifths that were tested, over its
+  // standard deviation if gains and losses were equally likely; see
+  // RefinePosesWithCurves.
   double significance = 0;
   std::size_t num_views_moved = 0;  // views with another pose or camera
   // How far samples at their old positions shift in an image when its pose
@@ -66,8 +69,9 @@ struct CurvePoses {
 //
 // Held out are a fifth of space, and of the points every fifth and those that
 // no view needs. A gain of test data is significant if its probability under
-// equal chances of gain and loss is below 1 in 5000; a run judges five times at
-// most.
+// equal chances of gain and loss is below 1 in 9000; a run judges nine times at
+// most. As long as what is held out leaves open if the poses are better, other
+// fifths are held out as well, and their gains count, too.
 //  * New cameras, which two fifths of space determine, are taken if poses
 //    adjusted to all other data fit it significantly better with them.
 //  * All is accepted if the held-out data fits significantly better, or no

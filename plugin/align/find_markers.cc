@@ -7,8 +7,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <utility>
 
@@ -17,6 +15,7 @@
 #include "geometry/camera_of.h"
 #include "plugin/align/marker_corners.h"
 #include "plugin/align/marker_detector.h"
+#include "plugin/base/image_file.h"
 
 namespace curvix {
 namespace {
@@ -126,15 +125,13 @@ Result<std::vector<std::vector<SeenMarker>>> DetectInViews(
   std::vector<Status> statuses(scene.views.size());
   ParallelFor(scene.views.size(), num_threads, [&](std::size_t i) {
     const View& view = scene.views[i];
-    const cv::Mat image =
-        cv::imread(view.image_path.string(),
-                   cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-    if (image.empty()) {
-      statuses[i] = {StatusCode::kNotFound,
-                     "image " + view.image_path.string() + " cannot be read"};
+    const Result<cv::Mat> image =
+        ReadImage(view.image_path, cv::IMREAD_GRAYSCALE);
+    if (!image.ok()) {
+      statuses[i] = image.status();
       return;
     }
-    seen[i] = DetectMarkers(image, dictionary);
+    seen[i] = DetectMarkers(*image, dictionary);
   });
   for (const Status& status : statuses) {
     if (!status.ok()) return status;

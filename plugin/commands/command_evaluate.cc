@@ -104,11 +104,11 @@ ExitCode RunEvaluate(const Arguments& arguments) {
                 kExitCommandLine);
   }
   const Status status = has_workspace ? EvaluateWorkspace(settings)
-                                      : RunEvaluate(settings.curves_path,
-                                                    settings.truth_path,
-                                                    settings.options,
-                                                    settings.format(),
-                                                    std::cout);
+                                      : EvaluateFiles(settings.curves_path,
+                                                      settings.truth_path,
+                                                      settings.options,
+                                                      settings.format(),
+                                                      std::cout);
   return status.ok() ? kExitSuccess : Fail(status, ExitCodeOf(status));
 }
 

@@ -4,7 +4,6 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <iostream>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
+#include "plugin/base/image_file.h"
 #include "plugin/commands/commands.h"
 #include "plugin/imports/new_workspace.h"
 
@@ -35,16 +35,9 @@ Status WriteImage(const RgbImage& image, const fs::path& path) {
     std::swap(bgr[i], bgr[i + 2]);
   }
   const cv::Mat picture(image.height, image.width, CV_8UC3, bgr.data());
-  std::vector<unsigned char> png;
-  try {
-    if (!cv::imencode(".png", picture, png)) png.clear();
-  } catch (const cv::Exception&) {
-    png.clear();
-  }
-  if (png.empty()) {
-    return {StatusCode::kInternal, "cannot encode " + path.string()};
-  }
-  return WriteFileAtomically(path, std::string(png.begin(), png.end()));
+  const Result<std::string> png = EncodeImage(".png", picture);
+  if (!png.ok()) return png.status();
+  return WriteFileAtomically(path, *png);
 }
 
 std::string TruthText(const std::vector<TrueSample>& samples) {
@@ -112,34 +105,35 @@ std::vector<std::string> CameraModels() {
 
 FlagSection ImageFlags(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
-  return {"Images",
-          {RowFlag({.name = "num_views",
-                    .field = &o.num_views,
-                    .min = 3,
-                    .max = 10000,
-                    .help = "images: all around, along a facade, or in a room"}),
-           RowFlag({.name = "width",
-                    .field = &o.width,
-                    .min = 16,
-                    .max = 10000,
-                    .unit = "px",
-                    .help = "width of an image"}),
-           RowFlag({.name = "height",
-                    .field = &o.height,
-                    .min = 16,
-                    .max = 10000,
-                    .unit = "px",
-                    .help = "height of an image"}),
-           RowFlag({.name = "noise",
-                    .field = &o.noise,
-                    .max = 255,
-                    .unit = "grey levels",
-                    .help = "standard deviation of the image noise"}),
-           RowFlag({.name = "texture",
-                    .field = &o.texture,
-                    .max = 255,
-                    .unit = "grey levels",
-                    .help = "contrast of the texture on the surfaces"})}};
+  return {
+      "Images",
+      {RowFlag({.name = "num_views",
+                .field = &o.num_views,
+                .min = 3,
+                .max = 10000,
+                .help = "images: all around, along a facade, or in a room"}),
+       RowFlag({.name = "width",
+                .field = &o.width,
+                .min = 16,
+                .max = 10000,
+                .unit = "px",
+                .help = "width of an image"}),
+       RowFlag({.name = "height",
+                .field = &o.height,
+                .min = 16,
+                .max = 10000,
+                .unit = "px",
+                .help = "height of an image"}),
+       RowFlag({.name = "noise",
+                .field = &o.noise,
+                .max = 255,
+                .unit = "grey levels",
+                .help = "standard deviation of the image noise"}),
+       RowFlag({.name = "texture",
+                .field = &o.texture,
+                .max = 255,
+                .unit = "grey levels",
+                .help = "contrast of the texture on the surfaces"})}};
 }
 
 FlagSection CameraFlags(SynthesizeSettings* settings) {

@@ -238,11 +238,11 @@ void PrintEvaluation(const Evaluation& evaluation,
   PrintTable(evaluation, out);
 }
 
-Status RunEvaluate(const std::filesystem::path& curves_path,
-                   const std::filesystem::path& truth_path,
-                   const EvaluationOptions& options,
-                   EvaluationFormat format,
-                   std::ostream& out) {
+Status EvaluateFiles(const std::filesystem::path& curves_path,
+                     const std::filesystem::path& truth_path,
+                     const EvaluationOptions& options,
+                     EvaluationFormat format,
+                     std::ostream& out) {
   const Result<CurveSet> curves = ReadCurves(curves_path, {});
   if (!curves.ok()) return curves.status();
   const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
@@ -260,11 +260,7 @@ Status RunHoldout(const RunSettings& settings,
                   EvaluationFormat format,
                   RunProgress& progress,
                   std::ostream& out) {
-  const Result<Workspace> workspace = FindWorkspace({settings.workspace_path,
-                                                     settings.input_path,
-                                                     settings.image_path,
-                                                     settings.output_path,
-                                                     settings.mask_path});
+  const Result<Workspace> workspace = FindWorkspace(settings);
   if (!workspace.ok()) return workspace.status();
   const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
   if (!input.ok()) return input.status();

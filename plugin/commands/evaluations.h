@@ -27,11 +27,11 @@ void PrintEvaluation(const Evaluation& evaluation,
                      std::ostream& out);
 
 // Reads both files, evaluates and prints.
-Status RunEvaluate(const std::filesystem::path& curves_path,
-                   const std::filesystem::path& truth_path,
-                   const EvaluationOptions& options,
-                   EvaluationFormat format,
-                   std::ostream& out);
+Status EvaluateFiles(const std::filesystem::path& curves_path,
+                     const std::filesystem::path& truth_path,
+                     const EvaluationOptions& options,
+                     EvaluationFormat format,
+                     std::ostream& out);
 
 // Reads the workspace, reconstructs without one of `every` views, compares with
 // the images of these, and prints a table for people, or one JSON object:

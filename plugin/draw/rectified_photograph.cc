@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
 #include "geometry/camera_of.h"
+#include "plugin/base/image_file.h"
 
 namespace curvix {
 namespace {
@@ -53,23 +53,6 @@ double PixelOnPlane(const Scene& scene,
   return std::max(depth / focal, least);
 }
 
-Result<cv::Mat> ReadImage(const View& view) {
-  cv::Mat image;
-  try {
-    image = cv::imread(view.image_path.string(),
-                       cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    return Status(StatusCode::kDataLoss,
-                  view.image_path.string() + ": " + error.what());
-  }
-  if (image.empty()) {
-    return Status(StatusCode::kNotFound,
-                  "Cannot read the image " + view.image_path.string() +
-                      "; check that it is there and whole");
-  }
-  return image;
-}
-
 }  // namespace
 
 std::optional<std::size_t> BestViewOf(const Scene& scene,
@@ -94,7 +77,7 @@ Result<RectifiedPhotograph> Rectify(const Scene& scene,
                                     int num_threads) {
   const View& view = scene.views[view_idx];
   const Camera& camera = CameraOf(scene, view);
-  const Result<cv::Mat> image = ReadImage(view);
+  const Result<cv::Mat> image = ReadImage(view.image_path, cv::IMREAD_COLOR);
   if (!image.ok()) return image.status();
   RectifiedPhotograph result;
   SheetPicture& place = result.place;
@@ -126,12 +109,10 @@ Result<RectifiedPhotograph> Rectify(const Scene& scene,
             cv::INTER_LINEAR,
             cv::BORDER_CONSTANT,
             cv::Scalar(255, 255, 255));
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(
-          ".jpg", flat, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality})) {
-    return Status(StatusCode::kInternal, "OpenCV cannot write .jpg");
-  }
-  result.jpeg.assign(bytes.begin(), bytes.end());
+  Result<std::string> jpeg =
+      EncodeImage(".jpg", flat, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  if (!jpeg.ok()) return jpeg.status();
+  result.jpeg = *std::move(jpeg);
   return result;
 }
 

@@ -4,13 +4,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/angles.h"
 #include "base/text_fields.h"
 #include "measuring/known_directions.h"
+#include "plugin/export/spread.h"
 
 namespace curvix {
 namespace {
@@ -175,19 +175,12 @@ std::vector<std::size_t> SpreadNodes(const std::vector<CurveNode>& nodes) {
     return nodes[a].covariance.trace() < nodes[b].covariance.trace();
   });
   order.resize((order.size() + 1) / 2);
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return (nodes[order[i]].position - nodes[order[j]].position).norm();
+  };
   std::vector<std::size_t> chosen;
-  std::vector<double> distance(order.size(),
-                               std::numeric_limits<double>::max());
-  while (chosen.size() < std::min(order.size(), kMaxPartners)) {
-    const auto next = static_cast<std::size_t>(
-        std::max_element(distance.begin(), distance.end()) - distance.begin());
-    chosen.push_back(order[next]);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      distance[i] = std::min(
-          distance[i],
-          (nodes[order[i]].position - nodes[order[next]].position).norm());
-    }
-    distance[next] = -1;
+  for (const std::size_t i : SpreadOut(order.size(), kMaxPartners, distance)) {
+    chosen.push_back(order[i]);
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <variant>
 #include <vector>
@@ -17,6 +15,8 @@
 #include "base/parallel.h"
 #include "geometry/camera_of.h"
 #include "io/curve_style.h"
+#include "plugin/base/image_file.h"
+#include "plugin/export/spread.h"
 
 namespace curvix {
 namespace {
@@ -44,21 +44,14 @@ std::vector<Place> PlacesOf(const Scene& scene) {
 
 std::vector<int> SpreadViews(const Scene& scene, int count) {
   const std::vector<Place> places = PlacesOf(scene);
-  std::vector<double> farness(places.size(),
-                              std::numeric_limits<double>::infinity());
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return (places[i].center - places[j].center).norm() +
+           (places[i].direction - places[j].direction).norm();
+  };
   std::vector<int> chosen;
-  while (static_cast<int>(chosen.size()) < count &&
-         chosen.size() < places.size()) {
-    const auto farthest = std::max_element(farness.begin(), farness.end());
-    const auto idx = static_cast<std::size_t>(farthest - farness.begin());
-    chosen.push_back(static_cast<int>(idx));
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const double distance =
-          (places[i].center - places[idx].center).norm() +
-          (places[i].direction - places[idx].direction).norm();
-      farness[i] = std::min(farness[i], distance);
-    }
-    farness[idx] = -1;
+  for (const std::size_t i :
+       SpreadOut(places.size(), static_cast<std::size_t>(count), distance)) {
+    chosen.push_back(static_cast<int>(i));
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;
@@ -87,26 +80,13 @@ cv::Mat PhotoOf(const ImageInMemory& image) {
   return photo;
 }
 
-Result<cv::Mat> ReadPhoto(const View& view, int flags) {
+Result<cv::Mat> ReadPhoto(const View& view, cv::ImreadModes mode) {
   if (view.image) return PhotoOf(*view.image);
-  cv::Mat photo;
-  try {
-    photo = cv::imread(view.image_path.string(),
-                       flags | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    return Status(StatusCode::kDataLoss,
-                  view.image_path.string() + ": " + error.what());
-  }
-  if (photo.empty()) {
-    return Status(StatusCode::kNotFound,
-                  "Cannot read the image " + view.image_path.string() +
-                      "; check that it is there and whole.");
-  }
-  return photo;
+  return ReadImage(view.image_path, mode);
 }
 
 // OpenCV reads JPEG at a fraction of its size in a fraction of the time.
-int ReadFlags(double reduction) {
+cv::ImreadModes ReadMode(double reduction) {
   if (reduction >= 8) return cv::IMREAD_REDUCED_COLOR_8;
   if (reduction >= 4) return cv::IMREAD_REDUCED_COLOR_4;
   if (reduction >= 2) return cv::IMREAD_REDUCED_COLOR_2;
@@ -134,17 +114,6 @@ cv::Mat2f PinholeMap(const Camera& camera, cv::Size small, cv::Size size) {
   return map;
 }
 
-Result<std::string> Encode(const char* extension,
-                           const cv::Mat& image,
-                           const std::vector<int>& parameters) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(extension, image, bytes, parameters)) {
-    return Status(StatusCode::kInternal,
-                  std::string("OpenCV cannot write ") + extension);
-  }
-  return std::string(bytes.begin(), bytes.end());
-}
-
 Result<std::string> SmallPinholeJpeg(const View& view,
                                      const Camera& camera,
                                      int max_size_px) {
@@ -152,7 +121,7 @@ Result<std::string> SmallPinholeJpeg(const View& view,
   const double reduction = std::max(
       1.0,
       static_cast<double>(std::max(camera.width, camera.height)) / max_size_px);
-  Result<cv::Mat> photo = ReadPhoto(view, ReadFlags(reduction));
+  Result<cv::Mat> photo = ReadPhoto(view, ReadMode(reduction));
   if (!photo.ok()) return photo.status();
   const auto shrunk = [&](int full) {
     return std::max(1, static_cast<int>(std::lround(full / reduction)));
@@ -177,7 +146,7 @@ Result<std::string> SmallPinholeJpeg(const View& view,
               cv::noArray(),
               cv::INTER_LINEAR);
   }
-  return Encode(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  return EncodeImage(".jpg", image, {cv::IMWRITE_JPEG_QUALITY, kQuality});
 }
 
 cv::Scalar Color(std::size_t curve_id) {
@@ -244,7 +213,7 @@ Result<std::string> OverlayPng(const CurveSource& curves,
       }
     });
   }
-  return Encode(".png", *photo, {});
+  return EncodeImage(".png", *photo);
 }
 
 }  // namespace curvix

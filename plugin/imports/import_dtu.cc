@@ -9,6 +9,7 @@
 
 #include "base/file_io.h"
 #include "base/text_fields.h"
+#include "colmap/links.h"
 #include "plugin/imports/npy.h"
 #include "plugin/imports/projection_matrix.h"
 
@@ -234,14 +235,14 @@ Result<fs::path> FindFolder(const ImportOptions& options,
 Result<ImportedScene> ImportDtu(const ImportOptions& options) {
   fs::path source = options.input_path;
   Projections projections;
-  if (fs::is_directory(source)) {
+  if (IsFolder(source)) {
     Result<Projections> positions = ReadPosFolder(source);
     if (!positions.ok()) return positions.status();
     projections = std::move(positions).value();
   }
   const bool is_npz = projections.empty();
   if (is_npz) {
-    const Result<fs::path> file = fs::is_directory(source)
+    const Result<fs::path> file = IsFolder(source)
                                       ? OnlyFile(source, "cameras", ".npz")
                                       : Result<fs::path>(source);
     if (!file.ok()) return file.status();

@@ -6,6 +6,7 @@
 
 #include "base/file_io.h"
 #include "base/text_fields.h"
+#include "colmap/links.h"
 #include "plugin/imports/projection_matrix.h"
 
 namespace curvix {
@@ -97,7 +98,7 @@ Result<std::vector<ImportedView>> ViewsOf(const std::vector<ParLine>& lines,
 
 Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   fs::path file = options.input_path;
-  if (fs::is_directory(file)) {
+  if (IsFolder(file)) {
     const Result<fs::path> found = OnlyFile(file, "", "_par.txt");
     if (!found.ok()) return found.status();
     file = *found;

@@ -317,7 +317,7 @@ Result<ImportedView> ViewOf(const json& frame,
 }
 
 fs::path TransformsFile(const fs::path& input_path) {
-  if (!fs::is_directory(input_path)) return input_path;
+  if (!IsFolder(input_path)) return input_path;
   const fs::path train = input_path / "transforms_train.json";
   const fs::path all = input_path / "transforms.json";
   return !IsFile(all) && IsFile(train) ? train : all;

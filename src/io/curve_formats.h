@@ -65,8 +65,9 @@ Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene);
 // wireframe. Lines and arcs are TRIMMED_CURVEs of LINE, CIRCLE and ELLIPSE,
 // whole ones CIRCLE and ELLIPSE, splines B_SPLINE_CURVE_WITH_KNOTS; each is
 // named after its curve, "curve_<id>". There is one GEOMETRIC_CURVE_SET per
-// kind, in the order of the curves, on a layer of the name that it has in DXF.
-// Coordinates are those of the model. STEP must declare a unit: millimetres.
+// type, in the order of ARCS, CIRCLES, ELLIPSES, LINES and SPLINES, on a layer
+// of that name; in it the curves are in their order. Coordinates are those of
+// the model. STEP must declare a unit: millimetres.
 void EncodeStepDrawing(const FittedCurves& fitted, const ByteSink& sink);
 
 }  // namespace curvix

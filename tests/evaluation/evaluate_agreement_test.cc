@@ -66,7 +66,7 @@ class EvaluateAgreement : public ::testing::Test {
     ASSERT_TRUE(WriteCurves(path, curves, {}).ok());
     std::ostringstream ours;
     const Status status =
-        RunEvaluate(path, truth_path, {}, EvaluationFormat::kJson, ours);
+        EvaluateFiles(path, truth_path, {}, EvaluationFormat::kJson, ours);
     ASSERT_TRUE(status.ok()) << status.message();
     const auto actual = nlohmann::json::parse(ours.str());
     const auto expected = nlohmann::json::parse(

@@ -211,9 +211,9 @@ TEST(PrintEvaluation, TableIsAligned) {
   EXPECT_THAT(text.str(), HasSubstr("accuracy                    0.000 mm\n"));
 }
 
-TEST(RunEvaluate, MissingFilesAreNamed) {
+TEST(EvaluateFiles, MissingFilesAreNamed) {
   std::ostringstream out;
-  const Status status = RunEvaluate(
+  const Status status = EvaluateFiles(
       "no_curves.ply", "no_truth.txt", {}, EvaluationFormat::kTable, out);
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_THAT(status.message(), HasSubstr("no_curves.ply"));

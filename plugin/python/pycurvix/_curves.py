@@ -178,7 +178,7 @@ class Curves:
 
     @property
     def node_covariances(self) -> NDArray[np.float64]:
-        """Of the positions of `nodes` (N, 3, 3), world units squared."""
+        """Of the positions of `nodes` (M, 3, 3), world units squared."""
         return self._core.node_covariances
 
     @property
@@ -275,8 +275,8 @@ class Curves:
             Of the file, or of the folder for 'colmap'.
         format : str, optional
             One of those of ``--output_formats``: 'ply', 'obj', 'pcd', 'txt',
-            'json', 'dxf', 'vtp', 'glb', 'svg', 'colmap', 'html'. By default
-            what the ending of the path says.
+            'json', 'csv', 'dxf', 'step', 'vtp', 'glb', 'svg', 'colmap',
+            'html'. By default what the ending of the path says.
         svg_image : str, optional
             The name of the image that an SVG shows; by default the first.
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/base/image_file.h"
+
+namespace curvix {
+
+Result<cv::Mat> ReadImage(const std::filesystem::path& path,
+                          cv::ImreadModes mode) {
+  cv::Mat image;
+  try {
+    image = cv::imread(path.string(), mode | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception& error) {
+    return Status(StatusCode::kDataLoss, path.string() + ": " + error.what());
+  }
+  if (image.empty()) {
+    return Status(StatusCode::kNotFound,
+                  "Cannot read the image " + path.string() +
+                      "; check that it is there and whole.");
+  }
+  return image;
+}
+
+Result<std::string> EncodeImage(const char* extension,
+                                const cv::Mat& image,
+                                const std::vector<int>& parameters) {
+  std::vector<unsigned char> bytes;
+  try {
+    if (!cv::imencode(extension, image, bytes, parameters)) bytes.clear();
+  } catch (const cv::Exception&) {
+    bytes.clear();
+  }
+  if (bytes.empty()) {
+    return Status(StatusCode::kInternal,
+                  std::string("OpenCV cannot write ") + extension);
+  }
+  return std::string(bytes.begin(), bytes.end());
+}
+
+}  // namespace curvix
