@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "base/angles.h"
 #include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
@@ -85,8 +85,7 @@ void MeasureMoves(const Bundle& before,
         (to.Inverse().translation - from.Inverse().translation).norm();
     const double turn = from.rotation.angularDistance(to.rotation);
     judgement->max_move = std::max(judgement->max_move, move / distance);
-    judgement->max_turn_deg =
-        std::max(judgement->max_turn_deg, turn * 180 / std::numbers::pi);
+    judgement->max_turn_deg = std::max(judgement->max_turn_deg, RadToDeg(turn));
   }
   const std::vector<double> shifts = Shifts(before, after);
   const auto largest = std::max_element(shifts.begin(), shifts.end());

@@ -23,14 +23,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using RowMatrix23d = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 using RowMatrix26d = Eigen::Matrix<double, 2, 6, Eigen::RowMajor>;
 
-// The rotation by |w| about w.
-Eigen::Quaterniond Rotation(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
-}
-
-// Rotation(w + dw) ~ Rotation(w) Rotation(J dw) for small dw: this is J.
+// RotationBy(w + dw) ~ RotationBy(w) RotationBy(J dw) for small dw: this is J.
 Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
   const double angle2 = w.squaredNorm();
   const double angle = std::sqrt(angle2);
@@ -45,7 +38,7 @@ Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& w) {
 // A pose is the input pose followed by an increment: rotation vector, then
 // translation, both in the camera's frame.
 Rigid3 Moved(const Vector6d& motion, const Rigid3& pose) {
-  return Rigid3{Rotation(motion.head<3>()), motion.tail<3>()} * pose;
+  return Rigid3{RotationBy(motion.head<3>()), motion.tail<3>()} * pose;
 }
 
 // Projected minus observed, in pixels. Parameters: the increment of the pose
@@ -64,7 +57,7 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, 6, 3> {
     const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);
     const Eigen::Vector3d before = pose_ * point;
     const Eigen::Map<const Vector6d> motion(parameters[0]);
-    const Eigen::Quaterniond turn = Rotation(motion.head<3>());
+    const Eigen::Quaterniond turn = RotationBy(motion.head<3>());
     const Eigen::Vector3d x = turn * before + motion.tail<3>();
     if (!(x.z() > 0)) return false;
     const Eigen::Vector2d uv = x.hnormalized();

@@ -12,6 +12,10 @@
 
 namespace curvix {
 
+// Standard deviation of a normal distribution, over the median of absolute
+// values.
+inline constexpr double kSigmasPerMedian = 1.4826;
+
 // The value in the middle; of an even number, the larger. `values` must
 // not be empty or hold NaN.
 inline double Median(std::vector<double> values) {

@@ -2,8 +2,9 @@
 // Paper: none (engineering). The rows; option_text.cc reads and prints them.
 #include "base/option_table.h"
 
-#include <limits>
 #include <utility>
+
+#include "base/infinity.h"
 
 namespace curvix {
 namespace {
@@ -14,10 +15,8 @@ struct Range {
   bool min_is_excluded;
 };
 
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-
-constexpr Range AtLeast(double min) { return {min, kNoLimit, false}; }
-constexpr Range Above(double min) { return {min, kNoLimit, true}; }
+constexpr Range AtLeast(double min) { return {min, kInfinity, false}; }
+constexpr Range Above(double min) { return {min, kInfinity, true}; }
 constexpr Range Between(double min, double max) { return {min, max, false}; }
 constexpr Range AboveUpTo(double min, double max) { return {min, max, true}; }
 

@@ -5,14 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kPi = std::numbers::pi;
 
 // Nearer points may be of the same edge.
 constexpr double kMinDistancePx = 3;

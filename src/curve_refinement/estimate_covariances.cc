@@ -14,6 +14,7 @@
 #include "curve_refinement/response_curve.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
+#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -104,8 +105,7 @@ class CurveInViews {
         const auto [place, is_new] =
             places.emplace(ref.view_idx, centers_.size());
         if (is_new) centers_.push_back(views[v].center);
-        const Edge2d& edge =
-            edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        const Edge2d& edge = EdgeOf(ref, edge_maps);
         evidence.push_back(Measure(sample.position,
                                    views[v],
                                    Unblurred(edge, views[v], bend, response),

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 
@@ -21,9 +22,7 @@ double MedianContrast(const Curve& curve,
   std::vector<double> strengths;
   for (const CurveSample& sample : curve.samples) {
     for (const EdgeRef& ref : sample.support) {
-      const EdgeMap& map = edge_maps[static_cast<std::size_t>(ref.view_idx)];
-      strengths.push_back(static_cast<double>(
-          map.edges[static_cast<std::size_t>(ref.edge_idx)].strength));
+      strengths.push_back(static_cast<double>(EdgeOf(ref, edge_maps).strength));
     }
   }
   return MedianOr(0, std::move(strengths));
@@ -57,6 +56,23 @@ bool Passes(const CurveQualities& curve, const CurveFilterOptions& options) {
          (options.max_sigma_px == 0 || curve.sigma_px <= options.max_sigma_px);
 }
 
+// The parts of the curves, in order, that are of these kinds: runs of two or
+// more samples.
+std::vector<Curve> KeepKinds(std::vector<Curve> curves,
+                             const CurveKindSet& kinds) {
+  std::vector<Curve> pieces;
+  for (Curve& curve : curves) {
+    std::vector<bool> kept;
+    for (const CurveSample& sample : curve.samples) {
+      kept.push_back(kinds.Has(sample.kind));
+    }
+    for (Curve& piece : KeepRanges(std::move(curve), std::move(kept))) {
+      pieces.push_back(std::move(piece));
+    }
+  }
+  return pieces;
+}
+
 }  // namespace
 
 CurveQualities Measure(const Curve& curve,
@@ -79,21 +95,6 @@ CurveQualities Measure(const Curve& curve,
   qualities.length_px = Length(curve) / pixel;
   qualities.straightness = Straightness(curve, kStraightnessPx * pixel);
   return qualities;
-}
-
-std::vector<Curve> KeepKinds(std::vector<Curve> curves,
-                             const CurveKindSet& kinds) {
-  std::vector<Curve> pieces;
-  for (Curve& curve : curves) {
-    std::vector<bool> kept;
-    for (const CurveSample& sample : curve.samples) {
-      kept.push_back(kinds.Has(sample.kind));
-    }
-    for (Curve& piece : KeepRanges(std::move(curve), std::move(kept))) {
-      pieces.push_back(std::move(piece));
-    }
-  }
-  return pieces;
 }
 
 std::vector<Curve> FilterCurves(std::vector<Curve> curves,

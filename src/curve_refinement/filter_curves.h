@@ -25,11 +25,6 @@ CurveQualities Measure(const Curve& curve,
                        const std::vector<PosedView>& views,
                        const std::vector<EdgeMap>& edge_maps);
 
-// The parts of the curves, in order, that are of these kinds: runs of two or
-// more samples.
-std::vector<Curve> KeepKinds(std::vector<Curve> curves,
-                             const CurveKindSet& kinds);
-
 // The curves, in order, that pass every filter, first that of kinds. The
 // defaults let all pass.
 std::vector<Curve> FilterCurves(std::vector<Curve> curves,

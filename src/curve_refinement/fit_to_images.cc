@@ -15,6 +15,7 @@
 #include "curve_refinement/response_curve.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
+#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -156,8 +157,7 @@ class CurveFitter {
       std::vector<PlaneMeasurement> measured;
       for (const EdgeRef& ref : curve_.samples[k].support) {
         const auto v = static_cast<std::size_t>(ref.view_idx);
-        const Edge2d& edge =
-            edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+        const Edge2d& edge = EdgeOf(ref, edge_maps);
         measured.push_back(
             MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)));
       }

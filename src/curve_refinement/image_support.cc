@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "base/check.h"
 #include "base/parallel.h"
+#include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
 
 namespace curvix {
@@ -17,6 +18,15 @@ constexpr double kMaxTangentialPx = 1;
 constexpr double kMaxEdgeAngleDeg = 15;
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> SupportingCenters(
+    const CurveSample& sample, const std::vector<PosedView>& views) {
+  std::vector<Eigen::Vector3d> centers;
+  for (const EdgeRef& ref : sample.support) {
+    centers.push_back(views[static_cast<std::size_t>(ref.view_idx)].center);
+  }
+  return centers;
+}
 
 ImageSupport::ImageSupport(const std::vector<PosedView>& views,
                            const std::vector<EdgeMap>& edge_maps,
@@ -36,8 +46,8 @@ std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
       max_distance_px, kMaxTangentialPx, std::cos(DegToRad(kMaxEdgeAngleDeg))};
   std::vector<EdgeRef> support;
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    const auto projected = ProjectEdge(views_[v], {position, tangent});
-    if (!projected || !views_[v].Contains(projected->position)) continue;
+    const auto projected = ProjectInto(views_[v], {position, tangent});
+    if (!projected) continue;
     const auto nearest = NearestEdge(grids_[v], *projected, gate);
     if (nearest) support.push_back({static_cast<std::int32_t>(v), *nearest});
   }

@@ -2,6 +2,7 @@
 // Paper: none (beyond it). Which 2D edges of all views a place on a curve has.
 #pragma once
 
+#include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <Eigen/Core>
 #include <cstddef>
@@ -12,6 +13,10 @@
 #include "model/posed_view.h"
 
 namespace curvix {
+
+// The centres of the views that support a sample.
+std::vector<Eigen::Vector3d> SupportingCenters(
+    const CurveSample& sample, const std::vector<PosedView>& views);
 
 // The edges of all views, indexed by place. Refers to `views`.
 class ImageSupport {

@@ -11,6 +11,7 @@
 #include "curve_refinement/nearest_contour.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
+#include "geometry/edge_geometry.h"
 #include "geometry/occluding_contour.h"
 #include "geometry/pixel_size.h"
 
@@ -57,18 +58,15 @@ Place Look(const CurveSample& sample,
            const std::vector<PosedView>& views,
            const ImageSupport& images) {
   const SpaceEdge axis = {sample.position, sample.tangent};
-  std::vector<Vector3d> supporting;
-  for (const EdgeRef& ref : sample.support) {
-    supporting.push_back(views[static_cast<std::size_t>(ref.view_idx)].center);
-  }
-  const OccludingContour contour = {axis, 0, MeanSide(axis, supporting)};
+  const OccludingContour contour = {
+      axis, 0, MeanSide(axis, SupportingCenters(sample, views))};
   const AcrossAxes across = AxesAcross(sample.tangent);
   Place place;
   place.pixel = PixelSize(sample.position, sample.support, views);
   double num_edges = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const auto projected = ProjectEdge(views[v], axis);
-    if (!projected || !views[v].Contains(projected->position)) continue;
+    const auto projected = ProjectInto(views[v], axis);
+    if (!projected) continue;
     PlaceInView& seen = place.views.emplace_back();
     seen.edges_px = images.Beside(v, *projected, kReachPx);
     num_edges += static_cast<double>(seen.edges_px.size());

@@ -138,8 +138,7 @@ ResponsePlace PlaceOf(const Curve& curve,
   const std::optional<Bend> bend = BendAround(curve, index, pixel);
   for (const EdgeRef& ref : sample.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
-    const Edge2d& edge =
-        edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
+    const Edge2d& edge = EdgeOf(ref, edge_maps);
     place.measurements.push_back(
         MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)));
     place.levers.push_back(ResponseShift(edge));

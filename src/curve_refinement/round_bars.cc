@@ -14,6 +14,7 @@
 #include "curve_refinement/nearest_contour.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
+#include "geometry/edge_geometry.h"
 #include "geometry/occluding_contour.h"
 #include "geometry/pixel_size.h"
 #include "model/samples_along.h"
@@ -68,15 +69,6 @@ struct BarPlace {
   double density = 0;  // of other contours, per pixel across the curve
 };
 
-std::vector<Vector3d> SupportingCenters(const CurveSample& sample,
-                                        const std::vector<PosedView>& views) {
-  std::vector<Vector3d> centers;
-  for (const EdgeRef& ref : sample.support) {
-    centers.push_back(views[static_cast<std::size_t>(ref.view_idx)].center);
-  }
-  return centers;
-}
-
 // `pixel`: of the curve, world units. `outward` is across the curve, unit.
 BarPlace Look(const CurveSample& sample,
               const Vector3d& outward,
@@ -90,8 +82,8 @@ BarPlace Look(const CurveSample& sample,
   place.outward = across.transpose() * outward;
   double num_edges = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const auto projected = ProjectEdge(views[v], contour.axis);
-    if (!projected || !views[v].Contains(projected->position)) continue;
+    const auto projected = ProjectInto(views[v], contour.axis);
+    if (!projected) continue;
     const Vector3d side = SideSeenFrom(contour, views[v].center);
     if (side.dot(outward) < kMinCosine) continue;
     std::vector<double> edges_px = images.Beside(v, *projected, kBarReachPx);

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "curve_refinement/occluding_contours.h"
 #include "geometry/adjust_edge.h"
+#include "geometry/edge_geometry.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
@@ -24,7 +25,6 @@ constexpr double kBlurred = 0.7;
 // ... and so many standard deviations more blurred than edges of the view are.
 constexpr double kBlurredSigmas = 5;
 constexpr double kSigmasOfLowerQuartile = 0.6745;
-constexpr double kSigmasOfMedianDistance = 1.4826;
 // Every third sample tells the dilution of sharp views.
 constexpr std::size_t kSampleStep = 3;
 
@@ -40,8 +40,7 @@ void AddSupport(const CurveSample& sample,
                 Support& support) {
   for (const EdgeRef& ref : sample.support) {
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);
-    const Edge2d& edge =
-        edge_maps[view_idx].edges[static_cast<std::size_t>(ref.edge_idx)];
+    const Edge2d& edge = EdgeOf(ref, edge_maps);
     const Eigen::Vector3d in_camera = views[view_idx].InCamera(sample.position);
     if (!(in_camera.z() > 0)) continue;
     const Eigen::Vector2d offset =
@@ -61,10 +60,8 @@ double LeastDilution(const CurveSample& sample,
   const SpaceEdge edge{sample.position, sample.tangent};
   std::vector<PlaneMeasurement> measurements;
   for (const PosedView& view : views) {
-    const auto projected = ProjectEdge(view, edge);
-    if (projected && view.Contains(projected->position)) {
-      measurements.push_back(MeasurePlane(view, *projected));
-    }
+    const auto projected = ProjectInto(view, edge);
+    if (projected) measurements.push_back(MeasurePlane(view, *projected));
   }
   if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
   const double pixel = PixelSize(sample.position, sample.support, views);
@@ -107,9 +104,8 @@ double SharpDilution(const CurveSample& sample,
   for (const EdgeRef& ref : sample.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
     if (!are_sharp[v]) continue;
-    const Edge2d& edge =
-        edge_maps[v].edges[static_cast<std::size_t>(ref.edge_idx)];
-    measurements.push_back(MeasurePlane(views[v], ToImageEdge(edge)));
+    measurements.push_back(
+        MeasurePlane(views[v], ToImageEdge(EdgeOf(ref, edge_maps))));
   }
   if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
   const Eigen::Matrix2d covariance =
@@ -155,8 +151,11 @@ double LeastSharpness(const std::vector<Edge2d>& edges) {
   return typical * std::min(kBlurred, std::exp(-kBlurredSigmas * sigma));
 }
 
-}  // namespace
-
+// Of each view, how sharp a curve must be not to count as blurred: 0.7 of the
+// median sharpness of the steeper half of its edges, or five standard
+// deviations below it, if these differ more, as in photographs, of which some
+// parts are out of focus. The standard deviation is that of the logarithm, from
+// the lower quartile. 0 if it is not known: then nothing counts as blurred.
 std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps) {
   std::vector<double> least;
   for (const EdgeMap& map : edge_maps) {
@@ -165,6 +164,29 @@ std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps) {
   return least;
 }
 
+struct CurveTraits {
+  // How many times less surely than one 2D edge, across it, the place of the
+  // curve is known: the median over the samples of sigma in pixels
+  // (pixel_size.h) over that of an edge. It falls with the number of supporting
+  // views, and grows where their rays lie in one plane and where their edges
+  // are off by more than edges should be.
+  double dilution = 0;
+  // That of the middle sample, if all views that look at it supported it,
+  // exactly.
+  double least_dilution = 0;
+  // 1.48 times the median distance of the supporting edges from the projected
+  // samples, which for normal errors is their standard deviation. Pixels.
+  double scatter_px = 0;
+  // The share of the supporting edges that lie in views in which this curve is
+  // blurred: the median sharpness of its edges there is below
+  // LeastSharpness(). 0..1.
+  double blurred_share = 0;
+  // The dilution that edges of the other views alone leave. Infinite, if fewer
+  // than two of them support most samples.
+  double sharp_dilution = 0;
+};
+
+// nullopt if no sample has both a sigma and support.
 std::optional<CurveTraits> MeasureCurve(
     const Curve& curve,
     const std::vector<PosedView>& views,
@@ -191,11 +213,9 @@ std::optional<CurveTraits> MeasureCurve(
           ? SharpDilution(curve, views, edge_maps, are_sharp, edge_sigma_px)
           : traits.dilution;
   traits.scatter_px =
-      kSigmasOfMedianDistance * Median(std::move(support.distances_px));
+      kSigmasPerMedian * Median(std::move(support.distances_px));
   return traits;
 }
-
-namespace {
 
 // Sampling by pixels leaves as much.
 constexpr double kLeastScatterPx = 0.06;

@@ -6,7 +6,6 @@
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
-#include <optional>
 #include <vector>
 
 #include "curve_refinement/image_support.h"
@@ -14,54 +13,18 @@
 
 namespace curvix {
 
-// A real edge of the scene is a step in the image, as sharp as the image can
-// show it, and keeps its place as the view moves. Of what else shows as an
-// edge, a shading edge, where a blend meets a face, is blurred, and an
-// occluding contour lies elsewhere on its body in every view. Along a whole
-// curve noise averages out, and both show.
-struct CurveTraits {
-  // How many times less surely than one 2D edge, across it, the place of the
-  // curve is known: the median over the samples of sigma in pixels
-  // (pixel_size.h) over that of an edge. It falls with the number of supporting
-  // views, and grows where their rays lie in one plane and where their edges
-  // are off by more than edges should be.
-  double dilution = 0;
-  // That of the middle sample, if all views that look at it supported it,
-  // exactly.
-  double least_dilution = 0;
-  // 1.48 times the median distance of the supporting edges from the projected
-  // samples, which for normal errors is their standard deviation. Pixels.
-  double scatter_px = 0;
-  // The share of the supporting edges that lie in views in which this curve is
-  // blurred: the median sharpness of its edges there is below
-  // LeastSharpness(). 0..1.
-  double blurred_share = 0;
-  // The dilution that edges of the other views alone leave. Infinite, if fewer
-  // than two of them support most samples.
-  double sharp_dilution = 0;
-};
-
-// Of each view, how sharp a curve must be not to count as blurred: 0.7 of the
-// median sharpness of the steeper half of its edges, or five standard
-// deviations below it, if these differ more, as in photographs, of which some
-// parts are out of focus. The standard deviation is that of the logarithm, from
-// the lower quartile. 0 if it is not known: then nothing counts as blurred.
-std::vector<double> LeastSharpness(const std::vector<EdgeMap>& edge_maps);
-
-// `edge_sigma_px`: the standard deviation of a 2D edge's place that the sigmas
-// of samples assume, > 0. nullopt if no sample has both a sigma and support.
-std::optional<CurveTraits> MeasureCurve(
-    const Curve& curve,
-    const std::vector<PosedView>& views,
-    const std::vector<EdgeMap>& edge_maps,
-    const std::vector<double>& least_sharpness,
-    double edge_sigma_px);
-
+// What SelectCurves() keeps.
 struct SelectedCurves {
   std::vector<Curve> edges;
   std::vector<Curve> occluding_contours;  // labelled
 };
 
+// A real edge of the scene is a step in the image, as sharp as the image can
+// show it, and keeps its place as the view moves. Of what else shows as an
+// edge, a shading edge, where a blend meets a face, is blurred, and an
+// occluding contour lies elsewhere on its body in every view. Along a whole
+// curve noise averages out, and both show.
+//
 // Sorts the curves, each kind in the given order. A curve is
 //  * an occluding contour, if
 //      dilution * max(1, s / r) > allowed * (1 - max(0, l) / 4)
@@ -82,7 +45,8 @@ struct SelectedCurves {
 // weighted by length / dilution^2; at least 0.06 px, which sampling by pixels
 // leaves. Curves whose sigma is not known or that have no support count as
 // edges; if options.max_dilution is 0, all do. `images`: of these views and
-// edge maps. `edge_sigma_px`: as of MeasureCurve().
+// edge maps. `edge_sigma_px`: the standard deviation of a 2D edge's place that
+// the sigmas of samples assume, > 0.
 SelectedCurves SelectCurves(std::vector<Curve> curves,
                             const std::vector<PosedView>& views,
                             const std::vector<EdgeMap>& edge_maps,

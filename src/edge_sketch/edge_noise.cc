@@ -25,7 +25,6 @@ constexpr std::size_t kMinNumSupports = 4;
 // A place across a contour, its radius; fewer than the supports.
 constexpr double kNumParameters = 3;
 constexpr std::size_t kMinNumDistances = 100;
-constexpr double kSigmasOfMedianDistance = 1.4826;
 
 // Of the supports of `edge` from the contour that agrees best with all of them,
 // as large as they would be from the true one. On an edge the radius is zero,
@@ -36,10 +35,9 @@ void AddDistances(const Edge3d& edge,
                   std::vector<double>& distances_px) {
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : edge.support) {
-    const auto v = static_cast<std::size_t>(ref.view_idx);
-    const auto i = static_cast<std::size_t>(ref.edge_idx);
     measurements.push_back(
-        MeasurePlane(input.views[v], ToImageEdge(input.edge_maps[v].edges[i])));
+        MeasurePlane(input.views[static_cast<std::size_t>(ref.view_idx)],
+                     ToImageEdge(EdgeOf(ref, input.edge_maps))));
   }
   OccludingContour start;
   start.axis = {edge.position, edge.tangent};
@@ -72,8 +70,7 @@ double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done) {
     AddDistances(edge, input, pilot.sigma_px, distances_px);
   }
   if (distances_px.size() < kMinNumDistances) return least_px;
-  const double sigma_px =
-      kSigmasOfMedianDistance * Median(std::move(distances_px));
+  const double sigma_px = kSigmasPerMedian * Median(std::move(distances_px));
   // Rounded, so that the last bits of sums make no difference.
   return std::max(least_px, std::round(sigma_px * 1000) / 1000);
 }

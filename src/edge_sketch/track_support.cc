@@ -7,7 +7,9 @@
 
 #include "base/angles.h"
 #include "edge_sketch/visible_side.h"
+#include "geometry/edge_geometry.h"
 #include "geometry/image_edge.h"
+#include "geometry/nearest_edge.h"
 
 namespace curvix {
 namespace {
@@ -33,16 +35,6 @@ Search MakeSearch(double sigma_px, const ValidationOptions& options) {
   return {sigma_px,
           options.max_distance_px,
           std::cos(DegToRad(options.max_angle_deg))};
-}
-
-// nullopt where ProjectEdge() has no answer, and outside the image.
-std::optional<ImageEdge> ProjectInto(const ViewIndex& view,
-                                     const SpaceEdge& edge) {
-  auto projected = ProjectEdge(*view.view, edge);
-  if (!projected || !view.view->Contains(projected->position)) {
-    return std::nullopt;
-  }
-  return projected;
 }
 
 // False only if no edge can be found for `edge`.
@@ -75,7 +67,7 @@ std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
   const auto expected_px = ExpectedDistance(estimate, projected, view, search);
   if (!expected_px) return std::nullopt;
   return NearestEdge(
-      view,
+      view.grid,
       projected,
       {std::min(search.max_distance_px, kGateSigmas * *expected_px),
        kMaxSupportSlidePx,
@@ -106,7 +98,7 @@ std::optional<std::vector<EdgeRef>> FindSupport(
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (sightings.size() + (asked.size() - i) < fewest) return std::nullopt;
     const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
-    const auto projected = ProjectInto(view, estimate.edge);
+    const auto projected = ProjectInto(*view.view, estimate.edge);
     if (projected &&
         view.presence.MayHave(projected->position, projected->tangent)) {
       sightings.push_back({asked[i], *projected});
@@ -143,7 +135,7 @@ std::optional<double> VoteOf(const ViewIndex& view,
                              const std::optional<ImageEdge>& support,
                              const EdgeEstimate& estimate,
                              const Search& search) {
-  const auto projected = ProjectInto(view, estimate.edge);
+  const auto projected = ProjectInto(*view.view, estimate.edge);
   if (!projected) return std::nullopt;
   const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
   if (!expected_px) return std::nullopt;

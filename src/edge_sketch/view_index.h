@@ -3,15 +3,12 @@
 #pragma once
 
 #include <curvix/edges.h>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/grid_index.h"
 #include "edge_sketch/edge_density.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/nearest_edge.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -24,12 +21,6 @@ struct ViewIndex {
   EdgeDensity density;
   EdgePresence presence = {};  // may be left out
 };
-
-inline std::optional<std::int32_t> NearestEdge(const ViewIndex& index,
-                                               const ImageEdge& expected,
-                                               const Gate& gate) {
-  return NearestEdge(index.grid, expected, gate);
-}
 
 // `views` by view index.
 const Edge2d& EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views);

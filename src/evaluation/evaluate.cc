@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/angles.h"
 #include "base/median.h"
 #include "base/point_tree.h"
 #include "evaluation/resample_curves.h"
@@ -160,7 +161,7 @@ std::optional<double> MedianTangentAngle(const Comparison& c) {
     if (c.predicted_mm[i] >= kNearMm) continue;
     const Eigen::Vector3d& tangent = c.truth[c.true_idxs[i]].tangent;
     const double cosine = std::abs(c.predicted[i].tangent.dot(tangent));
-    angles.push_back(std::acos(std::min(cosine, 1.0)) * 180 / std::acos(-1.0));
+    angles.push_back(RadToDeg(std::acos(std::min(cosine, 1.0))));
   }
   if (angles.empty()) return std::nullopt;
   return MedianOrNan(std::move(angles));

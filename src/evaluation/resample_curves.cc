@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/angles.h"
+
 namespace curvix {
 namespace {
 
@@ -87,7 +89,7 @@ std::vector<CurveEnd> FindEnds(const std::vector<TrueSample>& truth) {
 // Pairs of ends that continue each other, the straightest first.
 std::vector<EndPair> FindPairs(const std::vector<CurveEnd>& ends,
                                double max_gap) {
-  const double min_cosine = std::cos(15 * std::acos(-1.0) / 180);
+  const double min_cosine = std::cos(DegToRad(15));
   std::vector<EndPair> pairs;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     for (std::size_t j = i + 1; j < ends.size(); ++j) {

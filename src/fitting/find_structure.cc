@@ -19,12 +19,11 @@ using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-using Order = std::vector<std::size_t>;
 using Indices = std::vector<std::size_t>;
 
 // The given ones of the features, the surest first.
 template <typename SigmaOf>
-Order BySigma(Indices order, const SigmaOf& sigma_of) {
+Indices BySigma(Indices order, const SigmaOf& sigma_of) {
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
     return sigma_of(a) < sigma_of(b);
   });
@@ -64,7 +63,7 @@ std::vector<Direction> FindDirections(const std::vector<LineOrArc>& features) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     if (features[i].along_sigma() <= kNearAngle) known.push_back(i);
   }
-  const Order order =
+  const Indices order =
       BySigma(known, [&](std::size_t i) { return features[i].along_sigma(); });
   const auto relative = [&](std::size_t i, std::size_t seed) {
     UncertainValue v;
@@ -133,7 +132,7 @@ void AddAxes(const Direction& direction,
   const auto covariance_of = [&](std::size_t i) -> Matrix2d {
     return across.transpose() * features[i].point_covariance * across;
   };
-  const Order order =
+  const Indices order =
       BySigma(members, [&](std::size_t i) { return covariance_of(i).trace(); });
   const auto relative = [&](std::size_t i, std::size_t seed) {
     const Vector3d off = features[i].point - features[seed].point;

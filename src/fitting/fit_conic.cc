@@ -61,19 +61,10 @@ constexpr std::size_t kMinEllipseSamples = 6;
 
 // The plane of the samples: its frame (z is the normal) and their mean.
 Conic PlaneOf(FitSpan samples, const std::vector<double>& weights) {
-  Conic plane;
-  double sum = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    sum += weights[i];
-    plane.center += weights[i] * samples[i].position;
-  }
-  plane.center /= sum;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Eigen::Vector3d offset = samples[i].position - plane.center;
-    scatter += weights[i] * offset * offset.transpose();
-  }
+  const auto [mean, scatter] = WeightedScatter(samples, weights);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+  Conic plane;
+  plane.center = mean;
   plane.frame.col(0) = eigen.eigenvectors().col(2);
   plane.frame.col(1) = eigen.eigenvectors().col(1);
   plane.frame.col(2) = plane.frame.col(0).cross(plane.frame.col(1));

@@ -49,6 +49,33 @@ inline std::vector<double> EqualWeights(FitSpan samples) {
   return weights;
 }
 
+// Of samples with weights.
+struct MeanAndScatter {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  // About the mean; only the lower triangle, which eigensolvers read.
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+};
+
+inline MeanAndScatter WeightedScatter(FitSpan samples,
+                                      const std::vector<double>& weights) {
+  MeanAndScatter result;
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sum += weights[i];
+    result.mean += weights[i] * samples[i].position;
+  }
+  result.mean /= sum;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Eigen::Vector3d offset = samples[i].position - result.mean;
+    for (int row = 0; row < 3; ++row) {
+      for (int col = 0; col <= row; ++col) {
+        result.scatter(row, col) += weights[i] * offset(row) * offset(col);
+      }
+    }
+  }
+  return result;
+}
+
 // Rounds of reweighting in which the limit for outliers comes down to
 // kOutlierSigmas, so that a first fit that outliers have pulled away finds
 // back.

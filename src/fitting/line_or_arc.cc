@@ -66,10 +66,4 @@ double ExtentOf(const std::vector<LineOrArc>& features) {
   return 2 * furthest;
 }
 
-Eigen::Vector3d Upright(const Eigen::Vector3d& direction) {
-  Eigen::Index largest = 0;
-  direction.cwiseAbs().maxCoeff(&largest);
-  return direction(largest) < 0 ? -direction : direction;
-}
-
 }  // namespace curvix

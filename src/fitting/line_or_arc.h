@@ -38,7 +38,4 @@ std::vector<LineOrArc> LinesAndArcs(const FittedCurves& fitted);
 // The diameter of a sphere about the mean of all ends that holds them.
 double ExtentOf(const std::vector<LineOrArc>& features);
 
-// The direction or its opposite, whichever has its largest component positive.
-Eigen::Vector3d Upright(const Eigen::Vector3d& direction);
-
 }  // namespace curvix

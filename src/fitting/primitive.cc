@@ -12,22 +12,7 @@ namespace {
 
 std::optional<FittedLine> WeightedLine(FitSpan samples,
                                        const std::vector<double>& weights) {
-  double sum = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    sum += weights[i];
-    mean += weights[i] * samples[i].position;
-  }
-  mean /= sum;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Eigen::Vector3d offset = samples[i].position - mean;
-    for (int row = 0; row < 3; ++row) {
-      for (int col = 0; col <= row; ++col) {  // the solver reads no more
-        scatter(row, col) += weights[i] * offset(row) * offset(col);
-      }
-    }
-  }
+  const auto [mean, scatter] = WeightedScatter(samples, weights);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
   if (!(eigen.eigenvalues()(2) > 0)) return std::nullopt;
   FittedLine line{mean, eigen.eigenvectors().col(2)};

@@ -31,4 +31,18 @@ inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+// By |turn| about `turn`.
+inline Eigen::Quaterniond RotationBy(const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (!(angle > 0)) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle));
+}
+
+// The direction or its opposite, whichever has its largest component positive.
+inline Eigen::Vector3d Upright(const Eigen::Vector3d& direction) {
+  Eigen::Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  return direction(largest) < 0 ? -direction : direction;
+}
+
 }  // namespace curvix

@@ -63,4 +63,12 @@ inline std::optional<ImageEdge> ProjectEdge(const PosedView& view,
   return ImageEdge{view.Pixel(x), tangent / length};
 }
 
+// The same, and nullopt outside the image.
+inline std::optional<ImageEdge> ProjectInto(const PosedView& view,
+                                            const SpaceEdge& edge) {
+  auto projected = ProjectEdge(view, edge);
+  if (!projected || !view.Contains(projected->position)) return std::nullopt;
+  return projected;
+}
+
 }  // namespace curvix

@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "geometry/edge_geometry.h"
 
@@ -21,6 +23,13 @@ inline Eigen::Vector2d TangentAt(float angle) {
 
 inline ImageEdge ToImageEdge(const Edge2d& edge) {
   return {edge.position, TangentAt(edge.angle)};
+}
+
+// `edge_maps` by view.
+inline const Edge2d& EdgeOf(const EdgeRef& ref,
+                            const std::vector<EdgeMap>& edge_maps) {
+  return edge_maps[static_cast<std::size_t>(ref.view_idx)]
+      .edges[static_cast<std::size_t>(ref.edge_idx)];
 }
 
 // Sec. 5, Fig. 6(b)-(d): how far apart two oriented points are. With d from one

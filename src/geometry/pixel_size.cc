@@ -4,22 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "base/check.h"
+#include "base/infinity.h"
 #include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
 double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position) {
   const double depth = view.InCamera(position).z();
   const double focal =
       std::sqrt(view.calibration(0, 0) * view.calibration(1, 1));
-  return depth > 0 ? depth / focal : kNone;
+  return depth > 0 ? depth / focal : kInfinity;
 }
 
 }  // namespace
@@ -27,17 +25,17 @@ double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position) {
 double PixelSize(const Eigen::Vector3d& position,
                  const std::vector<EdgeRef>& support,
                  const std::vector<PosedView>& views) {
-  double smallest = kNone;
+  double smallest = kInfinity;
   for (const EdgeRef& ref : support) {
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);
     CURVIX_CHECK(view_idx < views.size(), "there is no view " << ref.view_idx);
     smallest = std::min(smallest, PixelSizeIn(views[view_idx], position));
   }
-  if (smallest < kNone) return smallest;
+  if (smallest < kInfinity) return smallest;
   for (const PosedView& view : views) {
     smallest = std::min(smallest, PixelSizeIn(view, position));
   }
-  return smallest < kNone ? smallest : 0;
+  return smallest < kInfinity ? smallest : 0;
 }
 
 double PixelSizeAlong(const SpaceEdge& edge,

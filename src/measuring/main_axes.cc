@@ -8,6 +8,7 @@
 
 #include "base/angles.h"
 #include "base/median.h"
+#include "geometry/directions.h"
 #include "measuring/known_directions.h"
 
 namespace curvix {
@@ -171,12 +172,8 @@ Frame Ordered(const Frame& frame,
     if (SquaredSine(d, a) < SquaredTolerance(d)) along_a += d.length;
     if (SquaredSine(d, b) < SquaredTolerance(d)) along_b += d.length;
   }
-  Eigen::Vector3d x = along_a >= along_b ? a : b;
-  Eigen::Index largest = 0;
-  x.cwiseAbs().maxCoeff(&largest);
-  if (x(largest) < 0) x = -x;
-  ordered.col(0) = x;
-  ordered.col(1) = ordered.col(2).cross(x);
+  ordered.col(0) = Upright(along_a >= along_b ? a : b);
+  ordered.col(1) = ordered.col(2).cross(ordered.col(0));
   return ordered;
 }
 
@@ -219,6 +216,16 @@ void JudgeAngles(const std::vector<Member>& members,
   }
 }
 
+// `axis`: of each camera.
+Eigen::Vector3d MeanOfAxis(const std::vector<View>& views,
+                           const Eigen::Vector3d& axis) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const View& view : views) {
+    sum += view.cam_from_world.rotation.conjugate() * axis;
+  }
+  return sum / std::max<double>(1, static_cast<double>(views.size()));
+}
+
 }  // namespace
 
 Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
@@ -250,19 +257,11 @@ Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
 }
 
 Eigen::Vector3d MeanUp(const std::vector<View>& views) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const View& view : views) {
-    sum += view.cam_from_world.rotation.conjugate() * -Eigen::Vector3d::UnitY();
-  }
-  return sum / std::max<double>(1, static_cast<double>(views.size()));
+  return MeanOfAxis(views, -Eigen::Vector3d::UnitY());
 }
 
 Eigen::Vector3d MeanViewDirection(const std::vector<View>& views) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const View& view : views) {
-    sum += view.cam_from_world.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  }
-  return sum / std::max<double>(1, static_cast<double>(views.size()));
+  return MeanOfAxis(views, Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace curvix

@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "edge_sketch/hypothesise.h"
 #include "edge_sketch/select_views.h"
+#include "geometry/edge_geometry.h"
 #include "paper/wedge_support.h"
 
 namespace curvix {
@@ -82,10 +83,8 @@ class PairSketcher {
     std::vector<EdgeRef> support;
     for (std::size_t i = 0; i < validators_.size(); ++i) {
       if (!validators_[i]) continue;
-      const auto projected = ProjectEdge(input_.views[i], hypothesis.edge);
-      if (!projected || !input_.views[i].Contains(projected->position)) {
-        continue;
-      }
+      const auto projected = ProjectInto(input_.views[i], hypothesis.edge);
+      if (!projected) continue;
       const auto edge_idx = validators_[i]->Find(
           hypothesis.edge1,
           hypothesis.edge2.edge,

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/directions.h"
+#include "geometry/image_edge.h"
 #include "model/sample_ranges.h"
 
 namespace curvix {
@@ -52,11 +54,7 @@ Vector3d LongestDirection(const std::vector<Vector3d>& points) {
     covariance += (point - mean) * (point - mean).transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  Vector3d direction = solver.eigenvectors().col(2).normalized();
-  Eigen::Index largest = 0;
-  direction.cwiseAbs().maxCoeff(&largest);
-  if (direction[largest] < 0) direction = -direction;
-  return direction;
+  return Upright(solver.eigenvectors().col(2).normalized());
 }
 
 class Partitioner {
@@ -260,8 +258,7 @@ std::vector<Curve> CutCurves(const std::vector<Curve>& curves,
 TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps) {
   TracedCurve traced{std::move(curve), {}};
   ForEachSupport(traced.curve, [&](EdgeRef& ref) {
-    const EdgeMap& map = edge_maps[static_cast<std::size_t>(ref.view_idx)];
-    traced.edges.push_back(map.edges[static_cast<std::size_t>(ref.edge_idx)]);
+    traced.edges.push_back(EdgeOf(ref, edge_maps));
     ref.edge_idx = static_cast<std::int32_t>(traced.edges.size() - 1);
   });
   return traced;

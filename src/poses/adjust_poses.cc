@@ -42,12 +42,7 @@ PoseIncrement ToIncrement(const Rigid3& rigid) {
 }
 
 Rigid3 FromIncrement(const PoseIncrement& increment) {
-  const Eigen::Vector3d turn = increment.head<3>();
-  Rigid3 rigid;
-  rigid.translation = increment.tail<3>();
-  const double angle = turn.norm();
-  if (angle > 0) rigid.rotation = Eigen::AngleAxisd(angle, turn / angle);
-  return rigid;
+  return {RotationBy(increment.head<3>()), increment.tail<3>()};
 }
 
 // J for which a turn by `turn` + d, both small, is one by `turn` and then one
@@ -169,7 +164,7 @@ class PoseAdjuster {
     return cameras;
   }
 
-  // What a increment is multiplied by to give six residuals, each 1 where it
+  // What an increment is multiplied by to give six residuals, each 1 where it
   // shifts the image by prior_px. None for a view without samples.
   Vector6d PriorFactors(const PoseProblem& problem,
                         std::size_t view_idx) const {

@@ -91,11 +91,8 @@ Rigid3 FixGauge(const std::vector<PosedView>& views,
     }
     const Vector6d step = -sum.matrix.ldlt().solve(sum.vector);
     if (!step.allFinite()) return transform;
-    const Eigen::Vector3d turn = step.head<3>();
     Rigid3 update;
-    if (turn.norm() > 0) {
-      update.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-    }
+    update.rotation = RotationBy(step.head<3>());
     update.translation = center + step.tail<3>() - update.rotation * center;
     transform = update * transform;
   }

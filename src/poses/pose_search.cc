@@ -9,6 +9,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "geometry/camera_of.h"
+#include "geometry/directions.h"
 #include "poses/find_shift.h"
 #include "poses/gauge.h"
 #include "poses/residual_spread.h"
@@ -30,8 +31,6 @@ constexpr double kMaxSigmaPx = 1.5;
 constexpr double kSigmaPerSpread = 1.5;
 constexpr double kGateSigmas = 4;
 constexpr double kPlaceSigmaPx = 0.3;
-// Of a normal distribution, over the median of absolute values.
-constexpr double kSigmaPerMedian = 1.4826;
 constexpr double kFirstPriorPx = 10;
 constexpr double kMinPriorPx = 0.02;
 // If cameras are free: a shift of the principal point and a rotation of all
@@ -66,7 +65,7 @@ double PointSigma(const Scene& scene) {
     }
   }
   return std::max(kMinSigmaPx,
-                  kSigmaPerMedian * MedianOr(1, std::move(residuals)));
+                  kSigmasPerMedian * MedianOr(1, std::move(residuals)));
 }
 
 }  // namespace
@@ -110,8 +109,7 @@ bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
     const Eigen::Matrix3d& calibration = edges_.views()[i].calibration;
     const Eigen::Vector3d turn(
         -shift.y() / calibration(1, 1), shift.x() / calibration(0, 0), 0);
-    Rigid3 increment;
-    increment.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
+    const Rigid3 increment = {RotationBy(turn), {0, 0, 0}};
     moved.new_cam_from_cam[i] = increment * moved.new_cam_from_cam[i];
   });
   edges_.Move(moved);

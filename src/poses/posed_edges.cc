@@ -18,6 +18,7 @@
 #include "geometry/camera_of.h"
 #include "geometry/image_edge.h"
 #include "geometry/lens.h"
+#include "geometry/nearest_edge.h"
 #include "geometry/posed_views.h"
 #include "model/check_input.h"
 
@@ -219,7 +220,7 @@ std::vector<EdgeRef> PosedEdges::FindEdges(
     const auto projected = Seen(contour, i);
     if (!projected) continue;
     const Gate gate{gates_px[i], kMaxTangentialPx, kMinCosine};
-    const auto nearest = NearestEdge(indices_[i], *projected, gate);
+    const auto nearest = NearestEdge(indices_[i].grid, *projected, gate);
     if (nearest) found.push_back({static_cast<std::int32_t>(i), *nearest});
   }
   return found;
@@ -268,8 +269,7 @@ std::vector<EdgesAround> PosedEdges::LookAround(
 }
 
 ImageEdge PosedEdges::InputEdge(const EdgeRef& ref) const {
-  return ToImageEdge(edge_maps_[static_cast<std::size_t>(ref.view_idx)]
-                         .edges[static_cast<std::size_t>(ref.edge_idx)]);
+  return ToImageEdge(EdgeOf(ref, edge_maps_));
 }
 
 ImageEdge PosedEdges::EdgeInImage(const EdgeRef& ref) const {

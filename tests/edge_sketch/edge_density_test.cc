@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "edge_sketch/view_index.h"
+#include "geometry/nearest_edge.h"
 #include "tests/support/random.h"
 
 namespace curvix {
@@ -124,8 +124,7 @@ Chance Measure(const std::function<double(Random&)>& contour_angle,
     const double length_px = random.Uniform(20, 100);
     AppendContour(from, contour_angle(random), length_px, edges);
   }
-  ViewIndex index;
-  index.grid = GridIndex(edges, 4);
+  const GridIndex grid(edges, 4);
   const EdgeDensity density({edges, {}}, kSizePx, kSizePx);
   const Gate gate{1, 1, std::cos(DegToRad(15))};
   const int count = 20000;
@@ -134,7 +133,7 @@ Chance Measure(const std::function<double(Random&)>& contour_angle,
     const Vector2d p = AnyPixel(random);
     const double angle = hypothesis_angle(random);
     const ImageEdge expected{p, {std::cos(angle), std::sin(angle)}};
-    if (NearestEdge(index, expected, gate)) chance.measured += 1.0 / count;
+    if (NearestEdge(grid, expected, gate)) chance.measured += 1.0 / count;
     chance.expected +=
         (1 - std::exp(-2 * gate.normal_px * density.Density(p, angle))) / count;
   }

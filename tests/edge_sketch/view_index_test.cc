@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "geometry/nearest_edge.h"
 #include "tests/support/random.h"
 
 namespace curvix {
@@ -22,9 +23,7 @@ Edge2d EdgeAt(double x, double y, double degrees) {
 
 std::optional<std::int32_t> Nearest(const std::vector<Edge2d>& edges,
                                     const Gate& gate) {
-  ViewIndex index;
-  index.grid = GridIndex(edges, 4);
-  return NearestEdge(index, {{50, 50}, {1, 0}}, gate);
+  return NearestEdge(GridIndex(edges, 4), {{50, 50}, {1, 0}}, gate);
 }
 
 const Gate kGate{1, 2, std::cos(DegToRad(15))};
