@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -13,7 +12,6 @@
 #include "base/parallel.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
-#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -73,33 +71,13 @@ EndTies MutualTies(const std::vector<Choice>& choices) {
   return ties;
 }
 
-ConnectivityGraph GraphOf(const EndTies& ties) {
-  const std::size_t num_edges = ties.size() / 2;
-  ConnectivityGraph graph = {
-      std::vector<std::optional<std::int32_t>>(num_edges),
-      std::vector<std::optional<std::int32_t>>(num_edges),
-      std::vector<bool>(num_edges, false)};
-  for (const EndChain& chain : FollowEnds(ties)) {
-    const std::size_t size = chain.items.size();
-    for (std::size_t k = 0; k < size; ++k) {
-      const ChainItem& here = chain.items[k];
-      graph.flipped[here.item] = here.flipped;
-      if (k + 1 == size && !chain.closed) continue;
-      const ChainItem& next = chain.items[(k + 1) % size];
-      graph.forward[here.item] = static_cast<std::int32_t>(next.item);
-      graph.backward[next.item] = static_cast<std::int32_t>(here.item);
-    }
-  }
-  return graph;
-}
-
 }  // namespace
 
-ConnectivityGraph ConnectEdges(const std::vector<Edge3d>& edges,
-                               const NeighborhoodGraph& graph,
-                               const std::vector<PosedView>& views,
-                               const ConnectivityOptions& options,
-                               int num_threads) {
+EndTies ConnectEdges(const std::vector<Edge3d>& edges,
+                     const NeighborhoodGraph& graph,
+                     const std::vector<PosedView>& views,
+                     const ConnectivityOptions& options,
+                     int num_threads) {
   CURVIX_CHECK(
       graph.NumEdges() == edges.size(),
       "a graph of " << graph.NumEdges() << " edges for " << edges.size());
@@ -109,24 +87,10 @@ ConnectivityGraph ConnectEdges(const std::vector<Edge3d>& edges,
     choices[i] =
         ChooseNeighbors(edges, graph.Neighbors(i), pixel_sizes, options, i);
   });
-  return GraphOf(MutualTies(choices));
+  return MutualTies(choices);
 }
 
 namespace {
-
-using Neighbors = std::vector<std::optional<std::int32_t>>;
-
-// The edges after `start`, up to the last or to the one before `start`.
-std::vector<std::size_t> Walk(const Neighbors& next, std::size_t start) {
-  std::vector<std::size_t> walk;
-  for (auto here = next[start]; here.has_value();) {
-    const auto edge_idx = static_cast<std::size_t>(*here);
-    if (edge_idx == start) break;
-    walk.push_back(edge_idx);
-    here = next[edge_idx];
-  }
-  return walk;
-}
 
 CurveSample SampleOf(const Edge3d& edge, bool flipped) {
   CurveSample sample;
@@ -141,29 +105,16 @@ CurveSample SampleOf(const Edge3d& edge, bool flipped) {
 }  // namespace
 
 std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
-                               const ConnectivityGraph& graph) {
-  Validate(graph);
-  CURVIX_CHECK(graph.NumEdges() == edges.size(),
-               graph.NumEdges() << " nodes for " << edges.size() << " edges");
-  std::vector<bool> is_traced(edges.size(), false);
+                               const EndTies& ties) {
+  CURVIX_CHECK(ties.size() == 2 * edges.size(),
+               ties.size() << " ends of " << edges.size() << " edges");
   std::vector<Curve> curves;
-  for (std::size_t start = 0; start < edges.size(); ++start) {
-    if (is_traced[start]) continue;
-    const std::vector<std::size_t> ahead = Walk(graph.forward, start);
-    const std::size_t last = ahead.empty() ? start : ahead.back();
-    Curve curve;
-    curve.closed = graph.forward[last] == static_cast<std::int32_t>(start);
-    std::vector<std::size_t> walk;
-    if (!curve.closed) walk = Walk(graph.backward, start);
-    std::reverse(walk.begin(), walk.end());
-    walk.push_back(start);
-    walk.insert(walk.end(), ahead.begin(), ahead.end());
-    for (const std::size_t edge_idx : walk) {
-      is_traced[edge_idx] = true;
-      curve.samples.push_back(
-          SampleOf(edges[edge_idx], graph.flipped[edge_idx]));
+  for (const EndChain& chain : FollowEnds(ties)) {
+    Curve& curve = curves.emplace_back();
+    curve.closed = chain.closed;
+    for (const ChainItem& item : chain.items) {
+      curve.samples.push_back(SampleOf(edges[item.item], item.flipped));
     }
-    curves.push_back(std::move(curve));
   }
   return curves;
 }

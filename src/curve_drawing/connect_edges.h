@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 6. Forward and backward neighbour of each edge, and the curves
-// that follow them.
+// Paper: Sec. 6. The connectivity graph: forward and backward neighbour of each
+// edge, and the curves that follow them.
 #pragma once
 
 #include <curvix/curves.h>
@@ -8,7 +8,7 @@
 #include <curvix/options.h>
 #include <vector>
 
-#include "model/connectivity_graph.h"
+#include "model/curve_chains.h"
 #include "model/neighborhood_graph.h"
 #include "model/posed_view.h"
 
@@ -22,24 +22,23 @@ namespace curvix {
 // each the larger of the two lines'; ties: the smaller index. Edges that
 // project onto the same point are no candidates for each other.
 //
-// Directions follow: the edge with the smallest index of each chain keeps its
-// own, the others are flipped where they oppose it.
+// The graph is given as ties between ends; item i is edge i, whose tangent
+// points to its front.
 //
 // Deviation: the paper has no limit across the line and no mutual choice.
 // Without them traces jump between parallel tracks and branch.
-ConnectivityGraph ConnectEdges(const std::vector<Edge3d>& edges,
-                               const NeighborhoodGraph& graph,
-                               const std::vector<PosedView>& views,
-                               const ConnectivityOptions& options,
-                               int num_threads);
+EndTies ConnectEdges(const std::vector<Edge3d>& edges,
+                     const NeighborhoodGraph& graph,
+                     const std::vector<PosedView>& views,
+                     const ConnectivityOptions& options,
+                     int num_threads);
 
-// Walks from the smallest untraced edge forwards to the end, then backwards,
-// until every edge has been visited. Returns the walks in the order of their
-// smallest edges; samples in walking order, tangents along the curve, support
-// carried over. A walk that returns to its start is a closed curve. Every edge
-// is in exactly one curve, once; an edge without neighbours is a curve of one
-// sample, for JoinCurves to take up or GroupEdges to drop.
+// The chains of FollowEnds as curves, in the same order: samples in walking
+// order, tangents along the curve, support carried over. A chain that returns
+// to its start is a closed curve. Every edge is in exactly one curve, once; an
+// edge without neighbours is a curve of one sample, for JoinCurves to take up
+// or GroupEdges to drop.
 std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
-                               const ConnectivityGraph& graph);
+                               const EndTies& ties);
 
 }  // namespace curvix

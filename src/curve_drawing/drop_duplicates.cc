@@ -12,6 +12,7 @@
 #include "curve_drawing/connect_edges.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
+#include "model/sample_ranges.h"
 #include "model/sample_tree.h"
 
 namespace curvix {
@@ -91,31 +92,6 @@ std::vector<std::size_t> ByLength(const std::vector<Curve>& curves,
   return order;
 }
 
-// The runs of samples of `curve` that stay. `base`: index of its first sample.
-std::vector<Curve> Pieces(Curve curve,
-                          const SampleFilter& filter,
-                          std::size_t base) {
-  std::vector<CurveSample>& samples = curve.samples;
-  std::size_t first_gone = 0;
-  while (first_gone < samples.size() && filter.Stays(base + first_gone)) {
-    ++first_gone;
-  }
-  if (first_gone == samples.size()) return {std::move(curve)};
-  // A closed curve is opened at the gap: its runs must not end at sample 0.
-  const std::size_t start = curve.closed ? first_gone : 0;
-  std::vector<Curve> pieces(1);
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const std::size_t s = (start + k) % samples.size();
-    if (filter.Stays(base + s)) {
-      pieces.back().samples.push_back(std::move(samples[s]));
-    } else if (!pieces.back().samples.empty()) {
-      pieces.emplace_back();
-    }
-  }
-  if (pieces.back().samples.empty()) pieces.pop_back();
-  return pieces;
-}
-
 }  // namespace
 
 std::vector<Curve> DropDuplicates(std::vector<Curve> curves,
@@ -136,7 +112,11 @@ std::vector<Curve> DropDuplicates(std::vector<Curve> curves,
   }
   std::vector<Curve> kept;
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    std::vector<Curve> pieces = Pieces(curves[c], filter, bases[c]);
+    std::vector<bool> stays;
+    for (std::size_t s = 0; s < curves[c].samples.size(); ++s) {
+      stays.push_back(filter.Stays(bases[c] + s));
+    }
+    std::vector<Curve> pieces = KeepRanges(curves[c], std::move(stays), 1);
     std::move(pieces.begin(), pieces.end(), std::back_inserter(kept));
   }
   return kept;

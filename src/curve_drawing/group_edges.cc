@@ -19,9 +19,9 @@ std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
                               int num_threads) {
   const ThinnedEdges thinned =
       ThinEdges(edges, graph, views, options, num_threads);
-  const ConnectivityGraph connectivity =
+  const EndTies ties =
       ConnectEdges(thinned.edges, thinned.graph, views, options, num_threads);
-  std::vector<Curve> curves = TraceCurves(thinned.edges, connectivity);
+  std::vector<Curve> curves = TraceCurves(thinned.edges, ties);
   curves = DropDuplicates(std::move(curves), views, options);
   curves = JoinCurves(std::move(curves), views, options);
   curves = SplitCorners(curves, views, options);

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "curve_drawing/claimed_edges.h"
 #include "curve_drawing/keep_significant.h"
 #include "edge_sketch/evidence.h"
+#include "edge_sketch/sketch_input.h"
 
 namespace curvix {
 namespace {
@@ -16,11 +16,20 @@ namespace {
 // Curves that grow at the same time, for any number of threads. Those that use
 // the same edges grow again, so no result depends on it.
 constexpr std::size_t kNumAtOnce = 64;
+// A 2D edge shows one curve: a curve claims its edges and so many to either
+// side of each.
+constexpr int kLinksClaimed = 2;
+
+bool AreFree(const std::vector<EdgeRef>& refs, const UsedEdges& claimed) {
+  return std::none_of(refs.begin(), refs.end(), [&](const EdgeRef& ref) {
+    return claimed.Contains(ref);
+  });
+}
 
 std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
                              const GrowthInput& input,
                              int num_threads) {
-  ClaimedEdges claimed(input.indices);
+  UsedEdges claimed(input.edge_maps);
   const std::vector<std::size_t> order = ByFallingEvidence(seeds);
   std::vector<GrownCurve> curves;
   for (std::size_t begin = 0; begin < order.size(); begin += kNumAtOnce) {
@@ -31,10 +40,11 @@ std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
     ParallelFor(growths.size(), num_threads, grow);
     for (std::size_t k = 0; k < growths.size(); ++k) {
       // One before it may have claimed what it found.
-      if (!claimed.AreFree(growths[k].found)) grow(k);
+      if (!AreFree(growths[k].found, claimed)) grow(k);
       if (!growths[k].curve) continue;
       for (const CurveSample& sample : growths[k].curve->curve.samples) {
-        claimed.Claim(sample.support);
+        MarkAlongContours(
+            sample.support, input.edge_maps, kLinksClaimed, claimed);
       }
       curves.push_back(*std::move(growths[k].curve));
     }

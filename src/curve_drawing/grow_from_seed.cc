@@ -14,6 +14,7 @@
 #include "curve_drawing/curve_tip.h"
 #include "curve_drawing/grown_path.h"
 #include "edge_sketch/visible_side.h"
+#include "geometry/edge_geometry.h"
 #include "geometry/image_edge.h"
 #include "geometry/nearest_edge.h"
 #include "geometry/pixel_size.h"
@@ -64,27 +65,30 @@ class OwnEdges {
   std::unordered_set<std::int64_t> keys_;
 };
 
+std::vector<EdgeRef> FreeOf(std::vector<EdgeRef> refs,
+                            const UsedEdges& claimed) {
+  std::erase_if(refs,
+                [&](const EdgeRef& ref) { return claimed.Contains(ref); });
+  return refs;
+}
+
 class Grower {
  public:
-  Grower(const GrowthInput& input, const ClaimedEdges& claimed)
-      : views_(input.views),
-        indices_(input.indices),
-        are_repeated_(input.are_repeated),
-        neighbors_(input.neighbors),
-        sigma_px_(input.edge_sigma_px),
-        options_(input.options),
-        claimed_(claimed) {}
+  Grower(const GrowthInput& input, const UsedEdges& claimed)
+      : input_(input), claimed_(claimed) {}
 
   Growth Grow(const Edge3d& seed) {
-    const std::vector<EdgeRef> support = claimed_.FreeOf(seed.support);
-    const double pixel = PixelSize(seed.position, support, views_);
+    const std::vector<EdgeRef> support = FreeOf(seed.support, claimed_);
+    const double pixel = PixelSize(seed.position, support, input_.views);
     if (support.size() < kMinNumSupports ||
         2 * support.size() < seed.support.size() || !(pixel > 0)) {
       return {};
     }
     found_ = support;
-    const CurveTip tip(
-        {seed.position, seed.tangent}, MeasureAll(support), sigma_px_, pixel);
+    const CurveTip tip({seed.position, seed.tangent},
+                       MeasureAll(support),
+                       input_.edge_sigma_px,
+                       pixel);
     facing_ = ChooseSide(tip);
     const GrownSample first{tip.edge(),
                             tip.Sigma(),
@@ -94,7 +98,7 @@ class Grower {
     GrownCurve grown;
     std::vector<GrownSample> path =
         GrowBothWays(tip, first, &grown.curve.closed);
-    DropShortStreaks(indices_.size(), path);
+    DropShortStreaks(input_.indices.size(), path);
     if (!grown.curve.closed) TrimEnds(path);
     if (path.size() < kMinNumSamples) return {std::nullopt, std::move(found_)};
     for (GrownSample& sample : path) {
@@ -109,7 +113,7 @@ class Grower {
       const std::vector<EdgeRef>& refs) const {
     std::vector<PlaneMeasurement> measurements;
     for (const EdgeRef& ref : refs) {
-      measurements.push_back(MeasurePlane(ref, indices_));
+      measurements.push_back(MeasurePlane(ref, input_.indices));
     }
     // Sums must not depend on the order of views.
     std::sort(
@@ -126,15 +130,14 @@ class Grower {
   std::optional<Look> LookIn(const ViewIndex& index,
                              std::int32_t view_idx,
                              const CurveTip& tip) const {
-    const auto projected = ProjectEdge(*index.view, tip.edge());
-    if (!projected || !index.view->Contains(projected->position)) {
-      return std::nullopt;
-    }
+    const auto projected = ProjectInto(*index.view, tip.edge());
+    if (!projected) return std::nullopt;
     const double variance_px2 = tip.VarianceIn(*index.view, *projected);
     if (variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {
       return std::nullopt;
     }
-    const double expected_px = std::sqrt(variance_px2 + sigma_px_ * sigma_px_);
+    const double expected_px =
+        std::sqrt(variance_px2 + input_.edge_sigma_px * input_.edge_sigma_px);
     const auto nearest =
         NearestEdge(index.grid,
                     *projected,
@@ -142,7 +145,7 @@ class Grower {
                      kMaxTangentialPx,
                      std::cos(DegToRad(kMaxAngleDeg))},
                     [&](std::int32_t i) {
-                      return claimed_.IsFree({view_idx, i}) &&
+                      return !claimed_.Contains({view_idx, i}) &&
                              !own_.Contains({view_idx, i});
                     });
     if (!nearest) return Look{std::nullopt, VoteWithoutSupport()};
@@ -151,7 +154,7 @@ class Grower {
                 VoteWithSupport(index,
                                 *projected,
                                 expected_px,
-                                ToImageEdge(EdgeOf(hit, indices_)))};
+                                ToImageEdge(EdgeOf(hit, input_.indices)))};
   }
 
   // A step that is a pixel long in the view of `support` that sees it largest,
@@ -159,19 +162,21 @@ class Grower {
   double StepAlong(const CurveTip& tip,
                    const std::vector<EdgeRef>& support) const {
     const double foreshortening =
-        PixelSizeAlong(tip.edge(), support, views_) / tip.pixel();
+        PixelSizeAlong(tip.edge(), support, input_.views) / tip.pixel();
     return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
   }
 
   // The side from which the curve is seen, by the votes at its seed.
   std::optional<Eigen::Vector3d> ChooseSide(const CurveTip& tip) const {
-    Votes votes(indices_.size());
-    for (std::size_t v = 0; v < indices_.size(); ++v) {
-      if (are_repeated_[v]) continue;
-      const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
+    Votes votes(input_.indices.size());
+    for (std::size_t v = 0; v < input_.indices.size(); ++v) {
+      if (input_.are_repeated[v]) continue;
+      const auto look =
+          LookIn(input_.indices[v], static_cast<std::int32_t>(v), tip);
       if (look) votes[v] = look->vote;
     }
-    return FindVisibleSide(tip.edge(), votes, neighbors_, indices_).facing;
+    return FindVisibleSide(tip.edge(), votes, input_.neighbors, input_.indices)
+        .facing;
   }
 
   // What all views show at the tip. Adds the hits of views that support the
@@ -180,12 +185,13 @@ class Grower {
                          Streaks& streaks,
                          std::vector<EdgeRef>& trusted) const {
     GrownSample grown;
-    Votes votes(indices_.size());
-    for (std::size_t v = 0; v < indices_.size(); ++v) {
-      if (are_repeated_[v]) continue;
-      const auto look = LookIn(indices_[v], static_cast<std::int32_t>(v), tip);
+    Votes votes(input_.indices.size());
+    for (std::size_t v = 0; v < input_.indices.size(); ++v) {
+      if (input_.are_repeated[v]) continue;
+      const auto look =
+          LookIn(input_.indices[v], static_cast<std::int32_t>(v), tip);
       if (!look) continue;
-      if (IsInFront(views_[v].center, tip.edge(), facing_)) {
+      if (IsInFront(input_.views[v].center, tip.edge(), facing_)) {
         ++grown.num_looks;
         votes[v] = look->vote;
       }
@@ -195,7 +201,7 @@ class Grower {
       }
     }
     // Rounded, so that the order of views makes no difference.
-    grown.evidence = std::round(1e6 * Evidence(votes, neighbors_)) / 1e6;
+    grown.evidence = std::round(1e6 * Evidence(votes, input_.neighbors)) / 1e6;
     return grown;
   }
 
@@ -220,7 +226,7 @@ class Grower {
   double SigmaOf(const GrownSample& grown, const CurveTip& tip) const {
     if (grown.hits.size() < 2) return tip.Sigma();
     const EdgeEstimate estimate =
-        AdjustEdge(grown.edge, MeasureAll(grown.hits), sigma_px_);
+        AdjustEdge(grown.edge, MeasureAll(grown.hits), input_.edge_sigma_px);
     return std::sqrt(estimate.covariance.trace() / 2);
   }
 
@@ -228,7 +234,7 @@ class Grower {
   std::vector<GrownSample> Follow(CurveTip tip,
                                   const GrownSample& first,
                                   bool* closed) {
-    Streaks streaks(indices_.size(), first.hits);
+    Streaks streaks(input_.indices.size(), first.hits);
     double sum_evidence = kSeedWeight * first.evidence;
     double num_evidence = kSeedWeight;
     std::vector<GrownSample> path;
@@ -236,12 +242,12 @@ class Grower {
     std::size_t num_shown = 0;  // up to the last one that is shown
     std::size_t num_claimed = 0;
     while (static_cast<double>(path.size() - num_shown) * kStepPx <=
-           options_.max_gap_px) {
+           input_.options.max_gap_px) {
       path.push_back(StepOn(tip, streaks, trusted));
       const double evidence = path.back().evidence;
       if (trusted.size() >= kMinNumSupports &&
           evidence * num_evidence >=
-              options_.min_relative_evidence * sum_evidence) {
+              input_.options.min_relative_evidence * sum_evidence) {
         sum_evidence += evidence;
         num_evidence += 1;
         num_shown = path.size();
@@ -293,13 +299,8 @@ class Grower {
     return path;
   }
 
-  const std::vector<PosedView>& views_;
-  const std::vector<ViewIndex>& indices_;
-  const std::vector<bool>& are_repeated_;
-  const std::vector<std::vector<ViewNeighbor>>& neighbors_;
-  double sigma_px_;
-  const CurveGrowthOptions& options_;
-  const ClaimedEdges& claimed_;
+  const GrowthInput& input_;
+  const UsedEdges& claimed_;
   OwnEdges own_;
   std::optional<Eigen::Vector3d> facing_;  // of the curve, see VisibleSide
   std::vector<EdgeRef> found_;
@@ -309,7 +310,7 @@ class Grower {
 
 Growth GrowFromSeed(const Edge3d& seed,
                     const GrowthInput& input,
-                    const ClaimedEdges& claimed) {
+                    const UsedEdges& claimed) {
   return Grower(input, claimed).Grow(seed);
 }
 

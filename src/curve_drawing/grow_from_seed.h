@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "curve_drawing/claimed_edges.h"
 #include "curve_drawing/keep_significant.h"
 #include "edge_sketch/evidence.h"
+#include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_index.h"
 #include "model/posed_view.h"
 
@@ -26,6 +26,7 @@ struct Growth {
 // The input of GrowCurves(). All references must outlive it.
 struct GrowthInput {
   const std::vector<PosedView>& views;
+  const std::vector<EdgeMap>& edge_maps;  // by view
   const std::vector<ViewIndex>& indices;  // by view
   const std::vector<bool>& are_repeated;  // by view; these are not queried
   // By view.
@@ -37,6 +38,6 @@ struct GrowthInput {
 // Grows a curve from `seed` over edges that are not `claimed`, and claims none.
 Growth GrowFromSeed(const Edge3d& seed,
                     const GrowthInput& input,
-                    const ClaimedEdges& claimed);
+                    const UsedEdges& claimed);
 
 }  // namespace curvix

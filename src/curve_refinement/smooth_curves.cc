@@ -14,64 +14,35 @@ namespace {
 
 constexpr std::size_t kMinNumSmoothedSamples = 5;
 
-// One sample seen from the one that moves: signed arc length and position.
-struct Neighbor {
-  double along = 0;
-  double weight = 0;
-  Eigen::Vector3d position;
-
-  Eigen::Vector3d Powers() const { return {1, along, along * along}; }
-};
-
-class Smoother {
- public:
-  Smoother(const Curve& curve, double bandwidth)
-      : curve_(curve), bandwidth_(bandwidth) {}
-
-  CurveSample Smooth(std::size_t i) const {
-    const std::vector<Neighbor> neighbors = Neighbors(i);
-    CurveSample result = curve_.samples[i];
-    if (neighbors.size() < kMinNumSmoothedSamples) return result;
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
-    for (const Neighbor& n : neighbors) {
-      const Eigen::Vector3d powers = n.Powers();
-      normal += n.weight * powers * powers.transpose();
-      right += n.weight * powers * (n.position - result.position).transpose();
-    }
-    // Rows: offset, first and half the second derivative.
-    const Eigen::Matrix3d parabola = normal.ldlt().solve(right);
-    if (!parabola.allFinite() || !(parabola.row(1).norm() > 0)) return result;
-    result.position += parabola.row(0).transpose();
-    result.tangent = parabola.row(1).transpose().normalized();
-    return result;
-  }
-
- private:
-  std::vector<Neighbor> Neighbors(std::size_t i) const {
-    std::vector<Neighbor> neighbors;
-    for (const SampleAround& near :
-         SamplesAround(curve_, i, kKernelReach * bandwidth_)) {
-      neighbors.push_back(Weighted(near));
-    }
-    return neighbors;
-  }
-
-  Neighbor Weighted(const SampleAround& near) const {
-    const CurveSample& sample = curve_.samples[near.index];
-    const double r = near.along / bandwidth_;
+// The sample at the parabola through its neighbours, by arc length from it;
+// `bandwidth` in world units.
+CurveSample Smoothed(const Curve& curve, std::size_t i, double bandwidth) {
+  CurveSample result = curve.samples[i];
+  const std::vector<SampleAround> neighbors =
+      SamplesAround(curve, i, kKernelReach * bandwidth);
+  if (neighbors.size() < kMinNumSmoothedSamples) return result;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
+  for (const SampleAround& near : neighbors) {
+    const CurveSample& sample = curve.samples[near.index];
+    const double r = near.along / bandwidth;
     double weight = std::exp(-0.5 * r * r);
     // Relative to the bandwidth, so that weights do not depend on the scale.
     if (sample.sigma > 0) {
-      const double precision = bandwidth_ / sample.sigma;
+      const double precision = bandwidth / sample.sigma;
       weight *= precision * precision;
     }
-    return {r, weight, sample.position};
+    const Eigen::Vector3d powers(1, r, r * r);
+    normal += weight * powers * powers.transpose();
+    right += weight * powers * (sample.position - result.position).transpose();
   }
-
-  const Curve& curve_;
-  double bandwidth_;  // world units
-};
+  // Rows: offset, first and half the second derivative.
+  const Eigen::Matrix3d parabola = normal.ldlt().solve(right);
+  if (!parabola.allFinite() || !(parabola.row(1).norm() > 0)) return result;
+  result.position += parabola.row(0).transpose();
+  result.tangent = parabola.row(1).transpose().normalized();
+  return result;
+}
 
 Curve SmoothCurve(const Curve& curve,
                   const std::vector<PosedView>& views,
@@ -81,7 +52,7 @@ Curve SmoothCurve(const Curve& curve,
     const CurveSample& sample = curve.samples[i];
     const double pixel = PixelSize(sample.position, sample.support, views);
     if (!(pixel > 0)) continue;
-    result.samples[i] = Smoother(curve, smoothing_px * pixel).Smooth(i);
+    result.samples[i] = Smoothed(curve, i, smoothing_px * pixel);
   }
   return result;
 }

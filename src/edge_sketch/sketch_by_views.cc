@@ -18,7 +18,6 @@
 #include "edge_sketch/split_along_contours.h"
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_indices.h"
-#include "model/contours.h"
 
 namespace curvix {
 namespace {
@@ -217,25 +216,6 @@ class ViewSketcher {
   double sigma_px_;
 };
 
-// The edge itself and its neighbours along the contour, as far as the next ones
-// that ask: a 3D edge takes one 2D edge per view, although contours are sampled
-// at different steps.
-void MarkSupport(const std::vector<EdgeRef>& support,
-                 const std::vector<EdgeMap>& edge_maps,
-                 int num_links,
-                 UsedEdges& used) {
-  for (const EdgeRef& ref : support) {
-    used.Mark(ref);
-    ForEachAlongContour(
-        edge_maps[static_cast<std::size_t>(ref.view_idx)].neighbors,
-        ref.edge_idx,
-        num_links,
-        [&](std::int32_t edge_idx) {
-          used.Mark({ref.view_idx, edge_idx});
-        });
-  }
-}
-
 Edge3d ToEdge3d(TrackedEdge tracked) {
   Edge3d edge;
   edge.position = tracked.estimate.edge.position;
@@ -325,14 +305,16 @@ void Add(H1Result result,
          UsedEdges& used,
          EdgeSketch& sketch) {
   const std::vector<EdgeMap>& edge_maps = input.edge_maps;
+  // As far as the next edges that ask: a 3D edge takes one 2D edge per view,
+  // although contours are sampled at different steps.
   const int num_links = LinksBetweenQueries(input) - 1;
   ++sketch.counts.h1_edges;
   sketch.counts.hypotheses += result.hypotheses;
   sketch.counts.unsupported += result.unsupported;
   sketch.counts.rivals += result.rivals;
-  MarkSupport(result.also_shown, edge_maps, num_links, used);
+  MarkAlongContours(result.also_shown, edge_maps, num_links, used);
   for (TrackedEdge& tracked : result.tracked) {
-    MarkSupport(tracked.support, edge_maps, num_links, used);
+    MarkAlongContours(tracked.support, edge_maps, num_links, used);
     sketch.edges.push_back(ToEdge3d(std::move(tracked)));
   }
 }

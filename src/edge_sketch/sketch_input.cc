@@ -2,6 +2,8 @@
 // Paper: Secs. 3 and 4.
 #include "edge_sketch/sketch_input.h"
 
+#include "model/contours.h"
+
 namespace curvix {
 
 UsedEdges::UsedEdges(const std::vector<EdgeMap>& edge_maps) {
@@ -25,6 +27,22 @@ std::int64_t UsedEdges::total() const {
     total += static_cast<std::int64_t>(used_[i].size()) - num_unused_[i];
   }
   return total;
+}
+
+void MarkAlongContours(const std::vector<EdgeRef>& refs,
+                       const std::vector<EdgeMap>& edge_maps,
+                       int num_links,
+                       UsedEdges& used) {
+  for (const EdgeRef& ref : refs) {
+    used.Mark(ref);
+    ForEachAlongContour(
+        edge_maps[static_cast<std::size_t>(ref.view_idx)].neighbors,
+        ref.edge_idx,
+        num_links,
+        [&](std::int32_t edge_idx) {
+          used.Mark({ref.view_idx, edge_idx});
+        });
+  }
 }
 
 }  // namespace curvix

@@ -54,4 +54,10 @@ class UsedEdges {
   std::vector<int> num_unused_;
 };
 
+// Marks these edges and so many to either side of each along its contour.
+void MarkAlongContours(const std::vector<EdgeRef>& refs,
+                       const std::vector<EdgeMap>& edge_maps,
+                       int num_links,
+                       UsedEdges& used);
+
 }  // namespace curvix

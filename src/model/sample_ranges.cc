@@ -44,11 +44,14 @@ Curve TakeOut(Curve& curve, const SampleRange& range) {
   return part;
 }
 
-std::vector<Curve> KeepRanges(Curve curve, std::vector<bool> kept) {
+std::vector<Curve> KeepRanges(Curve curve,
+                              std::vector<bool> kept,
+                              std::size_t min_samples) {
   OpenAtGap(curve, kept);
   std::vector<Curve> curves;
   for (const SampleRange& range : RangesOf(kept)) {
-    if (range.end - range.begin >= 2) curves.push_back(TakeOut(curve, range));
+    if (range.end - range.begin >= min_samples)
+      curves.push_back(TakeOut(curve, range));
   }
   return curves;
 }

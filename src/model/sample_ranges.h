@@ -21,7 +21,9 @@ std::vector<SampleRange> RangesOf(const std::vector<bool>& kept);
 // stays what it is; a part of it is open and has no junctions.
 Curve TakeOut(Curve& curve, const SampleRange& range);
 
-// The ranges of two or more samples that are kept, each a curve.
-std::vector<Curve> KeepRanges(Curve curve, std::vector<bool> kept);
+// The ranges of so many samples or more that are kept, each a curve.
+std::vector<Curve> KeepRanges(Curve curve,
+                              std::vector<bool> kept,
+                              std::size_t min_samples = 2);
 
 }  // namespace curvix

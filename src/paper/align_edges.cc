@@ -11,8 +11,6 @@
 namespace curvix {
 namespace {
 
-// Edges are handed to threads in blocks, so that handing out costs nothing.
-constexpr std::size_t kBlockSize = 256;
 // Of the mean length of links: forces below this are rest.
 constexpr double kRestForce = 1e-3;
 
@@ -46,19 +44,15 @@ double Step(const std::vector<OrientedPoint>& now,
             const AlignmentOptions& options,
             int num_threads,
             std::vector<OrientedPoint>& next) {
-  const std::size_t num_blocks = (now.size() + kBlockSize - 1) / kBlockSize;
-  std::vector<double> largest(num_blocks, 0);
-  ParallelFor(num_blocks, num_threads, [&](std::size_t block) {
-    const std::size_t end = std::min(now.size(), (block + 1) * kBlockSize);
-    for (std::size_t i = block * kBlockSize; i < end; ++i) {
-      const Pull pull = PullOn(i, graph.Neighbors(i), now, model);
-      next[i].position = now[i].position + options.step_size * pull.force;
-      next[i].tangent =
-          (now[i].tangent + options.step_size * pull.torque).normalized();
-      largest[block] = std::max(largest[block], pull.force.norm());
-    }
+  std::vector<double> forces(now.size());
+  ParallelFor(now.size(), num_threads, [&](std::size_t i) {
+    const Pull pull = PullOn(i, graph.Neighbors(i), now, model);
+    next[i].position = now[i].position + options.step_size * pull.force;
+    next[i].tangent =
+        (now[i].tangent + options.step_size * pull.torque).normalized();
+    forces[i] = pull.force.norm();
   });
-  return *std::max_element(largest.begin(), largest.end());
+  return *std::max_element(forces.begin(), forces.end());
 }
 
 }  // namespace

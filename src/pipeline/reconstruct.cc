@@ -151,6 +151,7 @@ Reconstruction Connect(const Scene& scene,
     const auto neighbors = NeighborsInDirection(distinct.overlaps);
     result.curves.curves = GrowCurves(sketch.edges,
                                       {views,
+                                       edge_maps,
                                        indices,
                                        distinct.are_repeated,
                                        neighbors,

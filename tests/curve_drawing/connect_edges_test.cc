@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_drawing/connect_edges.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "curve_drawing/thin_edges.h"
+#include "tests/model/end_ties.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {
 namespace {
+
+using ::testing::ElementsAre;
 
 Edge3d EdgeAtPx(double x, double y, double sign = 1) {
   return {{x * kPx, y * kPx, 0}, sign * Eigen::Vector3d::UnitX(), {}};
@@ -26,67 +31,71 @@ NeighborhoodGraph Complete(std::size_t num_edges) {
   return NeighborhoodGraph::FromRows(rows);
 }
 
-ConnectivityGraph Connected(const std::vector<Edge3d>& edges) {
+EndTies Connected(const std::vector<Edge3d>& edges) {
   return ConnectEdges(edges, Complete(edges.size()), RingOfViews(8), {}, 2);
 }
 
+// The curves that the connected edges are, as lists of edges; "-" before those
+// that are flipped.
+std::vector<std::string> Traces(const std::vector<Edge3d>& edges) {
+  std::vector<std::string> traces;
+  for (const EndChain& chain : FollowEnds(Connected(edges))) {
+    std::string& trace = traces.emplace_back();
+    for (const ChainItem& item : chain.items) {
+      trace += (trace.empty() ? "" : " ") +
+               std::string(item.flipped ? "-" : "") + std::to_string(item.item);
+    }
+  }
+  return traces;
+}
+
 TEST(ConnectEdges, TakesTheNearestOnEitherSide) {
-  const auto graph = Connected(
-      {EdgeAtPx(0, 0), EdgeAtPx(2, 0), EdgeAtPx(1, 0), EdgeAtPx(3, 0)});
-  Validate(graph);
-  EXPECT_EQ(graph.forward[0], 2);
-  EXPECT_EQ(graph.forward[2], 1);
-  EXPECT_EQ(graph.forward[1], 3);
-  EXPECT_FALSE(graph.forward[3].has_value());
-  EXPECT_FALSE(graph.backward[0].has_value());
+  EXPECT_THAT(
+      Traces({EdgeAtPx(0, 0), EdgeAtPx(2, 0), EdgeAtPx(1, 0), EdgeAtPx(3, 0)}),
+      ElementsAre("0 2 1 3"));
 }
 
 TEST(ConnectEdges, FlipsEdgesThatOpposeTheSmallestIndex) {
-  const auto graph =
-      Connected({EdgeAtPx(1, 0, -1), EdgeAtPx(0, 0), EdgeAtPx(2, 0, -1)});
-  Validate(graph);
-  EXPECT_EQ(graph.flipped, (std::vector<bool>{false, true, false}));
-  EXPECT_EQ(graph.forward[0], 1);
-  EXPECT_EQ(graph.backward[0], 2);
+  EXPECT_THAT(Traces({EdgeAtPx(1, 0, -1), EdgeAtPx(0, 0), EdgeAtPx(2, 0, -1)}),
+              ElementsAre("2 0 -1"));
 }
 
 TEST(ConnectEdges, DoesNotJumpToAParallelTrack) {
   // The next edge of the other track is nearer along the tangent.
-  const auto graph = Connected(
-      {EdgeAtPx(0, 0), EdgeAtPx(1, 1.4), EdgeAtPx(2, 0), EdgeAtPx(3, 1.4)});
-  EXPECT_EQ(graph.forward[0], 2);
-  EXPECT_EQ(graph.forward[1], 3);
+  EXPECT_THAT(
+      Traces(
+          {EdgeAtPx(0, 0), EdgeAtPx(1, 1.4), EdgeAtPx(2, 0), EdgeAtPx(3, 1.4)}),
+      ElementsAre("0 2", "1 3"));
 }
 
 TEST(ConnectEdges, ConnectsOnlyEdgesThatChooseEachOther) {
   // 0 and 1 both see 2 ahead; 2 prefers 1.
-  const auto graph =
+  const EndTies ties =
       Connected({EdgeAtPx(0, 0.6), EdgeAtPx(0.3, 0), EdgeAtPx(1.5, 0)});
-  Validate(graph);
-  EXPECT_EQ(graph.backward[2], 1);
-  EXPECT_NE(graph.forward[0], 2);
+  EXPECT_EQ(ties[Back(2)], Front(1));
+  EXPECT_NE(ties[Front(0)], Back(2));
 }
 
 TEST(ConnectEdges, RespectsStepAngleAndLinks) {
   EXPECT_FALSE(
-      Connected({EdgeAtPx(0, 0), EdgeAtPx(6, 0)}).forward[0].has_value());
+      Connected({EdgeAtPx(0, 0), EdgeAtPx(6, 0)})[Front(0)].has_value());
   Edge3d turned = EdgeAtPx(1, 0);
   turned.tangent = Eigen::Vector3d::UnitY();
-  EXPECT_FALSE(Connected({EdgeAtPx(0, 0), turned}).forward[0].has_value());
-  const auto unlinked = ConnectEdges({EdgeAtPx(0, 0), EdgeAtPx(1, 0)},
-                                     NeighborhoodGraph::FromRows({{}, {}}),
-                                     RingOfViews(8),
-                                     {},
-                                     1);
-  EXPECT_FALSE(unlinked.forward[0].has_value());
+  EXPECT_FALSE(Connected({EdgeAtPx(0, 0), turned})[Front(0)].has_value());
+  const EndTies unlinked = ConnectEdges({EdgeAtPx(0, 0), EdgeAtPx(1, 0)},
+                                        NeighborhoodGraph::FromRows({{}, {}}),
+                                        RingOfViews(8),
+                                        {},
+                                        1);
+  EXPECT_FALSE(unlinked[Front(0)].has_value());
 }
 
 TEST(ConnectEdges, TakesDegenerateInput) {
-  EXPECT_EQ(Connected({}).NumEdges(), 0u);
-  EXPECT_FALSE(Connected({EdgeAtPx(0, 0)}).forward[0].has_value());
-  const auto heap = Connected(std::vector<Edge3d>(5, EdgeAtPx(0, 0)));
-  Validate(heap);
-  for (const auto& next : heap.forward) EXPECT_FALSE(next.has_value());
+  EXPECT_TRUE(Connected({}).empty());
+  EXPECT_FALSE(Connected({EdgeAtPx(0, 0)})[Front(0)].has_value());
+  for (const auto& tie : Connected(std::vector<Edge3d>(5, EdgeAtPx(0, 0)))) {
+    EXPECT_FALSE(tie.has_value());
+  }
 }
 
 TEST(ThinEdges, MakesOneOfLinkedEdgesInOnePlace) {

@@ -78,7 +78,7 @@ class Seen {
     }
     return GrowCurves(
         seeds,
-        {views_, indices, are_repeated_, neighbors_, kSigmaPx, options},
+        {views_, maps_, indices, are_repeated_, neighbors_, kSigmaPx, options},
         num_threads);
   }
 
