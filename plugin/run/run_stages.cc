@@ -19,6 +19,15 @@ std::string RepeatedViewsText(std::int64_t num_views) {
          " left out (Validation.min_view_angle_deg)";
 }
 
+// "8 views, 123 edges"
+std::string CountsText(const StageCounts& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
+  }
+  return text;
+}
+
 }  // namespace
 
 StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
@@ -42,14 +51,6 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
         num_over_limit);
   }
   return counts;
-}
-
-std::string CountsText(const StageCounts& counts) {
-  std::string text;
-  for (const auto& [name, count] : counts) {
-    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
-  }
-  return text;
 }
 
 StageCounts CountFits(const FittedCurves& fitted) {

@@ -29,9 +29,6 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps);
 // How many primitives of each kind there are.
 StageCounts CountFits(const FittedCurves& fitted);
 
-// "8 views, 123 edges"
-std::string CountsText(const StageCounts& counts);
-
 // Runs stages with the options of `record`, and tells it and `progress` what
 // they did. Both outlive it.
 class RunStages {

@@ -41,12 +41,13 @@ std::size_t BlockSize(std::size_t n, int num_threads) {
       kMaxSize);
 }
 
-}  // namespace
-
+// `requested` if positive, else the number of cores.
 int ResolveNumThreads(int requested) {
   if (requested > 0) return requested;
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
+
+}  // namespace
 
 void ParallelFor(std::size_t n,
                  int num_threads,

@@ -19,9 +19,6 @@ void ParallelFor(std::size_t n,
                  int num_threads,
                  const std::function<void(std::size_t)>& f);
 
-// `requested` if positive, else the number of cores.
-int ResolveNumThreads(int requested);
-
 // As ParallelFor, until a call returns false or keep_going does: no further
 // index is handed out then. All smaller ones have been, and are finished.
 // keep_going is asked by the calling thread only, after each of its own calls:

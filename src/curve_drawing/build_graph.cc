@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -35,7 +36,29 @@ void SumUp(std::vector<std::size_t>& counts) {
   counts.push_back(sum);
 }
 
-}  // namespace
+// The support lists of 3D edges, inverted. 8 bytes per 2D edge and 4 per
+// support.
+class SupportIndex {
+ public:
+  explicit SupportIndex(const std::vector<Edge3d>& edges);
+
+  // The 3D edges that `ref` supports, ascending; empty if none.
+  std::span<const std::int32_t> SupportedBy(const EdgeRef& ref) const;
+
+ private:
+  // Whether `ref` is within the edges that support anything, view by view.
+  bool IsKnown(const EdgeRef& ref) const;
+  std::size_t PlaceOf(const EdgeRef& ref) const {
+    return view_begins_[static_cast<std::size_t>(ref.view_idx)] +
+           static_cast<std::size_t>(ref.edge_idx);
+  }
+
+  // The index of each view's first edge, then the end; a view's edges count up
+  // to the last that supports anything.
+  std::vector<std::size_t> view_begins_;
+  std::vector<std::size_t> offsets_;  // by place, into edge_idxs_, and the end
+  std::vector<std::int32_t> edge_idxs_;
+};
 
 SupportIndex::SupportIndex(const std::vector<Edge3d>& edges) {
   ForEachSupport(edges, [&](const EdgeRef& ref, std::int32_t) {
@@ -74,8 +97,6 @@ std::span<const std::int32_t> SupportIndex::SupportedBy(
           offsets_[place + 1] - offsets_[place]};
 }
 
-namespace {
-
 struct RankedLink {
   double distance = 0;  // squared, world
   NeighborLink link;
@@ -86,8 +107,9 @@ struct RankedLink {
   }
 };
 
-}  // namespace
-
+// The `max_size` heaviest links of `row`, the row of edges[edge_idx], in
+// ascending order of edge_idx. Among equal weights the nearer edge comes first,
+// then the smaller index.
 std::vector<NeighborLink> HeaviestLinks(const std::vector<Edge3d>& edges,
                                         std::size_t edge_idx,
                                         std::vector<NeighborLink> row,
@@ -111,8 +133,6 @@ std::vector<NeighborLink> HeaviestLinks(const std::vector<Edge3d>& edges,
   });
   return row;
 }
-
-namespace {
 
 const EdgeNeighbors& NeighborsOf(const std::vector<EdgeMap>& edge_maps,
                                  const EdgeRef& ref) {

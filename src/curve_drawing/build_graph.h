@@ -5,46 +5,11 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
-#include <cstddef>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "model/neighborhood_graph.h"
 
 namespace curvix {
-
-// The support lists of 3D edges, inverted. 8 bytes per 2D edge and 4 per
-// support.
-class SupportIndex {
- public:
-  explicit SupportIndex(const std::vector<Edge3d>& edges);
-
-  // The 3D edges that `ref` supports, ascending; empty if none.
-  std::span<const std::int32_t> SupportedBy(const EdgeRef& ref) const;
-
- private:
-  // Whether `ref` is within the edges that support anything, view by view.
-  bool IsKnown(const EdgeRef& ref) const;
-  std::size_t PlaceOf(const EdgeRef& ref) const {
-    return view_begins_[static_cast<std::size_t>(ref.view_idx)] +
-           static_cast<std::size_t>(ref.edge_idx);
-  }
-
-  // The index of each view's first edge, then the end; a view's edges count up
-  // to the last that supports anything.
-  std::vector<std::size_t> view_begins_;
-  std::vector<std::size_t> offsets_;  // by place, into edge_idxs_, and the end
-  std::vector<std::int32_t> edge_idxs_;
-};
-
-// The `max_size` heaviest links of `row`, the row of edges[edge_idx], in
-// ascending order of edge_idx. Among equal weights the nearer edge comes first,
-// then the smaller index.
-std::vector<NeighborLink> HeaviestLinks(const std::vector<Edge3d>& edges,
-                                        std::size_t edge_idx,
-                                        std::vector<NeighborLink> row,
-                                        std::size_t max_size);
 
 // Fig. 6(a): links every two 3D edges that are supported by a common 2D edge;
 // num_shared is how many they have in common.

@@ -28,6 +28,20 @@ constexpr double kMaxBranchPx = 60;
 constexpr double kMaxBranchRmsPx = 0.4;
 constexpr double kMaxShare = 0.6;  // of the distances without exchange
 
+// Two open ends and a curve that runs past `a` and then past `b`.
+struct Meeting {
+  EndIdx a = 0;
+  EndIdx b = 0;
+  std::size_t passing_idx = 0;
+  std::size_t sample_at_a = 0;  // of the passing curve
+  std::size_t sample_at_b = 0;
+  // Whether the curve that ends in `a` goes on as the passing one behind `b`,
+  // and that before `a` as the one that ends in `b`. Otherwise `a` and `b`
+  // belong together.
+  bool exchange = false;
+  double rms_px = 0;  // of the samples from the parabolas
+};
+
 struct OpenEnd {
   Eigen::Vector3d position;
   Eigen::Vector3d outward;  // unit
@@ -214,8 +228,13 @@ class MeetingFinder {
   std::vector<std::vector<Passage>> passages_;  // by end
 };
 
-}  // namespace
-
+// Ends that face each other, at most 100 px apart, and curves that pass both
+// within 8 px and 30 degrees. Parabolas through 15 to 60 px of the four
+// branches tell which belong together: `a` and `b`, or, unless the passing
+// curve is closed, those that are exchanged, if their distances are below 0.6
+// times the others. They must fit to 0.4 px, and the images show what is
+// between the branches (fill_gap.h). Best fits first; ties by the order of
+// curves. Pixels as in pixel_size.h.
 std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
                                   const std::vector<PosedView>& views,
                                   const ImageSupport& images) {
@@ -226,8 +245,6 @@ std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
   });
   return meetings;
 }
-
-namespace {
 
 // The ends of a curve that was cut in the middle.
 struct LooseEnds {

@@ -22,6 +22,14 @@ Eigen::Array4d CubicWeights(double t) {
 // points, beyond the reach of the Gaussian: half pixels.
 constexpr int kPadding = 3;
 
+// How far filters centred on a pixel reach where third-order orientation is
+// measured. Third derivatives feel the cut: without it weak edges that pass 5
+// sigma from strong ones turn by up to 0.3 degrees against the published
+// detector, which cuts here too.
+int PixelFilterRadius(double sigma) {
+  return static_cast<int>(std::ceil(4 * sigma));
+}
+
 }  // namespace
 
 std::array<double, 4> GaussianDerivatives(double x, double sigma) {
@@ -35,10 +43,6 @@ std::array<double, 4> GaussianDerivatives(double x, double sigma) {
 
 int GaussianRadius(double sigma) {
   return static_cast<int>(std::ceil(5 * sigma));
-}
-
-int PixelFilterRadius(double sigma) {
-  return static_cast<int>(std::ceil(4 * sigma));
 }
 
 double GradientNoiseGain(double sigma_px) {

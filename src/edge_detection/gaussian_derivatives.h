@@ -17,12 +17,6 @@ std::array<double, 4> GaussianDerivatives(double x, double sigma);
 // How far filters reach: beyond it the Gaussian is below 4e-6 of its peak.
 int GaussianRadius(double sigma);
 
-// How far filters centred on a pixel reach where third-order orientation is
-// measured. Third derivatives feel the cut: without it weak edges that pass 5
-// sigma from strong ones turn by up to 0.3 degrees against the published
-// detector, which cuts here too.
-int PixelFilterRadius(double sigma);
-
 // The standard deviation of each component of the gradient that white noise of
 // standard deviation 1 causes. With the filter G'(x) G(y) it is the root of
 // (integral of G'^2) (integral of G^2) = 1 / (4 sqrt(pi) sigma^3) *
@@ -41,8 +35,8 @@ class ImageDerivatives {
   // (0.5, 0.5)). Computed at the 4 x 4 points of the half-pixel grid around the
   // position and interpolated between them by cubic convolution (Keys 1981,
   // a = -0.5). Filters reach GaussianRadius(), those of grid points that are
-  // pixel centres PixelFilterRadius(). Beyond its border the image continues
-  // with its border values.
+  // pixel centres 4 sigma. Beyond its border the image continues with its
+  // border values.
   Eigen::Matrix4d At(const Eigen::Vector2d& position);
 
  private:
@@ -52,7 +46,7 @@ class ImageDerivatives {
   struct Weights {
     Orders all;       // from all grid points, as far as the Gaussian reaches
     Orders on_pixel;  // of it, from grid points on pixels
-    Orders far;       // of that, from beyond PixelFilterRadius()
+    Orders far;       // of that, from beyond the filters of pixels
     bool is_far = false;  // whether there is any
     int pixel = 0;        // or the nearest inside the image
   };

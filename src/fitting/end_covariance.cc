@@ -66,6 +66,20 @@ double Excess(const Conic& circle, const FitSamples& samples) {
 // Edges this near to each other share pixels, and so do those at a corner.
 constexpr double kSharedPx = 4;
 
+// How many of the samples tell as much as if they erred independently: one in 4
+// px.
+double NumIndependent(const FitSamples& samples) {
+  double length = 0, pixel = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    pixel += samples[i].pixel;
+    if (i == 0) continue;
+    length += (samples[i].position - samples[i - 1].position).norm();
+  }
+  const double n = static_cast<double>(samples.size());
+  pixel /= n;
+  return pixel > 0 ? std::min(n, 1 + length / (kSharedPx * pixel)) : n;
+}
+
 // A polynomial of p parameters that is fitted to n values has, at its ends, p^2
 // / n of their variance. A line is one of two parameters in each direction
 // across it, a conic nearly one of three.
@@ -112,18 +126,6 @@ PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
 }
 
 }  // namespace
-
-double NumIndependent(const FitSamples& samples) {
-  double length = 0, pixel = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    pixel += samples[i].pixel;
-    if (i == 0) continue;
-    length += (samples[i].position - samples[i - 1].position).norm();
-  }
-  const double n = static_cast<double>(samples.size());
-  pixel /= n;
-  return pixel > 0 ? std::min(n, 1 + length / (kSharedPx * pixel)) : n;
-}
 
 std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point) {
   if (const auto* line = std::get_if<FittedLine>(&shape)) {

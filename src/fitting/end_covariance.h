@@ -34,10 +34,6 @@ struct PrimitiveEnd {
   bool is_shape = false;       // of a line or conic, which fixes a node
 };
 
-// How many of the samples tell as much as if they erred independently: one in 4
-// px.
-double NumIndependent(const FitSamples& samples);
-
 // Of the first and the last sample.
 std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
                                              const FitSamples& samples);

@@ -5,6 +5,14 @@
 namespace curvix {
 namespace {
 
+Eigen::Matrix3d MoveCovariance(const Similarity3& b_from_a,
+                               const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix3d m =
+      b_from_a.scale * b_from_a.rotation.toRotationMatrix();
+  const Eigen::Matrix3d moved = m * covariance * m.transpose();
+  return (moved + moved.transpose()) / 2;
+}
+
 void MoveFit(const Similarity3& b_from_a, CurveFit& fit) {
   const auto vector = [&](const Eigen::Vector3d& v) -> Eigen::Vector3d {
     return b_from_a.scale * (b_from_a.rotation * v);
@@ -39,14 +47,6 @@ void MoveGroup(const Similarity3& b_from_a, FitGroup& group) {
 }
 
 }  // namespace
-
-Eigen::Matrix3d MoveCovariance(const Similarity3& b_from_a,
-                               const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix3d m =
-      b_from_a.scale * b_from_a.rotation.toRotationMatrix();
-  const Eigen::Matrix3d moved = m * covariance * m.transpose();
-  return (moved + moved.transpose()) / 2;
-}
 
 Curve MoveCurve(const Similarity3& b_from_a, Curve curve) {
   for (CurveSample& sample : curve.samples) {

@@ -17,8 +17,6 @@ Curve MoveCurve(const Similarity3& b_from_a, Curve curve);
 FittedCurves MoveFits(const Similarity3& b_from_a, FittedCurves fitted);
 // Poses and points; images see the same.
 Scene MoveScene(const Similarity3& b_from_a, Scene scene);
-Eigen::Matrix3d MoveCovariance(const Similarity3& b_from_a,
-                               const Eigen::Matrix3d& covariance);
 
 // The curves of a source, which outlives this, in b.
 class MovedCurves : public CurveSource {

@@ -117,15 +117,6 @@ double OwnFaceValue(const SolidPrimitive& primitive,
   return 0;
 }
 
-double FaceValue(const SolidPrimitive& primitive,
-                 int face_idx,
-                 const Vector3d& world) {
-  const Rigid3& pose = primitive.world_from_own;
-  return OwnFaceValue(primitive,
-                      face_idx,
-                      pose.rotation.conjugate() * (world - pose.translation));
-}
-
 Vector3d OwnNormal(const SolidPrimitive& primitive,
                    int face,
                    const Vector3d& x) {

@@ -48,19 +48,15 @@ struct Ray {
 // Sphere: one. Sheet: the side that +z comes out of, and the other.
 int NumFaces(PrimitiveShape shape);
 
-// Negative inside, zero on the face, positive outside; world units near the
-// face (exact for planes, spheres and cylinders).
-double FaceValue(const SolidPrimitive& primitive,
-                 int face_idx,
-                 const Eigen::Vector3d& world);
-
 // The unit normal of the face out of the primitive, near a point of the face.
 // Primitive frame.
 Eigen::Vector3d OwnNormal(const SolidPrimitive& primitive,
                           int face_idx,
                           const Eigen::Vector3d& own);
 
-// Negative inside, as FaceValue, for a point in the primitive's frame.
+// Negative inside, zero on the face, positive outside, for a point in the
+// primitive's frame; world units near the face (exact for planes, spheres and
+// cylinders).
 double OwnFaceValue(const SolidPrimitive& primitive,
                     int face_idx,
                     const Eigen::Vector3d& own);

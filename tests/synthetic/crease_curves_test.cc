@@ -9,6 +9,7 @@
 #include "synthetic/bodies.h"
 #include "synthetic/solid.h"
 #include "synthetic/synthetic_truth.h"
+#include "tests/synthetic/face_value.h"
 
 namespace curvix {
 namespace {

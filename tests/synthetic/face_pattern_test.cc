@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/synthetic/face_value.h"
+
 namespace curvix {
 namespace {
 
