@@ -98,7 +98,7 @@ def read_step(path, curves):
     import json
     FreeCAD, Import = freecad()
     document = FreeCAD.newDocument('seen')
-    Import.insert(path, document.Name)
+    Import.insert(path, document.Name, merge=True)
     edges = [edge for thing in document.Objects for edge in thing.Shape.Edges]
     with open(curves) as file:
         fits = [fit for curve in json.load(file)['curves'] for fit in curve['fits']]

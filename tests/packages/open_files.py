@@ -165,7 +165,10 @@ def ezdxf_audit(path):
 FREECAD = '''
 import FreeCAD, Import
 document = FreeCAD.newDocument("seen")
-(Import.readDXF if {path!r}.endswith("dxf") else Import.insert)({path!r}, "seen")
+if {path!r}.endswith("dxf"):
+    Import.readDXF({path!r}, "seen")
+else:
+    Import.insert({path!r}, "seen", merge=True)
 for thing in document.Objects:
     for edge in thing.Shape.Edges:
         print("\\nEDGE", type(edge.Curve).__name__, edge.Closed)
