@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes workspaces as people and programs make them, and says what happens.
 
-  workspaces.py <colmap_curvix>         prints the lists of workspaces.md
+  workspaces.py <colmap_curvix>         prints the lists of docs/workspaces.md
   workspaces.py <colmap_curvix> <page>  exits with 1 where the page has others
 
 Each is a change of one small synthetic workspace. Exits with 77 without

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Workspaces are read, or refused, as workspaces.md says.
+// Workspaces are read, or refused, as docs/workspaces.md says.
 #include <string>
 
 #include "gtest/gtest.h"
@@ -12,8 +12,7 @@ TEST(Workspaces, AreAsThePageSays) {
   const std::string source = CURVIX_SOURCE_DIR;
   const Outcome outcome = RunInShell(
       "/usr/bin/python3 " + Quoted(source + "/tests/end_to_end/workspaces.py") +
-      " '" + CURVIX_PROGRAM + "' " +
-      Quoted(source + "/tests/end_to_end/workspaces.md"));
+      " '" + CURVIX_PROGRAM + "' " + Quoted(source + "/docs/workspaces.md"));
   if (outcome.exit_code == kNotInstalled) {
     GTEST_SKIP() << "no python3-pil or python3-numpy";
   }
