@@ -25,9 +25,9 @@ struct SelectedCurves {
 // occluding contour lies elsewhere on its body in every view. Along a whole
 // curve noise averages out, and both show.
 //
-//  * Dilution: how many times less surely than one 2D edge, across it, the place
-//    of the curve is known; the least: if all views that look at it supported
-//    it; the sharp: by the views in which it is not blurred.
+//  * Dilution: how many times less surely than one 2D edge, across it, the
+//    place of the curve is known; the least: if all views that look at it
+//    supported it; the sharp: by the views in which it is not blurred.
 //  * Scatter: standard deviation of the supporting edges about the projected
 //    samples, pixels.
 //  * Blurred: the share of the supporting edges that lie in views in which the
