@@ -8,7 +8,7 @@
 #   tests/coverage.sh [build target ...: everything] [-- ctest arguments]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-build=build-coverage
+build="build-coverage"
 targets=()
 while (($# > 0)) && [[ "$1" != -- ]]; do
   targets+=("$1")
