@@ -22,8 +22,6 @@ struct EdgeDetectionOptions {
   double border_px = 4.0;
   // Longest step to the next edge along a contour (Sec. 5). Pixels, > 0.
   double max_neighbor_distance_px = 3.0;
-  // Largest angle between an edge, its neighbour and the chord. Degrees, > 0.
-  double max_neighbor_angle_deg = 15.0;
   // Contours, that is chains of mutual neighbours, with fewer edges count as
   // short: they are dropped where they are weak, and first when there are too
   // many edges. Edges are about half a pixel apart; >= 1, which makes none
@@ -62,13 +60,9 @@ struct HypothesisOptions {
   // Where sparse points are: how far beyond their depths edges are looked for,
   // in shares of the range of the inverse depths; 0 (paper): anywhere.
   double depth_margin = 0.5;
-  // Smallest angle between an edge and its epipolar line. Degrees, >= 0.
-  double min_epipolar_angle_deg = 5.0;
   // P: with kUnusedEdges, stop when this share of the edges of every view is
   // used. 0..1.
   double used_edges_to_stop = 0.9;
-  // With kUnusedEdges, stop after so many pairs of views; >= 1.
-  int max_num_view_pairs = 50;
 };
 
 // Sec. 4, Fig. 5.
@@ -98,9 +92,6 @@ struct ValidationOptions {
   // With kEveryView: least log-likelihood ratio, see
   // docs/stages/sketch.md; natural logarithm, >= 0.
   double min_log_likelihood_ratio = 10.0;
-  // Hypotheses of one H1 edge with fewer than this share of the best one's
-  // support are dropped. 0..1.
-  double min_relative_support = 0.6;
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;
@@ -137,11 +128,6 @@ struct ConnectivityOptions {
   // Edges nearer together along a curve are made one. Pixels, >= 0; 0 (paper)
   // keeps all.
   double sample_spacing_px = 1.0;
-  // Largest distance across the own tangent of edges made one or connected.
-  // Pixels, > 0.
-  double max_normal_distance_px = 1.5;
-  // Longest step along the own tangent to the next edge. Pixels, > 0.
-  double max_step_px = 4.0;
   // Largest angle between connected edges. Degrees, > 0, <= 90.
   double max_angle_deg = 30.0;
   // Longest gap closed between ends that continue each other. Pixels, >= 0; 0

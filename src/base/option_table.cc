@@ -82,9 +82,6 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
   row("max_neighbor_distance_px", &o.max_neighbor_distance_px,
       AboveUpTo(0, 100), "px", "Sec. 5",
       "longest step along a contour");
-  row("max_neighbor_angle_deg", &o.max_neighbor_angle_deg, AboveUpTo(0, 90),
-      "deg", "Sec. 5",
-      "largest angle between neighbours");
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
       "shorter contours are dropped if weak");
   row("short_contour_factor", &o.short_contour_factor, AtLeast(0), "", "",
@@ -110,14 +107,9 @@ void AddRows(HypothesisOptions& o, Section row) {
       "largest angle between rays of two views");
   row("depth_margin", &o.depth_margin, AtLeast(0), "", "",
       "depths beyond the sparse points, share of their range; 0: all");
-  row("min_epipolar_angle_deg", &o.min_epipolar_angle_deg, Between(0, 90),
-      "deg", "",
-      "smallest angle between edge and epipolar line");
   row("used_edges_to_stop", &o.used_edges_to_stop, Between(0, 1), "",
       "P, Sec. 3",
       "unused_edges: share of used edges that ends the search");
-  row("max_num_view_pairs", &o.max_num_view_pairs, AtLeast(1), "", "",
-      "unused_edges: most pairs of views");
 }
 
 void AddRows(ConsolidationOptions& o, Section row) {
@@ -149,8 +141,6 @@ void AddRows(ValidationOptions& o, Section row) {
       "fewest supporting validation views");
   row("min_log_likelihood_ratio", &o.min_log_likelihood_ratio, AtLeast(0), "",
       "", "every_view: least log-likelihood ratio");
-  row("min_relative_support", &o.min_relative_support, Between(0, 1), "", "",
-      "least support, share of the best hypothesis");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
       "every_view: fewest views of exclusive support");
   row("min_view_angle_deg", &o.min_view_angle_deg, Between(0, 90), "deg", "",
@@ -180,10 +170,6 @@ void AddRows(AlignmentOptions& o, Section row) {
 void AddRows(ConnectivityOptions& o, Section row) {
   row("sample_spacing_px", &o.sample_spacing_px, AtLeast(0), "px", "",
       "edges closer along a curve are merged");
-  row("max_normal_distance_px", &o.max_normal_distance_px, Above(0), "px", "",
-      "largest distance across the tangent");
-  row("max_step_px", &o.max_step_px, Above(0), "px", "Sec. 6",
-      "longest step to the next edge");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
       "largest angle between connected edges");
   row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",

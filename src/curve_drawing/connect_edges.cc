@@ -16,6 +16,10 @@
 namespace curvix {
 namespace {
 
+// Longest step along the tangents to the next edge (Sec. 6), pixels: several
+// spacings of edges, since some are missing.
+constexpr double kMaxStepPx = 4;
+
 // The best candidate at the front ([0]) and back ([1]) of an edge: the end of
 // another edge.
 using Choice = std::array<std::optional<EndIdx>, 2>;
@@ -30,8 +34,8 @@ std::optional<std::size_t> SideOf(const Edge3d& from, const Edge3d& to) {
 bool AreWithinReach(const EdgeDistances& between,
                     double unit,
                     const ConnectivityOptions& options) {
-  return between.tangential <= options.max_step_px * unit &&
-         between.normal <= options.max_normal_distance_px * unit &&
+  return between.tangential <= kMaxStepPx * unit &&
+         between.normal <= kMaxNormalDistancePx * unit &&
          between.normal <= between.tangential &&
          between.angle <= DegToRad(options.max_angle_deg);
 }

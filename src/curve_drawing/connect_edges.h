@@ -16,11 +16,11 @@ namespace curvix {
 
 // Projects the linked edges onto the line of each edge and connects it to the
 // nearest on either side, if both choose each other. Candidates are at most
-// options.max_step_px away along either line, at most max_normal_distance_px
-// across it and no further than along it, and at most max_angle_deg off in
-// direction; pixels as in pixel_size.h. "Nearest" is the sum of both distances,
-// each the larger of the two lines'; ties: the smaller index. Edges that
-// project onto the same point are no candidates for each other.
+// 4 pixels away along either line, at most kMaxNormalDistancePx across it and
+// no further than along it, and at most options.max_angle_deg off in direction;
+// pixels as in pixel_size.h. "Nearest" is the sum of both distances, each the
+// larger of the two lines'; ties: the smaller index. Edges that project onto
+// the same point are no candidates for each other.
 //
 // The graph is given as ties between ends; item i is edge i, whose tangent
 // points to its front.

@@ -55,7 +55,7 @@ std::optional<double> JoinCost(const CurveEnd& a,
                                  AngleBetween(-b.outward, offset),
                                  AngleBetween(a.outward, -b.outward)});
   if (!(unit > 0) || !(gap > 0) || gap > options.max_gap_px * unit ||
-      normal > options.max_normal_distance_px * unit ||
+      normal > kMaxNormalDistancePx * unit ||
       angle > DegToRad(options.max_angle_deg)) {
     return std::nullopt;
   }

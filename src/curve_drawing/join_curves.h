@@ -12,8 +12,8 @@ namespace curvix {
 
 // Joins ends of open curves that continue each other: seen from either end, the
 // other lies ahead, at most options.max_gap_px away, at most
-// max_normal_distance_px off the tangent line of the end, at an angle of at
-// most max_angle_deg to it, and its own direction differs by no more. The
+// kMaxNormalDistancePx off the tangent line of the end, at an angle of at most
+// options.max_angle_deg to it, and its own direction differs by no more. The
 // nearest ends are joined first, where distance across counts twice; ties: the
 // order of curves. A curve whose own ends meet becomes closed. A joined curve
 // takes index and direction of the first of its curves.

@@ -44,7 +44,7 @@ Rows FindCompanions(const std::vector<Edge3d>& edges,
       const double unit = std::min(pixel_sizes[i], pixel_sizes[j]);
       const EdgeDistances between = MeasureDistances(edges[i], edges[j]);
       if (between.tangential <= options.sample_spacing_px * unit &&
-          between.normal <= options.max_normal_distance_px * unit &&
+          between.normal <= kMaxNormalDistancePx * unit &&
           between.angle <= DegToRad(options.max_angle_deg)) {
         companions[i].push_back(link.edge_idx);
       }

@@ -18,7 +18,7 @@ struct ThinnedEdges {
 
 // Merges every group of linked edges of the same place into one edge: at most
 // options.sample_spacing_px from the group's first edge along it,
-// max_normal_distance_px across it and max_angle_deg off its direction.
+// kMaxNormalDistancePx across it and options.max_angle_deg off its direction.
 //
 // First edges are chosen greedily: the edge with most support within these
 // limits, its own included, comes first (ties: smaller index), so the central

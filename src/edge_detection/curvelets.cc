@@ -14,13 +14,17 @@
 namespace curvix {
 namespace {
 
+// Largest angle between the tangents of neighbours and their chord (Sec. 5).
+// Where a contour bends more within a step, it has a corner.
+constexpr double kMaxNeighborAngle = DegToRad(15);
+
 // Offers edges to each other as neighbours, pair by pair.
 class Linker {
  public:
   Linker(const std::vector<Edge2d>& edges, const EdgeDetectionOptions& options)
       : edges_(edges),
         max_distance_(options.max_neighbor_distance_px),
-        min_cosine_(std::cos(DegToRad(options.max_neighbor_angle_deg))),
+        min_cosine_(std::cos(kMaxNeighborAngle)),
         rounded_min_cosine_(static_cast<float>(min_cosine_ - 1e-5)),
         neighbors_(edges.size()),
         distances_(edges.size(), {max_distance_, max_distance_}) {}

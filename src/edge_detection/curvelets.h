@@ -11,7 +11,7 @@ namespace curvix {
 
 // For each edge, the nearest edge ahead of it and the nearest behind it along
 // its tangent, within max_neighbor_distance_px, such that both tangents and the
-// chord between the two edges are within max_neighbor_angle_deg of each other.
+// chord between the two edges are within 15 degrees of each other.
 // Tangents are compared as directed, so that both edges are bright on the same
 // side. Of two equally near edges the one with the smaller index counts. Links
 // are mutual unless edges crowd. Time is linear in the number of edges while

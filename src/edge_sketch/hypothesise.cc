@@ -12,6 +12,9 @@ namespace curvix {
 namespace {
 
 constexpr std::size_t kUsualNumCandidates = 64;  // to reserve memory for
+// Smallest angle between an edge and its epipolar line: below it, small errors
+// move the point where they meet far along the line.
+constexpr double kMinEpipolarAngle = DegToRad(5);
 
 }  // namespace
 
@@ -54,8 +57,7 @@ bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
   const Eigen::Vector3d line =
       h1_->calibration.inverse().transpose() * (h1_->rotation * normal);
   const double sine = line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
-  return std::abs(sine) <
-         std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
+  return std::abs(sine) < std::sin(kMinEpipolarAngle);
 }
 
 Interval HypothesisViews::SearchAlong(const Line2& line,
@@ -91,8 +93,7 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
                     options_->consolidation);
     if (moved) on_line.push_back({*moved, candidate.edge_idx});
   });
-  const double min_sine =
-      std::sin(DegToRad(options_->hypotheses.min_epipolar_angle_deg));
+  const double min_sine = std::sin(kMinEpipolarAngle);
   result.virtual_edges = ClusterEdges(on_line, line, options_->consolidation);
   result.hypotheses.reserve(result.virtual_edges.edges.size());
   for (const VirtualEdge& virtual_edge : result.virtual_edges.edges) {

@@ -17,6 +17,10 @@
 
 namespace curvix {
 
+// Hypotheses of one H1 edge with less than this share of the best one's support
+// are dropped: of several (Sec. 3), all may hold if they are about as good.
+inline constexpr double kMinRelativeSupport = 0.6;
+
 // One H1 edge paired with one virtual edge of H2 (paper, Sec. 4).
 struct Hypothesis {
   SpaceEdge edge;

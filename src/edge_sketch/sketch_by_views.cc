@@ -205,7 +205,7 @@ class ViewSketcher {
     for (const TrackedEdge& edge : result.tracked) {
       best = std::max(best, edge.evidence);
     }
-    const double least = input_.options.validation.min_relative_support * best;
+    const double least = kMinRelativeSupport * best;
     result.rivals += static_cast<std::int64_t>(std::erase_if(
         result.tracked,
         [&](const TrackedEdge& edge) { return edge.evidence < least; }));

@@ -23,6 +23,10 @@ double PixelSize(const Eigen::Vector3d& position,
                  const std::vector<EdgeRef>& support,
                  const std::vector<PosedView>& views);
 
+// Edges and ends further off each other's tangent lines, in pixels of this
+// size, are not of one curve: traces would jump between parallel tracks.
+inline constexpr double kMaxNormalDistancePx = 1.5;
+
 // The length in space, world units, that fills one pixel along the tangent of
 // `edge` in the view of `support` that sees it largest; PixelSize() or longer,
 // since edges that lead towards the views are foreshortened. 0 if none of the

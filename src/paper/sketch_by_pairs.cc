@@ -15,6 +15,10 @@
 namespace curvix {
 namespace {
 
+// Bounds the time of the loop over pairs of views (Sec. 3), which the share P
+// of used edges may never end.
+constexpr int kMaxNumViewPairs = 50;
+
 // A hypothesis with the edges that support it, by view.
 struct Validated {
   SpaceEdge edge;
@@ -69,8 +73,7 @@ class PairSketcher {
                                   std::move(support),
                                   {members.begin(), members.end()}});
     }
-    const double least = input_.options.validation.min_relative_support *
-                         static_cast<double>(most);
+    const double least = kMinRelativeSupport * static_cast<double>(most);
     result.rivals += static_cast<std::int64_t>(
         std::erase_if(result.validated, [&](const Validated& v) {
           return static_cast<double>(v.support.size()) < least;
@@ -158,9 +161,9 @@ EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
   EdgeSketch sketch;
   sketch.edge_sigma_px = input.sigma_px;
   std::vector<ViewPair> done;
-  const int most = input.options.hypotheses.max_num_view_pairs;
-  while (static_cast<int>(done.size()) < most && !EnoughUsed(input, used) &&
-         step_done(static_cast<int>(done.size()), most)) {
+  while (static_cast<int>(done.size()) < kMaxNumViewPairs &&
+         !EnoughUsed(input, used) &&
+         step_done(static_cast<int>(done.size()), kMaxNumViewPairs)) {
     const auto pair = NextViewPair(input.distinct.overlaps,
                                    used.num_unused(),
                                    done,

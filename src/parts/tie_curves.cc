@@ -82,7 +82,7 @@ DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
   for (const SampleRef& ref : refs) {
     const BorderSample& sample = At(curves, ref);
     const int own_part = curves[ref.curve].part_idx;
-    const double reach = options.max_normal_distance_px * sample.pixel;
+    const double reach = kMaxNormalDistancePx * sample.pixel;
     std::map<int, std::pair<double, SampleRef>> nearest;  // by part
     for (const std::size_t k : tree.Within(sample.position, reach)) {
       const int part_idx = curves[refs[k].curve].part_idx;

@@ -51,8 +51,8 @@ struct SampleRef {
 };
 
 // For border samples, their duplicate in each other part: the nearest sample,
-// at most options.max_normal_distance_px away and max_angle_deg off in
-// direction. Ties: the earlier sample.
+// at most kMaxNormalDistancePx away and options.max_angle_deg off in direction.
+// Ties: the earlier sample.
 class DuplicateSamples {
  public:
   // Partition and curves outlive it.
