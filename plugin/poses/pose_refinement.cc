@@ -7,7 +7,7 @@
 #include "base/text_fields.h"
 #include "geometry/similarity.h"
 #include "plugin/base/text.h"
-#include "plugin/poses/pose_refiners.h"
+#include "plugin/poses/colmap_bundle_adjuster.h"
 
 namespace curvix {
 namespace {
@@ -22,52 +22,19 @@ std::vector<Rigid3> Poses(const Bundle& bundle) {
   return poses;
 }
 
-// Refines `bundle` by the refiner that was asked for, or by what is there.
-class Refiner {
- public:
-  Refiner(const PoseRefinementSettings& settings,
-          const std::filesystem::path& log_path,
-          const Progress& progress,
-          PoseRefinement* result)
-      : settings_(settings),
-        log_path_(log_path),
-        keep_going_([&progress] { return progress(kStage, 0, 0); }),
-        result_(result) {}
-
-  Result<Bundle> Run(const Bundle& bundle) {
-    if (settings_.refiner == "ceres") return RunCeres(bundle);
-    const Result<std::filesystem::path> program =
-        FindColmap(settings_.colmap_path);
-    if (program.ok()) return RunColmap(bundle, *program);
-    result_->notes.push_back("WARNING: " + program.status().message() +
-                             ". Poses are refined with Ceres instead.");
-    return RunCeres(bundle);
-  }
-
- private:
-  Result<Bundle> RunCeres(const Bundle& bundle) {
-    result_->record.refiner = "ceres";
-    return RefineWithCeres(bundle, keep_going_);
-  }
-
-  Result<Bundle> RunColmap(const Bundle& bundle,
-                           const std::filesystem::path& program) {
-    const ColmapRun run{program, settings_.refiner_timeout_s, log_path_};
-    PoseRefinementRecord& record = result_->record;
-    record.refiner = "colmap";
-    record.colmap_path = program.string();
-    record.colmap_version = "unknown";
-    const Result<std::string> version = ColmapVersion(run, keep_going_);
-    if (!version.ok()) return version.status();
-    record.colmap_version = *version;
-    return RefineWithColmap(bundle, run, keep_going_);
-  }
-
-  const PoseRefinementSettings& settings_;
-  const std::filesystem::path log_path_;
-  const KeepGoing keep_going_;
-  PoseRefinement* const result_;
-};
+Result<Bundle> RunColmap(const Bundle& bundle,
+                         const ColmapRun& run,
+                         const Progress& progress,
+                         PoseRefinementRecord* record) {
+  const KeepGoing keep_going = [&] { return progress(kStage, 0, 0); };
+  record->refiner = "colmap";
+  record->colmap_path = run.program.string();
+  record->colmap_version = "unknown";
+  const Result<std::string> version = ColmapVersion(run, keep_going);
+  if (!version.ok()) return version.status();
+  record->colmap_version = *version;
+  return RefineWithColmap(bundle, run, keep_going);
+}
 
 // Moves the world of `refined` back to that of `input`; false if there is no
 // similarity that would.
@@ -86,7 +53,6 @@ bool AlignTo(const Bundle& input, Bundle* refined, double* scale_removed) {
 }
 
 std::string RefinerName(const PoseRefinementRecord& record) {
-  if (record.refiner == "ceres") return "Ceres";
   return record.colmap_version == "unknown" ? "COLMAP"
                                             : "COLMAP " + record.colmap_version;
 }
@@ -102,15 +68,25 @@ void Keep(const std::string& reason,
 void KeepAfterFailure(const std::string& reason,
                       const std::filesystem::path& log_path,
                       PoseRefinement* result) {
-  const PoseRefinementRecord& record = result->record;
-  const bool has_log =
-      record.refiner == "colmap" && std::filesystem::exists(log_path);
-  const std::string log =
-      has_log ? "; see " + log_path.filename().string() : "";
+  const std::string log = std::filesystem::exists(log_path)
+                              ? "; see " + log_path.filename().string()
+                              : "";
   Keep(reason + log,
-       "WARNING: Poses are used as they are: " + RefinerName(record) +
+       "WARNING: Poses are used as they are: " + RefinerName(result->record) +
            " failed: ",
        result);
+}
+
+// The input poses stay, since there is no COLMAP: `reason` says so.
+void KeepWithoutColmap(const std::string& reason,
+                       bool refine_poses_with_curves,
+                       PoseRefinement* result) {
+  Keep(reason, "WARNING: Bundle adjustment is left out: ", result);
+  result->notes.back() +=
+      refine_poses_with_curves
+          ? " Poses are still refined, with points and curves together "
+            "(--refine_poses_with_curves)."
+          : " Poses are used as they are.";
 }
 
 // Tests the aligned `refined`, and copies it to `model` if it is accepted.
@@ -156,10 +132,10 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
   return {
       "Poses",
       {ChoiceFlag("refiner",
-                  {"colmap", "ceres", "none"},
+                  {"colmap", "none"},
                   &settings->refiner,
-                  "bundle adjustment by COLMAP, Ceres or none (--preset "
-                  "paper); used if held-out errors fall"),
+                  "bundle adjustment by COLMAP or none (--preset paper); used "
+                  "if held-out errors fall"),
        Advanced(PathFlag("colmap_path",
                          &settings->colmap_path,
                          "the program colmap, if not in $COLMAP_EXE_PATH or "
@@ -204,9 +180,19 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
          &result);
     return result;
   }
+  const Result<std::filesystem::path> program =
+      FindColmap(settings.colmap_path);
+  if (!program.ok()) {
+    KeepWithoutColmap(
+        program.status().message(), settings.refine_poses_with_curves, &result);
+    return result;
+  }
   std::vector<BundlePoint> check_points = TakeCheckPoints(&input);
   Result<Bundle> refined =
-      Refiner(settings, log_path, progress, &result).Run(input);
+      RunColmap(input,
+                {*program, settings.refiner_timeout_s, log_path},
+                progress,
+                &record);
   if (!refined.ok()) {
     if (refined.status().code() == StatusCode::kCancelled) {
       return refined.status();

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Better poses from the sparse points of the model, or the poses as they were:
-// whatever a bundle adjuster does, the world keeps its place and its unit, and
-// poses that are not better are not used.
-//
-// Two bundle adjusters solve the same problem: COLMAP's, as installed on the
-// user's machine, and our own with Ceres.
+// Better poses from the sparse points of the model, by the bundle adjuster of
+// the user's COLMAP, or the poses as they were: whatever it does, the world
+// keeps its place and its unit, and poses that are not better are not used.
 #pragma once
 
 #include <curvix/reconstruct.h>
@@ -22,7 +19,7 @@
 namespace curvix {
 
 struct PoseRefinementSettings {
-  std::string refiner = "colmap";        // or "ceres" or "none"
+  std::string refiner = "colmap";        // or "none"
   std::filesystem::path colmap_path;     // the program; empty: found
   bool refine_intrinsics = true;         // with curves, if it proves better
   double refiner_timeout_s = 1800;       // COLMAP is ended after this
@@ -34,7 +31,7 @@ inline constexpr std::size_t kMinPointsToRefine = 100;
 
 // What was done, for report.json.
 struct PoseRefinementRecord {
-  std::string refiner = "none";  // the one that ran: "colmap", "ceres", "none"
+  std::string refiner = "none";  // the one that ran: "colmap", "none"
   std::string colmap_path;       // of the program, if it ran
   std::string colmap_version;    // "3.8"; "unknown"
   std::size_t num_views = 0;     // that took part
@@ -61,11 +58,10 @@ std::string PoseRefinementText(const PoseRefinementRecord& record);
 // The command line's options that set `settings`, which must outlive them.
 FlagSection PoseRefinementFlags(PoseRefinementSettings* settings);
 
-// Refines the poses of `model`. A bundle adjuster that is missing or that fails
-// in any way, and a model without points, are told in `notes` and leave the
-// poses as they were; without COLMAP, our own takes over. COLMAP's output goes
-// to `log_path`. `progress` is called as stage "refine_poses". kCancelled when
-// it returns false.
+// Refines the poses of `model`. A COLMAP that is missing or that fails in any
+// way, and a model without points, are told in `notes` and leave the poses as
+// they were. COLMAP's output goes to `log_path`. `progress` is called as stage
+// "refine_poses". kCancelled when it returns false.
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,
                                    const PoseRefinementSettings& settings,
                                    const std::filesystem::path& log_path,

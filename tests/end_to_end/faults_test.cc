@@ -347,5 +347,19 @@ TEST_F(ColmapFaults, AreSurvived) {
   }
 }
 
+TEST_F(ColmapFaults, WithoutColmapTheRunGoesOn) {
+  const Outcome outcome = RunInShell(
+      "env -u COLMAP_EXE_PATH PATH=/nowhere '" + std::string(CURVIX_PROGRAM) +
+      "' --workspace_path " + Quoted(workspace_.path()) + " 2>&1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("COLMAP is not installed"),
+                    HasSubstr("apt install colmap"),
+                    HasSubstr("--colmap_path"),
+                    HasSubstr("Poses are still refined")));
+  EXPECT_TRUE(fs::exists(workspace_.At("curvix/0/curves.ply")));
+  EXPECT_FALSE(fs::exists(workspace_.At("curvix/0/bundle_adjuster.log")));
+}
+
 }  // namespace
 }  // namespace curvix

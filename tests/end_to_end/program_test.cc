@@ -335,6 +335,7 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
       {"--workspce_path x", "did you mean '--workspace_path'?"},
       {"--num_threads 2", "'--workspace_path' is required"},
       {"--workspace_path . --preset papr", "one of default, paper"},
+      {"--workspace_path . --refiner other", "one of colmap, none"},
       {"--workspace_path . --Hypotheses.min_ray_angle_deg 90",
        "Hypotheses.min_ray_angle_deg"},
       {"evaluate --json", "either --curves_path and --truth_path, or"},

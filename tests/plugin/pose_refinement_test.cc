@@ -8,7 +8,6 @@
 #include "geometry/similarity.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "plugin/poses/pose_refiners.h"
 #include "tests/plugin/posed_points.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,6 +19,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 bool Continue(const std::string&, int, int) { return true; }
 
@@ -32,12 +32,6 @@ PoseRefinement Refine(const ColmapModel& model,
   return result.ok() ? *std::move(result) : PoseRefinement();
 }
 
-PoseRefinementSettings Ceres() {
-  PoseRefinementSettings settings;
-  settings.refiner = "ceres";
-  return settings;
-}
-
 // `model` after the similarity that brings its cameras to those of `truth`.
 ColmapModel AlignedTo(const ColmapModel& truth, ColmapModel model) {
   const auto back = AlignPoses(PosesOf(model), PosesOf(truth));
@@ -46,107 +40,6 @@ ColmapModel AlignedTo(const ColmapModel& truth, ColmapModel model) {
     image.cam_from_world = MovePose(*back, image.cam_from_world);
   }
   return model;
-}
-
-class EveryCameraModel : public testing::TestWithParam<int> {};
-
-TEST_P(EveryCameraModel, GetsItsPosesBackFromNoisyPoints) {
-  PosedPointsOptions options;
-  options.camera = {*ModelFromId(GetParam()), 640, 480, {}};
-  for (int i = NumParams(options.camera.model); i > 0; --i) {
-    options.camera.params.push_back(0.01);
-  }
-  const Eigen::Matrix3d k = [&] {
-    Camera numbered = options.camera;
-    for (std::size_t i = 0; i < numbered.params.size(); ++i) {
-      numbered.params[i] = static_cast<double>(i);
-    }
-    return PinholeCalibration(numbered);
-  }();
-  const auto cx = static_cast<std::size_t>(k(0, 2));
-  for (std::size_t i = 0; i < cx; ++i) options.camera.params[i] = 500;
-  options.camera.params[cx] = 320;
-  options.camera.params[cx + 1] = 240;
-  if (options.camera.model == CameraModel::kEucm) {
-    options.camera.params[cx + 2] = 0.5;
-    options.camera.params[cx + 3] = 1;
-  }
-  const ColmapModel truth = PosedPoints(options);
-  ColmapModel model = truth;
-  DisturbPoses(1, 5, &model);
-
-  const PoseRefinement result = Refine(model, Ceres());
-  ASSERT_TRUE(result.model) << result.record.reason;
-  const ColmapModel refined = AlignedTo(truth, *result.model);
-  const double before = MedianShift(AlignedTo(truth, model), truth);
-  EXPECT_GT(before, 0.5);
-  EXPECT_LT(MedianShift(refined, truth), 0.1);
-  EXPECT_EQ(result.model->cameras[0].camera.params, options.camera.params);
-}
-
-INSTANTIATE_TEST_SUITE_P(Ids, EveryCameraModel, testing::Range(0, 17));
-
-TEST(RefineWithCeres, KeepsTheScaleOfTheWorld) {
-  ColmapModel model = PosedPoints({});
-  DisturbPoses(1, 5, &model);
-  const PoseRefinement result = Refine(model, Ceres());
-  ASSERT_TRUE(result.model);
-  const auto left = AlignPoses(PosesOf(*result.model), PosesOf(model));
-  ASSERT_TRUE(left);
-  EXPECT_NEAR(left->scale, 1, 1e-9);
-  EXPECT_LT(left->translation.norm(), 1e-9);
-  EXPECT_LT(left->rotation.angularDistance(Eigen::Quaterniond::Identity()),
-            1e-7);
-}
-
-TEST(RefineWithCeres, LowersTheErrorsOfPointsThatWereHeldOut) {
-  ColmapModel model = PosedPoints({});
-  DisturbPoses(1, 5, &model);
-  const PoseRefinement result = Refine(model, Ceres());
-  ASSERT_TRUE(result.record.judgement);
-  const PoseJudgement& judgement = *result.record.judgement;
-  EXPECT_TRUE(result.record.accepted);
-  EXPECT_GT(judgement.before.mean_px, 0.6);
-  EXPECT_LT(judgement.after.mean_px, 0.4);  // noise: 0.3 px an axis
-  EXPECT_GE(judgement.num_check_points, 40u);
-  EXPECT_LT(judgement.median_shift_px, 2);
-  EXPECT_LT(judgement.max_shift_px, 5);
-  EXPECT_THAT(result.notes, IsEmpty());
-  for (const ColmapPoint3D& point : result.model->points) {
-    EXPECT_TRUE(point.track.size() < 2 || point.error < 2) << point.error;
-  }
-}
-
-TEST(RefineWithCeres, BearsOutliers) {
-  const ColmapModel truth = PosedPoints({});
-  ColmapModel model = truth;
-  for (ColmapImage& image : model.images) {
-    for (std::size_t i = 0; i < image.points2D.size(); i += 10) {
-      image.points2D[i].x += 20;
-    }
-  }
-  DisturbPoses(1, 5, &model);
-  const PoseRefinement result = Refine(model, Ceres());
-  ASSERT_TRUE(result.model) << result.record.reason;
-  EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 0.1);
-}
-
-TEST(RefineWithCeres, LeavesPosesAloneWithoutPoints) {
-  Bundle bundle;
-  bundle.cameras = {{CameraModel::kPinhole, 640, 480, {500, 510, 320, 240}}};
-  bundle.views.resize(2);
-  bundle.views[1].cam_from_world.translation = {1, 2, 3};
-  const Result<Bundle> refined = RefineWithCeres(bundle, [] { return true; });
-  ASSERT_TRUE(refined.ok()) << refined.status().message();
-  EXPECT_EQ(refined->views[1].cam_from_world.translation,
-            bundle.views[1].cam_from_world.translation);
-}
-
-TEST(RefinePoses, KeepsPosesThatAreGood) {
-  const PoseRefinement result = Refine(PosedPoints({}), Ceres());
-  EXPECT_FALSE(result.model);
-  EXPECT_FALSE(result.record.accepted);
-  EXPECT_THAT(result.record.reason, HasSubstr("nothing to gain"));
 }
 
 TEST(RefinePoses, SkipsModelsWithFewPoints) {
@@ -170,32 +63,6 @@ TEST(RefinePoses, DoesNothingIfNotAskedTo) {
   const PoseRefinement result = Refine(model, settings);
   EXPECT_FALSE(result.model);
   EXPECT_THAT(result.notes, IsEmpty());
-}
-
-TEST(RefinePoses, StopsWhenAskedTo) {
-  ColmapModel model = PosedPoints({});
-  DisturbPoses(1, 5, &model);
-  int num_calls = 0;
-  const auto result =
-      RefinePoses(model, Ceres(), {}, [&](const std::string&, int, int) {
-        return ++num_calls < 3;
-      });
-  ASSERT_FALSE(result.ok());
-  EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
-}
-
-TEST(RefinePoses, GivesTheSameBytesEachTime) {
-  ColmapModel model = PosedPoints({});
-  DisturbPoses(1, 5, &model);
-  const PoseRefinement a = Refine(model, Ceres());
-  const PoseRefinement b = Refine(model, Ceres());
-  ASSERT_TRUE(a.model && b.model);
-  for (std::size_t i = 0; i < a.model->images.size(); ++i) {
-    EXPECT_EQ(PosesOf(*a.model)[i].translation,
-              PosesOf(*b.model)[i].translation);
-    EXPECT_EQ(PosesOf(*a.model)[i].rotation.coeffs(),
-              PosesOf(*b.model)[i].rotation.coeffs());
-  }
 }
 
 // A script in COLMAP's place. $4 is the input folder, $6 the output folder.
@@ -237,6 +104,15 @@ class FakeColmap : public testing::Test {
     return ReadColmapModel(folder_.path()).value();
   }
 
+  // The run of a bundle adjuster that finds the poses of `truth`.
+  PoseRefinement Solve(const ColmapModel& truth) {
+    ColmapModel solved = Written();
+    for (std::size_t i = 0; i < solved.images.size(); ++i) {
+      solved.images[i].cam_from_world = truth.images[i].cam_from_world;
+    }
+    return Run(Copy(solved, "solved"));
+  }
+
   static void ExpectKept(const PoseRefinement& result,
                          const std::string& reason) {
     EXPECT_FALSE(result.model);
@@ -276,16 +152,41 @@ TEST_F(FakeColmap, StopsWhenTheCostHardlyFalls) {
   }
 }
 
-TEST_F(FakeColmap, MissingIsToldAndCeresTakesOver) {
+TEST_F(FakeColmap, MissingIsToldAndPosesAreKept) {
   settings_.colmap_path = folder_.path() / "no colmap";
   const PoseRefinement result = Refine(model_, settings_);
-  EXPECT_TRUE(result.model);
-  EXPECT_EQ(result.record.refiner, "ceres");
+  EXPECT_FALSE(result.model);
+  EXPECT_EQ(result.record.refiner, "none");
+  EXPECT_THAT(result.record.reason, HasSubstr("no colmap"));
   EXPECT_THAT(result.notes,
               ElementsAre(AllOf(HasSubstr("WARNING"),
                                 HasSubstr("no colmap"),
                                 HasSubstr("apt install colmap"),
-                                HasSubstr("Ceres"))));
+                                HasSubstr("--colmap_path"),
+                                HasSubstr("still refined"),
+                                HasSubstr("--refine_poses_with_curves"))));
+  settings_.refine_poses_with_curves = false;
+  EXPECT_THAT(Refine(model_, settings_).notes,
+              ElementsAre(AllOf(HasSubstr("apt install colmap"),
+                                HasSubstr("used as they are"),
+                                Not(HasSubstr("still refined")))));
+}
+
+TEST_F(FakeColmap, StopsWhenAskedTo) {
+  settings_.refiner_timeout_s = 60;
+  const fs::path script =
+      folder_.Write("bin/colmap", "#!/bin/sh\nexec sleep 600\n");
+  fs::permissions(script, fs::perms::owner_all);
+  settings_.colmap_path = script;
+  for (const int last_call : {1, 2, 5}) {
+    int num_calls = 0;
+    const auto result =
+        RefinePoses(model_, settings_, {}, [&](const std::string&, int, int) {
+          return ++num_calls < last_call;
+        });
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
+  }
 }
 
 TEST_F(FakeColmap, HangingIsEnded) {
@@ -326,6 +227,67 @@ TEST_F(FakeColmap, WritingPosesThatAreNoBetterChangesNothing) {
   ExpectKept(Run("cp \"$3\"/*.bin \"$5\""), "nothing to gain");
 }
 
+TEST_F(FakeColmap, WorsePosesThanGoodOnesAreRefused) {
+  model_ = PosedPoints({});
+  ColmapModel disturbed = model_;
+  DisturbPoses(1, 5, &disturbed);
+  ExpectKept(Solve(disturbed), "nothing to gain");
+}
+
+TEST_F(FakeColmap, LowersTheErrorsOfPointsThatWereHeldOut) {
+  const PoseRefinement result = Solve(PosedPoints({}));
+  ASSERT_TRUE(result.record.judgement);
+  const PoseJudgement& judgement = *result.record.judgement;
+  EXPECT_TRUE(result.record.accepted);
+  EXPECT_GT(judgement.before.mean_px, 0.6);
+  EXPECT_LT(judgement.after.mean_px, 0.4);  // noise: 0.3 px an axis
+  EXPECT_GE(judgement.num_check_points, 40u);
+  EXPECT_LT(judgement.median_shift_px, 2);
+  EXPECT_LT(judgement.max_shift_px, 5);
+  EXPECT_THAT(result.notes, IsEmpty());
+  for (const ColmapPoint3D& point : result.model->points) {
+    EXPECT_TRUE(point.track.size() < 2 || point.error < 2) << point.error;
+  }
+}
+
+TEST_F(FakeColmap, IsGivenNoOutliers) {
+  std::size_t num_observations = 0;
+  for (ColmapImage& image : model_.images) {
+    num_observations += image.points2D.size();
+    for (std::size_t i = 0; i < image.points2D.size(); i += 10) {
+      image.points2D[i].x += 20;
+    }
+  }
+  EXPECT_TRUE(Solve(PosedPoints({})).model);
+  const ColmapModel written = Written();
+  std::size_t num_written = 0;
+  for (const ColmapPoint3D& point : written.points) {
+    for (const ColmapTrackElement& seen : point.track) {
+      const ColmapImage& image = written.images[seen.image_id - 1];
+      const auto pixel = Project(
+          written.cameras[0].camera, image.cam_from_world, point.position);
+      const ColmapPoint2D& point2D = image.points2D[seen.point2D_idx];
+      ASSERT_TRUE(pixel);
+      EXPECT_LT(std::hypot(pixel->x() - point2D.x, pixel->y() - point2D.y), 10);
+      ++num_written;
+    }
+  }
+  // All others of the nine points in ten that are not held out.
+  EXPECT_GT(num_written, num_observations * 3 / 4);
+}
+
+TEST_F(FakeColmap, SamePosesGiveTheSameBytes) {
+  const PoseRefinement a = Solve(PosedPoints({}));
+  const PoseRefinement b = Solve(PosedPoints({}));
+  ASSERT_TRUE(a.model && b.model);
+  for (std::size_t i = 0; i < a.model->images.size(); ++i) {
+    EXPECT_EQ(PosesOf(*a.model)[i].translation,
+              PosesOf(*b.model)[i].translation);
+    EXPECT_EQ(PosesOf(*a.model)[i].rotation.coeffs(),
+              PosesOf(*b.model)[i].rotation.coeffs());
+  }
+}
+
 TEST_F(FakeColmap, MovingACameraImplausiblyIsRefused) {
   ColmapModel moved = PosedPoints({});
   const ColmapModel written = Written();
@@ -363,8 +325,47 @@ TEST_F(FakeColmap, MovingAndScalingTheWorldIsUndone) {
   const auto left = AlignPoses(PosesOf(*result.model), PosesOf(model_));
   ASSERT_TRUE(left);
   EXPECT_NEAR(left->scale, 1, 1e-9);
+  EXPECT_LT(left->translation.norm(), 1e-9);
+  EXPECT_LT(left->rotation.angularDistance(Eigen::Quaterniond::Identity()),
+            1e-7);
   EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 1e-3);
 }
+
+class EveryCameraModel : public FakeColmap,
+                         public testing::WithParamInterface<int> {};
+
+TEST_P(EveryCameraModel, GetsThePosesThatColmapFinds) {
+  PosedPointsOptions options;
+  options.camera = {*ModelFromId(GetParam()), 640, 480, {}};
+  for (int i = NumParams(options.camera.model); i > 0; --i) {
+    options.camera.params.push_back(0.01);
+  }
+  const Eigen::Matrix3d k = [&] {
+    Camera numbered = options.camera;
+    for (std::size_t i = 0; i < numbered.params.size(); ++i) {
+      numbered.params[i] = static_cast<double>(i);
+    }
+    return PinholeCalibration(numbered);
+  }();
+  const auto cx = static_cast<std::size_t>(k(0, 2));
+  for (std::size_t i = 0; i < cx; ++i) options.camera.params[i] = 500;
+  options.camera.params[cx] = 320;
+  options.camera.params[cx + 1] = 240;
+  if (options.camera.model == CameraModel::kEucm) {
+    options.camera.params[cx + 2] = 0.5;
+    options.camera.params[cx + 3] = 1;
+  }
+  const ColmapModel truth = PosedPoints(options);
+  model_ = truth;
+  DisturbPoses(1, 5, &model_);
+  const PoseRefinement result = Solve(truth);
+  ASSERT_TRUE(result.model) << result.record.reason;
+  EXPECT_GT(MedianShift(AlignedTo(truth, model_), truth), 0.5);
+  EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 1e-6);
+  EXPECT_EQ(result.model->cameras[0].camera.params, options.camera.params);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ids, EveryCameraModel, testing::Range(0, 17));
 
 }  // namespace
 }  // namespace curvix

@@ -72,7 +72,6 @@ const std::map<std::string, Rule>& Rules() {
          "parts",
          "synthetic"},
         {"boost",
-         "ceres",
          "cpl_conv.h",
          "gdal_utils.h",
          "glog",

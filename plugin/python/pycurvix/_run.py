@@ -32,8 +32,7 @@ def reconstruct(workspace_path: Path = '', *, input_path: Path = '', image_path:
 
     With a workspace this is the run of ``colmap_curvix reconstruct``, with the
     same files in its folder of results. With a scene, nothing is read but its
-    images and nothing is written; bundle adjustment by COLMAP or Ceres is left
-    out.
+    images and nothing is written; bundle adjustment by COLMAP is left out.
 
     Parameters
     ----------

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/poses/colmap_bundle_adjuster.h"
+
 #include <stdlib.h>
 #include <algorithm>
 #include <cstdlib>
@@ -12,7 +14,6 @@
 #include "colmap/colmap_model.h"
 #include "plugin/base/text.h"
 #include "plugin/poses/child_process.h"
-#include "plugin/poses/pose_refiners.h"
 
 namespace curvix {
 namespace {
@@ -45,7 +46,7 @@ class ScratchFolder {
     return Status(StatusCode::kInvalidArgument,
                   "cannot make a temporary folder in " + parent.string() +
                       "; let TMPDIR name one with room, or use "
-                      "--refiner ceres");
+                      "--refiner none");
   }
   explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
   ~ScratchFolder() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bundle adjusters behind RefinePoses. They may move and scale the world.
+// Bundle adjustment by the user's COLMAP. It may move and scale the world.
 #pragma once
 
 #include <curvix/status.h>
@@ -13,14 +13,6 @@ namespace curvix {
 
 // Asked many times a second; false: stop.
 using KeepGoing = std::function<bool()>;
-
-// Adjusts poses and points of `bundle`; cameras stay. Cauchy's loss of scale 1
-// px; a weak prior holds the poses where they were, so that nothing drifts that
-// the points do not determine. One thread: the same result on every run.
-// kCancelled when keep_going says so; kExternalTool if Ceres finds no usable
-// solution.
-Result<Bundle> RefineWithCeres(const Bundle& bundle,
-                               const KeepGoing& keep_going);
 
 // The user's COLMAP: `given` if not empty, else $COLMAP_EXE_PATH/colmap, else
 // colmap in $PATH. kNotFound: a sentence that says what to install.
@@ -37,13 +29,13 @@ struct ColmapRun {
 Result<std::string> ColmapVersion(const ColmapRun& run,
                                   const KeepGoing& keep_going);
 
-// The same as RefineWithCeres by `colmap bundle_adjuster`, without a robust
-// loss or a prior: it has neither. Options are those that COLMAP 3.6 to 4.x
-// know, and its function tolerance under the name that its help has.
-// kExternalTool, with a sentence that says what went wrong: it could
-// not be started, failed, took too long, or wrote no model with the same
-// images and cameras. kCancelled; kInvalidArgument: no room for temporary
-// files.
+// Adjusts poses and points of `bundle` by `colmap bundle_adjuster`; cameras
+// stay. It has no robust loss, so outliers are left out. Options are those that
+// COLMAP 3.6 to 4.x know, and its function tolerance under the name that its
+// help has. kExternalTool, with a sentence that says what went wrong: it could
+// not be started, failed, took too long, or wrote no model with the same images
+// and cameras. kCancelled when keep_going says so; kInvalidArgument: no room
+// for temporary files.
 Result<Bundle> RefineWithColmap(const Bundle& bundle,
                                 const ColmapRun& run,
                                 const KeepGoing& keep_going);
