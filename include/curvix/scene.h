@@ -108,6 +108,7 @@ struct ScenePoint {
   // Where these views see it, in pixels of their images; not finite where that
   // is not known. One per view, or empty.
   std::vector<Eigen::Vector2d> pixels;
+  std::uint64_t point3D_id = 0;  // in the model
 };
 
 // Views are sorted by name. `points` may be empty: known poses are enough.

@@ -13,6 +13,7 @@
 #include "base/median.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/text.h"
+#include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/child_process.h"
 
 namespace curvix {
@@ -70,89 +71,74 @@ Status ToolFailure(const std::string& sentence) {
 // off would pull at the poses.
 constexpr double kOutlier = 5;
 
-// `bundle` with its points fitted to the poses, without outliers. Points may
-// be left with any number of observations.
-Bundle WithoutOutliers(Bundle bundle) {
-  FitPoints(&bundle);
+// The points of `scene` fitted to its poses, without outliers; those that two
+// views no longer see have no observation.
+std::vector<ScenePoint> WithoutOutliers(Scene scene) {
+  FitPoints(&scene);
   std::vector<double> errors;
-  for (const BundlePoint& point : bundle.points) {
-    for (const double e : ReprojectionErrors(bundle, point)) {
+  for (const ScenePoint& point : scene.points) {
+    for (const double e : ReprojectionErrors(scene, point)) {
       errors.push_back(e);
     }
   }
   const double limit = kOutlier * MedianOrNan(errors);
   auto error = errors.cbegin();
-  for (BundlePoint& point : bundle.points) {
-    std::erase_if(point.observations,
-                  [&](const auto&) { return !(*error++ <= limit); });
+  for (ScenePoint& point : scene.points) {
+    KeepObservations([&](std::size_t) { return *error++ <= limit; }, &point);
+    if (point.pixels.size() < 2) {
+      KeepObservations([](std::size_t) { return false; }, &point);
+    }
   }
-  return bundle;
+  return std::move(scene.points);
 }
 
-// What is written for COLMAP: ids are indices + 1, and only what takes part,
-// whatever else the model of the user holds.
-ColmapModel ModelForColmap(const Bundle& bundle) {
-  ColmapModel model;
-  for (const Camera& camera : bundle.cameras) {
-    const auto id = static_cast<std::uint32_t>(model.cameras.size() + 1);
-    model.cameras.push_back({id, camera});
+// What is written for COLMAP: ids are indices + 1 and names are ids, whatever
+// those of the user's model are.
+ColmapModel ModelForColmap(Scene scene) {
+  scene.points = WithoutOutliers(scene);
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].image_id = static_cast<std::uint32_t>(i + 1);
+    scene.views[i].name = std::to_string(i + 1);
   }
-  for (const BundleView& view : bundle.views) {
-    const auto id = static_cast<std::uint32_t>(model.images.size() + 1);
-    ColmapImage image;
-    image.image_id = id;
-    image.cam_from_world = view.cam_from_world;
-    image.camera_id = static_cast<std::uint32_t>(view.camera_idx + 1);
-    image.name = std::to_string(id);
-    model.images.push_back(std::move(image));
-  }
-  for (std::size_t i = 0; i < bundle.points.size(); ++i) {
-    const BundlePoint& source = bundle.points[i];
-    if (source.observations.size() < 2) continue;
-    ColmapPoint3D point;
-    point.point3D_id = i + 1;
-    point.position = source.position;
-    for (const BundleObservation& seen : source.observations) {
-      AddObservation(seen.pixel, model.images[seen.view_idx], point);
-    }
-    model.points.push_back(std::move(point));
-  }
+  ColmapModel model = ModelOfScene(scene);
+  std::erase_if(model.points, [](const auto& p) { return p.track.empty(); });
   return model;
 }
 
-// `bundle` with what COLMAP made of it; points that it dropped stay.
-Result<Bundle> BundleFromColmap(Bundle bundle, const fs::path& folder) {
+// `scene` with what COLMAP made of it; points that it dropped stay.
+Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
   const Result<ColmapModel> model = ReadColmapModel(folder);
   if (!model.ok()) {
     return ToolFailure("it wrote no model that can be read: " +
                        model.status().message());
   }
-  bool same = model->images.size() == bundle.views.size() &&
-              model->cameras.size() == bundle.cameras.size();
-  for (std::size_t i = 0; same && i < bundle.views.size(); ++i) {
+  bool same = model->images.size() == scene.views.size() &&
+              model->cameras.size() == scene.cameras.size();
+  for (std::size_t i = 0; same && i < scene.views.size(); ++i) {
     const ColmapImage& image = model->images[i];
+    View& view = scene.views[i];
     same = image.image_id == i + 1 && image.name == std::to_string(i + 1) &&
-           image.camera_id == bundle.views[i].camera_idx + 1;
-    bundle.views[i].cam_from_world = image.cam_from_world;
+           static_cast<int>(image.camera_id) == view.camera_idx + 1;
+    view.cam_from_world = image.cam_from_world;
   }
-  for (std::size_t i = 0; same && i < bundle.cameras.size(); ++i) {
+  for (std::size_t i = 0; same && i < scene.cameras.size(); ++i) {
     const ColmapCamera& item = model->cameras[i];
-    same = item.camera_id == i + 1 &&
-           item.camera.model == bundle.cameras[i].model &&
-           item.camera.width == bundle.cameras[i].width &&
-           item.camera.height == bundle.cameras[i].height;
-    bundle.cameras[i].params = item.camera.params;
+    Camera& camera = scene.cameras[i];
+    same = item.camera_id == i + 1 && item.camera.model == camera.model &&
+           item.camera.width == camera.width &&
+           item.camera.height == camera.height;
+    camera.params = item.camera.params;
   }
   if (!same) {
     return ToolFailure("its model has other images or cameras than it got");
   }
   for (const ColmapPoint3D& point : model->points) {
-    if (point.point3D_id == 0 || point.point3D_id > bundle.points.size()) {
+    if (point.point3D_id == 0 || point.point3D_id > scene.points.size()) {
       continue;
     }
-    bundle.points[point.point3D_id - 1].position = point.position;
+    scene.points[point.point3D_id - 1].position = point.position;
   }
-  return bundle;
+  return scene;
 }
 
 // Fails unless COLMAP came to its own end, successfully.
@@ -270,9 +256,9 @@ Result<std::string> ColmapVersion(const ColmapRun& run,
   return std::string("unknown");
 }
 
-Result<Bundle> RefineWithColmap(const Bundle& bundle,
-                                const ColmapRun& run,
-                                const KeepGoing& keep_going) {
+Result<Scene> RefineWithColmap(const Scene& scene,
+                               const ColmapRun& run,
+                               const KeepGoing& keep_going) {
   const Result<std::string> help =
       HelpText({"bundle_adjuster", "--help"}, run, keep_going);
   if (!help.ok() && help.status().code() == StatusCode::kCancelled) {
@@ -287,8 +273,8 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   const fs::path output = scratch.path() / "output";
   std::error_code error;
   fs::create_directory(output, error);
-  Status written = WriteColmapModel(
-      ModelForColmap(WithoutOutliers(bundle)), input, ColmapFormat::kBinary);
+  Status written =
+      WriteColmapModel(ModelForColmap(scene), input, ColmapFormat::kBinary);
   if (!written.ok()) return written;
   const Result<ChildEnd> end =
       RunChildProcess({run.program,
@@ -301,7 +287,7 @@ Result<Bundle> RefineWithColmap(const Bundle& bundle,
   if (!end.ok()) return end.status();
   Status ended = CheckEnd(*end, run.timeout_s);
   if (!ended.ok()) return ended;
-  return BundleFromColmap(bundle, output);
+  return SceneFromColmap(scene, output);
 }
 
 }  // namespace curvix

@@ -2,12 +2,11 @@
 // Bundle adjustment by the user's COLMAP. It may move and scale the world.
 #pragma once
 
+#include <curvix/scene.h>
 #include <curvix/status.h>
 #include <filesystem>
 #include <functional>
 #include <string>
-
-#include "plugin/poses/bundle.h"
 
 namespace curvix {
 
@@ -29,15 +28,15 @@ struct ColmapRun {
 Result<std::string> ColmapVersion(const ColmapRun& run,
                                   const KeepGoing& keep_going);
 
-// Adjusts poses and points of `bundle` by `colmap bundle_adjuster`; cameras
+// Adjusts poses and points of `scene` by `colmap bundle_adjuster`; cameras
 // stay. It has no robust loss, so outliers are left out. Options are those that
 // COLMAP 3.6 to 4.x know, and its function tolerance under the name that its
 // help has. kExternalTool, with a sentence that says what went wrong: it could
 // not be started, failed, took too long, or wrote no model with the same images
 // and cameras. kCancelled when keep_going says so; kInvalidArgument: no room
 // for temporary files.
-Result<Bundle> RefineWithColmap(const Bundle& bundle,
-                                const ColmapRun& run,
-                                const KeepGoing& keep_going);
+Result<Scene> RefineWithColmap(const Scene& scene,
+                               const ColmapRun& run,
+                               const KeepGoing& keep_going);
 
 }  // namespace curvix

@@ -9,7 +9,7 @@
 #include "base/median.h"
 #include "base/text_fields.h"
 #include "plugin/base/text.h"
-#include "plugin/poses/bundle.h"
+#include "plugin/poses/adjustable_scene.h"
 
 namespace curvix {
 namespace {
@@ -57,9 +57,9 @@ ColmapModel WithPoses(ColmapModel model,
     if (found != poses.end()) image.cam_from_world = found->second;
   }
   KeepCamerasOfOthers(before, poses, &model);
-  Bundle bundle = BundleFromModel(model);
-  FitPoints(&bundle);
-  return ModelWithBundle(std::move(model), bundle);
+  Scene adjusted = AdjustableScene(model);
+  FitPoints(&adjusted);
+  return ModelWithScene(std::move(model), adjusted);
 }
 
 // Of pixels between two lenses, once both look the same way at the middle of

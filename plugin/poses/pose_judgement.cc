@@ -9,6 +9,7 @@
 #include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
+#include "plugin/poses/adjustable_scene.h"
 
 namespace curvix {
 namespace {
@@ -19,10 +20,10 @@ struct CheckErrors {
   std::size_t count = 0;
 };
 
-CheckErrors MeasureErrors(const Bundle& poses,
-                          const std::vector<BundlePoint>& check_points) {
+CheckErrors MeasureErrors(const Scene& poses,
+                          const std::vector<ScenePoint>& check_points) {
   std::vector<double> errors;
-  for (BundlePoint point : check_points) {
+  for (ScenePoint point : check_points) {
     point.position = FitPoint(poses, point);
     for (const double error : ReprojectionErrors(poses, point)) {
       errors.push_back(std::min(error, kMaxErrorPx));
@@ -40,20 +41,18 @@ CheckErrors MeasureErrors(const Bundle& poses,
 
 // The median shift of each view. A change of its camera does not count: points
 // that are all nearer or further away may make up for that.
-std::vector<double> Shifts(const Bundle& before, const Bundle& after) {
+std::vector<double> Shifts(const Scene& before, const Scene& after) {
   std::vector<std::vector<double>> shifts(before.views.size());
-  for (const BundlePoint& point : before.points) {
-    for (const BundleObservation& seen : point.observations) {
-      const BundleView& old_view = before.views[seen.view_idx];
-      const BundleView& new_view = after.views[seen.view_idx];
-      const auto from = Project(before.cameras[old_view.camera_idx],
-                                old_view.cam_from_world,
-                                point.position);
-      const auto to = Project(before.cameras[new_view.camera_idx],
-                              new_view.cam_from_world,
-                              point.position);
-      shifts[seen.view_idx].push_back(from && to ? (*to - *from).norm()
-                                                 : kInfinity);
+  for (const ScenePoint& point : before.points) {
+    for (const int view_idx : point.view_idxs) {
+      const auto i = static_cast<std::size_t>(view_idx);
+      const View& view = before.views[i];
+      const Camera& camera =
+          before.cameras[static_cast<std::size_t>(view.camera_idx)];
+      const auto from = Project(camera, view.cam_from_world, point.position);
+      const auto to =
+          Project(camera, after.views[i].cam_from_world, point.position);
+      shifts[i].push_back(from && to ? (*to - *from).norm() : kInfinity);
     }
   }
   std::vector<double> medians;
@@ -63,19 +62,19 @@ std::vector<double> Shifts(const Bundle& before, const Bundle& after) {
   return medians;
 }
 
-double MedianDistance(const Bundle& bundle) {
+double MedianDistance(const Scene& scene) {
   std::vector<double> distances;
-  for (const BundlePoint& point : bundle.points) {
-    for (const BundleObservation& seen : point.observations) {
-      const Rigid3& pose = bundle.views[seen.view_idx].cam_from_world;
-      distances.push_back((pose * point.position).norm());
+  for (const ScenePoint& point : scene.points) {
+    for (const int view_idx : point.view_idxs) {
+      const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+      distances.push_back((view.cam_from_world * point.position).norm());
     }
   }
   return MedianOrNan(std::move(distances));
 }
 
-void MeasureMoves(const Bundle& before,
-                  const Bundle& after,
+void MeasureMoves(const Scene& before,
+                  const Scene& after,
                   PoseJudgement* judgement) {
   const double distance = MedianDistance(before);
   for (std::size_t i = 0; i < before.views.size(); ++i) {
@@ -90,9 +89,8 @@ void MeasureMoves(const Bundle& before,
   const std::vector<double> shifts = Shifts(before, after);
   const auto largest = std::max_element(shifts.begin(), shifts.end());
   judgement->max_shift_px = *largest;
-  judgement->max_shift_image_idx =
-      before.views[static_cast<std::size_t>(largest - shifts.begin())]
-          .image_idx;
+  judgement->max_shift_view_idx =
+      static_cast<std::size_t>(largest - shifts.begin());
   judgement->median_shift_px = MedianOrNan(shifts);
 }
 
@@ -126,20 +124,20 @@ std::string Objection(const PoseJudgement& j) {
 
 }  // namespace
 
-std::vector<BundlePoint> TakeCheckPoints(Bundle* bundle) {
-  std::vector<BundlePoint> kept;
-  std::vector<BundlePoint> taken;
-  for (std::size_t i = 0; i < bundle->points.size(); ++i) {
+std::vector<ScenePoint> TakeCheckPoints(Scene* scene) {
+  std::vector<ScenePoint> kept;
+  std::vector<ScenePoint> taken;
+  for (std::size_t i = 0; i < scene->points.size(); ++i) {
     const bool take = i % kPointsPerCheckPoint == kPointsPerCheckPoint / 2;
-    (take ? taken : kept).push_back(std::move(bundle->points[i]));
+    (take ? taken : kept).push_back(std::move(scene->points[i]));
   }
-  bundle->points = std::move(kept);
+  scene->points = std::move(kept);
   return taken;
 }
 
-PoseJudgement JudgePoses(const Bundle& before,
-                         const Bundle& after,
-                         const std::vector<BundlePoint>& check_points) {
+PoseJudgement JudgePoses(const Scene& before,
+                         const Scene& after,
+                         const std::vector<ScenePoint>& check_points) {
   PoseJudgement judgement;
   judgement.num_check_points = check_points.size();
   const CheckErrors old_errors = MeasureErrors(before, check_points);

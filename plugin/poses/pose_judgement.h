@@ -6,11 +6,10 @@
 #pragma once
 
 #include <curvix/refine_poses.h>
+#include <curvix/scene.h>
 #include <cstddef>
 #include <string>
 #include <vector>
-
-#include "plugin/poses/bundle.h"
 
 namespace curvix {
 
@@ -42,24 +41,24 @@ struct PoseJudgement {
   double explained_px = 0;
   // How far a view's points, at their places before, shift in its image when
   // its pose changes: the median over the view's points; of all views
-  // the median and the largest, and the image_idx of that view.
+  // the median and the largest, and the index of that view.
   double median_shift_px = 0;
   double max_shift_px = 0;
-  std::size_t max_shift_image_idx = 0;
+  std::size_t max_shift_view_idx = 0;
   double max_turn_deg = 0;
   double max_move = 0;  // of a centre; share of the median distance from
                         // cameras to the points that they see
 };
 
-// The points of `bundle` that are held out: every kPointsPerCheckPoint-th.
-// They are removed from it.
-std::vector<BundlePoint> TakeCheckPoints(Bundle* bundle);
+// The points of `scene` that are held out: every kPointsPerCheckPoint-th. They
+// are removed from it.
+std::vector<ScenePoint> TakeCheckPoints(Scene* scene);
 
-// Compares `after`, aligned to `before`, with it. Both have the same views. The
-// errors are those of `check_points`, each fitted anew under either poses, so
-// that neither side has seen them.
-PoseJudgement JudgePoses(const Bundle& before,
-                         const Bundle& after,
-                         const std::vector<BundlePoint>& check_points);
+// Compares `after`, aligned to `before`, with it: two adjustable scenes of the
+// same views. The errors are those of `check_points`, each fitted anew under
+// either poses, so that neither side has seen them.
+PoseJudgement JudgePoses(const Scene& before,
+                         const Scene& after,
+                         const std::vector<ScenePoint>& check_points);
 
 }  // namespace curvix

@@ -7,6 +7,7 @@
 #include "base/text_fields.h"
 #include "geometry/similarity.h"
 #include "plugin/base/text.h"
+#include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/colmap_bundle_adjuster.h"
 
 namespace curvix {
@@ -14,18 +15,18 @@ namespace {
 
 constexpr char kStage[] = "refine_poses";
 
-std::vector<Rigid3> Poses(const Bundle& bundle) {
+std::vector<Rigid3> Poses(const Scene& scene) {
   std::vector<Rigid3> poses;
-  for (const BundleView& view : bundle.views) {
+  for (const View& view : scene.views) {
     poses.push_back(view.cam_from_world);
   }
   return poses;
 }
 
-Result<Bundle> RunColmap(const Bundle& bundle,
-                         const ColmapRun& run,
-                         const Progress& progress,
-                         PoseRefinementRecord* record) {
+Result<Scene> RunColmap(const Scene& scene,
+                        const ColmapRun& run,
+                        const Progress& progress,
+                        PoseRefinementRecord* record) {
   const KeepGoing keep_going = [&] { return progress(kStage, 0, 0); };
   record->refiner = "colmap";
   record->colmap_path = run.program.string();
@@ -33,20 +34,20 @@ Result<Bundle> RunColmap(const Bundle& bundle,
   const Result<std::string> version = ColmapVersion(run, keep_going);
   if (!version.ok()) return version.status();
   record->colmap_version = *version;
-  return RefineWithColmap(bundle, run, keep_going);
+  return RefineWithColmap(scene, run, keep_going);
 }
 
 // Moves the world of `refined` back to that of `input`; false if there is no
 // similarity that would.
-bool AlignTo(const Bundle& input, Bundle* refined, double* scale_removed) {
+bool AlignTo(const Scene& input, Scene* refined, double* scale_removed) {
   const std::optional<Similarity3> back =
       AlignPoses(Poses(*refined), Poses(input));
   if (!back) return false;
   *scale_removed = 1 / back->scale;
-  for (BundleView& view : refined->views) {
+  for (View& view : refined->views) {
     view.cam_from_world = MovePose(*back, view.cam_from_world);
   }
-  for (BundlePoint& point : refined->points) {
+  for (ScenePoint& point : refined->points) {
     point.position = *back * point.position;
   }
   return true;
@@ -91,14 +92,14 @@ void KeepWithoutColmap(const std::string& reason,
 
 // Tests the aligned `refined`, and copies it to `model` if it is accepted.
 void Conclude(const ColmapModel& model,
-              const Bundle& input,
-              Bundle refined,
-              std::vector<BundlePoint> check_points,
+              const Scene& input,
+              Scene refined,
+              std::vector<ScenePoint> check_points,
               PoseRefinement* result) {
   PoseRefinementRecord& record = result->record;
   const PoseJudgement judgement = JudgePoses(input, refined, check_points);
   record.judgement = judgement;
-  record.largest_shift_image = model.images[judgement.max_shift_image_idx].name;
+  record.largest_shift_image = input.views[judgement.max_shift_view_idx].name;
   record.accepted = judgement.accepted;
   if (!judgement.accepted) {
     Keep(judgement.reason,
@@ -108,11 +109,11 @@ void Conclude(const ColmapModel& model,
     return;
   }
   record.reason = judgement.reason;
-  for (BundlePoint& point : check_points) {
+  for (ScenePoint& point : check_points) {
     refined.points.push_back(std::move(point));
   }
   FitPoints(&refined);
-  result->model = ModelWithBundle(model, refined);
+  result->model = ModelWithScene(model, refined);
 }
 
 }  // namespace
@@ -168,7 +169,7 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
     return result;
   }
   if (!progress(kStage, 0, 0)) return CancelledStatus();
-  Bundle input = BundleFromModel(model);
+  Scene input = AdjustableScene(model);
   record.num_views = input.views.size();
   record.num_points = input.points.size();
   if (record.num_points < kMinPointsToRefine || record.num_views < 3) {
@@ -187,8 +188,8 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
         program.status().message(), settings.refine_poses_with_curves, &result);
     return result;
   }
-  std::vector<BundlePoint> check_points = TakeCheckPoints(&input);
-  Result<Bundle> refined =
+  std::vector<ScenePoint> check_points = TakeCheckPoints(&input);
+  Result<Scene> refined =
       RunColmap(input,
                 {*program, settings.refiner_timeout_s, log_path},
                 progress,

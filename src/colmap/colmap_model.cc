@@ -128,6 +128,7 @@ ScenePoint MakeScenePoint(const ColmapPoint3D& point,
   }
   ScenePoint scene_point;
   scene_point.position = point.position;
+  scene_point.point3D_id = point.point3D_id;
   for (const auto& [view_idx, pixel] : pixels) {
     scene_point.view_idxs.push_back(view_idx);
     scene_point.pixels.push_back(pixel);

@@ -170,6 +170,8 @@ TEST(ColmapModel, SceneHasViewsByNameAndPointsWithTheirViews) {
   ASSERT_EQ(scene.points.size(), 2u);
   EXPECT_THAT(scene.points[0].view_idxs, ElementsAre(0, 2));
   EXPECT_THAT(scene.points[1].view_idxs, ElementsAre(1));
+  EXPECT_EQ(scene.points[0].point3D_id, 1u);
+  EXPECT_EQ(scene.points[1].point3D_id, 3u);
 
   const Scene without = SceneFromColmapModel(model, "/photos", {"b.png"});
   ASSERT_EQ(without.views.size(), 2u);

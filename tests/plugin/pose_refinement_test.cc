@@ -2,6 +2,7 @@
 #include "plugin/poses/pose_refinement.h"
 
 #include <curvix/scene.h>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -104,13 +105,22 @@ class FakeColmap : public testing::Test {
     return ReadColmapModel(folder_.path()).value();
   }
 
+  // The same with the poses of `truth`.
+  ColmapModel WrittenWithPosesOf(ColmapModel truth) {
+    ColmapModel model = Written();
+    // It has ids in the order of the names.
+    std::sort(truth.images.begin(),
+              truth.images.end(),
+              [](const auto& a, const auto& b) { return a.name < b.name; });
+    for (std::size_t i = 0; i < model.images.size(); ++i) {
+      model.images[i].cam_from_world = truth.images[i].cam_from_world;
+    }
+    return model;
+  }
+
   // The run of a bundle adjuster that finds the poses of `truth`.
   PoseRefinement Solve(const ColmapModel& truth) {
-    ColmapModel solved = Written();
-    for (std::size_t i = 0; i < solved.images.size(); ++i) {
-      solved.images[i].cam_from_world = truth.images[i].cam_from_world;
-    }
-    return Run(Copy(solved, "solved"));
+    return Run(Copy(WrittenWithPosesOf(truth), "solved"));
   }
 
   static void ExpectKept(const PoseRefinement& result,
@@ -289,17 +299,8 @@ TEST_F(FakeColmap, SamePosesGiveTheSameBytes) {
 }
 
 TEST_F(FakeColmap, MovingACameraImplausiblyIsRefused) {
-  ColmapModel moved = PosedPoints({});
-  const ColmapModel written = Written();
-  for (std::size_t i = 0; i < moved.images.size(); ++i) {
-    moved.images[i].image_id = written.images[i].image_id;
-    moved.images[i].camera_id = 1;
-    moved.images[i].name = written.images[i].name;
-    moved.images[i].points2D = written.images[i].points2D;
-  }
-  moved.cameras = written.cameras;
-  moved.points = written.points;
-  EXPECT_TRUE(Run(Copy(moved, "good")).model);  // the true poses
+  ColmapModel moved = WrittenWithPosesOf(PosedPoints({}));
+  EXPECT_TRUE(Run(Copy(moved, "good")).model);
   moved.images[2].cam_from_world.translation.x() += 1;
   ExpectKept(Run(Copy(moved, "moved")), "px");
 }
@@ -310,10 +311,9 @@ TEST_F(FakeColmap, MovingAndScalingTheWorldIsUndone) {
   moved.rotation = Eigen::Quaterniond(0.3, -0.5, 0.1, 0.8).normalized();
   moved.translation = {-30, 4, 1000};
   const ColmapModel truth = PosedPoints({});
-  ColmapModel model = Written();
-  for (std::size_t i = 0; i < model.images.size(); ++i) {
-    model.images[i].cam_from_world =
-        MovePose(moved, truth.images[i].cam_from_world);
+  ColmapModel model = WrittenWithPosesOf(truth);
+  for (ColmapImage& image : model.images) {
+    image.cam_from_world = MovePose(moved, image.cam_from_world);
   }
   for (ColmapPoint3D& point : model.points) {
     point.position = moved * point.position;

@@ -8,7 +8,6 @@
 
 #include "base/median.h"
 #include "colmap/colmap_model.h"
-#include "plugin/poses/bundle.h"
 
 namespace curvix {
 
