@@ -16,7 +16,6 @@
 #include "base/option_table.h"
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
-#include "edge_detection/curvelets.h"
 #include "measuring/moved_curves.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/evaluations.h"
@@ -24,6 +23,7 @@
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 #include "plugin/run/run_stages.h"
+#include "plugin/run/run_steps.h"
 #include "plugin/run/run_workspace.h"
 
 namespace curvix {
@@ -32,117 +32,38 @@ namespace {
 namespace py = pybind11;
 namespace fs = std::filesystem;
 
-class SceneJob {
- public:
-  SceneJob(const Scene& scene,
-           const RunSettings& settings,
-           RunProgress& progress)
-      : progress_(progress) {
-    run_.scene = scene;
-    run_.record.settings = settings;
-    run_.record.settings.poses.refiner = "none";
-  }
-
-  Result<WorkspaceRun> Run(const std::vector<EdgeMap>* edges);
-
- private:
-  Status FindEdges(const std::vector<EdgeMap>* edges);
-  Status RefinePoses();
-  void Summarize(const Reconstruction& reconstruction);
-
-  const Options& options() const { return run_.record.settings.options; }
-
-  RunProgress& progress_;
-  Stopwatch since_start_;
-  WorkspaceRun run_;
-};
-
-Status SceneJob::FindEdges(const std::vector<EdgeMap>* edges) {
-  const Stopwatch stopwatch;
-  if (edges == nullptr) {
-    auto detected = DetectEdges(run_.scene, options(), progress_.Callback());
-    if (!detected.ok()) return detected.status();
-    run_.edge_maps = *std::move(detected);
-  } else {
-    run_.edge_maps = *edges;
-    for (EdgeMap& map : run_.edge_maps) {
-      map.neighbors = LinkNeighbors(map.edges, options().edge_detection);
-    }
-  }
-  RunRecord& record = run_.record;
-  record.stages.push_back(stopwatch.Read("detect_edges"));
-  record.stages.back().counts = CountEdges(run_.edge_maps);
-  record.result.num_edges_2d = record.stages.back().counts.front().second;
-  return {};
-}
-
-Status SceneJob::RefinePoses() {
-  const Stopwatch stopwatch;
-  const PoseRefinementSettings& settings = run_.record.settings.poses;
-  if (!settings.refine_poses_with_curves) return {};
-  Result<CurvePoses> poses = RefinePosesWithCurves(run_.scene,
-                                                   run_.edge_maps,
-                                                   options(),
-                                                   progress_.Callback(),
-                                                   settings.refine_intrinsics);
-  if (!poses.ok()) return poses.status();
-  run_.record.stages.push_back(stopwatch.Read("refine_poses_with_curves"));
-  auto moved =
-      EdgesWithCameras(run_.scene, std::move(run_.edge_maps), poses->cameras);
-  if (!moved.ok()) return moved.status();
-  run_.edge_maps = *std::move(moved);
-  CurvePoseRefinement refined = ModelWithCurvePoses(
-      ModelOfScene(run_.scene), run_.scene, *std::move(poses));
-  const CurvePoses& accepted = refined.record.poses;
-  run_.scene.cameras = accepted.cameras;
-  for (std::size_t i = 0; i < run_.scene.views.size(); ++i) {
-    run_.scene.views[i].cam_from_world = accepted.cam_from_world[i];
-  }
-  if (refined.model) {
-    for (const ColmapPoint3D& point : refined.model->points) {
-      run_.scene.points[point.point3D_id - 1].position = point.position;
-    }
-  }
-  run_.record.curve_poses = std::move(refined.record);
-  return {};
-}
-
-void SceneJob::Summarize(const Reconstruction& reconstruction) {
-  RunRecord& record = run_.record;
-  for (const Camera& camera : run_.scene.cameras) {
+// The record of a run on `scene`.
+RunRecord SceneRecord(const Scene& scene, const RunSettings& settings) {
+  RunRecord record;
+  record.settings = settings;
+  record.settings.poses.refiner = "none";
+  for (const Camera& camera : scene.cameras) {
     record.input.camera_models.emplace_back(ModelName(camera.model));
   }
-  record.input.num_views = static_cast<std::int64_t>(run_.scene.views.size());
-  record.input.num_points = static_cast<std::int64_t>(run_.scene.points.size());
-  const std::int64_t num_edges_2d = record.result.num_edges_2d;
-  record.result = SummarizeCurves(run_.curves);
-  record.result.num_edges_2d = num_edges_2d;
-  record.result.num_edges_3d =
-      static_cast<std::int64_t>(reconstruction.edges.size());
-  record.result.why_empty = reconstruction.report.why_empty;
-  record.total = since_start_.Read("total");
+  record.input.num_views = static_cast<std::int64_t>(scene.views.size());
+  record.input.num_points = static_cast<std::int64_t>(scene.points.size());
+  return record;
 }
 
-Result<WorkspaceRun> SceneJob::Run(const std::vector<EdgeMap>* edges) {
-  Status status = FindEdges(edges);
-  if (status.ok()) status = RefinePoses();
-  if (!status.ok()) return status;
-  Result<Reconstruction> found = ReconstructCurves(
-      run_.scene, run_.edge_maps, options(), progress_.Callback());
-  if (!found.ok()) return found.status();
-  for (StageReport& stage : found->report.stages) {
-    run_.record.stages.push_back(stage);
+// Refines the poses of `run` with curves.
+Status RefineScenePoses(RunStages& stages, WorkspaceRun& run) {
+  Scene& scene = run.scene;
+  const auto refined =
+      stages.RefinePosesWithCurves(ModelOfScene(scene), scene, run.edge_maps);
+  if (!refined.ok()) return refined.status();
+  if (!refined->model) return {};
+  const CurvePoses& poses = refined->record.poses;
+  auto moved = EdgesWithCameras(scene, std::move(run.edge_maps), poses.cameras);
+  if (!moved.ok()) return moved.status();
+  run.edge_maps = *std::move(moved);
+  scene.cameras = poses.cameras;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].cam_from_world = poses.cam_from_world[i];
   }
-  run_.curves = std::move(found->curves);
-  const Stopwatch stopwatch;
-  run_.fitted = FitCurves(CurvesInMemory(run_.curves, &run_.edge_maps),
-                          run_.scene,
-                          options().curve_fitting,
-                          options().runtime.num_threads);
-  run_.record.stages.push_back(stopwatch.Read("fit_curves"));
-  run_.record.stages.back().counts = CountFits(run_.fitted);
-  Summarize(*found);
-  return std::move(run_);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    scene.points[i].position = refined->model->points[i].position;
+  }
+  return {};
 }
 
 // The stages of RunWorkspace behind bundle adjustment, which is for models of
@@ -154,7 +75,30 @@ Result<WorkspaceRun> ReconstructScene(const Scene& scene,
                                       const std::vector<EdgeMap>* edges,
                                       const RunSettings& settings,
                                       RunProgress& progress) {
-  return SceneJob(scene, settings, progress).Run(edges);
+  const Stopwatch since_start;
+  WorkspaceRun run;
+  run.record = SceneRecord(scene, settings);
+  run.scene = scene;
+  RunRecord& record = run.record;
+  RunStages stages({}, progress, record);
+  Result<std::vector<EdgeMap>> edge_maps =
+      edges == nullptr ? stages.Detect(scene) : stages.Link(*edges);
+  if (!edge_maps.ok()) return edge_maps.status();
+  run.edge_maps = *std::move(edge_maps);
+  if (settings.poses.refine_poses_with_curves) {
+    Status status = RefineScenePoses(stages, run);
+    if (!status.ok()) return status;
+  }
+  Result<Reconstruction> found = stages.Reconstruct(run.scene, run.edge_maps);
+  if (!found.ok()) return found.status();
+  run.curves = std::move(found->curves);
+  run.fitted = FitCurvesOf(
+      run.scene, CurvesInMemory(run.curves, &run.edge_maps), record);
+  for (const Curve& curve : run.curves.curves) Count(curve, record.result);
+  record.result.num_edges_3d = static_cast<std::int64_t>(found->edges.size());
+  record.result.why_empty = found->report.why_empty;
+  record.total = since_start.Read("total");
+  return run;
 }
 
 RunSettings SettingsOf(const PythonOptions& options,

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/stopwatch.h"
+#include "edge_detection/curvelets.h"
 #include "plugin/base/text.h"
 
 namespace curvix {
@@ -19,17 +19,7 @@ std::string RepeatedViewsText(std::int64_t num_views) {
          " left out (Validation.min_view_angle_deg)";
 }
 
-// "8 views, 123 edges"
-std::string CountsText(const StageCounts& counts) {
-  std::string text;
-  for (const auto& [name, count] : counts) {
-    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
-  }
-  return text;
-}
-
-}  // namespace
-
+// How many edges there are in all views; those left out, if any are.
 StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
   std::int64_t num_edges = 0, num_masked = 0;
   std::int64_t num_isolated = 0, num_over_limit = 0;
@@ -53,22 +43,16 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
   return counts;
 }
 
-StageCounts CountFits(const FittedCurves& fitted) {
-  std::int64_t lines = 0, arcs = 0, ellipses = 0, splines = 0;
-  for (const FittedCurve& curve : fitted.curves) {
-    for (const CurveFit& fit : curve.fits) {
-      lines += fit.kind == FitKind::kLine;
-      arcs += fit.kind == FitKind::kArc;
-      ellipses += fit.kind == FitKind::kEllipse;
-      splines += fit.kind == FitKind::kSpline;
-    }
+// "8 views, 123 edges"
+std::string CountsText(const StageCounts& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
   }
-  return {{"lines", lines},
-          {"arcs", arcs},
-          {"ellipses", ellipses},
-          {"splines", splines},
-          {"nodes", static_cast<std::int64_t>(fitted.nodes.size())}};
+  return text;
 }
+
+}  // namespace
 
 RunStages::RunStages(std::filesystem::path folder,
                      RunProgress& progress,
@@ -90,7 +74,24 @@ Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {
     if (!edge_maps.ok()) return edge_maps.status();
     Save(key, *edge_maps);
   }
-  StageCounts counts = CountEdges(*edge_maps);
+  FinishEdges(stopwatch, *edge_maps, is_resumed);
+  return edge_maps;
+}
+
+std::vector<EdgeMap> RunStages::Link(std::vector<EdgeMap> edge_maps) {
+  const Stopwatch stopwatch;
+  for (EdgeMap& map : edge_maps) {
+    map.neighbors =
+        LinkNeighbors(map.edges, record_.settings.options.edge_detection);
+  }
+  FinishEdges(stopwatch, edge_maps, false);
+  return edge_maps;
+}
+
+void RunStages::FinishEdges(const Stopwatch& stopwatch,
+                            const std::vector<EdgeMap>& edge_maps,
+                            bool is_resumed) {
+  StageCounts counts = CountEdges(edge_maps);
   record_.result.num_edges_2d = counts.front().second;
   counts.insert(counts.begin(), {"views", record_.input.num_views});
   std::string text = CountsText(counts);
@@ -98,7 +99,6 @@ Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {
               std::move(counts),
               std::move(text),
               is_resumed);
-  return edge_maps;
 }
 
 Result<CurvePoseRefinement> RunStages::RefinePosesWithCurves(

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <curvix/edges.h>
-#include <curvix/fitting.h>
 #include <curvix/reconstruct.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
@@ -13,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/progress.h"
 #include "plugin/poses/curve_poses.h"
@@ -23,22 +23,19 @@ namespace curvix {
 
 using StageCounts = decltype(StageReport::counts);
 
-// How many edges there are in all views; those left out, if any are.
-StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps);
-
-// How many primitives of each kind there are.
-StageCounts CountFits(const FittedCurves& fitted);
-
 // Runs stages with the options of `record`, and tells it and `progress` what
 // they did. Both outlive it.
 class RunStages {
  public:
-  // `folder`: where results of stages are kept, unless the run is to be clean.
+  // `folder`: where results of stages are kept, unless it is empty or the run
+  // is to be clean.
   RunStages(std::filesystem::path folder,
             RunProgress& progress,
             RunRecord& record);
 
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
+  // The same with edges that are known: neighbours are looked for.
+  std::vector<EdgeMap> Link(std::vector<EdgeMap> edge_maps);
   // For `model`, whose views with images `scene` has.
   Result<CurvePoseRefinement> RefinePosesWithCurves(
       const ColmapModel& model,
@@ -53,6 +50,9 @@ class RunStages {
  private:
   Result<EdgeSketch> Sketch(const Scene& scene,
                             const std::vector<EdgeMap>& edge_maps);
+  void FinishEdges(const Stopwatch& stopwatch,
+                   const std::vector<EdgeMap>& edge_maps,
+                   bool is_resumed);
   void FinishStage(StageReport report,
                    StageCounts counts,
                    std::string text,

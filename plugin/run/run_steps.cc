@@ -13,7 +13,6 @@
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/write_results.h"
-#include "plugin/run/run_stages.h"
 
 namespace curvix {
 namespace {
@@ -51,16 +50,22 @@ InputSummary SummarizeInput(const Workspace& workspace,
   return summary;
 }
 
-FittedCurves Fit(const Scene& scene,
-                 const CurveSource& curves,
-                 RunRecord& record) {
-  const Stopwatch stopwatch;
-  const Options& options = record.settings.options;
-  FittedCurves fitted = FitCurves(
-      curves, scene, options.curve_fitting, options.runtime.num_threads);
-  record.stages.push_back(stopwatch.Read("fit_curves"));
-  record.stages.back().counts = CountFits(fitted);
-  return fitted;
+// How many primitives of each kind there are.
+decltype(StageReport::counts) CountFits(const FittedCurves& fitted) {
+  std::int64_t lines = 0, arcs = 0, ellipses = 0, splines = 0;
+  for (const FittedCurve& curve : fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      lines += fit.kind == FitKind::kLine;
+      arcs += fit.kind == FitKind::kArc;
+      ellipses += fit.kind == FitKind::kEllipse;
+      splines += fit.kind == FitKind::kSpline;
+    }
+  }
+  return {{"lines", lines},
+          {"arcs", arcs},
+          {"ellipses", ellipses},
+          {"splines", splines},
+          {"nodes", static_cast<std::int64_t>(fitted.nodes.size())}};
 }
 
 // In the world, if it is known.
@@ -154,6 +159,18 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   return input;
 }
 
+FittedCurves FitCurvesOf(const Scene& scene,
+                         const CurveSource& curves,
+                         RunRecord& record) {
+  const Stopwatch stopwatch;
+  const Options& options = record.settings.options;
+  FittedCurves fitted = FitCurves(
+      curves, scene, options.curve_fitting, options.runtime.num_threads);
+  record.stages.push_back(stopwatch.Read("fit_curves"));
+  record.stages.back().counts = CountFits(fitted);
+  return fitted;
+}
+
 Result<FittedCurves> WriteFindings(const Scene& scene,
                                    const Findings& findings,
                                    const fs::path& folder,
@@ -167,7 +184,9 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
   result.num_edges_3d = findings.num_edges_3d;
   result.why_empty = findings.why_empty;
   FittedCurves fitted;
-  if (result.num_curves > 0) fitted = Fit(scene, findings.curves, record);
+  if (result.num_curves > 0) {
+    fitted = FitCurvesOf(scene, findings.curves, record);
+  }
   Status status = findings.curves.status();
   const Stopwatch stopwatch;
   if (status.ok() && result.num_curves > 0) {

@@ -35,6 +35,11 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunProgress& progress,
                                  RunRecord& record);
 
+// Fits the curves: the stage "fit_curves" of `record`.
+FittedCurves FitCurvesOf(const Scene& scene,
+                         const CurveSource& curves,
+                         RunRecord& record);
+
 // What a run has found.
 struct Findings {
   const CurveSource& curves;

@@ -39,7 +39,7 @@ class KeyMaker {
   // A file by its path, size and time of last change.
   void AddFile(const fs::path& path) {
     std::error_code error;
-    Add(path.string());
+    Add(fs::absolute(path, error).string());
     if (path.empty()) return;
     Add(static_cast<std::uint64_t>(fs::file_size(path, error)));
     Add(static_cast<std::int64_t>(
@@ -95,12 +95,6 @@ void AddGeometry(const Scene& scene, KeyMaker& key) {
   }
 }
 
-template <typename T>
-std::optional<T> ValueOf(Result<T> result) {
-  if (!result.ok()) return std::nullopt;
-  return std::move(result).value();
-}
-
 }  // namespace
 
 std::uint64_t SceneKey(const Scene& scene) {
@@ -120,7 +114,7 @@ std::uint64_t EdgesKey(const Scene& scene, const Options& options) {
   AddCameras(scene, key);
   for (const View& view : scene.views) {
     key.Add(view.camera_idx);
-    key.AddFile(fs::absolute(view.image_path));
+    key.AddFile(view.image_path);
     key.AddFile(view.mask_path);
   }
   key.AddOptions(options, "EdgeDetection");
@@ -154,17 +148,28 @@ std::uint64_t CurvePosesKey(const Scene& scene,
   return key.key();
 }
 
+template <typename T>
+std::optional<T> StageStore::LoadBy(Result<T> read(const fs::path&,
+                                                   std::uint64_t),
+                                    const char* name,
+                                    std::uint64_t key) const {
+  if (folder_.empty()) return std::nullopt;
+  Result<T> result = read(folder_ / name, key);
+  if (!result.ok()) return std::nullopt;
+  return std::move(result).value();
+}
+
 std::optional<std::vector<EdgeMap>> StageStore::LoadEdges(
     std::uint64_t key) const {
-  return ValueOf(ReadEdgeMaps(folder_ / kEdgesName, key));
+  return LoadBy(ReadEdgeMaps, kEdgesName, key);
 }
 
 std::optional<EdgeSketch> StageStore::LoadSketch(std::uint64_t key) const {
-  return ValueOf(ReadEdgeSketch(folder_ / kSketchName, key));
+  return LoadBy(ReadEdgeSketch, kSketchName, key);
 }
 
 std::optional<CurvePoses> StageStore::LoadCurvePoses(std::uint64_t key) const {
-  return ValueOf(ReadCurvePoses(folder_ / kCurvePosesName, key));
+  return LoadBy(ReadCurvePoses, kCurvePosesName, key);
 }
 
 bool StageStore::IsLink() const {
@@ -186,6 +191,7 @@ std::string StageStore::SaveBy(Status write(const fs::path&,
                                const char* name,
                                std::uint64_t key,
                                const T& result) {
+  if (folder_.empty()) return "";
   if (std::string why = MakeFolder(); !why.empty()) return why;
   const Status status = write(folder_ / name, key, result);
   has_saved_ = has_saved_ || status.ok();
@@ -206,7 +212,7 @@ std::string StageStore::Save(std::uint64_t key, const CurvePoses& poses) {
 }
 
 void StageStore::Clean() {
-  if (IsLink()) return;
+  if (folder_.empty() || IsLink()) return;
   std::error_code ignored;
   for (const char* name : {kEdgesName, kSketchName, kCurvePosesName}) {
     fs::remove(folder_ / name, ignored);

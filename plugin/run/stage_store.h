@@ -7,6 +7,7 @@
 #include <curvix/options.h>
 #include <curvix/refine_poses.h>
 #include <curvix/scene.h>
+#include <curvix/status.h>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -33,9 +34,9 @@ std::uint64_t CurvePosesKey(const Scene& scene,
                             const Options& options,
                             bool refine_intrinsics);
 
-// The stages that take long: files in a folder. A file
-// that another key was meant for, or that is broken, is as good as none. If the
-// folder is a link, nothing is written or removed behind it.
+// The stages that take long: files in a folder; with an empty path there are
+// none. A file that another key was meant for, or that is broken, is as good as
+// none. If the folder is a link, nothing is written or removed behind it.
 class StageStore {
  public:
   explicit StageStore(std::filesystem::path folder)
@@ -59,6 +60,11 @@ class StageStore {
  private:
   bool IsLink() const;
   std::string MakeFolder() const;
+  template <typename T>
+  std::optional<T> LoadBy(Result<T> read(const std::filesystem::path&,
+                                         std::uint64_t),
+                          const char* name,
+                          std::uint64_t key) const;
   template <typename T>
   std::string SaveBy(Status write(const std::filesystem::path&,
                                   std::uint64_t,

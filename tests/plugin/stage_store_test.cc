@@ -19,5 +19,14 @@ TEST(SketchKey, DependsOnTheOptionsOfGrowthThatChooseSeeds) {
   EXPECT_NE(SketchKey(scene, options), with_texture);
 }
 
+TEST(StageStore, KeepsNothingWithoutAFolder) {
+  StageStore store{std::filesystem::path()};
+  EXPECT_EQ(store.Save(1, std::vector<EdgeMap>(2)), "");
+  EXPECT_FALSE(store.has_saved());
+  EXPECT_FALSE(std::filesystem::exists("edges.bin"));
+  EXPECT_FALSE(store.LoadEdges(1));
+  store.Clean();
+}
+
 }  // namespace
 }  // namespace curvix

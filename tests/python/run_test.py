@@ -114,6 +114,10 @@ class Reconstruct(WorkspaceTest):
         for name in ('curves.ply', 'curves.json'):
             curves.write(self.folder / name)
             self.assertEqual(contents(self.folder / name), contents(self.folder / 'out' / name), name)
+        expected = json.loads((self.folder / 'out' / 'report.json').read_text())
+        self.assertEqual(curves.report['stages'],
+                         [stage for stage in expected['stages'] if stage['name'] not in ('read_model', 'write_files')])
+        self.assertEqual(curves.report['result']['edge_sigma_px'], expected['result']['edge_sigma_px'])
 
     def test_evaluate_gives_what_the_program_prints(self):
         truth = self.workspace / 'gt.txt'
