@@ -156,8 +156,10 @@ TEST_F(InstalledColmap, GivesCurvesAsGoodAsThoseOfTruePoses) {
   EXPECT_LE(CurveError(PosesOf(*refined)), 1.1 * error_of_truth) << said;
   const auto left = AlignPoses(PosesOf(*refined), PosesOf(model));
   ASSERT_TRUE(left);
-  // Curves keep the unit of the structure, not that of the cameras.
-  EXPECT_NEAR(left->scale, 1, 1e-3);
+  // Curves keep the unit in which the disturbed poses show the structure. These
+  // tell it to about a pixel of its radius, some 300 pixels; COLMAP's matches
+  // differ from run to run.
+  EXPECT_NEAR(left->scale, 1, 1. / 300);
 }
 
 TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
