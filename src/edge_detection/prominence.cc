@@ -38,18 +38,26 @@ Eigen::Vector2d Normal(const LocatedEdge& edge) {
   return edge.gradient.cast<double>() / static_cast<double>(edge.strength());
 }
 
-// The mean strength in the square about each pixel. Only as much of the image
-// as has edges.
+// The image, and what of edges lies outside it, where SeparateEdges() and the
+// like may have moved them; on the far sides only as much as has edges.
 template <typename Edge>
-cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges) {
-  cv::Point last(0, 0);
+cv::Rect PixelsOf(const std::vector<Edge>& edges) {
+  cv::Point first(0, 0), last(0, 0);
   for (const Edge& edge : edges) {
     const cv::Point pixel = PixelAt(edge.position);
+    first = {std::min(first.x, pixel.x), std::min(first.y, pixel.y)};
     last = {std::max(last.x, pixel.x), std::max(last.y, pixel.y)};
   }
-  cv::Mat1f strengths(last.y + 1, last.x + 1, 0.0f);
+  return {first, last + cv::Point(1, 1)};
+}
+
+// The mean strength in the square about each of the pixels.
+template <typename Edge>
+cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges,
+                           const cv::Rect& pixels) {
+  cv::Mat1f strengths(pixels.size(), 0.0f);
   for (const Edge& edge : edges) {
-    strengths(PixelAt(edge.position)) += Strength(edge);
+    strengths(PixelAt(edge.position) - pixels.tl()) += Strength(edge);
   }
   cv::boxFilter(strengths,
                 strengths,
@@ -63,11 +71,11 @@ cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges) {
 
 template <typename Edge>
 std::vector<float> CrowdingOf(const std::vector<Edge>& edges) {
-  const cv::Mat1f strengths = StrengthPerPixel(edges);
-  const cv::Rect inside({0, 0}, strengths.size());
+  const cv::Rect pixels = PixelsOf(edges);
+  const cv::Mat1f strengths = StrengthPerPixel(edges, pixels);
   const auto strength_at = [&](const Eigen::Vector2d& position) {
     const cv::Point pixel = PixelAt(position);
-    return inside.contains(pixel) ? strengths(pixel) : 0.0f;
+    return pixels.contains(pixel) ? strengths(pixel - pixels.tl()) : 0.0f;
   };
   std::vector<float> crowding;
   crowding.reserve(edges.size());

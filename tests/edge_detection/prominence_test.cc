@@ -82,6 +82,16 @@ TEST(MeasureCrowding, IsTheStrengthOfEdgesOnTheEmptierSide) {
   EXPECT_EQ(edges.at(90).crowding, Eigen::half(9.0F / 81));
 }
 
+TEST(Prominence, StaysWhenEdgesMoveOutOfTheImage) {
+  std::vector<Edge2d> edges = Lines({30, 38, 46, 54}, 10);
+  const std::vector<double> before = Prominence(edges);
+  for (Edge2d& edge : edges) edge.position -= Eigen::Vector2d(50, 41);
+  const std::vector<double> after = Prominence(edges);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    EXPECT_NEAR(before[i], after[i], 1e-6);
+  }
+}
+
 TEST(Prominence, AcceptsNoEdgesAndTheBorderOfTheImage) {
   EXPECT_TRUE(Prominence(std::vector<Edge2d>()).empty());
   Edge2d corner;
