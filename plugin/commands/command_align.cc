@@ -7,6 +7,7 @@
 #include "plugin/align/find_markers.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
+#include "plugin/run/run_parts.h"
 
 namespace curvix {
 namespace {
@@ -97,9 +98,7 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
     return kExitSuccess;
   }
   const std::string project = (folder / "project.ini").string();
-  const char* const word =
-      fs::exists(folder / "parts") ? "merge" : "reconstruct";
-  return RunProgram({word,
+  return RunProgram({AreMerged(folder) ? "merge" : "reconstruct",
                      "--project_path",
                      project,
                      "--workspace_path",

@@ -3,6 +3,7 @@
 
 #include <curvix/curve_io.h>
 #include <curvix/reconstruct.h>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,9 +11,11 @@
 #include <vector>
 
 #include "base/cancelled.h"
+#include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "io/stage_io.h"
 #include "plugin/base/file_errors.h"
+#include "plugin/base/json.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/run/part_files.h"
 #include "plugin/run/run_stages.h"
@@ -24,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPartsName = "parts";
+// The stage of a run that no other kind of run has.
+constexpr const char* kJoinStage = "join_parts";
 
 RunRecord RecordOf(const RunSettings& settings) {
   RunRecord record;
@@ -145,13 +150,13 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   if (!output.ok()) return output.status();
 
   const Stopwatch since_join;
-  progress.Update("join_parts", 0, 0);
+  progress.Update(kJoinStage, 0, 0);
   Result<PartFiles> parts = PartFiles::Open(*plan, settings.options, folder);
   if (!parts.ok()) return parts.status();
   const auto curves =
       JoinParts(plan->partition, *parts, input->scene, settings.options);
   if (!curves.ok()) return curves.status();
-  record.stages.push_back(since_join.Read("join_parts"));
+  record.stages.push_back(since_join.Read(kJoinStage));
   record.stages.back().counts = {
       {"parts", static_cast<std::int64_t>(plan->partition.parts.size())},
       {"curves", static_cast<std::int64_t>((*curves)->size())}};
@@ -200,6 +205,17 @@ Result<RunRecord> RunPart(const RunSettings& settings,
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   return CatchFileErrors(StatusCode::kNotFound,
                          [&] { return Merge(settings, progress); });
+}
+
+bool AreMerged(const fs::path& folder) {
+  const Result<std::string> text = ReadFile(folder / "report.json");
+  if (!text.ok()) return false;
+  const Json report = Json::parse(*text, nullptr, false);
+  if (!report.contains("stages")) return false;
+  const Json& stages = report.at("stages");
+  return std::any_of(stages.begin(), stages.end(), [](const Json& stage) {
+    return stage.contains("name") && stage.at("name") == kJoinStage;
+  });
 }
 
 }  // namespace curvix

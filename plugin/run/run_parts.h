@@ -5,6 +5,7 @@
 #pragma once
 
 #include <curvix/status.h>
+#include <filesystem>
 
 #include "parts/scene_parts.h"
 #include "plugin/base/progress.h"
@@ -31,5 +32,8 @@ Result<RunRecord> RunPart(const RunSettings& settings,
 // Errors as RunWorkspace; kNotFound, too, with the parts that are still to be
 // reconstructed, or again because plan or options are others.
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress);
+
+// Whether RunMerge wrote the results in `folder`, by their report.json.
+bool AreMerged(const std::filesystem::path& folder);
 
 }  // namespace curvix

@@ -95,6 +95,14 @@ TEST_F(Align, AKnownDistanceScalesAllResults) {
   EXPECT_EQ(Curves(), before_);
 }
 
+TEST_F(Align, WritesAgainWhatReconstructWroteBesideAPlanOfParts) {
+  ASSERT_EQ(Run("partition").exit_code, 0);
+  ASSERT_TRUE(fs::exists(results_ / "parts"));
+  const Outcome outcome = RunAlign("--axes auto");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_TRUE(Curves().contains("alignment"));
+}
+
 TEST_F(Align, TellsLargeUncertaintiesWithoutExponents) {
   const Outcome outcome = RunAlign("--distance 0 1 250 500");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;

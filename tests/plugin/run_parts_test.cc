@@ -89,6 +89,8 @@ TEST_F(RunParts, GiveWhatOneRunGives) {
   const auto run = RunWorkspace(settings, progress_);
   ASSERT_TRUE(run.ok()) << run.status().message();
 
+  EXPECT_TRUE(AreMerged(parts_));
+  EXPECT_FALSE(AreMerged(one_));
   const Evaluation one = Evaluate(one_);
   const Evaluation merged = Evaluate(parts_);
   EXPECT_GT(*one.visible_f_score_5, 50);
