@@ -23,6 +23,7 @@
 #include "plugin/draw/drawn_views.h"
 #include "plugin/draw/map_file.h"
 #include "plugin/draw/rectified_photograph.h"
+#include "plugin/export/write_results.h"
 #include "plugin/run/run_steps.h"
 
 namespace curvix {
@@ -57,8 +58,10 @@ class Drafter {
  private:
   Status Read();
   Status TakePlanes();
+  Status TakeName();
   Status TakePhotograph();
   Status LayOut();
+  std::vector<fs::path> Obsolete() const;
   Status Write();
   std::string Subtitle() const;
 
@@ -128,12 +131,23 @@ Status Drafter::TakePlanes() {
         "x, y and z are those of the model, which need not be level; "
         "'colmap_curvix align --axes auto' turns them");
   }
+  return {};
+}
+
+Status Drafter::TakeName() {
   name_ =
       settings_.name.empty() ? "drawing_" + settings_.plane : settings_.name;
   for (char& c : name_) c = c == ' ' || c == ',' ? '_' : c;
   if (fs::path(name_).filename() != name_ || name_.front() == '.') {
     return BadDrawing("--name is \"" + name_ +
                       "\"; it takes the name of a file, without folders");
+  }
+  for (const OutputFormat& format : OutputFormats()) {
+    for (const char* ending : {".dxf", ".svg", ".jpg", ".gpkg", ".geojson"}) {
+      if (name_ + ending != format.file) continue;
+      return BadDrawing("--name is \"" + name_ + "\", but " + format.file +
+                        " is a file of the curves; choose another name");
+    }
   }
   return {};
 }
@@ -232,6 +246,23 @@ Status Drafter::LayOut() {
   return {};
 }
 
+// What earlier drawings of this name wrote, unless this one does. Other files
+// of the name are the user's.
+std::vector<fs::path> Drafter::Obsolete() const {
+  const fs::path& folder = workspace_.output_path;
+  std::vector<fs::path> files;
+  for (const char* ending : {".gpkg", ".geojson"}) {
+    if (IsMapOfDrawing(folder / (name_ + ending))) {
+      files.emplace_back(name_ + ending);
+    }
+  }
+  const Result<std::string> svg = ReadFile(folder / (name_ + ".svg"));
+  if (svg.ok() && svg->find("<image ") != std::string::npos) {
+    files.emplace_back(name_ + ".jpg");
+  }
+  return files;
+}
+
 Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   if (!output.ok()) return output.status();
@@ -239,8 +270,6 @@ Status Drafter::Write() {
       {name_ + ".dxf", EncodeDxfSheet(sheet_)},
       {name_ + ".svg", EncodeSvgSheet(sheet_)}};
   if (picture_) files.emplace_back(picture_->file, std::move(jpeg_));
-  std::vector<fs::path> obsolete;
-  if (!picture_) obsolete.emplace_back(name_ + ".jpg");
   text_ += "Written to " + workspace_.output_path.string() + ":";
   for (const auto& [file, bytes] : files) {
     Status written = WriteFileAtomically(output->folder() / file, bytes);
@@ -251,16 +280,16 @@ Status Drafter::Write() {
   Status written = WriteMapFiles(output->folder() / (name_ + ".dxf"),
                                  is_plan ? curves_.alignment->crs : "",
                                  {settings_.geopackage, settings_.geojson},
-                                 &text_,
-                                 &obsolete);
+                                 &text_);
   if (!written.ok()) return written;
   text_ += "\n";
-  return output->Publish(obsolete);
+  return output->Publish(Obsolete());
 }
 
 Result<DrawSummary> Drafter::Run() {
   for (const auto step : {&Drafter::Read,
                           &Drafter::TakePlanes,
+                          &Drafter::TakeName,
                           &Drafter::TakePhotograph,
                           &Drafter::LayOut}) {
     Status status = (this->*step)();

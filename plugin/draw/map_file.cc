@@ -9,6 +9,8 @@
 #endif
 #include <utility>
 
+#include "base/file_io.h"
+
 namespace curvix {
 namespace {
 
@@ -84,20 +86,23 @@ Status WriteMapFile(const std::filesystem::path& dxf,
 Status WriteMapFiles(const std::filesystem::path& dxf,
                      const std::string& crs,
                      const WantedMaps& wanted,
-                     std::string* text,
-                     std::vector<std::filesystem::path>* obsolete) {
+                     std::string* text) {
   for (const auto& [is_wanted, ending] :
        {std::pair(wanted.geopackage, ".gpkg"), {wanted.geojson, ".geojson"}}) {
+    if (!is_wanted) continue;
     const std::filesystem::path map = dxf.stem().concat(ending);
-    if (!is_wanted) {
-      obsolete->push_back(map);
-      continue;
-    }
     Status status = WriteMapFile(dxf, crs, dxf.parent_path() / map);
     if (!status.ok()) return status;
     *text += " " + map.string();
   }
   return {};
+}
+
+bool IsMapOfDrawing(const std::filesystem::path& path) {
+  const Result<std::string> bytes = ReadFile(path);
+  // The layer, and a field that GDAL makes of a DXF.
+  return bytes.ok() && bytes->find("\"curves\"") != std::string::npos &&
+         bytes->find("EntityHandle") != std::string::npos;
 }
 
 }  // namespace curvix

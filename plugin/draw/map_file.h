@@ -5,7 +5,6 @@
 #include <curvix/status.h>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace curvix {
 
@@ -17,13 +16,14 @@ struct WantedMaps {
 // Writes the curves of a DXF drawing, without frame and dimensions, as the
 // layer `curves` of the files that are wanted, which have its name; their
 // layers are in the field `Layer`. `crs`: "EPSG:25832", say; "": not known. The
-// same bytes for the same drawing. Names of files written are added to `text`,
-// those of others to `obsolete`. kUnsupported: the program was built without
-// GDAL; kExternalTool: GDAL cannot.
+// same bytes for the same drawing. Names of files written are added to `text`.
+// kUnsupported: the program was built without GDAL; kExternalTool: GDAL cannot.
 Status WriteMapFiles(const std::filesystem::path& dxf,
                      const std::string& crs,
                      const WantedMaps& wanted,
-                     std::string* text,
-                     std::vector<std::filesystem::path>* obsolete);
+                     std::string* text);
+
+// Whether WriteMapFiles wrote the file, by its content.
+bool IsMapOfDrawing(const std::filesystem::path& path);
 
 }  // namespace curvix

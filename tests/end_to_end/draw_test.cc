@@ -196,6 +196,17 @@ TEST_F(Draw, APhotographLiesBeneath) {
   EXPECT_FALSE(fs::exists(results_ / "drawing_auto.jpg"));
 }
 
+TEST_F(Draw, RemovesNoFileThatIsNotOfADrawing) {
+  const std::vector<fs::path> files = {results_ / "facade.jpg",
+                                       results_ / "facade.gpkg",
+                                       results_ / "facade.geojson"};
+  for (const fs::path& file : files) std::ofstream(file) << "mine";
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_EQ(Run("draw --name facade").exit_code, 0);
+    for (const fs::path& file : files) EXPECT_EQ(Read(file), "mine") << file;
+  }
+}
+
 TEST_F(Draw, SeveralViewsAreDrawnWholeOnRequest) {
   const Outcome outcome = Run("draw --plane xz,xy --crop all");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -241,7 +252,8 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--plane xy --crop 0,0,1", "left, bottom, right"),
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
         std::pair("--photograph none.jpg", "no image of the model"),
-        std::pair("--name a/b", "--name")}) {
+        std::pair("--name a/b", "--name"),
+        std::pair("--name curves", "curves.dxf is a file of the curves")}) {
     ExpectError(std::string("draw ") + words, why);
   }
   EXPECT_EQ(Contents(results_), before);
