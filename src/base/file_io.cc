@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/file_io.h"
 
+#include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -101,7 +102,13 @@ Result<std::string> ReadFile(const fs::path& path) {
                   "Cannot open " + path.string() + Reason(errno) +
                       "; check that it may be read.");
   }
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  // Iterators would throw where read() tells of an error.
+  std::array<char, 1 << 16> block;
+  std::string bytes;
+  do {
+    stream.read(block.data(), block.size());
+    bytes.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream);
   if (stream.bad()) {
     return Status(StatusCode::kDataLoss,
                   "Cannot read " + path.string() + " to its end" +

@@ -4,26 +4,23 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "base/file_io.h"
 #include "edge_detection/image_header.h"
 
 namespace curvix {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
-Result<Bytes> ReadFile(const std::filesystem::path& path) {
+Result<std::string> ReadImageFile(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status file =
       std::filesystem::status(path, error);
@@ -37,17 +34,8 @@ Result<Bytes> ReadFile(const std::filesystem::path& path) {
         StatusCode::kNotFound,
         "Image " + path.string() + " is a folder or a device, not a file.");
   }
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream.tellg();
-  Bytes bytes(size > 0 ? static_cast<std::size_t>(size) : 0);
-  stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(bytes.data()), size);
-  if (!stream) {
-    return Status(
-        StatusCode::kNotFound,
-        "Image " + path.string() + " cannot be read. Check its permissions.");
-  }
-  if (bytes.empty()) {
+  Result<std::string> bytes = ReadFile(path);
+  if (bytes.ok() && bytes->empty()) {
     return Status(
         StatusCode::kDataLoss,
         "Image " + path.string() + " is an empty file. Copy it again.");
@@ -116,17 +104,14 @@ std::optional<GrayImage> ToGrey(const cv::Mat& image) {
 }
 
 // Empty if it is no image, or if there is not enough memory for it.
-cv::Mat Decode(const Bytes& bytes) {
+cv::Mat Decode(const std::string& file) {
   try {
+    const std::vector<std::uint8_t> bytes(file.begin(), file.end());
     // Unchanged: alpha kept, depth kept, EXIF rotation ignored.
     return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     return {};
   }
-}
-
-std::string_view AsText(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 Status WrongSize(const std::string& name,
@@ -141,8 +126,8 @@ Status WrongSize(const std::string& name,
   return {StatusCode::kInvalidArgument, message.str()};
 }
 
-Status Broken(const std::filesystem::path& path, const Bytes& bytes) {
-  if (IsHeif(AsText(bytes))) {
+Status Broken(const std::filesystem::path& path, const std::string& bytes) {
+  if (IsHeif(bytes)) {
     return {StatusCode::kUnsupported,
             "Image " + path.string() +
                 " is HEIF or AVIF, which is not read here. Convert all images "
@@ -157,9 +142,9 @@ Status Broken(const std::filesystem::path& path, const Bytes& bytes) {
 }  // namespace
 
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
-  const Result<Bytes> bytes = ReadFile(path);
+  const Result<std::string> bytes = ReadImageFile(path);
   if (!bytes.ok()) return bytes.status();
-  if (const auto size = SizeInHeader(AsText(*bytes))) return *size;
+  if (const auto size = SizeInHeader(*bytes)) return *size;
   const cv::Mat image = Decode(*bytes);
   if (image.empty()) return Broken(path, *bytes);
   return ImageSize{image.cols, image.rows};
@@ -167,15 +152,14 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
 
 Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
                                 const std::optional<ImageSize>& expected) {
-  const Result<Bytes> bytes = ReadFile(path);
+  const Result<std::string> bytes = ReadImageFile(path);
   if (!bytes.ok()) return bytes.status();
-  const std::optional<ImageSize> announced = SizeInHeader(AsText(*bytes));
+  const std::optional<ImageSize> announced = SizeInHeader(*bytes);
   if (expected && announced && *announced != *expected) {
     return WrongSize(path.string(), *announced, *expected);
   }
   const cv::Mat image = Decode(*bytes);
-  if (image.empty() || IsTruncatedJpeg(AsText(*bytes)))
-    return Broken(path, *bytes);
+  if (image.empty() || IsTruncatedJpeg(*bytes)) return Broken(path, *bytes);
   const ImageSize size = {image.cols, image.rows};
   if (expected && size != *expected) {
     return WrongSize(path.string(), size, *expected);

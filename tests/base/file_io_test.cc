@@ -119,5 +119,23 @@ TEST_F(FileIo, ReadingWhatIsNotAFileIsNotFound) {
   EXPECT_EQ(ReadFile(folder_.path()).status().code(), StatusCode::kNotFound);
 }
 
+TEST_F(FileIo, ReadsWholeFiles) {
+  for (const std::size_t size : {0, 1, 65535, 65536, 65537, 200000}) {
+    std::string bytes(size, 'x');
+    for (std::size_t i = 0; i < size; i += 1001) bytes[i] = '\n';
+    ASSERT_TRUE(WriteFileAtomically(Target(), bytes).ok());
+    EXPECT_EQ(*ReadFile(Target()), bytes);
+  }
+}
+
+TEST_F(FileIo, TellsOfAnErrorWhileReading) {
+  // Nothing is at the address 0.
+  const fs::path path = "/proc/self/mem";
+  if (!fs::exists(path)) GTEST_SKIP() << "there is no " << path;
+  const Status status = ReadFile(path).status();
+  EXPECT_EQ(status.code(), StatusCode::kDataLoss);
+  EXPECT_THAT(status.message(), HasSubstr("Input/output error"));
+}
+
 }  // namespace
 }  // namespace curvix
