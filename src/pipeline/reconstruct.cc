@@ -99,7 +99,7 @@ EdgeSketch Sketch(const Scene& scene,
                   const std::vector<EdgeMap>& edge_maps,
                   const Options& options,
                   RunRecorder& run) {
-  run.Begin("sketch_edges");
+  if (!run.Begin("sketch_edges")) return {};
   EdgeSketch sketch =
       SketchEdges(views, edge_maps, scene.points, options, run.Steps());
   run.End(CountsOf(sketch));
@@ -115,24 +115,25 @@ void GroupIntoCurves(const std::vector<PosedView>& views,
                      Reconstruction& result) {
   const int num_threads = options.runtime.num_threads;
   // Sec. 5, Fig. 6.
-  run.Begin("link_edges");
+  if (!run.Begin("link_edges")) return;
   const NeighborhoodGraph graph = LinkEdges(
       sketch.edges, edge_maps, views, options.neighborhood, num_threads);
   run.End({{"links", graph.NumLinks()}});
 
   // Sec. 5, Fig. 7.
-  run.Begin("align_edges");
+  if (!run.Begin("align_edges")) return;
   result.edges =
       AlignEdges(sketch.edges, graph, options.alignment, num_threads);
   run.End({{"edges", result.edges.size()}});
 
   // Sec. 6.
-  run.Begin("connect_edges");
+  if (!run.Begin("connect_edges")) return;
   result.curves.curves =
       GroupEdges(result.edges, graph, views, options.connectivity, num_threads);
   run.End(CountsOf(result.curves));
 }
 
+// Unfinished if the run is cancelled.
 Reconstruction Connect(const Scene& scene,
                        const std::vector<PosedView>& views,
                        const std::vector<EdgeMap>& edge_maps,
@@ -142,7 +143,7 @@ Reconstruction Connect(const Scene& scene,
   const int num_threads = options.runtime.num_threads;
   Reconstruction result;
   if (CurvesGrow(edge_maps, options)) {
-    run.Begin("grow_curves");
+    if (!run.Begin("grow_curves")) return result;
     result.edges = sketch.edges;
     const std::vector<ViewIndex> indices =
         IndexViews(views, edge_maps, num_threads);
@@ -164,7 +165,7 @@ Reconstruction Connect(const Scene& scene,
   }
 
   // Beyond the paper.
-  run.Begin("refine_curves");
+  if (!run.Begin("refine_curves")) return result;
   result.curves.curves = RefineCurves(result.curves.curves,
                                       views,
                                       edge_maps,
@@ -174,7 +175,7 @@ Reconstruction Connect(const Scene& scene,
   run.End(CountsOf(result.curves));
 
   if (options.curve_kinds.enabled) {
-    run.Begin("classify_curves");
+    if (!run.Begin("classify_curves")) return result;
     LabelRoundBars(views,
                    edge_maps,
                    sketch.edge_sigma_px,
@@ -186,7 +187,7 @@ Reconstruction Connect(const Scene& scene,
 
   // What the user wants to see of them.
   const std::size_t num_refined = result.curves.curves.size();
-  run.Begin("filter_curves");
+  if (!run.Begin("filter_curves")) return result;
   result.curves.curves = FilterCurves(
       std::move(result.curves.curves), views, edge_maps, options.curve_filter);
   IndexJunctions(result.curves);
@@ -217,7 +218,7 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
   if (Status status = CheckScene(scene); !status.ok()) return status;
   if (Status status = Validate(options); !status.ok()) return status;
   RunRecorder run(progress);
-  run.Begin("detect_edges");
+  if (!run.Begin("detect_edges")) return CancelledStatus();
   std::vector<EdgeMap> edge_maps(scene.views.size());
   Status status = run.ForEach(
       edge_maps.size(), options.runtime.num_threads, [&](std::size_t i) {

@@ -44,11 +44,11 @@ Counts KindCounts(const CurveSet& curves) {
   return counts;
 }
 
-void RunRecorder::Begin(const std::string& stage) {
+bool RunRecorder::Begin(const std::string& stage) {
   ReleaseFreeMemory();
   stage_ = stage;
   stopwatch_ = Stopwatch();
-  Tell(0, 0);
+  return Tell(0, 0);
 }
 
 void RunRecorder::End(Counts counts) {

@@ -22,14 +22,14 @@ Counts CountsOf(const CurveSet& curves);
 // How many samples are of each kind.
 Counts KindCounts(const CurveSet& curves);
 
-// Records one stage after the other. Once the progress callback returns false
-// the run is cancelled; later stages check that themselves.
+// Records one stage after the other. Once the progress callback returns false,
+// the run is cancelled, and no further stage is to begin.
 class RunRecorder {
  public:
   explicit RunRecorder(const Progress& progress) : progress_(progress) {}
 
-  // Releases what earlier stages have freed.
-  void Begin(const std::string& stage);
+  // Releases what earlier stages have freed. False: the run is cancelled.
+  [[nodiscard]] bool Begin(const std::string& stage);
   void End(Counts counts);
 
   // A callback for a stage that counts its own steps.

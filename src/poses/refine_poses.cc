@@ -382,7 +382,7 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
   }
   if (Status status = Validate(options); !status.ok()) return status;
   RunRecorder run(progress);
-  run.Begin("refine_poses_with_curves");
+  if (!run.Begin("refine_poses_with_curves")) return CancelledStatus();
   CurvePoses result =
       Refine(scene, edge_maps, options, refine_intrinsics, &run);
   // Later steps need the edges of the new cameras.

@@ -219,6 +219,32 @@ TEST(ReconstructCurves, StopsWhenProgressAsksForIt) {
   }
 }
 
+TEST(ReconstructCurves, StopsBeforeEachStage) {
+  const WireScene wires = MakeWireScene({CubeCurves()[4]}, 8);
+  for (const Options& options : {Options(), PaperOptions()}) {
+    const auto whole = ReconstructCurves(wires.scene, wires.edge_maps, options);
+    ASSERT_TRUE(whole.ok());
+    const std::vector<StageReport>& stages = whole->report.stages;
+    for (std::size_t last = 0; last < stages.size(); ++last) {
+      std::vector<std::string> asked;
+      const auto result =
+          ReconstructCurves(wires.scene,
+                            wires.edge_maps,
+                            options,
+                            [&](const std::string& stage, int, int) {
+                              if (asked.empty() || asked.back() != stage)
+                                asked.push_back(stage);
+                              return stage != stages[last].name;
+                            });
+      EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
+      ASSERT_EQ(asked.size(), last + 1);
+      for (std::size_t i = 0; i <= last; ++i) {
+        EXPECT_EQ(asked[i], stages[i].name);
+      }
+    }
+  }
+}
+
 TEST(ReconstructCurves, RefusesOptionsOutOfRange) {
   const WireScene wires = MakeWireScene({CubeCurves()[4]}, 4);
   Options options;
