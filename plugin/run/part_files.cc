@@ -186,7 +186,8 @@ Result<PartFile> OpenPart(const PartPlan& plan,
                           const Options& options,
                           const fs::path& folder) {
   const int idx = static_cast<int>(part_idx);
-  return PartFile::Open(ResultPath(folder, idx), PartKey(plan, idx, options));
+  return PartFile::Open(PartFolder(folder, idx) / kPartResultName,
+                        PartKey(plan, idx, options));
 }
 
 // Names the parts that are not done.
@@ -286,14 +287,6 @@ std::uint64_t PartKey(const PartPlan& plan,
 
 fs::path PartFolder(const fs::path& folder, int part_idx) {
   return folder / std::to_string(part_idx);
-}
-
-fs::path ResultPath(const fs::path& folder, int part_idx) {
-  return PartFolder(folder, part_idx) / "part.bin";
-}
-
-fs::path EdgesPath(const fs::path& folder, int part_idx) {
-  return PartFolder(folder, part_idx) / "edges.ply";
 }
 
 Result<PartFiles> PartFiles::Open(const PartPlan& plan,

@@ -52,11 +52,9 @@ std::uint64_t PartKey(const PartPlan& plan,
 
 std::filesystem::path PartFolder(const std::filesystem::path& folder,
                                  int part_idx);
-// part.bin and edges.ply.
-std::filesystem::path ResultPath(const std::filesystem::path& folder,
-                                 int part_idx);
-std::filesystem::path EdgesPath(const std::filesystem::path& folder,
-                                int part_idx);
+// In the folder of a part.
+constexpr const char* kPartResultName = "part.bin";
+constexpr const char* kPartEdgesName = "edges.ply";
 
 // The results of all parts, of which one file is open at a time.
 class PartFiles : public PartResults {

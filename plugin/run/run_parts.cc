@@ -96,6 +96,8 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
                       std::to_string(part_idx) + " is gone; bring it back or " +
                       "run 'colmap_curvix partition' again");
   }
+  Result<StagedOutput> output = StagedOutput::Create(folder);
+  if (!output.ok()) return output.status();
   RunStages stages(folder / "stages", progress, record);
   const Result<std::vector<EdgeMap>> edge_maps = stages.Detect(input->scene);
   if (!edge_maps.ok()) return edge_maps.status();
@@ -107,19 +109,22 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
       TakePart(plan->partition, part_idx, reconstruction->curves, *edge_maps);
   const std::vector<Edge3d> edges =
       EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
-  if (progress.IsCancelled()) return CancelledStatus();
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
     Count(traced.curve, record.result);
   }
   record.result.num_edges_3d = part.num_core_edges_3d;
-  Status status = WriteEdges(EdgesPath(parts, part_idx), edges);
+  Status status = WriteEdges(output->folder() / kPartEdgesName, edges);
   if (status.ok()) {
-    status = WritePartResult(ResultPath(parts, part_idx),
+    status = WritePartResult(output->folder() / kPartResultName,
                              PartKey(*plan, part_idx, settings.options),
                              part);
   }
-  if (status.ok()) status = WriteReport(since_start, folder, progress, record);
+  if (status.ok()) {
+    status = WriteReport(since_start, output->folder(), progress, record);
+  }
+  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
+  if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return record;
 }
@@ -128,7 +133,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
 std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
   std::vector<fs::path> paths;
   for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    paths.push_back(EdgesPath(folder, static_cast<int>(i)));
+    paths.push_back(PartFolder(folder, static_cast<int>(i)) / kPartEdgesName);
   }
   return paths;
 }

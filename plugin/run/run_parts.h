@@ -22,8 +22,9 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
                                     RunProgress& progress);
 
 // Reconstructs one part, from its own model and images alone, with the poses
-// that they have, and writes its part.bin and report.json.
-// Errors as RunWorkspace; kNotFound, too, without plan or part.
+// that they have, and writes its part.bin, edges.ply and report.json, all or
+// none. One run at a time works on a part. Errors as RunWorkspace; kNotFound,
+// too, without plan or part.
 Result<RunRecord> RunPart(const RunSettings& settings,
                           int part_idx,
                           RunProgress& progress);

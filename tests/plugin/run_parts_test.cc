@@ -12,6 +12,7 @@
 
 #include "base/file_io.h"
 #include "evaluation/evaluate.h"
+#include "plugin/base/staged_output.h"
 #include "plugin/commands/command_synthesize.h"
 #include "plugin/run/part_files.h"
 #include "plugin/run/run_workspace.h"
@@ -146,6 +147,21 @@ TEST_F(RunParts, ReadOnlyTheirOwnImages) {
   EXPECT_THAT(status.message(), HasSubstr("view_000.png of part 0 is gone"));
   EXPECT_THAT(RunPart(settings_, 99, progress_).status().message(),
               HasSubstr("there is no part 99"));
+}
+
+TEST_F(RunParts, OneRunAtATimeWorksOnAPart) {
+  MakeStreet(80);
+  const fs::path folder = parts_ / "parts/0";
+  {
+    const auto lock = FolderLock::Take(folder);
+    const Status status = RunPart(settings_, 0, progress_).status();
+    EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+    EXPECT_THAT(status.message(), HasSubstr("another run is writing"));
+    EXPECT_FALSE(fs::exists(folder / "part.bin"));
+    Reconstruct(1);
+  }
+  Reconstruct(0);
+  EXPECT_TRUE(fs::exists(folder / "part.bin"));
 }
 
 TEST_F(RunParts, NeedASoundPlan) {
