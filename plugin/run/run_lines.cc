@@ -73,7 +73,12 @@ Result<RunRecord> RunLines(
     status = WriteReport(since_start, output->folder(), progress, record);
   }
   if (status.ok() && IsInterrupted()) status = CancelledStatus();
-  if (status.ok()) status = output->Publish();
+  // Those of an earlier run, of another command too, would tell of other
+  // curves.
+  if (status.ok()) {
+    status = output->Publish(
+        {"sparse", "bundle_adjuster.log", "project.ini", "edges.ply"});
+  }
   if (!status.ok()) return status;
   return record;
 }

@@ -64,6 +64,27 @@ TEST_F(ImportLines, AreFittedAndWrittenBesideTheModel) {
   }
 }
 
+TEST_F(ImportLines, TakeThePlaceOfWhatARunHasWritten) {
+  const fs::path results = workspace_ / "curvix/0";
+  ASSERT_EQ(RunProgram("--workspace_path " + Quoted(workspace_)).exit_code, 0);
+  ASSERT_TRUE(fs::exists(results / "edges.ply"));
+  ASSERT_TRUE(fs::exists(results / "project.ini"));
+  folder_.Write("proj/curvix/0/bundle_adjuster.log", "");
+  folder_.Write("proj/curvix/0/sparse/cameras.bin", "");
+  const std::string notes =
+      folder_.Write("proj/curvix/0/notes.txt", "mine").string();
+  const Outcome outcome =
+      RunProgram("import --format limap --input_path " + Quoted(Tracks()) +
+                 " --workspace_path " + Quoted(workspace_) + " --output_path " +
+                 Quoted(results));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* name :
+       {"sparse", "bundle_adjuster.log", "project.ini", "edges.ply"}) {
+    EXPECT_FALSE(fs::exists(results / name)) << name;
+  }
+  EXPECT_EQ(Read(notes), "mine");
+}
+
 TEST_F(ImportLines, OfAnotherWorldLeaveNothing) {
   const fs::path obj =
       folder_.Write("far.obj", "v 0 0 900\nv 0 1 900\nl 1 2\n");
