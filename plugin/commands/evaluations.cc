@@ -10,6 +10,7 @@
 
 #include "base/text_fields.h"
 #include "colmap/workspace.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
 #include "plugin/base/text.h"
 
@@ -229,6 +230,38 @@ void PrintHoldout(const HoldoutResult& result,
   PrintTable(result, out);
 }
 
+Status EvaluateHoldout(const RunSettings& settings,
+                       const std::filesystem::path& curves_path,
+                       int every,
+                       EvaluationFormat format,
+                       RunProgress& progress,
+                       std::ostream& out) {
+  const Result<Workspace> workspace = FindWorkspace(settings);
+  if (!workspace.ok()) return workspace.status();
+  const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
+  if (!input.ok()) return input.status();
+  const Scene& scene = input->scene;
+  const Result<std::vector<int>> view_idxs =
+      ViewsHeldOut(scene.views.size(), every);
+  if (!view_idxs.ok()) return view_idxs.status();
+  for (const std::string& note : input->notes) progress.Note(note);
+  const Result<CurveSet> curves =
+      curves_path.empty()
+          ? ReconstructOthers(scene, settings.options, every, progress)
+          : ReadCurves(curves_path, scene);
+  if (!curves.ok()) return curves.status();
+  const Result<ImageAgreement> agreement = CompareWithImages(
+      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
+  if (!agreement.ok()) return agreement.status();
+  progress.Finish();
+  PrintHoldout({static_cast<int>(view_idxs->size()),
+                SummarizeCurves(*curves),
+                *agreement},
+               format,
+               out);
+  return {};
+}
+
 }  // namespace
 
 void PrintEvaluation(const Evaluation& evaluation,
@@ -260,30 +293,9 @@ Status RunHoldout(const RunSettings& settings,
                   EvaluationFormat format,
                   RunProgress& progress,
                   std::ostream& out) {
-  const Result<Workspace> workspace = FindWorkspace(settings);
-  if (!workspace.ok()) return workspace.status();
-  const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
-  if (!input.ok()) return input.status();
-  const Scene& scene = input->scene;
-  const Result<std::vector<int>> view_idxs =
-      ViewsHeldOut(scene.views.size(), every);
-  if (!view_idxs.ok()) return view_idxs.status();
-  for (const std::string& note : input->notes) progress.Note(note);
-  const Result<CurveSet> curves =
-      curves_path.empty()
-          ? ReconstructOthers(scene, settings.options, every, progress)
-          : ReadCurves(curves_path, scene);
-  if (!curves.ok()) return curves.status();
-  const Result<ImageAgreement> agreement = CompareWithImages(
-      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
-  if (!agreement.ok()) return agreement.status();
-  progress.Finish();
-  PrintHoldout({static_cast<int>(view_idxs->size()),
-                SummarizeCurves(*curves),
-                *agreement},
-               format,
-               out);
-  return {};
+  return CatchFileErrors(StatusCode::kNotFound, [&] {
+    return EvaluateHoldout(settings, curves_path, every, format, progress, out);
+  });
 }
 
 }  // namespace curvix

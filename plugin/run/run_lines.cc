@@ -7,6 +7,7 @@
 
 #include "base/cancelled.h"
 #include "base/stopwatch.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/base/text.h"
 #include "plugin/imports/read_lines.h"
@@ -45,9 +46,7 @@ Result<LineCurves> ReadCurvesOfLines(
   return curves;
 }
 
-}  // namespace
-
-Result<RunRecord> RunLines(
+Result<RunRecord> FitLines(
     const RunSettings& settings,
     const std::function<Result<std::vector<ImportedLine>>()>& read,
     ProgressPrinter& progress) {
@@ -81,6 +80,16 @@ Result<RunRecord> RunLines(
   }
   if (!status.ok()) return status;
   return record;
+}
+
+}  // namespace
+
+Result<RunRecord> RunLines(
+    const RunSettings& settings,
+    const std::function<Result<std::vector<ImportedLine>>()>& read,
+    ProgressPrinter& progress) {
+  return CatchFileErrors(StatusCode::kNotFound,
+                         [&] { return FitLines(settings, read, progress); });
 }
 
 }  // namespace curvix

@@ -85,6 +85,17 @@ TEST_F(ImportLines, TakeThePlaceOfWhatARunHasWritten) {
   EXPECT_EQ(Read(notes), "mine");
 }
 
+TEST_F(ImportLines, SayWhichFolderCannotBeUsed) {
+  const fs::path loop = folder_.path() / "loop";
+  fs::create_symlink(loop, loop);
+  const Outcome outcome =
+      RunProgram("import --format limap --input_path " + Quoted(Tracks()) +
+                 " --workspace_path " + Quoted(workspace_) + " --output_path " +
+                 Quoted(loop));
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr(loop.string()));
+}
+
 TEST_F(ImportLines, OfAnotherWorldLeaveNothing) {
   const fs::path obj =
       folder_.Write("far.obj", "v 0 0 900\nv 0 1 900\nl 1 2\n");
