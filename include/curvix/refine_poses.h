@@ -91,9 +91,9 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const Progress& progress = {},
                                          bool refine_intrinsics = true);
 
-// The edges of a scene as other cameras have them, in the same order. Cameras
-// and edges must be as many as the scene's. kInvalidArgument if a camera cannot
-// be inverted at an edge.
+// The edges of a scene as other cameras have them, in the same order. There
+// must be as many edge maps as views, and at least as many cameras as the scene
+// has. kInvalidArgument if not, or if a camera cannot be inverted at an edge.
 Result<std::vector<EdgeMap>> EdgesWithCameras(
     const Scene& scene,
     std::vector<EdgeMap> edge_maps,

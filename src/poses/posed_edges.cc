@@ -350,6 +350,12 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
   if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
     return status;
   }
+  if (cameras.size() < scene.cameras.size()) {
+    return Status(StatusCode::kInvalidArgument,
+                  "there are " + std::to_string(cameras.size()) +
+                      " cameras for the " +
+                      std::to_string(scene.cameras.size()) + " of the scene");
+  }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
     if (cameras[k] == scene.cameras[k]) continue;

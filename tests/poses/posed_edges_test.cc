@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poses/posed_edges.h"
 
+#include <curvix/refine_poses.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,6 +66,20 @@ TEST_F(PosedEdgesTest, AsksFortyOfManyFromAllSides) {
     }
     EXPECT_LE(distance, least + 1e-9) << "view " << i;
   }
+}
+
+TEST_F(PosedEdgesTest, AreCarriedToAtLeastAsManyCameras) {
+  std::vector<Camera> cameras = wires_.scene.cameras;
+  for (int i = 0; i < 2; ++i) {
+    const auto carried =
+        EdgesWithCameras(wires_.scene, wires_.edge_maps, cameras);
+    ASSERT_TRUE(carried.ok()) << carried.status().message();
+    EXPECT_EQ(carried->size(), wires_.edge_maps.size());
+    cameras.push_back(cameras.back());
+  }
+  const Status status =
+      EdgesWithCameras(wires_.scene, wires_.edge_maps, {}).status();
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
 }
 
 }  // namespace
