@@ -8,6 +8,7 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace curvix {
@@ -16,12 +17,14 @@ namespace curvix {
 // .pcd (point cloud with curve ids), .obj (lines), .txt (readable), .vtp (VTK
 // polylines) or .glb (glTF lines). The file appears whole or not at all.
 // `scene` must hold every view that a sample names, for .txt to list the ids of
-// the images that support it; it lists none for an empty scene.
+// the images that support it; it lists none for an empty scene. `frame`: the
+// line by which .ply tells of the frame; "": that of the model.
 // kInvalidArgument for another extension or a path that cannot be written,
 // kUnsupported for more curves than the format can hold, and curves.status().
 Status WriteCurves(const std::filesystem::path& path,
                    const CurveSource& curves,
-                   const Scene& scene = {});
+                   const Scene& scene = {},
+                   std::string_view frame = {});
 inline Status WriteCurves(const std::filesystem::path& path,
                           const CurveSet& curves,
                           const Scene& scene = {}) {

@@ -9,7 +9,6 @@
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
-#include "io/ply_lines.h"
 #include "measuring/moved_curves.h"
 #include "plugin/export/curves_as_points.h"
 #include "plugin/export/dimensions.h"
@@ -178,13 +177,6 @@ Status WriteFormat(const CurveRecord& record,
       EncodeDimensions(record, sink);
     });
   }
-  if (format == "ply" && record.alignment != nullptr) {
-    Status encoded;
-    Status written = WriteText(record, path, [&](const ByteSink& sink) {
-      encoded = EncodePlyLinesInFrame(record.curves, kAlignedFrame, sink);
-    });
-    return encoded.ok() ? written : encoded;
-  }
   if (format == "html") {
     return WriteText(record, path, [&](const ByteSink& sink) {
       EncodeViewerHtml(record, num_threads, sink);
@@ -194,7 +186,10 @@ Status WriteFormat(const CurveRecord& record,
   if (format == "step") return WriteStep(record, path);
   if (format == "svg") return WriteSvg(record, settings.svg_image, path);
   if (format == "colmap") return WriteModel(record, path);
-  return WriteCurves(path, record.curves, record.scene);
+  return WriteCurves(path,
+                     record.curves,
+                     record.scene,
+                     record.alignment == nullptr ? "" : kAlignedFrame);
 }
 
 Result<std::vector<std::string>> WriteResults(const CurveRecord& record,

@@ -20,8 +20,12 @@ namespace fs = std::filesystem;
 Status Encode(const std::string& extension,
               const CurveSource& curves,
               const Scene& scene,
+              std::string_view frame,
               const ByteSink& sink) {
-  if (extension == ".ply") return EncodePlyLines(curves, sink);
+  if (extension == ".ply") {
+    return frame.empty() ? EncodePlyLines(curves, sink)
+                         : EncodePlyLinesInFrame(curves, frame, sink);
+  }
   if (extension == ".pcd") return EncodePcd(curves, sink);
   if (extension == ".glb") return EncodeGlbCurves(curves, sink);
   if (extension == ".obj") {
@@ -74,9 +78,10 @@ Status Write(const fs::path& path,
 
 Status WriteCurves(const fs::path& path,
                    const CurveSource& curves,
-                   const Scene& scene) {
+                   const Scene& scene,
+                   std::string_view frame) {
   return Write(path, curves, [&](const ByteSink& sink) {
-    return Encode(path.extension().string(), curves, scene, sink);
+    return Encode(path.extension().string(), curves, scene, frame, sink);
   });
 }
 
