@@ -61,7 +61,7 @@ inline void AppendFixed(double value, int num_decimals, std::string& out) {
 // none, or does not fit into T.
 template <typename T>
 std::optional<T> ParseNumber(std::string_view word) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   T value{};
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);

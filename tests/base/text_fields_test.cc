@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <optional>
 
 #include "base/bytes.h"
 
@@ -20,6 +21,17 @@ TEST(SplitAt, GivesOnePartMoreThanThereAreSeparators) {
 TEST(NumberText, IsTheShortestThatReadsBackTheSame) {
   EXPECT_EQ(NumberText(0.1), "0.1");
   EXPECT_EQ(NumberText(-3), "-3");
+}
+
+TEST(ParseNumber, TakesOneSign) {
+  EXPECT_EQ(ParseNumber<int>("5"), 5);
+  EXPECT_EQ(ParseNumber<int>("+5"), 5);
+  EXPECT_EQ(ParseNumber<int>("-5"), -5);
+  EXPECT_EQ(ParseNumber<double>("+.5"), 0.5);
+  for (const char* word : {"+-5", "++5", "-+5", "--5", "+", "-", "", "5 "}) {
+    EXPECT_EQ(ParseNumber<int>(word), std::nullopt) << word;
+    EXPECT_EQ(ParseNumber<double>(word), std::nullopt) << word;
+  }
 }
 
 TEST(Bytes, NamesEndWithNul) {
