@@ -21,13 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Text(double value, int num_digits = 6) {
-  return FormatText("%.*g", num_digits, value);
-}
+std::string Text(double value) { return ShortText(value, 6); }
 
 // Two digits, or all before the point.
 std::string SigmaText(double sigma) {
-  return sigma < 99.5 ? Text(sigma, 2) : FormatText("%.0f", sigma);
+  return sigma < 99.5 ? ShortText(sigma, 2) : FixedText(sigma, 0);
 }
 
 std::string WithSigma(double value, double sigma) {
@@ -254,9 +252,9 @@ Result<AlignSummary> Aligner::Run() {
   if (!alignment.offset.isZero(0)) {
     constexpr int kAllDigits = 15;
     Say("Coordinates are those given less " +
-        Text(alignment.offset.x(), kAllDigits) + " " +
-        Text(alignment.offset.y(), kAllDigits) + " " +
-        Text(alignment.offset.z(), kAllDigits));
+        ShortText(alignment.offset.x(), kAllDigits) + " " +
+        ShortText(alignment.offset.y(), kAllDigits) + " " +
+        ShortText(alignment.offset.z(), kAllDigits));
   }
   Status written = Write(*result);
   if (!written.ok()) return written;

@@ -39,11 +39,17 @@ std::string Plural(std::int64_t count, const std::string& noun) {
 
 std::string DurationText(double seconds) {
   if (seconds < 59.95) {
-    return FormatText("%.1f s", std::max(seconds, 0.0));
+    return FixedText(std::max(seconds, 0.0), 1) + " s";
   }
   const int whole = static_cast<int>(std::min(std::round(seconds), 1e9));
-  if (whole < 3600) return FormatText("%d min %02d s", whole / 60, whole % 60);
-  return FormatText("%d h %02d min", whole / 3600, whole / 60 % 60);
+  const auto two_digits = [](int number) {
+    return (number < 10 ? "0" : "") + std::to_string(number);
+  };
+  if (whole < 3600) {
+    return std::to_string(whole / 60) + " min " + two_digits(whole % 60) + " s";
+  }
+  return std::to_string(whole / 3600) + " h " + two_digits(whole / 60 % 60) +
+         " min";
 }
 
 }  // namespace curvix

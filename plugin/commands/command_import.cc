@@ -4,6 +4,8 @@
 #include <iostream>
 #include <string>
 
+#include "base/text_fields.h"
+#include "plugin/base/text.h"
 #include "plugin/commands/commands.h"
 #include "plugin/imports/importers.h"
 #include "plugin/imports/new_workspace.h"
@@ -138,7 +140,7 @@ Result<ImportedScene> Import(const ImportSettings& settings) {
   ImportOptions options = settings.options;
   options.image_filter = settings.image_filter.string();
   if (settings.first_pixel != "auto") {
-    options.first_pixel = std::stod(settings.first_pixel);
+    options.first_pixel = ParseNumber<double>(settings.first_pixel);
   }
   for (const Format& format : kFormats) {
     if (settings.format == format.name) return format.import(options);

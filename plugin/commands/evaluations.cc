@@ -17,8 +17,14 @@
 namespace curvix {
 namespace {
 
+// Nine columns wide, or more if need be.
+std::string Column(double value, int num_decimals) {
+  const std::string text = FixedText(value, num_decimals);
+  return std::string(text.size() < 9 ? 9 - text.size() : 0, ' ') + text;
+}
+
 std::string Fixed(const std::optional<double>& value) {
-  return value ? FormatText("%9.3f", *value) : "        -";
+  return value ? Column(*value, 3) : "        -";
 }
 
 void PrintRow(const char* name,
@@ -58,7 +64,7 @@ void PrintLengths(std::string title,
                   std::ostream& out) {
   title.resize(24, ' ');
   out << title;
-  for (const double length : lengths_mm) out << FormatText(" %9.0f", length);
+  for (const double length : lengths_mm) out << ' ' << Column(length, 0);
 }
 
 // Lengths in millimetres: rows by the true kind, columns by the kind said.
@@ -67,9 +73,9 @@ void PrintKinds(const KindAgreement& kinds, std::ostream& out) {
   for (const TrueKind& kind : kinds.kinds) {
     std::string name(KindName(kind.kind));
     name.resize(24, ' ');
-    out << name << FormatText(" %9.0f", kind.length_mm)
-        << FormatText(" %9.0f", kind.visible_length_mm)
-        << Fixed(kind.visible_recall_5) << " %\n";
+    out << name << ' ' << Column(kind.length_mm, 0) << ' '
+        << Column(kind.visible_length_mm, 0) << Fixed(kind.visible_recall_5)
+        << " %\n";
   }
   out << "said to be, mm             unknown    crease  boundary   marking   "
          "contour    right\n";
@@ -165,9 +171,8 @@ void PrintRow(std::string name,
               const ShareAboveChance& share,
               std::ostream& out) {
   name.resize(40, ' ');
-  out << name << FormatText("%9.1f", 100 * share.share)
-      << FormatText("%9.1f", 100 * share.chance)
-      << FormatText("%9.1f", 100 * share.Lift()) << '\n';
+  out << name << Column(100 * share.share, 1) << Column(100 * share.chance, 1)
+      << Column(100 * share.Lift(), 1) << '\n';
 }
 
 void PrintTable(const HoldoutResult& result, std::ostream& out) {
@@ -184,7 +189,7 @@ void PrintTable(const HoldoutResult& result, std::ostream& out) {
   PrintRow("strong contours with a curve", agreement.strong_contours, out);
   PrintRow("long lines with a curve", agreement.long_lines, out);
   out << "median length of a curve: "
-      << FormatText("%9.1f", agreement.median_piece_px).substr(2)
+      << Column(agreement.median_piece_px, 1).substr(2)
       << " px\n\nChance: the same after moving by 12 pixels across. Lift: what "
          "is above chance, of\nwhat can be. Hidden curves count as being on no "
          "contour.\n";

@@ -35,9 +35,7 @@ Status BadDrawing(std::string message) {
   return {StatusCode::kInvalidArgument, std::move(message)};
 }
 
-std::string Short(double value, int digits = 4) {
-  return FormatText("%.*g", digits, value);
-}
+std::string Short(double value) { return ShortText(value, 4); }
 
 // "front (xz)".
 std::string ViewName(const std::string& plane) {
@@ -202,7 +200,7 @@ std::string Drafter::Subtitle() const {
   if (!photograph_.empty()) text += ", photograph " + photograph_;
   if (curves_.alignment && curves_.alignment->has_scale) {
     text += ", lengths known to " +
-            Short(100 * curves_.alignment->scale_sigma(), 2) + " %";
+            ShortText(100 * curves_.alignment->scale_sigma(), 2) + " %";
   }
   return text;
 }

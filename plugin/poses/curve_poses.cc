@@ -90,14 +90,15 @@ std::string ErrorsText(const CurvePoses& poses) {
   const ErrorsOfViews& before =
       has_samples ? poses.before : poses.points_before;
   const ErrorsOfViews& after = has_samples ? poses.after : poses.points_after;
-  return FormatText("%.3f to %.3f px", before.median_px, after.median_px);
+  return FixedText(before.median_px, 3) + " to " +
+         FixedText(after.median_px, 3) + " px";
 }
 
 std::string CamerasText(const std::vector<CameraChange>& cameras) {
   if (cameras.empty()) return "";
   return ", " + Plural(static_cast<std::int64_t>(cameras.size()), "camera") +
-         " (" + std::string(ModelName(cameras.front().to.model)) +
-         FormatText(", %.2f px)", cameras.front().median_shift_px);
+         " (" + std::string(ModelName(cameras.front().to.model)) + ", " +
+         FixedText(cameras.front().median_shift_px, 2) + " px)";
 }
 
 }  // namespace
@@ -111,7 +112,7 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
   }
   return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
          " views, " + ErrorsText(poses) + CamerasText(record.cameras) +
-         FormatText(", shifts up to %.2f px", poses.max_shift_px) +
+         ", shifts up to " + FixedText(poses.max_shift_px, 2) + " px" +
          (poses.accepted ? "" : ", refused");
 }
 

@@ -101,23 +101,23 @@ std::string Objection(const PoseJudgement& j) {
   }
   const std::string fall =
       "the mean error of points that were held out went from " +
-      FormatText("%.3f", j.before.mean_px) + " to " +
-      FormatText("%.3f px", j.after.mean_px);
+      FixedText(j.before.mean_px, 3) + " to " + FixedText(j.after.mean_px, 3) +
+      " px";
   if (!(j.after.mean_px < j.before.mean_px * (1 - kMinGain)) ||
       !(j.after.median_px < j.before.median_px)) {
     return "there is nothing to gain: " + fall;
   }
   if (!(j.max_move <= kMaxMove)) {
-    return "a camera moved by " + FormatText("%.1f %%", 100 * j.max_move) +
-           " of its distance to the points, more than poses are off by";
+    return "a camera moved by " + FixedText(100 * j.max_move, 1) +
+           " % of its distance to the points, more than poses are off by";
   }
   if (!(j.max_shift_px <= kMaxShiftPx)) {
-    return "a view shifted by " + FormatText("%.1f px", j.max_shift_px) +
-           ", more than poses are off by";
+    return "a view shifted by " + FixedText(j.max_shift_px, 1) +
+           " px, more than poses are off by";
   }
   if (!(j.median_shift_px <= kMaxShiftPerExplained * j.explained_px)) {
-    return "the views shifted by " + FormatText("%.2f px", j.median_shift_px) +
-           ", which the points hardly tell: " + fall;
+    return "the views shifted by " + FixedText(j.median_shift_px, 2) +
+           " px, which the points hardly tell: " + fall;
   }
   return "";
 }

@@ -122,10 +122,9 @@ std::string PoseRefinementText(const PoseRefinementRecord& record) {
   if (!record.judgement) return "kept";
   return RefinerName(record) + ", " +
          GroupDigits(static_cast<std::int64_t>(record.num_views)) + " views, " +
-         FormatText("%.3f to %.3f px, shifts up to %.2f px",
-                    record.judgement->before.mean_px,
-                    record.judgement->after.mean_px,
-                    record.judgement->max_shift_px) +
+         FixedText(record.judgement->before.mean_px, 3) + " to " +
+         FixedText(record.judgement->after.mean_px, 3) + " px, shifts up to " +
+         FixedText(record.judgement->max_shift_px, 2) + " px" +
          (record.accepted ? "" : ", refused");
 }
 

@@ -319,7 +319,7 @@ std::string SummaryText(const RunRecord& record) {
   if (result.num_closed > 0) {
     text += " (" + GroupDigits(result.num_closed) + " closed)";
   }
-  text += ", total length " + FormatText("%.4g", result.total_length) +
+  text += ", total length " + ShortText(result.total_length, 4) +
           LengthUnit(record.alignment) + "\n";
   text += "  from " + Plural(record.input.num_views, "view");
   if (result.num_edges_3d > 0) {
@@ -330,8 +330,7 @@ std::string SummaryText(const RunRecord& record) {
           DurationText(record.total.cpu_seconds) + ", " +
           GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
   if (result.edge_sigma_px > 0) {
-    text += "  2D edges are " +
-            FormatText("%.4g", Milli(result.edge_sigma_px)) +
+    text += "  2D edges are " + ShortText(Milli(result.edge_sigma_px), 4) +
             " px off their 3D edges (standard deviation)\n";
   }
   text += "\n";

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdarg>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,17 +32,6 @@ std::string NumberText(T value) {
   return text;
 }
 
-// What std::printf would print: less than 512 bytes.
-[[gnu::format(printf, 1, 2)]] inline std::string FormatText(const char* format,
-                                                            ...) {
-  std::array<char, 512> text;
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  return text.data();
-}
-
 // Appends `value` with so many decimals, at most 60.
 inline void AppendFixed(double value, int num_decimals, std::string& out) {
   std::array<char, 400> text;  // the largest number has 309 digits
@@ -55,6 +42,26 @@ inline void AppendFixed(double value, int num_decimals, std::string& out) {
                                  num_decimals)
                        .ptr;
   out.append(text.data(), end);
+}
+
+// `value` as AppendFixed writes it.
+inline std::string FixedText(double value, int num_decimals) {
+  std::string text;
+  AppendFixed(value, num_decimals, text);
+  return text;
+}
+
+// `value` with at most so many digits that count, as std::printf writes it with
+// "%.4g": "1230", "0.00123", "1.23e-05".
+inline std::string ShortText(double value, int num_digits) {
+  std::array<char, 64> text;
+  const auto end = std::to_chars(text.data(),
+                                 text.data() + text.size(),
+                                 value,
+                                 std::chars_format::general,
+                                 num_digits)
+                       .ptr;
+  return {text.data(), end};
 }
 
 // The number that `word` is as a whole; an optional sign leads. nullopt: it is

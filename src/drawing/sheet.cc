@@ -39,7 +39,7 @@ Eigen::Vector2d PaperSize(const std::string& name) {
   return {size[0], size[1]};
 }
 
-std::string Short(double value) { return FormatText("%.6g", value); }
+std::string Short(double value) { return ShortText(value, 6); }
 
 std::string ScaleText(double denominator) {
   return denominator >= 1 ? "1:" + Short(denominator)

@@ -270,13 +270,10 @@ class Refiner {
   std::string Reason() const {
     if (!reason_to_stay_.empty()) return reason_to_stay_;
     const SignificanceOfGain gain = Together(*gains_);
-    return (IsAccepted() ? "" : "may be chance: ") +
-           FormatText(
-               "what was held out comes nearer by %.1f standard deviations "
-               "(edges %.1f, points %.1f)",
-               gain.all,
-               gain.places,
-               gain.points);
+    return std::string(IsAccepted() ? "" : "may be chance: ") +
+           "what was held out comes nearer by " + FixedText(gain.all, 1) +
+           " standard deviations (edges " + FixedText(gain.places, 1) +
+           ", points " + FixedText(gain.points, 1) + ")";
   }
 
   // Adjusts to all observations, held-out ones included; places are those found
