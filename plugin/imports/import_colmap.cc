@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "colmap/links.h"
+
 namespace curvix {
 namespace {
 
@@ -52,7 +54,7 @@ Result<ImportedScene> ImportColmapImages(const ImportOptions& options) {
   if (!status.ok()) return status;
   ImportedScene scene;
   for (const ColmapImage& image : model->images) {
-    const fs::path file = *folder / image.name;
+    const fs::path file = ImageFile(*folder, image.name);
     Status right = CheckSize(file, cameras.at(image.camera_id));
     if (!right.ok()) return right;
     scene.image_files.push_back(file);

@@ -108,7 +108,7 @@ Status CheckImagesExist(const std::vector<std::string>& names,
                         const fs::path& folder) {
   std::vector<std::string> missing;
   for (const std::string& name : names) {
-    if (!IsFile(folder / name)) missing.push_back(name);
+    if (!IsFile(ImageFile(folder, name))) missing.push_back(name);
   }
   if (missing.empty()) return {};
   return {

@@ -65,7 +65,7 @@ Status CheckImageName(const std::string& name,
                       const std::filesystem::path& source);
 
 // kNotFound, naming up to five of them, unless all `names` are files in
-// `folder`.
+// `folder`, as ImageFile() finds them.
 Status CheckImagesExist(const std::vector<std::string>& names,
                         const std::filesystem::path& folder);
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include "colmap/links.h"
 #include "plugin/base/staged_output.h"
 
 namespace curvix {
@@ -22,7 +23,8 @@ bool AreInPlace(const ColmapModel& model,
                 const fs::path& folder) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     std::error_code error;
-    if (!fs::equivalent(files[i], folder / model.images[i].name, error)) {
+    const fs::path image = ImageFile(folder, model.images[i].name);
+    if (!fs::equivalent(files[i], image, error)) {
       return false;
     }
   }

@@ -280,6 +280,12 @@ TEST_F(Import, ColmapModelMeetsItsImages) {
   EXPECT_EQ(scene->model.images[0].points2D[0].point3D_id, 5u);
   EXPECT_EQ(scene->model.points[0].position, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(scene->image_files[0], options.image_path / "left/a b.png");
+  // A model made on Windows.
+  model.images[0].name = "left\\a b.png";
+  ASSERT_TRUE(WriteColmapModel(model, folder, ColmapFormat::kText).ok());
+  const auto from_windows = ImportColmapImages(options);
+  ASSERT_TRUE(from_windows.ok()) << from_windows.status().message();
+  EXPECT_EQ(from_windows->image_files, scene->image_files);
   Photo("photos/left/a b.png", 320, 240);
   EXPECT_THAT(ImportColmapImages(options).status().message(),
               HasSubstr("320 x 240 pixels and its camera 640 x 480"));
