@@ -9,6 +9,7 @@
 
 #include "base/file_io.h"
 #include "base/stopwatch.h"
+#include "colmap/links.h"
 #include "measuring/moved_curves.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
@@ -20,12 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // An output folder in which results would lie among the inputs, project.ini
-// over COLMAP's.
+// over COLMAP's, or would take their place: runs remove sparse/ of older ones.
 Status CheckOutputPath(const Workspace& workspace) {
   const fs::path output = fs::weakly_canonical(workspace.output_path);
   for (const fs::path& input :
        {workspace.model_path, workspace.image_path, workspace.mask_path}) {
-    if (!input.empty() && output == fs::weakly_canonical(input)) {
+    if (!input.empty() && IsInside(fs::weakly_canonical(input), output)) {
       return {StatusCode::kInvalidArgument,
               "the results would be written among the inputs in " +
                   output.string() +

@@ -277,7 +277,7 @@ TEST_F(ProgramRun, RefusesBrokenInputWithoutATrace) {
 
 TEST_F(ProgramRun, DoesNotWriteAmongTheInputs) {
   const auto before = Contents(workspace_);
-  for (const char* input : {"sparse/0", "images"}) {
+  for (const char* input : {"sparse/0", "images", "", "sparse"}) {
     const std::string path = (workspace_ / input).string();
     const Outcome outcome = RunWorkspace("--output_path '" + path + "/'");
     EXPECT_EQ(outcome.exit_code, 3);
