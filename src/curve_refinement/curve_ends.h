@@ -85,7 +85,7 @@ struct EndFit {
 
 // Fits the samples in `segment`, few outliers aside, by a line, or by an arc of
 // any radius where it comes nearer to them than their scatter explains; length
-// is 0 if they are fewer than five or of no extent, or the curve is closed.
+// is 0 if they are fewer than four or of no extent, or the curve is closed.
 EndFit FitEnd(const Curve& curve,
               bool front,
               const EndSegment& segment,
