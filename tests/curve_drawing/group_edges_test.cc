@@ -106,7 +106,10 @@ TEST(GroupEdges, MakesOneCurveOfRoughTracksOnceTheyAreAligned) {
 }
 
 TEST(GroupEdges, CarriesSupportWithAtMostOneEdgePerView) {
-  for (const Curve& curve : CurvesOf(Noisy({CubeCurves()[0]}))) {
+  const std::vector<Curve> curves = CurvesOf(Noisy({CubeCurves()[0]}));
+  ASSERT_FALSE(curves.empty());
+  for (const Curve& curve : curves) {
+    ASSERT_FALSE(curve.samples.empty());
     for (const CurveSample& sample : curve.samples) {
       EXPECT_NEAR(sample.tangent.norm(), 1, 1e-12);
       ASSERT_FALSE(sample.support.empty());

@@ -170,7 +170,11 @@ TEST(GrowCurves, RepeatedViewsAreNotQueried) {
 
 TEST(GrowCurves, TangentsLeadAlongTheCurve) {
   const Seen seen({kLine, kCircle});
-  for (const Curve& curve : seen.Grow({seen.Seed(0, 0.4), seen.Seed(1, 0.1)})) {
+  const std::vector<Curve> curves =
+      seen.Grow({seen.Seed(0, 0.4), seen.Seed(1, 0.1)});
+  ASSERT_EQ(curves.size(), 2u);
+  for (const Curve& curve : curves) {
+    ASSERT_GE(curve.samples.size(), 2u);
     for (std::size_t k = 1; k < curve.samples.size(); ++k) {
       const Vector3d step =
           curve.samples[k].position - curve.samples[k - 1].position;

@@ -15,6 +15,7 @@
 #include "base/median.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "tests/edge_detection/rendered_images.h"
+#include "tests/support/temporary_folder.h"
 
 namespace curvix {
 namespace {
@@ -25,12 +26,7 @@ using ::testing::HasSubstr;
 // A view of an image file that lives as long as the object.
 class ImageFile {
  public:
-  explicit ImageFile(const GrayImage& image)
-      : path_(fs::path(::testing::TempDir()) /
-              (std::string(::testing::UnitTest::GetInstance()
-                               ->current_test_info()
-                               ->name()) +
-               "_view.png")) {
+  explicit ImageFile(const GrayImage& image) {
     cv::Mat pixels(image.height, image.width, CV_8UC1);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
@@ -40,9 +36,6 @@ class ImageFile {
     }
     EXPECT_TRUE(cv::imwrite(path_.string(), pixels));
   }
-  ~ImageFile() { fs::remove(path_); }
-  ImageFile(const ImageFile&) = delete;
-  ImageFile& operator=(const ImageFile&) = delete;
 
   View view() const {
     View view;
@@ -52,7 +45,8 @@ class ImageFile {
   }
 
  private:
-  fs::path path_;
+  const TemporaryFolder folder_;
+  const fs::path path_ = folder_.path() / "view.png";
 };
 
 Camera PinholeOfSize(int width, int height) {
@@ -92,20 +86,14 @@ TEST(DetectViewEdges, KeepsNoiseOut) {
 // A view of the disc whose mask is black left of `x`.
 Result<EdgeMap> DetectMasked(int x, int mask_size) {
   const ImageFile file(RenderDisc(100, {50, 50}, 30));
-  // Tests run side by side.
-  const fs::path mask_path =
-      fs::path(::testing::TempDir()) /
-      (std::string(
-           ::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-       "_mask.png");
+  const TemporaryFolder folder;
+  const fs::path mask_path = folder.path() / "mask.png";
   cv::Mat mask(mask_size, mask_size, CV_8UC1, cv::Scalar(255));
   mask.colRange(0, x).setTo(0);
   EXPECT_TRUE(cv::imwrite(mask_path.string(), mask));
   View view = file.view();
   view.mask_path = mask_path;
-  Result<EdgeMap> map = DetectViewEdges(view, PinholeOfSize(100, 100), {});
-  fs::remove(mask_path);
-  return map;
+  return DetectViewEdges(view, PinholeOfSize(100, 100), {});
 }
 
 TEST(DetectViewEdges, LeavesOutWhatTheMaskBlackens) {

@@ -138,9 +138,9 @@ TEST(FindOverlaps, FindsNoneWhereTheCameraOnlyTurned) {
       views.back().center =
           -(views.back().rotation.transpose() * views.back().translation);
     }
-    for (const auto& others : FindOverlaps(views, {})) {
-      EXPECT_TRUE(others.empty());
-    }
+    const auto overlaps = FindOverlaps(views, {});
+    ASSERT_EQ(overlaps.size(), views.size());
+    for (const auto& others : overlaps) EXPECT_TRUE(others.empty());
   }
 }
 
