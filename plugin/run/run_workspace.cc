@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // One run, from the first file read to the last one written.
-class Job {
+class WorkspaceJob {
  public:
-  Job(const RunSettings& settings, RunProgress& progress)
+  WorkspaceJob(const RunSettings& settings, RunProgress& progress)
       : progress_(progress) {
     record_.settings = settings;
   }
@@ -54,7 +54,7 @@ class Job {
   RunRecord record_;
 };
 
-Result<WorkspaceRun> Job::Run() {
+Result<WorkspaceRun> WorkspaceJob::Run() {
   Result<Workspace> workspace = FindInput(record_.settings);
   if (!workspace.ok()) return workspace.status();
   workspace_ = *std::move(workspace);
@@ -112,7 +112,7 @@ Result<WorkspaceRun> Job::Run() {
 
 // The scene with the refined poses, which are written to sparse/ too, or as it
 // was.
-Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
+Result<Scene> WorkspaceJob::RefinePoses(const WorkspaceScene& input) {
   const Stopwatch stopwatch;
   Result<PoseRefinement> refined =
       curvix::RefinePoses(input.model,
@@ -135,10 +135,11 @@ Result<Scene> Job::RefinePoses(const WorkspaceScene& input) {
 }
 
 // The same with the edges of the views.
-Result<Scene> Job::RefinePosesWithCurves(const WorkspaceScene& input,
-                                         const Scene& scene,
-                                         const std::vector<EdgeMap>& edge_maps,
-                                         RunStages& stages) {
+Result<Scene> WorkspaceJob::RefinePosesWithCurves(
+    const WorkspaceScene& input,
+    const Scene& scene,
+    const std::vector<EdgeMap>& edge_maps,
+    RunStages& stages) {
   Result<CurvePoseRefinement> refined = stages.RefinePosesWithCurves(
       refined_model_ ? *refined_model_ : input.model, scene, edge_maps);
   if (!refined.ok()) return stages.KeptStages(refined.status());
@@ -147,7 +148,7 @@ Result<Scene> Job::RefinePosesWithCurves(const WorkspaceScene& input,
   return MakeScene(workspace_, *refined_model_, input.missing_images);
 }
 
-Status Job::WriteRefinedModel() {
+Status WorkspaceJob::WriteRefinedModel() {
   if (!refined_model_) return {};
   record_.result.files.push_back("sparse/");
   return WriteColmapModel(
@@ -158,8 +159,9 @@ Status Job::WriteRefinedModel() {
 
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound,
-                         [&] { return Job(settings, progress).Run(); });
+  return CatchFileErrors(StatusCode::kNotFound, [&] {
+    return WorkspaceJob(settings, progress).Run();
+  });
 }
 
 }  // namespace curvix
