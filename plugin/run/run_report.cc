@@ -39,26 +39,19 @@ Json OptionsJson(Options options) {
   return json;
 }
 
-// COLMAP's names may hold any bytes; JSON holds UTF-8 only.
-std::string Printable(const std::string& text) {
-  const std::string json =
-      Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-  return Json::parse(json).get<std::string>();
-}
-
 Json InputJson(const InputSummary& input) {
   Json json;
-  json["model_path"] = Printable(input.model_path.string());
-  json["image_path"] = Printable(input.image_path.string());
+  json["model_path"] = input.model_path.string();
+  json["image_path"] = input.image_path.string();
   if (!input.mask_path.empty()) {
-    json["mask_path"] = Printable(input.mask_path.string());
+    json["mask_path"] = input.mask_path.string();
   }
   json["camera_models"] = input.camera_models;
   json["num_views"] = input.num_views;
   json["num_points"] = input.num_points;
   json["missing_images"] = Json::array();
   for (const std::string& name : input.missing_images) {
-    json["missing_images"].push_back(Printable(name));
+    json["missing_images"].push_back(name);
   }
   return json;
 }
@@ -85,17 +78,17 @@ Json PosesJson(const PoseRefinementRecord& poses) {
   Json json;
   json["refiner"] = poses.refiner;
   json["accepted"] = poses.accepted;
-  json["reason"] = Printable(poses.reason);
+  json["reason"] = poses.reason;
   json["num_views"] = poses.num_views;
   json["num_points"] = poses.num_points;
   if (poses.refiner == "colmap") {
-    json["colmap_path"] = Printable(poses.colmap_path);
-    json["colmap_version"] = Printable(poses.colmap_version);
+    json["colmap_path"] = poses.colmap_path;
+    json["colmap_version"] = poses.colmap_version;
   }
   if (!poses.judgement) return json;
   json["scale_removed"] = poses.scale_removed;
   json.update(JudgementJson(*poses.judgement));
-  json["max_shift_image"] = Printable(poses.largest_shift_image);
+  json["max_shift_image"] = poses.largest_shift_image;
   return json;
 }
 
@@ -108,7 +101,7 @@ Json CurvePosesJson(const CurvePoseRecord& record) {
   const CurvePoses& poses = record.poses;
   Json json;
   json["accepted"] = poses.accepted;
-  json["reason"] = Printable(poses.reason);
+  json["reason"] = poses.reason;
   json["num_places"] = poses.num_samples;
   json["num_held_out_places"] = poses.num_check_samples;
   json["num_held_out_observations"] = poses.num_check_observations;
@@ -117,7 +110,7 @@ Json CurvePosesJson(const CurvePoseRecord& record) {
   json["error_after"] = ErrorsJson(poses.after);
   json["median_shift_px"] = poses.median_shift_px;
   json["max_shift_px"] = poses.max_shift_px;
-  json["max_shift_image"] = Printable(record.largest_shift_image);
+  json["max_shift_image"] = record.largest_shift_image;
   json["significance"] = poses.significance;
   if (poses.num_points > 0) {
     json["num_points"] = poses.num_points;
@@ -275,7 +268,8 @@ std::string ReportJson(const RunRecord& record) {
   if (record.alignment) json["alignment"] = AlignmentJson(*record.alignment);
   json["result"] = ResultJson(record.result);
   json["run"] = RunJson(record);
-  return json.dump(2) + "\n";
+  // COLMAP's names may hold any bytes; JSON holds UTF-8 only.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string ProjectFile(const RunSettings& settings) {
