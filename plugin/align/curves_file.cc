@@ -185,4 +185,12 @@ Result<CurvesFile> ReadCurvesFile(const fs::path& folder, bool with_samples) {
   return Status(StatusCode::kDataLoss, path.string() + " is not JSON" + advice);
 }
 
+std::string NoSuchNode(std::string_view node, const FittedCurves& fitted) {
+  const std::size_t count = fitted.nodes.size();
+  return "there is no node " + std::string(node) +
+         (count == 0 ? "; curves.json has none"
+                     : "; curves.json has the nodes 0 to " +
+                           std::to_string(count - 1));
+}
+
 }  // namespace curvix

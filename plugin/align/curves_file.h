@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "measuring/world_alignment.h"
@@ -31,5 +33,8 @@ struct CurvesFile {
 // none; kDataLoss: it is broken, or of a program that wrote less.
 Result<CurvesFile> ReadCurvesFile(const std::filesystem::path& folder,
                                   bool with_samples = false);
+
+// "there is no node 7; curves.json has the nodes 0 to 6".
+std::string NoSuchNode(std::string_view node, const FittedCurves& fitted);
 
 }  // namespace curvix

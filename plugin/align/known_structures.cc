@@ -50,13 +50,9 @@ Result<CurveNode> FindPoint(std::string_view word,
                            "\" is no number of a "
                            "node and no point x,y,z");
   }
-  const std::size_t count = structures.fitted.nodes.size();
-  if (*id < count) return structures.fitted.nodes[*id];
-  return BadDistance(text,
-                     "there is no node " + std::to_string(*id) +
-                         (count == 0 ? "; curves.json has none"
-                                     : "; curves.json has the nodes 0 to " +
-                                           std::to_string(count - 1)));
+  const std::vector<CurveNode>& nodes = structures.fitted.nodes;
+  if (*id < nodes.size()) return nodes[*id];
+  return BadDistance(text, NoSuchNode(word, structures.fitted));
 }
 
 Result<KnownDistance> ParseDistance(const std::string& text,

@@ -41,17 +41,14 @@ Result<DrawingPlane> PlaneOfNodes(const std::string& text,
   std::string_view rest = text;
   TakeWord(rest);
   std::vector<Eigen::Vector3d> points;
-  const std::size_t count = curves.fitted.nodes.size();
+  const std::vector<CurveNode>& nodes = curves.fitted.nodes;
   for (std::string_view word = TakeWord(rest); !word.empty();
        word = TakeWord(rest)) {
     const auto id = ParseNumber<std::size_t>(word);
-    if (!id || *id >= count) {
-      return BadPlane("there is no node " + std::string(word) +
-                      (count == 0 ? "; curves.json has none"
-                                  : "; curves.json has the nodes 0 to " +
-                                        std::to_string(count - 1)));
+    if (!id || *id >= nodes.size()) {
+      return BadPlane(NoSuchNode(word, curves.fitted));
     }
-    points.push_back(curves.fitted.nodes[*id].position);
+    points.push_back(nodes[*id].position);
   }
   if (points.size() != 3) {
     return BadPlane("it takes three nodes, as in --plane \"nodes 12 31 7\"");
