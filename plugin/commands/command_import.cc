@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <iterator>
 #include <string>
 
 #include "base/text_fields.h"
@@ -154,11 +155,6 @@ CopyPolicy PolicyOf(const std::string& name) {
                                  names.begin());
 }
 
-// "1 camera", "2 cameras".
-std::string Counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 ExitCode ImportDataSet(const ImportSettings& settings) {
   Status status = CheckWorkspaceUnused(settings.workspace_path);
   if (!status.ok()) return Fail(status, ExitCodeOf(status));
@@ -173,11 +169,11 @@ ExitCode ImportDataSet(const ImportSettings& settings) {
   const std::string path = settings.workspace_path.string();
   const bool has_links =
       PolicyOf(settings.copy_policy) == CopyPolicy::kSoftLink;
-  std::cout << "Wrote " << Counted(scene->model.images.size(), "image") << ", "
-            << Counted(scene->model.cameras.size(), "camera") << " and "
-            << Counted(scene->model.points.size(), "point") << " to " << path
-            << "\nTry: colmap_curvix --workspace_path " << path
-            << (has_links ? " --image_path " + path + "/images" : "")
+  std::cout << "Wrote " << Plural(std::ssize(scene->model.images), "image")
+            << ", " << Plural(std::ssize(scene->model.cameras), "camera")
+            << " and " << Plural(std::ssize(scene->model.points), "point")
+            << " to " << path << "\nTry: colmap_curvix --workspace_path "
+            << path << (has_links ? " --image_path " + path + "/images" : "")
             << std::endl;
   return kExitSuccess;
 }
