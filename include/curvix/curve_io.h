@@ -46,12 +46,6 @@ Result<CurveSet> ReadCurves(const std::filesystem::path& path,
 Status WriteEdges(const std::filesystem::path& path,
                   const std::vector<Edge3d>& edges);
 
-// Writes the edges of several files of WriteEdges, one after the other, as one.
-// kNotFound, kDataLoss: a file is missing or was not written by WriteEdges; and
-// errors as WriteCurves.
-Status ConcatenateEdges(const std::filesystem::path& path,
-                        const std::vector<std::filesystem::path>& parts);
-
 // Writes fitted curves for CAD: .dxf, of AutoCAD 2000, with LINE, ARC, CIRCLE,
 // ELLIPSE and SPLINE entities on a layer per kind; or .step, of AP242, with the
 // same curves, where one unit of the world is declared a millimetre. Errors as

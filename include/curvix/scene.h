@@ -168,17 +168,4 @@ std::optional<Eigen::Vector2d> Project(const Camera& camera,
                                        const Rigid3& cam_from_world,
                                        const Eigen::Vector3d& position);
 
-// A point in an image.
-struct PointInImage {
-  const Camera* camera = nullptr;  // not null
-  Rigid3 cam_from_world;
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-};
-
-// The position whose projections fit best, with Cauchy's loss of scale 1 px:
-// Gauss-Newton steps from `start`, as long as they help; `start` where none
-// does.
-Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
-                         const std::vector<PointInImage>& seen);
-
 }  // namespace curvix

@@ -13,6 +13,8 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "geometry/camera_of.h"
+#include "geometry/fit_point.h"
+#include "geometry/lens.h"
 #include "plugin/align/marker_corners.h"
 #include "plugin/align/marker_detector.h"
 #include "plugin/base/image_file.h"
@@ -28,7 +30,6 @@ constexpr double kLeastSigmaPx = 0.02;
 
 // Where the corners of a marker are seen.
 using Sightings = std::array<std::vector<PointInImage>, 4>;
-using Jacobian = Eigen::Matrix<double, 2, 3>;
 
 struct Corner {
   Eigen::Vector3d position;
@@ -56,24 +57,6 @@ std::optional<Eigen::Vector3d> NearestToRays(
   return solver.solve(right);
 }
 
-// d pixel / d position, by differences.
-std::optional<Jacobian> JacobianAt(const PointInImage& seen,
-                                   const Eigen::Vector3d& position) {
-  const double depth = (seen.cam_from_world * position).z();
-  const double step = 1e-6 * depth;
-  Jacobian jacobian;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d offset = step * Eigen::Vector3d::Unit(i);
-    const auto up =
-        Project(*seen.camera, seen.cam_from_world, position + offset);
-    const auto down =
-        Project(*seen.camera, seen.cam_from_world, position - offset);
-    if (!up || !down) return std::nullopt;
-    jacobian.col(i) = (*up - *down) / (2 * step);
-  }
-  return jacobian;
-}
-
 // Adds to `errors` the distances from the projections, in pixels.
 std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
                                   std::vector<double>& errors) {
@@ -85,9 +68,11 @@ std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
   for (const PointInImage& point : seen) {
     const auto pixel =
         Project(*point.camera, point.cam_from_world, corner.position);
-    const auto jacobian = JacobianAt(point, corner.position);
-    if (!pixel || !jacobian) return std::nullopt;
-    information += jacobian->transpose() * *jacobian;
+    if (!pixel) return std::nullopt;
+    const Eigen::Matrix<double, 2, 3> jacobian =
+        PixelJacobian(*point.camera, point.cam_from_world * corner.position) *
+        point.cam_from_world.rotation.toRotationMatrix();
+    information += jacobian.transpose() * jacobian;
     errors.push_back((*pixel - point.pixel).norm());
   }
   corner.covariance = information.inverse();

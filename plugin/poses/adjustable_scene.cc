@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/infinity.h"
+#include "geometry/fit_point.h"
 
 namespace curvix {
 namespace {

@@ -13,6 +13,7 @@
 #include "base/cancelled.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
+#include "io/ply_lines.h"
 #include "io/stage_io.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
@@ -171,7 +172,8 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
                     {**curves,
                      parts->num_edges_3d(),
                      [&](const fs::path& path) {
-                       return ConcatenateEdges(path, EdgesPaths(*plan, folder));
+                       return ConcatenatePlyEdges(path,
+                                                  EdgesPaths(*plan, folder));
                      },
                      (*curves)->size() > 0
                          ? ""

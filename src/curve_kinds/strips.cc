@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_kinds/strips.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "base/median.h"
+#include "geometry/lens.h"
 
 namespace curvix {
 namespace {
@@ -74,14 +76,10 @@ std::optional<LocalView> Locate(const StripPlace& place,
   if (image.pixels.empty()) return std::nullopt;
   const Vector3d x = view.InCamera(place.position);
   if (!(x.z() > 0)) return std::nullopt;
-  const Vector2d uv = x.head<2>() / x.z();
-  const Vector2d pixel = ImageFromIdeal(camera, uv);
+  const Vector2d pixel = ImageFromIdeal(camera, x.hnormalized());
   if (!pixel.allFinite() || !image.Covers(pixel, kReachPx)) return std::nullopt;
-  Eigen::Matrix<double, 2, 3> projection;
-  projection << 1, 0, -uv.x(), 0, 1, -uv.y();
   const Eigen::Matrix<double, 2, 3> jacobian =
-      image.scale / x.z() * ImageFromIdealJacobian(camera, uv) * projection *
-      view.rotation;
+      image.scale * PixelJacobian(camera, x) * view.rotation;
   const Vector3d binormal = place.tangent.cross(place.normal);
   const Vector3d ray = view.center - place.position;
   return LocalView{&image,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
-#include <curvix/scene.h>
+#include "geometry/fit_point.h"
+
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
+
+#include "geometry/lens.h"
 
 namespace curvix {
 namespace {
@@ -28,12 +30,8 @@ Eigen::Vector3d Step(const Eigen::Vector3d& position,
   for (const PointInImage& at : seen) {
     const auto pixel = Project(*at.camera, at.cam_from_world, position);
     if (!pixel) continue;
-    const Eigen::Vector3d x = at.cam_from_world * position;
-    const Eigen::Vector2d ideal = x.hnormalized();
-    Eigen::Matrix<double, 2, 3> ideal_from_x;
-    ideal_from_x << 1, 0, -ideal.x(), 0, 1, -ideal.y();
     const Eigen::Matrix<double, 2, 3> jacobian =
-        ImageFromIdealJacobian(*at.camera, ideal) * ideal_from_x / x.z() *
+        PixelJacobian(*at.camera, at.cam_from_world * position) *
         at.cam_from_world.rotation.toRotationMatrix();
     const Eigen::Vector2d residual = at.pixel - *pixel;
     const double weight = 1 / (1 + residual.squaredNorm());

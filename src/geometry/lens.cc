@@ -2,6 +2,7 @@
 #include "geometry/lens.h"
 
 #include <curvix/scene.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstddef>
@@ -42,6 +43,14 @@ Camera WithParams(const Camera& camera,
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 2, 3> PixelJacobian(const Camera& camera,
+                                          const Eigen::Vector3d& x) {
+  const Eigen::Vector2d ideal = x.hnormalized();
+  Eigen::Matrix<double, 2, 3> ideal_from_x;
+  ideal_from_x << 1, 0, -ideal.x(), 0, 1, -ideal.y();
+  return ImageFromIdealJacobian(camera, ideal) * ideal_from_x / x.z();
+}
 
 ImageEdge EdgeInImage(const ImageEdge& ideal, const Camera& camera) {
   if (IsPinhole(camera)) return ideal;

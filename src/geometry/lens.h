@@ -11,6 +11,10 @@
 
 namespace curvix {
 
+// d pixel / d x for a point at `x` in the camera's frame, x.z() > 0.
+Eigen::Matrix<double, 2, 3> PixelJacobian(const Camera& camera,
+                                          const Eigen::Vector3d& x);
+
 // An edge of the camera's ideal pinhole in its photographs.
 ImageEdge EdgeInImage(const ImageEdge& ideal, const Camera& camera);
 

@@ -102,31 +102,6 @@ Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
       path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
 }
 
-Status ConcatenateEdges(const fs::path& path,
-                        const std::vector<fs::path>& parts) {
-  FileWriter file(path);
-  const auto for_each_part =
-      [&](const std::function<void(std::string_view edges)>& take) -> Status {
-    for (const fs::path& part : parts) {
-      const Result<std::string> bytes = ReadFile(part);
-      if (!bytes.ok()) return bytes.status();
-      const Result<std::string_view> edges = FindPlyEdges(*bytes);
-      if (!edges.ok()) return InFile(part, edges.status());
-      take(*edges);
-    }
-    return {};
-  };
-  std::size_t num_bytes = 0;
-  Status status =
-      for_each_part([&](std::string_view edges) { num_bytes += edges.size(); });
-  if (!status.ok()) return status;
-  const Result<std::string> header = PlyEdgesHeader(num_bytes);
-  if (!header.ok()) return InFile(path, header.status());
-  file.Append(*header);
-  status = for_each_part(file.Sink());
-  return status.ok() ? file.Finish() : status;
-}
-
 Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
   const std::string extension = path.extension().string();
   if (extension != ".dxf" && extension != ".step") {

@@ -15,6 +15,8 @@
 namespace curvix {
 namespace {
 
+namespace fs = std::filesystem;
+
 // The columns of `element` with these names; nothing if one is missing.
 std::optional<std::vector<std::size_t>> FindScalars(
     const PlyElement& element, const std::vector<std::string_view>& names) {
@@ -203,6 +205,32 @@ std::string EdgesHeader(std::size_t num_edges) {
   return header;
 }
 
+// What follows the header in a file of EncodePlyEdges().
+Result<std::string_view> FindEdges(std::string_view bytes) {
+  const std::size_t end = bytes.find(kEndOfHeader);
+  if (end != std::string_view::npos) {
+    const std::string_view body = bytes.substr(end + kEndOfHeader.size());
+    if (bytes.substr(0, bytes.size() - body.size()) ==
+            EdgesHeader(body.size() / kEdgeBytes) &&
+        body.size() % kEdgeBytes == 0) {
+      return body;
+    }
+  }
+  return Status(StatusCode::kDataLoss,
+                "it is broken, or was not written by curvix");
+}
+
+Status ForEachEdges(const std::vector<fs::path>& parts, const ByteSink& take) {
+  for (const fs::path& part : parts) {
+    const Result<std::string> bytes = ReadFile(part);
+    if (!bytes.ok()) return bytes.status();
+    const Result<std::string_view> edges = FindEdges(*bytes);
+    if (!edges.ok()) return InFile(part, edges.status());
+    take(*edges);
+  }
+  return {};
+}
+
 }  // namespace
 
 Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
@@ -258,24 +286,18 @@ Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink) {
   return {};
 }
 
-Result<std::string_view> FindPlyEdges(std::string_view bytes) {
-  const std::size_t end = bytes.find(kEndOfHeader);
-  if (end != std::string_view::npos) {
-    const std::string_view body = bytes.substr(end + kEndOfHeader.size());
-    if (bytes.substr(0, bytes.size() - body.size()) ==
-            EdgesHeader(body.size() / kEdgeBytes) &&
-        body.size() % kEdgeBytes == 0) {
-      return body;
-    }
-  }
-  return Status(StatusCode::kDataLoss,
-                "it is broken, or was not written by curvix");
-}
-
-Result<std::string> PlyEdgesHeader(std::size_t num_bytes_of_edges) {
-  const std::size_t num_edges = num_bytes_of_edges / kEdgeBytes;
-  if (num_edges > kMaxVertices) return TooManyVertices(num_edges);
-  return EdgesHeader(num_edges);
+Status ConcatenatePlyEdges(const fs::path& path,
+                           const std::vector<fs::path>& parts) {
+  std::size_t num_bytes = 0;
+  Status status = ForEachEdges(
+      parts, [&](std::string_view edges) { num_bytes += edges.size(); });
+  if (!status.ok()) return status;
+  const std::size_t num_edges = num_bytes / kEdgeBytes;
+  if (num_edges > kMaxVertices) return InFile(path, TooManyVertices(num_edges));
+  FileWriter file(path);
+  file.Append(EdgesHeader(num_edges));
+  status = ForEachEdges(parts, file.Sink());
+  return status.ok() ? file.Finish() : status;
 }
 
 Result<CurveSet> DecodePlyLines(std::string_view bytes) {

@@ -5,8 +5,7 @@
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/status.h>
-#include <cstddef>
-#include <string>
+#include <filesystem>
 #include <string_view>
 #include <vector>
 
@@ -32,10 +31,11 @@ Status EncodePlyLinesInFrame(const CurveSource& curves,
 // uchar red green blue (by direction), float support. No `element edge`.
 Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink);
 
-// The edges in such a file, which are of one size, and what must stand before
-// so many of them. kDataLoss: it is no such file.
-Result<std::string_view> FindPlyEdges(std::string_view bytes);
-Result<std::string> PlyEdgesHeader(std::size_t num_bytes_of_edges);
+// Writes the edges of several such files, one after the other, as one, which
+// appears whole or not at all. kNotFound, kDataLoss: a file is missing or is no
+// such file; kUnsupported as above; kInvalidArgument: `path` cannot be written.
+Status ConcatenatePlyEdges(const std::filesystem::path& path,
+                           const std::vector<std::filesystem::path>& parts);
 
 // The curves of any PLY with `element vertex` (x, y, z, of any scalar type) and
 // `element edge` (vertex1, vertex2): ASCII or binary, with whatever further

@@ -9,6 +9,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "geometry/fit_point.h"
 
 namespace curvix {
 namespace {

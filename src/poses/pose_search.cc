@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "geometry/camera_of.h"
 #include "geometry/directions.h"
+#include "geometry/fit_point.h"
 #include "poses/find_shift.h"
 #include "poses/gauge.h"
 #include "poses/residual_spread.h"

@@ -13,6 +13,7 @@
 
 #include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_indices.h"
+#include "geometry/fit_point.h"
 #include "geometry/occluding_contour.h"
 #include "poses/adjust_poses.h"
 #include "poses/find_shift.h"

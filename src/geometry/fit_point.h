@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). A point from its pixels.
+#pragma once
+
+#include <curvix/scene.h>
+#include <Eigen/Core>
+#include <vector>
+
+namespace curvix {
+
+// A point in an image.
+struct PointInImage {
+  const Camera* camera = nullptr;  // not null
+  Rigid3 cam_from_world;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
+// The position whose projections fit best, with Cauchy's loss of scale 1 px:
+// Gauss-Newton steps from `start`, as long as they help; `start` where none
+// does.
+Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
+                         const std::vector<PointInImage>& seen);
+
+}  // namespace curvix
