@@ -3,43 +3,12 @@
 #include <curvix/scene.h>
 #include <optional>
 
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
 
 namespace curvix {
 namespace {
-
-// The lines of a text, trimmed, with their numbers from 1.
-class LineReader {
- public:
-  explicit LineReader(std::string_view text) : text_(text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text_.substr(0, 3) == kByteOrderMark) text_.remove_prefix(3);
-  }
-
-  int line_number() const { return line_number_; }
-
-  // The next line that is not a comment; nullopt at the end.
-  std::optional<std::string_view> Next() {
-    while (!text_.empty()) {
-      const std::string_view line = Trimmed(TakeLine(text_));
-      ++line_number_;
-      if (line.empty() || line[0] != '#') return line;
-    }
-    return std::nullopt;
-  }
-
-  // The next line that is neither a comment nor blank; nullopt at the end.
-  std::optional<std::string_view> NextFilled() {
-    std::optional<std::string_view> line = Next();
-    while (line && line->empty()) line = Next();
-    return line;
-  }
-
- private:
-  std::string_view text_;
-  int line_number_ = 0;
-};
 
 // Reads words from the front of a line. The first that is missing or malformed
 // fails; from then on everything reads as zero.
@@ -51,8 +20,8 @@ class WordReader {
   bool AtEnd() const { return failed_ || rest_.empty(); }
 
   std::string_view Word() {
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
-    rest_ = Trimmed(rest_.substr(word.size()));
+    const std::string_view word = TakeWord(rest_);
+    rest_ = Trimmed(rest_);
     failed_ = failed_ || word.empty();
     return word;
   }
@@ -64,22 +33,23 @@ class WordReader {
 
   template <typename T>
   T Number() {
-    const std::optional<T> value = ParseNumber<T>(Word());
-    failed_ = failed_ || !value;
-    return failed_ ? T{} : *value;
+    return NumberOf<T>(Word());
   }
 
   // "-1" means none.
   std::uint64_t Point3DId() {
-    if (rest_ == "-1" || (rest_.substr(0, 2) == "-1" && rest_.size() > 2 &&
-                          kBlanks.find(rest_[2]) != std::string_view::npos)) {
-      Word();
-      return kNoPoint3D;
-    }
-    return Number<std::uint64_t>();
+    const std::string_view word = Word();
+    return word == "-1" ? kNoPoint3D : NumberOf<std::uint64_t>(word);
   }
 
  private:
+  template <typename T>
+  T NumberOf(std::string_view word) {
+    const std::optional<T> value = ParseNumber<T>(word);
+    failed_ = failed_ || !value;
+    return failed_ ? T{} : *value;
+  }
+
   std::string_view rest_;
   bool failed_ = false;
 };

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/check.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 
 namespace curvix {
@@ -99,29 +100,6 @@ Status Broken(std::size_t line_number, const std::string& expected) {
               "; the file is truncated or was changed by hand"};
 }
 
-// The lines of a text that are neither blank nor comments.
-class LineReader {
- public:
-  explicit LineReader(std::string_view text) : text_(text) {}
-
-  std::optional<std::string_view> Next() {
-    while (!text_.empty()) {
-      const std::string_view line = TakeLine(text_);
-      ++number_;
-      std::string_view words = line;
-      const std::string_view first = TakeWord(words);
-      if (!first.empty() && !first.starts_with('#')) return line;
-    }
-    return std::nullopt;
-  }
-  std::size_t number() const { return number_; }  // of the line given last
-  std::size_t bytes_left() const { return text_.size(); }
-
- private:
-  std::string_view text_;
-  std::size_t number_ = 0;
-};
-
 // Reads the samples that `head` announces into `curve`.
 Status ReadSamples(const CurveHead& head,
                    const ViewByImageId& views,
@@ -130,17 +108,17 @@ Status ReadSamples(const CurveHead& head,
   // Seven digits, "crease", seven blanks.
   constexpr std::size_t kMinBytesOfSample = 20;
   if (head.num_samples > lines.bytes_left() / kMinBytesOfSample) {
-    return Broken(lines.number(),
+    return Broken(lines.line_number(),
                   "followed by as many samples as it announces");
   }
   curve.closed = head.closed;
   curve.samples.reserve(head.num_samples);
   for (std::size_t i = 0; i < head.num_samples; ++i) {
-    const std::optional<std::string_view> line = lines.Next();
+    const std::optional<std::string_view> line = lines.NextFilled();
     std::optional<CurveSample> sample;
     if (line) sample = ParseSample(*line, views);
     if (!sample) {
-      return Broken(lines.number(),
+      return Broken(lines.line_number(),
                     "a sample (X Y Z TX TY TZ SIGMA KIND IMAGE_IDS)");
     }
     curve.samples.push_back(*std::move(sample));
@@ -181,10 +159,11 @@ Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene) {
   }
   LineReader lines(bytes);
   CurveSet curves;
-  while (const std::optional<std::string_view> line = lines.Next()) {
+  while (const std::optional<std::string_view> line = lines.NextFilled()) {
     const std::optional<CurveHead> head = ParseHead(*line);
     if (!head) {
-      return Broken(lines.number(), "a curve (CURVE_ID CLOSED NUM_SAMPLES)");
+      return Broken(lines.line_number(),
+                    "a curve (CURVE_ID CLOSED NUM_SAMPLES)");
     }
     Curve curve;
     Status status = ReadSamples(*head, views, lines, curve);
