@@ -111,15 +111,11 @@ Result<std::vector<KnownDistance>> ParseDistances(
 
 Result<Eigen::Vector3d> ParseVector(const std::string& what,
                                     std::string_view text) {
-  const std::vector<std::string_view> parts = SplitAt(text, ',');
-  Eigen::Vector3d vector;
-  bool is_good = parts.size() == 3;
-  for (std::size_t i = 0; is_good && i < 3; ++i) {
-    const std::optional<double> value = ParseNumber<double>(parts[i]);
-    is_good = value && std::isfinite(*value);
-    if (is_good) vector[static_cast<Eigen::Index>(i)] = *value;
+  const std::vector<double> numbers = ParseNumbers(text, 3);
+  if (!numbers.empty()) {
+    const Eigen::Vector3d vector = Eigen::Vector3d::Map(numbers.data());
+    if (vector.allFinite()) return vector;
   }
-  if (is_good) return vector;
   return Status(StatusCode::kInvalidArgument,
                 what + " \"" + std::string(text) +
                     "\" is not three numbers with commas between");

@@ -2,7 +2,6 @@
 #include "plugin/draw/draw_window.h"
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -15,14 +14,8 @@ namespace {
 // "low, ..., high, ...": `count` numbers of which those of the first half are
 // below those of the second. Empty: it is not that.
 std::vector<double> ParseBox(std::string_view text, std::size_t count) {
-  std::vector<double> numbers;
-  for (const std::string_view part : SplitAt(text, ',')) {
-    const auto number = ParseNumber<double>(part);
-    if (!number) return {};
-    numbers.push_back(*number);
-  }
-  if (numbers.size() != count) return {};
-  for (std::size_t i = 0; i < count / 2; ++i) {
+  const std::vector<double> numbers = ParseNumbers(text, count);
+  for (std::size_t i = 0; i < numbers.size() / 2; ++i) {
     if (!(numbers[i] < numbers[i + count / 2])) return {};
   }
   return numbers;

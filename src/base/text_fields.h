@@ -107,6 +107,19 @@ inline std::vector<std::string_view> SplitAt(std::string_view text,
   return parts;
 }
 
+// `count` numbers with commas between; empty: `text` is not that.
+inline std::vector<double> ParseNumbers(std::string_view text,
+                                        std::size_t count) {
+  std::vector<double> numbers;
+  for (const std::string_view part : SplitAt(text, ',')) {
+    const std::optional<double> number = ParseNumber<double>(part);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != count) return {};
+  return numbers;
+}
+
 // Takes the next word off `text`; empty at the end.
 inline std::string_view TakeWord(std::string_view& text) {
   constexpr std::string_view kBlank = " \t\r\n\v\f";

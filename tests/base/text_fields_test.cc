@@ -15,6 +15,7 @@ namespace curvix {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST(SplitAt, GivesOnePartMoreThanThereAreSeparators) {
   EXPECT_THAT(SplitAt("ply,dxf", ','), ElementsAre("ply", "dxf"));
@@ -76,6 +77,14 @@ TEST(ParseNumber, TakesOneSign) {
   for (const char* word : {"+-5", "++5", "-+5", "--5", "+", "-", "", "5 "}) {
     EXPECT_EQ(ParseNumber<int>(word), std::nullopt) << word;
     EXPECT_EQ(ParseNumber<double>(word), std::nullopt) << word;
+  }
+}
+
+TEST(ParseNumbers, TakesSoManyWithCommasBetween) {
+  EXPECT_THAT(ParseNumbers("1,-2.5,+1e3", 3), ElementsAre(1, -2.5, 1000));
+  EXPECT_THAT(ParseNumbers("7", 1), ElementsAre(7));
+  for (const char* text : {"", "1", "1,2,3", "1,2,", "1,", "1, 2", "1;2"}) {
+    EXPECT_THAT(ParseNumbers(text, 2), IsEmpty()) << text;
   }
 }
 
