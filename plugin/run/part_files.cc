@@ -14,7 +14,6 @@
 #include "base/option_table.h"
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
-#include "plugin/base/progress.h"
 #include "plugin/run/stage_store.h"
 
 namespace curvix {
@@ -291,15 +290,16 @@ fs::path PartFolder(const fs::path& folder, int part_idx) {
 
 Result<PartFiles> PartFiles::Open(const PartPlan& plan,
                                   const Options& options,
-                                  const fs::path& folder) {
-  PartFiles parts;
+                                  const fs::path& folder,
+                                  RunProgress& progress) {
+  PartFiles parts(progress);
   for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
     Result<PartFile> file = OpenPart(plan, i, options, folder);
     if (file.status().code() == StatusCode::kNotFound) {
       return PartsNotDone(plan, options, folder);
     }
     if (!file.ok()) return file.status();
-    if (IsInterrupted()) return CancelledStatus();
+    if (progress.IsCancelled()) return CancelledStatus();
     file->Close();
     parts.files_.push_back(std::move(file).value());
   }
@@ -323,7 +323,7 @@ std::size_t PartFiles::NumCurves(int part_idx) const {
 }
 
 Result<TracedCurve> PartFiles::Read(int part_idx, std::size_t curve_idx) {
-  if (IsInterrupted()) return CancelledStatus();
+  if (progress_.IsCancelled()) return CancelledStatus();
   if (Idx(part_idx) != open_) files_[open_].Close();
   open_ = Idx(part_idx);
   return files_[open_].Read(curve_idx);

@@ -22,6 +22,7 @@
 #include "colmap/colmap_model.h"
 #include "io/stage_io.h"
 #include "parts/scene_parts.h"
+#include "plugin/base/progress.h"
 
 namespace curvix {
 
@@ -60,24 +61,26 @@ constexpr const char* kPartEdgesName = "edges.ply";
 class PartFiles : public PartResults {
  public:
   // Reads all files once, to check them. kNotFound names all parts that are not
-  // there, or not under their keys.
+  // there, or not under their keys. `progress` outlives this.
   static Result<PartFiles> Open(const PartPlan& plan,
                                 const Options& options,
-                                const std::filesystem::path& folder);
+                                const std::filesystem::path& folder,
+                                RunProgress& progress);
 
   // Of all parts: edges detected, and 3D edges.
   std::int64_t num_edges_2d() const;
   std::int64_t num_edges_3d() const;
 
   std::size_t NumCurves(int part_idx) const override;
-  // kCancelled, too, once the user wants to stop.
+  // kCancelled, too, once the run is to stop.
   Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) override;
 
   PartFiles(PartFiles&&) = default;
 
  private:
-  PartFiles() = default;
+  explicit PartFiles(RunProgress& progress) : progress_(progress) {}
 
+  RunProgress& progress_;
   std::vector<PartFile> files_;
   std::size_t open_ = 0;  // the one that may be open
 };

@@ -71,7 +71,7 @@ Result<RunRecord> FitLines(
   if (status.ok()) {
     status = WriteReport(since_start, output->folder(), progress, record);
   }
-  if (status.ok() && IsInterrupted()) status = CancelledStatus();
+  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   // Those of an earlier run, of another command too, would tell of other
   // curves.
   if (status.ok()) {

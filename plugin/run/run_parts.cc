@@ -157,7 +157,8 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
 
   const Stopwatch since_join;
   progress.Update(kJoinStage, 0, 0);
-  Result<PartFiles> parts = PartFiles::Open(*plan, settings.options, folder);
+  Result<PartFiles> parts =
+      PartFiles::Open(*plan, settings.options, folder, progress);
   if (!parts.ok()) return parts.status();
   const auto curves =
       JoinParts(plan->partition, *parts, input->scene, settings.options);
