@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstddef>
+#include <cstdlib>
 #include <sstream>
 
 #include "gmock/gmock.h"
@@ -98,14 +99,17 @@ TEST_F(ProgressTest, NotesAreLinesOfTheirOwn) {
   }
 }
 
-// Last: there is no way back.
+// In a process of its own, since there is no way back.
 TEST_F(ProgressTest, InterruptsAskToStop) {
-  ProgressPrinter printer = Printer(false);
-  EXPECT_TRUE(printer.Update("stage", 0, 4));
-  CatchSignals();
-  ASSERT_EQ(std::raise(SIGINT), 0);
-  EXPECT_TRUE(IsInterrupted());
-  EXPECT_FALSE(printer.Update("stage", 1, 4));
+  const auto asks_to_stop = [&] {
+    ProgressPrinter printer = Printer(false);
+    const bool went_on = printer.Update("stage", 0, 4);
+    CatchSignals();
+    std::raise(SIGINT);
+    return went_on && IsInterrupted() && !printer.Update("stage", 1, 4);
+  };
+  EXPECT_EXIT(
+      std::_Exit(asks_to_stop() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
