@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <array>
 #include <csignal>
 #include <string>
 
@@ -120,7 +121,9 @@ TEST_F(FileIo, ReadingWhatIsNotAFileIsNotFound) {
 }
 
 TEST_F(FileIo, ReadsWholeFiles) {
-  for (const std::size_t size : {0, 1, 65535, 65536, 65537, 200000}) {
+  constexpr std::array<std::size_t, 6> kSizes = {
+      0, 1, 65535, 65536, 65537, 200000};
+  for (const std::size_t size : kSizes) {
     std::string bytes(size, 'x');
     for (std::size_t i = 0; i < size; i += 1001) bytes[i] = '\n';
     ASSERT_TRUE(WriteFileAtomically(Target(), bytes).ok());
