@@ -231,8 +231,7 @@ Status Synthesize(const SyntheticOptions& options, const fs::path& workspace) {
     Status status = WriteImage(scene->images[i], path);
     if (!status.ok()) return status;
   }
-  Status status = WriteColmapModel(
-      ModelOfScene(scene->scene), sparse / "0", ColmapFormat::kBinary);
+  Status status = WriteColmapModel(ModelOfScene(scene->scene), sparse / "0");
   if (!status.ok()) return status;
   return WriteFileAtomically(truth, TruthText(scene->truth));
 }

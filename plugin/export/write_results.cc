@@ -56,7 +56,7 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
   const ColmapModel model = CurvesAsPoints(record);
   Status read = record.curves.status();
   if (!read.ok()) return read;
-  return WriteColmapModel(model, path, ColmapFormat::kBinary);
+  return WriteColmapModel(model, path);
 }
 
 // STEP knows units: curves whose unit is known are written in millimetres.

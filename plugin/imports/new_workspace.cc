@@ -108,8 +108,7 @@ Status WriteNewWorkspace(const ColmapModel& model,
     status = PlaceImage(image_files[i], to, policy);
     if (!status.ok()) return status;
   }
-  status =
-      WriteColmapModel(model, folder / "sparse" / "0", ColmapFormat::kBinary);
+  status = WriteColmapModel(model, folder / "sparse" / "0");
   if (!status.ok()) return status;
   const std::vector<std::string> names =
       in_place ? std::vector<std::string>{"sparse"}

@@ -273,8 +273,7 @@ Result<Scene> RefineWithColmap(const Scene& scene,
   const fs::path output = scratch.path() / "output";
   std::error_code error;
   fs::create_directory(output, error);
-  Status written =
-      WriteColmapModel(ModelForColmap(scene), input, ColmapFormat::kBinary);
+  Status written = WriteColmapModel(ModelForColmap(scene), input);
   if (!written.ok()) return written;
   const Result<ChildEnd> end =
       RunChildProcess({run.program,

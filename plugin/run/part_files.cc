@@ -232,13 +232,11 @@ Status WritePlan(const ScenePartition& partition,
   std::vector<int> all(scene.views.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   Status status = WriteColmapModel(ModelOfViews(model, scene, all, false),
-                                   folder / "scene",
-                                   ColmapFormat::kBinary);
+                                   folder / "scene");
   for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
     status = WriteColmapModel(
         ModelOfViews(model, scene, partition.parts[i].view_idxs, true),
-        PartFolder(folder, static_cast<int>(i)) / "sparse",
-        ColmapFormat::kBinary);
+        PartFolder(folder, static_cast<int>(i)) / "sparse");
   }
   if (!status.ok()) return status;
   return WriteFileAtomically(folder / kPlanName, PlanJson(partition, scene));

@@ -151,8 +151,7 @@ Result<Scene> WorkspaceJob::RefinePosesWithCurves(
 Status WorkspaceJob::WriteRefinedModel() {
   if (!refined_model_) return {};
   record_.result.files.push_back("sparse/");
-  return WriteColmapModel(
-      *refined_model_, staging_ / "sparse", ColmapFormat::kBinary);
+  return WriteColmapModel(*refined_model_, staging_ / "sparse");
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "base/file_io.h"
-#include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
 #include "colmap/links.h"
 
@@ -69,35 +68,19 @@ void SortById(ColmapModel* model) {
 }
 
 // Files in `folder` that COLMAP or we would read instead of, or together with,
-// a model written in `format`.
-Status RefuseForeignFiles(const fs::path& folder, ColmapFormat format) {
-  const std::string other = format == ColmapFormat::kBinary ? ".txt" : ".bin";
-  for (const std::string& name : {std::string("rigs.bin"),
-                                  std::string("rigs.txt"),
-                                  std::string("frames.bin"),
-                                  std::string("frames.txt"),
-                                  "cameras" + other,
-                                  "images" + other,
-                                  "points3D" + other}) {
+// a model in .bin.
+Status RefuseForeignFiles(const fs::path& folder) {
+  for (const char* name : {"rigs.bin",
+                           "rigs.txt",
+                           "frames.bin",
+                           "frames.txt",
+                           "cameras.txt",
+                           "images.txt",
+                           "points3D.txt"}) {
     if (IsFile(folder / name)) {
       return {StatusCode::kInvalidArgument,
               "Cannot write a model to " + folder.string() + ": it holds " +
                   name + " of another model; choose an empty folder."};
-    }
-  }
-  return {};
-}
-
-// Names that the text format cannot hold.
-Status RefuseUnwritableNames(const ColmapModel& model) {
-  for (const ColmapImage& image : model.images) {
-    const bool padded = kBlanks.find(image.name.front()) != kBlanks.npos ||
-                        kBlanks.find(image.name.back()) != kBlanks.npos;
-    if (padded || image.name.find('\n') != std::string::npos) {
-      return {StatusCode::kInvalidArgument,
-              "The image name \"" + image.name +
-                  "\" begins or ends with a space or holds a line break, "
-                  "which .txt cannot keep; write .bin."};
     }
   }
   return {};
@@ -212,13 +195,9 @@ Result<ColmapModel> ReadColmapModel(const fs::path& folder) {
   return model;
 }
 
-Status WriteColmapModel(const ColmapModel& model,
-                        const fs::path& folder,
-                        ColmapFormat format) {
-  const bool binary = format == ColmapFormat::kBinary;
+Status WriteColmapModel(const ColmapModel& model, const fs::path& folder) {
   Status status = ValidateColmapModel(model);
-  if (status.ok()) status = RefuseForeignFiles(folder, format);
-  if (status.ok() && !binary) status = RefuseUnwritableNames(model);
+  if (status.ok()) status = RefuseForeignFiles(folder);
   if (!status.ok()) return status;
   std::error_code error;
   fs::create_directories(folder, error);
@@ -227,19 +206,13 @@ Status WriteColmapModel(const ColmapModel& model,
             "Cannot make the folder " + folder.string() + " (" +
                 error.message() + "); choose one that may be written."};
   }
-  const std::pair<std::string, std::string> files[] = {
-      {"cameras",
-       binary ? FormatCamerasBinary(model.cameras)
-              : FormatCamerasText(model.cameras)},
-      {"images",
-       binary ? FormatImagesBinary(model.images)
-              : FormatImagesText(model.images)},
-      {"points3D",
-       binary ? FormatPointsBinary(model.points)
-              : FormatPointsText(model.points)},
+  const std::pair<const char*, std::string> files[] = {
+      {"cameras.bin", FormatCamerasBinary(model.cameras)},
+      {"images.bin", FormatImagesBinary(model.images)},
+      {"points3D.bin", FormatPointsBinary(model.points)},
   };
-  for (const auto& [list, bytes] : files) {
-    status = WriteFileAtomically(FilePath(folder, list, format), bytes);
+  for (const auto& [name, bytes] : files) {
+    status = WriteFileAtomically(folder / name, bytes);
     if (!status.ok()) return status;
   }
   return {};

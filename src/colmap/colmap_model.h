@@ -3,8 +3,8 @@
 // COLMAP's sparse models on disk: cameras, images and points3D as .bin or .txt.
 //
 // Read: what COLMAP 3.6 to 4.x writes. rigs.* and frames.* are ignored, since
-// images.* holds the composed poses too. Written: the layout that all of these
-// versions read, without rigs and frames.
+// images.* holds the composed poses too. Written: .bin in the layout that all
+// of these versions read, without rigs and frames.
 #pragma once
 
 #include <curvix/scene.h>
@@ -83,14 +83,12 @@ std::size_t CountColmapImages(const std::filesystem::path& folder);
 // (truncated, malformed, inconsistent), kUnsupported (camera model).
 Result<ColmapModel> ReadColmapModel(const std::filesystem::path& folder);
 
-// Writes `model` into `folder`, which is made if needed, each file whole or not
-// at all. Names with spaces survive in .txt for ReadColmapModel but not for
-// COLMAP: prefer .bin. kInvalidArgument if the model is not valid, if a name
-// cannot be written as text, or if the folder holds rigs, frames or files of
-// the other format, which COLMAP would read instead of these.
+// Writes `model` into `folder`, which is made if needed, as .bin, each file
+// whole or not at all. kInvalidArgument if the model is not valid, or if the
+// folder holds rigs, frames or files in .txt, which COLMAP would read instead
+// of these.
 Status WriteColmapModel(const ColmapModel& model,
-                        const std::filesystem::path& folder,
-                        ColmapFormat format);
+                        const std::filesystem::path& folder);
 
 // kDataLoss unless ids and image names are unique, cameras valid and known,
 // poses and points finite, and names stay inside the image folder (relative,

@@ -35,14 +35,11 @@ std::string FormatPointsBinary(const std::vector<ColmapPoint3D>& points);
 
 // Lines; '#' starts a comment line, blank lines are skipped except as the
 // second line of an image, where they mean "no 2D points". An image's name is
-// the rest of its line. Numbers are written so that they read back exactly.
+// the rest of its line.
 CamerasOrError ParseCamerasText(std::string_view bytes,
                                 const std::string& file);
 ImagesOrError ParseImagesText(std::string_view bytes, const std::string& file);
 PointsOrError ParsePointsText(std::string_view bytes, const std::string& file);
-std::string FormatCamerasText(const std::vector<ColmapCamera>& cameras);
-std::string FormatImagesText(const std::vector<ColmapImage>& images);
-std::string FormatPointsText(const std::vector<ColmapPoint3D>& points);
 
 // The error for a camera model that is not supported, EQUIRECTANGULAR by name.
 Status UnsupportedCameraModel(const std::string& file,

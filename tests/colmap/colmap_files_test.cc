@@ -7,6 +7,7 @@
 #include "colmap/colmap_model.h"
 #include "colmap/colmap_model_format.h"
 #include "tests/colmap/random_model.h"
+#include "tests/support/colmap_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {
@@ -259,17 +260,6 @@ TEST(ColmapText, EveryTruncationGivesAModelOrAnError) {
   parse(ParseImagesText, images);
   parse(ParsePointsText, points);
   EXPECT_GT(num_errors, 1000);
-}
-
-TEST(ColmapText, WritesOneSpaceBetweenWordsAndNoneAtTheEnd) {
-  const ColmapModel model = RandomModel(2);
-  for (const std::string& text : {FormatCamerasText(model.cameras),
-                                  FormatImagesText(model.images),
-                                  FormatPointsText(model.points)}) {
-    EXPECT_EQ(text.find("  "), std::string::npos);
-    EXPECT_EQ(text.find(" \n"), std::string::npos);
-    EXPECT_EQ(text.back(), '\n');
-  }
 }
 
 TEST(ColmapText, NumbersThatAreNotFiniteAreRefused) {

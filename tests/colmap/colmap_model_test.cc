@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tests/colmap/random_model.h"
+#include "tests/support/colmap_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {
@@ -16,8 +17,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr ColmapFormat kFormats[] = {ColmapFormat::kBinary,
-                                     ColmapFormat::kText};
+// As .bin and as .txt.
+constexpr Status (*kWriters[])(const ColmapModel&,
+                               const std::filesystem::path&) = {
+    WriteColmapModel, WriteTextModel};
 
 void ExpectEqualCameras(const ColmapModel& a, const ColmapModel& b) {
   ASSERT_EQ(a.cameras.size(), b.cameras.size());
@@ -72,10 +75,10 @@ void ExpectEqualPoints(const ColmapModel& a, const ColmapModel& b) {
 TEST(ColmapModel, ComesBackAsItWasWritten) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const ColmapModel model = RandomModel(seed);
-    for (const ColmapFormat format : kFormats) {
+    for (const auto write : kWriters) {
       const TemporaryFolder folder;
       const auto path = folder.path() / "new" / "0";
-      const Status status = WriteColmapModel(model, path, format);
+      const Status status = write(model, path);
       ASSERT_TRUE(status.ok()) << status.message();
       const Result<ColmapModel> back = ReadColmapModel(path);
       ASSERT_TRUE(back.ok()) << back.status().message();
@@ -101,7 +104,7 @@ TEST(ColmapModel, ComesBackSortedByIdWithUnitQuaternions) {
   EXPECT_TRUE(scaled->points.empty());
 
   const auto path = folder.path() / "reversed";
-  ASSERT_TRUE(WriteColmapModel(model, path, ColmapFormat::kBinary).ok());
+  ASSERT_TRUE(WriteColmapModel(model, path).ok());
   const Result<ColmapModel> back = ReadColmapModel(path);
   ASSERT_TRUE(back.ok());
   ExpectEqualCameras(RandomModel(1), *back);
@@ -112,11 +115,11 @@ TEST(ColmapModel, ComesBackSortedByIdWithUnitQuaternions) {
 TEST(ColmapModel, ModelsWithoutPointsAreModels) {
   ColmapModel model = RandomModel(4);
   model.points.clear();
-  for (const ColmapFormat format : kFormats) {
+  for (const auto write : kWriters) {
     const TemporaryFolder folder;
-    ASSERT_TRUE(WriteColmapModel(model, folder.path(), format).ok());
+    ASSERT_TRUE(write(model, folder.path()).ok());
     const std::string points =
-        format == ColmapFormat::kBinary ? "points3D.bin" : "points3D.txt";
+        write == WriteColmapModel ? "points3D.bin" : "points3D.txt";
     EXPECT_TRUE(ReadColmapModel(folder.path()).ok());
     folder.Write(points, "");
     EXPECT_TRUE(ReadColmapModel(folder.path()).ok());
@@ -217,8 +220,7 @@ TEST(ColmapModel, ValidationSaysWhatIsBroken) {
     EXPECT_EQ(status.code(), StatusCode::kDataLoss) << sentence;
     EXPECT_THAT(status.message(), HasSubstr(sentence));
     const TemporaryFolder folder;
-    EXPECT_FALSE(
-        WriteColmapModel(model, folder.path(), ColmapFormat::kBinary).ok());
+    EXPECT_FALSE(WriteColmapModel(model, folder.path()).ok());
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   }
   ColmapModel dots = RandomModel(1);
@@ -231,31 +233,22 @@ TEST(ColmapModel, IsNotWrittenWhereOtherFilesWouldShadowIt) {
   for (const std::string name : {"rigs.bin", "frames.txt", "cameras.txt"}) {
     const TemporaryFolder folder;
     folder.Write(name, "x");
-    const Status status =
-        WriteColmapModel(model, folder.path(), ColmapFormat::kBinary);
+    const Status status = WriteColmapModel(model, folder.path());
     EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
     EXPECT_THAT(status.message(), HasSubstr(name));
   }
   const TemporaryFolder folder;
-  EXPECT_TRUE(
-      WriteColmapModel(model, folder.path(), ColmapFormat::kBinary).ok());
-  EXPECT_TRUE(
-      WriteColmapModel(model, folder.path(), ColmapFormat::kBinary).ok());
-  EXPECT_FALSE(
-      WriteColmapModel(model, folder.path(), ColmapFormat::kText).ok());
+  EXPECT_TRUE(WriteColmapModel(model, folder.path()).ok());
+  EXPECT_TRUE(WriteColmapModel(model, folder.path()).ok());
 }
 
-TEST(ColmapModel, NamesThatTextCannotKeepAreRefusedInText) {
+TEST(ColmapModel, NamesKeepTheirSpacesAndLineBreaks) {
   for (const std::string name : {" a.jpg", "a.jpg ", "a\nb.jpg"}) {
     ColmapModel model = RandomModel(1);
     model.images[0].name = name;
     const TemporaryFolder folder;
-    EXPECT_FALSE(
-        WriteColmapModel(model, folder.path() / "t", ColmapFormat::kText).ok());
-    ASSERT_TRUE(
-        WriteColmapModel(model, folder.path() / "b", ColmapFormat::kBinary)
-            .ok());
-    EXPECT_EQ(ReadColmapModel(folder.path() / "b")->images[0].name, name);
+    ASSERT_TRUE(WriteColmapModel(model, folder.path()).ok());
+    EXPECT_EQ(ReadColmapModel(folder.path())->images[0].name, name);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "gtest/gtest.h"
 #include "plugin/commands/command_synthesize.h"
 #include "tests/end_to_end/run_program.h"
+#include "tests/support/colmap_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {
@@ -74,7 +75,7 @@ TEST_F(AddOns, BlenderShowsCurvesAndCameras) {
   const auto model = ReadColmapModel(workspace_ / "sparse/0");
   ASSERT_TRUE(model.ok()) << model.status().message();
   const fs::path text_model = folder_->path() / "text";
-  ASSERT_TRUE(WriteColmapModel(*model, text_model, ColmapFormat::kText).ok());
+  ASSERT_TRUE(WriteTextModel(*model, text_model).ok());
   const Outcome outcome = RunInShell(
       "blender --background --factory-startup --python-exit-code 1 --python " +
       Quoted(Source("tests/end_to_end/import_in_blender.py")) + " -- " +

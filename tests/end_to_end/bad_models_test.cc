@@ -6,6 +6,7 @@
 #include "base/infinity.h"
 #include "tests/end_to_end/bad_workspace.h"
 #include "tests/plugin/posed_points.h"
+#include "tests/support/colmap_text.h"
 
 namespace curvix {
 namespace {

@@ -141,14 +141,14 @@ TEST_F(InstalledColmap, GivesCurvesAsGoodAsThoseOfTruePoses) {
   ASSERT_NO_FATAL_FAILURE(TriangulateByColmap());
   const fs::path input = folder_.path() / "sparse/1";
   std::string said;
-  ASSERT_TRUE(WriteColmapModel(truth_, input, ColmapFormat::kBinary).ok());
+  ASSERT_TRUE(WriteColmapModel(truth_, input).ok());
   ASSERT_EQ(Curvix("--refiner none --refine_poses_with_curves 0", &said), 0)
       << said;
   const double error_of_truth = CurveError(PosesOf(truth_));
 
   ColmapModel model = truth_;
   DisturbPoses(1, 5, &model);
-  ASSERT_TRUE(WriteColmapModel(model, input, ColmapFormat::kBinary).ok());
+  ASSERT_TRUE(WriteColmapModel(model, input).ok());
   ASSERT_EQ(Curvix("", &said), 0) << said;
   const Result<ColmapModel> refined =
       ReadColmapModel(folder_.path() / "out/sparse");
@@ -168,7 +168,7 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   ColmapModel model = truth_;
   DisturbPoses(1.5, 5, &model);
   const fs::path input = folder_.path() / "sparse/1";
-  ASSERT_TRUE(WriteColmapModel(model, input, ColmapFormat::kBinary).ok());
+  ASSERT_TRUE(WriteColmapModel(model, input).ok());
   const fs::path output = folder_.path() / "out";
   std::string said;
   const std::string by_points = "--refine_poses_with_curves 0 ";

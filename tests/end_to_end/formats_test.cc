@@ -60,8 +60,7 @@ class Formats : public testing::Test {
     fs::rename(workspace / "images" / old_name,
                workspace / "images" / kEvilName);
     fs::remove_all(model_path);
-    ASSERT_TRUE(
-        WriteColmapModel(*model, model_path, ColmapFormat::kBinary).ok());
+    ASSERT_TRUE(WriteColmapModel(*model, model_path).ok());
   }
 
   static int NumCurves() { return report_["result"]["num_curves"]; }

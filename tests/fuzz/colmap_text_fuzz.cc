@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // cameras.txt, images.txt and points3D.txt: the first character chooses.
 #include "tests/fuzz/colmap_round_trip.h"
+#include "tests/support/colmap_text.h"
 
 namespace curvix {
 

@@ -6,6 +6,7 @@
 #include "base/file_io.h"
 #include "plugin/imports/importers.h"
 #include "tests/plugin/import_fixtures.h"
+#include "tests/support/colmap_text.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {
@@ -268,7 +269,7 @@ TEST_F(Import, ColmapModelMeetsItsImages) {
   model.images.push_back(image);
   model.points.push_back({5, {1, 2, 3}, {1, 2, 3}, 0.5, {{9, 0}}});
   const fs::path folder = folder_.path() / "model";
-  ASSERT_TRUE(WriteColmapModel(model, folder, ColmapFormat::kText).ok());
+  ASSERT_TRUE(WriteTextModel(model, folder).ok());
   Photo("photos/left/a b.png");
   ImportOptions options = From("model");
   EXPECT_THAT(ImportColmapImages(options).status().message(),
@@ -282,7 +283,7 @@ TEST_F(Import, ColmapModelMeetsItsImages) {
   EXPECT_EQ(scene->image_files[0], options.image_path / "left/a b.png");
   // A model made on Windows.
   model.images[0].name = "left\\a b.png";
-  ASSERT_TRUE(WriteColmapModel(model, folder, ColmapFormat::kText).ok());
+  ASSERT_TRUE(WriteTextModel(model, folder).ok());
   const auto from_windows = ImportColmapImages(options);
   ASSERT_TRUE(from_windows.ok()) << from_windows.status().message();
   EXPECT_EQ(from_windows->image_files, scene->image_files);

@@ -93,8 +93,7 @@ class FakeColmap : public testing::Test {
   // Writes `model` where the script can copy it from.
   std::string Copy(const ColmapModel& model, const std::string& name) {
     const fs::path folder = folder_.path() / name;
-    const Status status =
-        WriteColmapModel(model, folder, ColmapFormat::kBinary);
+    const Status status = WriteColmapModel(model, folder);
     EXPECT_TRUE(status.ok()) << status.message();
     return "cp '" + folder.string() + "'/*.bin \"$5\"";
   }
