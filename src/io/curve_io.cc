@@ -22,10 +22,7 @@ Status Encode(const std::string& extension,
               const Scene& scene,
               std::string_view frame,
               const ByteSink& sink) {
-  if (extension == ".ply") {
-    return frame.empty() ? EncodePlyLines(curves, sink)
-                         : EncodePlyLinesInFrame(curves, frame, sink);
-  }
+  if (extension == ".ply") return EncodePlyLines(curves, frame, sink);
   if (extension == ".pcd") return EncodePcd(curves, sink);
   if (extension == ".glb") return EncodeGlbCurves(curves, sink);
   if (extension == ".obj") {

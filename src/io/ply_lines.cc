@@ -93,14 +93,13 @@ Status TakeEdges(const PlyElement& element,
   return {};
 }
 
-constexpr std::string_view kModelFrame =
-    "coordinates are those of the COLMAP model";
-
-std::string PlyStart(std::string_view comment) {
+// `frame`: a comment on it; "": that of the model.
+std::string PlyStart(std::string_view frame) {
+  if (frame.empty()) frame = "coordinates are those of the COLMAP model";
   return "ply\n"
          "format binary_little_endian 1.0\n"
          "comment curvix: " +
-         std::string(comment) + "\nelement vertex ";
+         std::string(frame) + "\nelement vertex ";
 }
 
 constexpr std::string_view kPlyGeometry =
@@ -142,8 +141,8 @@ bool HasClosingEdge(const Curve& curve) {
 std::string LinesHeader(std::size_t num_vertices,
                         std::size_t num_edges,
                         bool has_kinds,
-                        std::string_view comment) {
-  std::string header = PlyStart(comment);
+                        std::string_view frame) {
+  std::string header = PlyStart(frame);
   header += std::to_string(num_vertices);
   header += kPlyGeometry;
   header +=
@@ -197,7 +196,7 @@ void AppendEdges(const Curve& curve, std::size_t first, std::string& out) {
 }
 
 std::string EdgesHeader(std::size_t num_edges) {
-  std::string header = PlyStart(kModelFrame);
+  std::string header = PlyStart("");
   header += std::to_string(num_edges);
   header += kPlyGeometry;
   header += "property float support\n";
@@ -233,13 +232,9 @@ Status ForEachEdges(const std::vector<fs::path>& parts, const ByteSink& take) {
 
 }  // namespace
 
-Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink) {
-  return EncodePlyLinesInFrame(curves, kModelFrame, sink);
-}
-
-Status EncodePlyLinesInFrame(const CurveSource& curves,
-                             std::string_view comment,
-                             const ByteSink& sink) {
+Status EncodePlyLines(const CurveSource& curves,
+                      std::string_view frame,
+                      const ByteSink& sink) {
   std::size_t num_vertices = 0;
   std::size_t num_edges = 0;
   bool has_kinds = false;
@@ -256,7 +251,7 @@ Status EncodePlyLinesInFrame(const CurveSource& curves,
   });
   if (num_vertices > kMaxVertices) return TooManyVertices(num_vertices);
 
-  sink(LinesHeader(num_vertices, num_edges, has_kinds, comment));
+  sink(LinesHeader(num_vertices, num_edges, has_kinds, frame));
   curves.ForEach([&](std::size_t id, const Curve& curve) {
     std::string out;
     AppendVertices(curve, id, has_kinds, out);

@@ -19,13 +19,11 @@ namespace curvix {
 // int vertex1 vertex2. Only float and uchar in vertices: COLMAP aborts on
 // anything else. Each curve has its own consecutive vertices, in order, and its
 // edges follow in order too, the closing edge last. More than 2^31 - 1 vertices
-// are kUnsupported.
-Status EncodePlyLines(const CurveSource& curves, const ByteSink& sink);
-
-// The same with another comment about the frame, of one line.
-Status EncodePlyLinesInFrame(const CurveSource& curves,
-                             std::string_view comment,
-                             const ByteSink& sink);
+// are kUnsupported. `frame`: a comment on the frame, of one line; "": it is
+// that of the model.
+Status EncodePlyLines(const CurveSource& curves,
+                      std::string_view frame,
+                      const ByteSink& sink);
 
 // The same vertices for edges before they are grouped: float x y z tx ty tz,
 // uchar red green blue (by direction), float support. No `element edge`.

@@ -9,7 +9,7 @@ namespace curvix {
 
 std::vector<std::string> FuzzSeeds() {
   const std::string head = "ply\nformat ascii 1.0\n";
-  return {EncodedCurves(EncodePlyLines, MakeTestCurves()),
+  return {EncodedCurves(EncodePlyLines, MakeTestCurves(), ""),
           head +
               "element vertex 3\nproperty float x\nproperty double y\n"
               "property int z\nproperty list uchar int more\n"

@@ -106,10 +106,10 @@ std::string PcdLayout(const std::string& bytes) {
 TEST(OutputFormatPage, ShowsWhatTheWritersWrite) {
   const std::string page = Documentation();
   const CurveSet example = Example();
-  EXPECT_THAT(
-      page,
-      HasSubstr("```\n" + PlyLayout(EncodedCurves(EncodePlyLines, example)) +
-                "```\n"));
+  EXPECT_THAT(page,
+              HasSubstr("```\n" +
+                        PlyLayout(EncodedCurves(EncodePlyLines, example, "")) +
+                        "```\n"));
   EXPECT_THAT(page,
               HasSubstr("```\n" + PcdLayout(EncodedCurves(EncodePcd, example)) +
                         "\n```\n"));

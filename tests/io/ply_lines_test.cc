@@ -23,7 +23,7 @@ std::string AsciiPly(const std::string& vertices, const std::string& edges) {
 }
 
 TEST(PlyLines, HeaderNamesExactlyThePropertiesThatViewersAccept) {
-  const std::string bytes = EncodedCurves(EncodePlyLines, MakeTestCurves());
+  const std::string bytes = EncodedCurves(EncodePlyLines, MakeTestCurves(), "");
   EXPECT_THAT(
       bytes,
       StartsWith("ply\n"
@@ -50,7 +50,7 @@ TEST(PlyLines, HeaderNamesExactlyThePropertiesThatViewersAccept) {
 
 TEST(PlyLines, RowsFollowTheHeaderInOrder) {
   const CurveSet curves = MakeTestCurves();
-  const std::string bytes = EncodedCurves(EncodePlyLines, curves);
+  const std::string bytes = EncodedCurves(EncodePlyLines, curves, "");
   const std::string end = "end_header\n";
   const char* body = bytes.data() + bytes.find(end) + end.size();
   constexpr std::ptrdiff_t kVertexBytes = 9 * 4 + 3;
@@ -80,11 +80,11 @@ TEST(PlyLines, RowsFollowTheHeaderInOrder) {
 
 TEST(PlyLines, KindsAreWrittenWhereAnyIsKnownAndComeBack) {
   CurveSet curves = MakeTestCurves();
-  const std::size_t unknown = EncodedCurves(EncodePlyLines, curves).size();
+  const std::size_t unknown = EncodedCurves(EncodePlyLines, curves, "").size();
   CurveSample& sample = curves.curves[1].samples[2];
   sample.kind = CurveKind::kMarking;
   sample.kind_probability = 0.75F;
-  const std::string bytes = EncodedCurves(EncodePlyLines, curves);
+  const std::string bytes = EncodedCurves(EncodePlyLines, curves, "");
   const std::string properties =
       "property uchar kind\nproperty float kind_probability\n";
   EXPECT_EQ(bytes.size(), unknown + properties.size() + 23 * 5);
@@ -104,13 +104,13 @@ TEST(PlyLines, KindsAreWrittenWhereAnyIsKnownAndComeBack) {
 
 TEST(PlyLines, CurvesComeBackInOrderClosedAndOpen) {
   const CurveSet curves = MakeTestCurves();
-  const auto read = DecodePlyLines(EncodedCurves(EncodePlyLines, curves));
+  const auto read = DecodePlyLines(EncodedCurves(EncodePlyLines, curves, ""));
   ASSERT_TRUE(read.ok()) << read.status().message();
   ExpectSameGeometry(*read, curves, kFloat, kFloat);
 }
 
 TEST(PlyLines, EmptySetIsAValidFileWithoutCurves) {
-  const std::string bytes = EncodedCurves(EncodePlyLines, CurveSet());
+  const std::string bytes = EncodedCurves(EncodePlyLines, CurveSet(), "");
   EXPECT_THAT(bytes, HasSubstr("element vertex 0\n"));
   const auto read = DecodePlyLines(bytes);
   ASSERT_TRUE(read.ok()) << read.status().message();
@@ -121,7 +121,7 @@ TEST(PlyLines, TwoSamplesCannotClose) {
   CurveSet curves;
   curves.curves.push_back(MakeTestCurves().curves[2]);
   curves.curves[0].closed = true;
-  EXPECT_THAT(EncodedCurves(EncodePlyLines, curves),
+  EXPECT_THAT(EncodedCurves(EncodePlyLines, curves, ""),
               HasSubstr("element edge 1\n"));
 }
 
@@ -188,7 +188,7 @@ TEST(PlyLines, ReadsBothByteOrdersAlike) {
 }
 
 TEST(PlyLines, EveryTruncationIsReportedAsDataLoss) {
-  const std::string bytes = EncodedCurves(EncodePlyLines, MakeTestCurves());
+  const std::string bytes = EncodedCurves(EncodePlyLines, MakeTestCurves(), "");
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const auto read = DecodePlyLines(std::string_view(bytes).substr(0, size));
     ASSERT_EQ(read.status().code(), StatusCode::kDataLoss) << size;
