@@ -14,6 +14,7 @@
 
 #include "base/median.h"
 #include "geometry/camera_of.h"
+#include "geometry/lens.h"
 #include "measuring/main_axes.h"
 #include "plugin/export/small_images.h"
 
@@ -173,11 +174,9 @@ Eigen::Matrix3d CovarianceOf(const ScenePoint& point, const Scene& scene) {
   for (const int view_idx : point.view_idxs) {
     const View& view = scene.views[static_cast<std::size_t>(view_idx)];
     const Eigen::Matrix3d k = PinholeCalibration(CameraOf(scene, view));
-    const Eigen::Vector3d seen = view.cam_from_world * point.position;
-    Eigen::Matrix<double, 2, 3> of_seen;
-    of_seen << 1, 0, -seen.x() / seen.z(), 0, 1, -seen.y() / seen.z();
     const Eigen::Matrix<double, 2, 3> jacobian =
-        k.topLeftCorner<2, 2>() * of_seen / seen.z() *
+        PixelJacobian(k.topLeftCorner<2, 2>(),
+                      view.cam_from_world * point.position) *
         view.cam_from_world.rotation.toRotationMatrix();
     information += jacobian.transpose() * jacobian;
   }

@@ -44,12 +44,16 @@ Camera WithParams(const Camera& camera,
 
 }  // namespace
 
+Eigen::Matrix<double, 2, 3> PixelJacobian(
+    const Eigen::Matrix2d& pixel_from_ideal, const Eigen::Vector3d& x) {
+  Eigen::Matrix<double, 2, 3> scaled;
+  scaled << 1, 0, -x.x() / x.z(), 0, 1, -x.y() / x.z();
+  return pixel_from_ideal * scaled / x.z();
+}
+
 Eigen::Matrix<double, 2, 3> PixelJacobian(const Camera& camera,
                                           const Eigen::Vector3d& x) {
-  const Eigen::Vector2d ideal = x.hnormalized();
-  Eigen::Matrix<double, 2, 3> ideal_from_x;
-  ideal_from_x << 1, 0, -ideal.x(), 0, 1, -ideal.y();
-  return ImageFromIdealJacobian(camera, ideal) * ideal_from_x / x.z();
+  return PixelJacobian(ImageFromIdealJacobian(camera, x.hnormalized()), x);
 }
 
 ImageEdge EdgeInImage(const ImageEdge& ideal, const Camera& camera) {

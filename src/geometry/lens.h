@@ -11,7 +11,10 @@
 
 namespace curvix {
 
-// d pixel / d x for a point at `x` in the camera's frame, x.z() > 0.
+// d pixel / d x for a point at `x` in the camera's frame, x.z() > 0, where
+// d pixel / d (x / z) is `pixel_from_ideal`.
+Eigen::Matrix<double, 2, 3> PixelJacobian(
+    const Eigen::Matrix2d& pixel_from_ideal, const Eigen::Vector3d& x);
 Eigen::Matrix<double, 2, 3> PixelJacobian(const Camera& camera,
                                           const Eigen::Vector3d& x);
 

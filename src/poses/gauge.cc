@@ -8,6 +8,7 @@
 
 #include "base/median.h"
 #include "geometry/directions.h"
+#include "geometry/lens.h"
 
 namespace curvix {
 namespace {
@@ -56,10 +57,8 @@ void Add(const PosedView& view,
   const Eigen::Vector3d x = view.InCamera(position);
   if (!(x.z() > 0)) return;
   const Eigen::Vector2d residual = view.Pixel(x) - pixel;
-  Eigen::Matrix<double, 2, 3> by_x;
-  by_x << 1, 0, -x.x() / x.z(), 0, 1, -x.y() / x.z();
-  by_x = view.calibration.topLeftCorner<2, 2>() * by_x / x.z();
-  const Eigen::Matrix<double, 2, 3> by_position = by_x * view.rotation;
+  const Eigen::Matrix<double, 2, 3> by_position =
+      PixelJacobian(view.calibration.topLeftCorner<2, 2>(), x) * view.rotation;
   Matrix26d by_pose;
   by_pose.leftCols<3>() = -by_position * CrossMatrix(position - center);
   by_pose.rightCols<3>() = by_position;
