@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <curvix/edges.h>
 #include <curvix/reconstruct.h>
-#include <curvix/refine_poses.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <pybind11/stl.h>
@@ -19,7 +18,6 @@
 #include "measuring/moved_curves.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/evaluations.h"
-#include "plugin/poses/curve_poses.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 #include "plugin/run/run_stages.h"
@@ -45,58 +43,33 @@ RunRecord SceneRecord(const Scene& scene, const RunSettings& settings) {
   return record;
 }
 
-// Refines the poses of `run` with curves.
-Status RefineScenePoses(RunStages& stages, WorkspaceRun& run) {
-  Scene& scene = run.scene;
-  const auto refined =
-      stages.RefinePosesWithCurves(ModelOfScene(scene), scene, run.edge_maps);
-  if (!refined.ok()) return refined.status();
-  if (!refined->model) return {};
-  const CurvePoses& poses = refined->record.poses;
-  auto moved = EdgesWithCameras(scene, std::move(run.edge_maps), poses.cameras);
-  if (!moved.ok()) return moved.status();
-  run.edge_maps = *std::move(moved);
-  scene.cameras = poses.cameras;
-  for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    scene.views[i].cam_from_world = poses.cam_from_world[i];
-  }
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    scene.points[i].position = refined->model->points[i].position;
-  }
-  return {};
-}
-
 // The stages of RunWorkspace behind bundle adjustment, which is for models of
-// COLMAP: edges, unless `edges` has them, one map per view, whose neighbours
-// are looked for as among detected ones; poses refined with curves, if
-// settings.poses says so; curves and fits. Nothing is written. Errors as
-// ReconstructCurves.
-Result<WorkspaceRun> ReconstructScene(const Scene& scene,
+// COLMAP, as RunStages::Run() does them, and fits. Nothing is written.
+Result<WorkspaceRun> ReconstructScene(Scene scene,
                                       const std::vector<EdgeMap>* edges,
                                       const RunSettings& settings,
                                       RunProgress& progress) {
   const Stopwatch since_start;
   WorkspaceRun run;
-  run.record = SceneRecord(scene, settings);
-  run.scene = scene;
   RunRecord& record = run.record;
-  RunStages stages({}, progress, record);
-  Result<std::vector<EdgeMap>> edge_maps =
-      edges == nullptr ? stages.Detect(scene) : stages.Link(*edges);
-  if (!edge_maps.ok()) return edge_maps.status();
-  run.edge_maps = *std::move(edge_maps);
-  if (settings.poses.refine_poses_with_curves) {
-    Status status = RefineScenePoses(stages, run);
-    if (!status.ok()) return status;
+  record = SceneRecord(scene, settings);
+  const ColmapModel model = ModelOfScene(scene);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    scene.points[i].point3D_id = model.points[i].point3D_id;
   }
-  Result<Reconstruction> found = stages.Reconstruct(run.scene, run.edge_maps);
+  Result<SceneStages> found =
+      RunStages({}, progress, record).Run(model, std::move(scene), edges);
   if (!found.ok()) return found.status();
-  run.curves = std::move(found->curves);
+  Reconstruction& reconstruction = found->reconstruction;
+  run.scene = std::move(found->scene);
+  run.edge_maps = std::move(found->edge_maps);
+  run.curves = std::move(reconstruction.curves);
   run.fitted = FitCurvesOf(
       run.scene, CurvesInMemory(run.curves, &run.edge_maps), record);
   for (const Curve& curve : run.curves.curves) Count(curve, record.result);
-  record.result.num_edges_3d = static_cast<std::int64_t>(found->edges.size());
-  record.result.why_empty = found->report.why_empty;
+  record.result.num_edges_3d =
+      static_cast<std::int64_t>(reconstruction.edges.size());
+  record.result.why_empty = reconstruction.report.why_empty;
   record.total = since_start.Read("total");
   return run;
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <string>
 
-#include "base/cancelled.h"
 #include "base/stopwatch.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
@@ -68,15 +67,15 @@ Result<RunRecord> FitLines(
   if (curves.size() == 0) findings.why_empty = "no line has a length";
   Status status =
       WriteFindings(input->scene, findings, output->folder(), record).status();
-  if (status.ok()) {
-    status = WriteReport(since_start, output->folder(), progress, record);
-  }
-  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   // Those of an earlier run, of another command too, would tell of other
   // curves.
   if (status.ok()) {
-    status = output->Publish(
-        {"sparse", "bundle_adjuster.log", "project.ini", "edges.ply"});
+    status =
+        FinishRun(since_start,
+                  {"sparse", "bundle_adjuster.log", "project.ini", "edges.ply"},
+                  *output,
+                  progress,
+                  record);
   }
   if (!status.ok()) return status;
   return record;

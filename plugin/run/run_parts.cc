@@ -100,16 +100,14 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   Result<StagedOutput> output = StagedOutput::Create(folder);
   if (!output.ok()) return output.status();
   RunStages stages(folder / "stages", progress, record);
-  const Result<std::vector<EdgeMap>> edge_maps = stages.Detect(input->scene);
-  if (!edge_maps.ok()) return edge_maps.status();
-  Result<Reconstruction> reconstruction =
-      stages.Reconstruct(input->scene, *edge_maps);
-  if (!reconstruction.ok()) return stages.KeptStages(reconstruction.status());
+  Result<SceneStages> found = stages.Run(input->model, input->scene, nullptr);
+  if (!found.ok()) return found.status();
+  Reconstruction& reconstruction = found->reconstruction;
 
-  PartResult part =
-      TakePart(plan->partition, part_idx, reconstruction->curves, *edge_maps);
+  PartResult part = TakePart(
+      plan->partition, part_idx, reconstruction.curves, found->edge_maps);
   const std::vector<Edge3d> edges =
-      EdgesInCore(plan->partition, part_idx, std::move(reconstruction->edges));
+      EdgesInCore(plan->partition, part_idx, std::move(reconstruction.edges));
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
     Count(traced.curve, record.result);
@@ -122,10 +120,8 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
                              part);
   }
   if (status.ok()) {
-    status = WriteReport(since_start, output->folder(), progress, record);
+    status = FinishRun(since_start, {}, *output, progress, record);
   }
-  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return record;
 }
@@ -184,10 +180,12 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
                     record)
           .status();
   if (status.ok()) {
-    status = WriteReport(since_start, output->folder(), progress, record);
+    status = FinishRun(since_start,
+                       {"sparse", "bundle_adjuster.log"},
+                       *output,
+                       progress,
+                       record);
   }
-  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  if (status.ok()) status = output->Publish({"sparse", "bundle_adjuster.log"});
   if (!status.ok()) return status;
   return record;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/run/run_stages.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,6 +61,51 @@ RunStages::RunStages(std::filesystem::path folder,
                      RunRecord& record)
     : store_(std::move(folder)), progress_(progress), record_(record) {
   if (record.settings.clean) store_.Clean();
+}
+
+Result<SceneStages> RunStages::Run(const ColmapModel& model,
+                                   Scene scene,
+                                   const std::vector<EdgeMap>* edges) {
+  SceneStages stages;
+  Result<std::vector<EdgeMap>> edge_maps =
+      edges == nullptr ? Detect(scene) : Link(*edges);
+  if (!edge_maps.ok()) return edge_maps.status();
+  stages.scene = std::move(scene);
+  stages.edge_maps = *std::move(edge_maps);
+  if (record_.settings.poses.refine_poses_with_curves) {
+    const Status status = RefinePoses(model, stages);
+    if (!status.ok()) return KeptStages(status);
+  }
+  Result<Reconstruction> found = Reconstruct(stages.scene, stages.edge_maps);
+  if (!found.ok()) return KeptStages(found.status());
+  stages.reconstruction = *std::move(found);
+  return stages;
+}
+
+Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
+  Scene& scene = stages.scene;
+  Result<CurvePoseRefinement> refined =
+      RefinePosesWithCurves(model, scene, stages.edge_maps);
+  if (!refined.ok()) return refined.status();
+  if (!refined->model) return {};
+  const CurvePoses& poses = refined->record.poses;
+  auto moved =
+      EdgesWithCameras(scene, std::move(stages.edge_maps), poses.cameras);
+  if (!moved.ok()) return moved.status();
+  stages.edge_maps = *std::move(moved);
+  stages.refined_model = std::move(refined->model);
+  scene.cameras = poses.cameras;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].cam_from_world = poses.cam_from_world[i];
+  }
+  std::map<std::uint64_t, Eigen::Vector3d> positions;
+  for (const ColmapPoint3D& point : stages.refined_model->points) {
+    positions[point.point3D_id] = point.position;
+  }
+  for (ScenePoint& point : scene.points) {
+    point.position = positions.at(point.point3D_id);
+  }
+  return {};
 }
 
 Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {

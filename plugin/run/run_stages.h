@@ -9,6 +9,7 @@
 #include <curvix/status.h>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,15 @@ namespace curvix {
 
 using StageCounts = decltype(StageReport::counts);
 
+// What the stages of a scene give.
+struct SceneStages {
+  Scene scene;  // with the poses and cameras that the curves are made with
+  std::vector<EdgeMap> edge_maps;  // one per view
+  std::optional<ColmapModel>
+      refined_model;  // if poses were refined with curves
+  Reconstruction reconstruction;
+};
+
 // Runs stages with the options of `record`, and tells it and `progress` what
 // they did. Both outlive it.
 class RunStages {
@@ -33,21 +43,27 @@ class RunStages {
             RunProgress& progress,
             RunRecord& record);
 
+  // Edges, unless `edges` has them, one map per view, whose neighbours are
+  // looked for as among detected ones; poses refined with curves, if
+  // record.settings says so; and curves. `model`: whose views with images
+  // `scene` has, and its points by their ids. Errors as ReconstructCurves; that
+  // of an interrupted run tells what is kept.
+  Result<SceneStages> Run(const ColmapModel& model,
+                          Scene scene,
+                          const std::vector<EdgeMap>* edges);
+
+ private:
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
-  // The same with edges that are known: neighbours are looked for.
   std::vector<EdgeMap> Link(std::vector<EdgeMap> edge_maps);
-  // For `model`, whose views with images `scene` has.
+  Status RefinePoses(const ColmapModel& model, SceneStages& stages);
   Result<CurvePoseRefinement> RefinePosesWithCurves(
       const ColmapModel& model,
       const Scene& scene,
       const std::vector<EdgeMap>& edge_maps);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
-
   // What to say when the run is interrupted now: `status`, and what is kept.
   Status KeptStages(Status status) const;
-
- private:
   Result<EdgeSketch> Sketch(const Scene& scene,
                             const std::vector<EdgeMap>& edge_maps);
   void FinishEdges(const Stopwatch& stopwatch,

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "colmap/links.h"
@@ -205,14 +206,18 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
   return fitted;
 }
 
-Status WriteReport(const Stopwatch& since_start,
-                   const fs::path& folder,
-                   RunProgress& progress,
-                   RunRecord& record) {
+Status FinishRun(const Stopwatch& since_start,
+                 const std::vector<fs::path>& obsolete,
+                 StagedOutput& output,
+                 RunProgress& progress,
+                 RunRecord& record) {
   record.result.files.push_back("report.json");
   record.total = since_start.Read("total");
   progress.Finish();
-  return WriteFileAtomically(folder / "report.json", ReportJson(record));
+  Status status =
+      WriteFileAtomically(output.folder() / "report.json", ReportJson(record));
+  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
+  return status.ok() ? output.Publish(obsolete) : status;
 }
 
 }  // namespace curvix

@@ -11,10 +11,12 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "base/stopwatch.h"
 #include "colmap/workspace.h"
 #include "plugin/base/progress.h"
+#include "plugin/base/staged_output.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {
@@ -60,10 +62,13 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
                                    const std::filesystem::path& folder,
                                    RunRecord& record);
 
-// Writes report.json of a run that began with `since_start`.
-Status WriteReport(const Stopwatch& since_start,
-                   const std::filesystem::path& folder,
-                   RunProgress& progress,
-                   RunRecord& record);
+// Writes report.json of a run that began with `since_start`, and publishes its
+// files, in place of older ones and of the `obsolete`. kCancelled, and nothing
+// is published, if the run is to stop.
+Status FinishRun(const Stopwatch& since_start,
+                 const std::vector<std::filesystem::path>& obsolete,
+                 StagedOutput& output,
+                 RunProgress& progress,
+                 RunRecord& record);
 
 }  // namespace curvix
