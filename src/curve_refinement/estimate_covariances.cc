@@ -89,11 +89,10 @@ struct Agreement {
 class CurveInViews {
  public:
   CurveInViews(const Curve& curve,
-               const std::vector<PosedView>& views,
-               const std::vector<EdgeMap>& edge_maps,
-               const ResponseCurve& response,
-               double edge_sigma_px)
-      : curve_(curve), edge_sigma_px_(edge_sigma_px) {
+               const RefinementInput& input,
+               const ResponseCurve& response)
+      : curve_(curve), edge_sigma_px_(input.edge_sigma_px) {
+    const std::vector<PosedView>& views = input.views;
     std::map<std::int32_t, std::size_t> places;
     for (std::size_t k = 0; k < curve.samples.size(); ++k) {
       const CurveSample& sample = curve.samples[k];
@@ -105,7 +104,7 @@ class CurveInViews {
         const auto [place, is_new] =
             places.emplace(ref.view_idx, centers_.size());
         if (is_new) centers_.push_back(views[v].center);
-        const Edge2d& edge = EdgeOf(ref, edge_maps);
+        const Edge2d& edge = EdgeOf(ref, input.edge_maps);
         evidence.push_back(Measure(sample.position,
                                    views[v],
                                    Unblurred(edge, views[v], bend, response),
@@ -192,17 +191,16 @@ class CurveInViews {
 };
 
 std::vector<Agreement> MeasureAgreement(const Curve& curve,
-                                        const std::vector<PosedView>& views,
-                                        const std::vector<EdgeMap>& edge_maps,
-                                        const ResponseCurve& response,
-                                        double edge_sigma_px,
-                                        double smoothing_px) {
-  const CurveInViews in_views(curve, views, edge_maps, response, edge_sigma_px);
-  const double bandwidth_px = std::max(kMinBandwidthPx, smoothing_px);
+                                        const RefinementInput& input,
+                                        const ResponseCurve& response) {
+  const CurveInViews in_views(curve, input, response);
+  const double bandwidth_px =
+      std::max(kMinBandwidthPx, input.options.smoothing_px);
   std::vector<Agreement> agreements;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel =
+        PixelSize(sample.position, sample.support, input.views);
     agreements.push_back(in_views.About(k, bandwidth_px * pixel));
   }
   return agreements;
@@ -227,20 +225,11 @@ Scatter UsualScatter(const std::vector<std::vector<Agreement>>& agreements) {
 }  // namespace
 
 std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
-                                       const std::vector<PosedView>& views,
-                                       const std::vector<EdgeMap>& edge_maps,
-                                       const ResponseCurve& response,
-                                       double edge_sigma_px,
-                                       const CurveRefinementOptions& options,
-                                       int num_threads) {
+                                       const RefinementInput& input,
+                                       const ResponseCurve& response) {
   std::vector<std::vector<Agreement>> agreements(curves.size());
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    agreements[i] = MeasureAgreement(curves[i],
-                                     views,
-                                     edge_maps,
-                                     response,
-                                     edge_sigma_px,
-                                     options.smoothing_px);
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+    agreements[i] = MeasureAgreement(curves[i], input, response);
   });
   const Scatter usual = UsualScatter(agreements);
   for (std::size_t i = 0; i < curves.size(); ++i) {

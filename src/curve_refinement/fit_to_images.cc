@@ -148,21 +148,20 @@ class CurveFitter {
     }
   }
 
-  void AddEdges(const std::vector<PosedView>& views,
-                const std::vector<EdgeMap>& edge_maps,
-                const ResponseCurve& response,
-                double sigma_px) {
+  void AddEdges(const RefinementInput& input, const ResponseCurve& response) {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
       std::vector<PlaneMeasurement> measured;
       for (const EdgeRef& ref : curve_.samples[k].support) {
-        const auto v = static_cast<std::size_t>(ref.view_idx);
-        const Edge2d& edge = EdgeOf(ref, edge_maps);
+        const PosedView& view =
+            input.views[static_cast<std::size_t>(ref.view_idx)];
+        const Edge2d& edge = EdgeOf(ref, input.edge_maps);
         measured.push_back(
-            MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)));
+            MeasurePlane(view, Unblurred(edge, view, bend, response)));
       }
       if (measured.empty()) continue;
-      support_costs_.emplace_back(stations_[k], std::move(measured), sigma_px);
+      support_costs_.emplace_back(
+          stations_[k], std::move(measured), input.edge_sigma_px);
       problem_.AddResidualBlock(
           &support_costs_.back(), nullptr, offsets_[k].data());
     }
@@ -230,23 +229,20 @@ class CurveFitter {
 }  // namespace
 
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
-                               const std::vector<PosedView>& views,
-                               const std::vector<EdgeMap>& edge_maps,
-                               const ResponseCurve& response,
-                               double edge_sigma_px,
-                               const CurveRefinementOptions& options,
-                               int num_threads) {
-  if (!(options.smoothing_px > 0)) return curves;
+                               const RefinementInput& input,
+                               const ResponseCurve& response) {
+  const double smoothing_px = input.options.smoothing_px;
+  if (!(smoothing_px > 0)) return curves;
   std::vector<Curve> fitted(curves.size());
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
     fitted[i] = curves[i];
     if (curves[i].samples.size() < kMinNumFittedSamples) return;
     const CurveSample& first = curves[i].samples.front();
-    const double pixel = PixelSize(first.position, first.support, views);
+    const double pixel = PixelSize(first.position, first.support, input.views);
     if (!(pixel > 0)) return;
     CurveFitter fitter(curves[i], pixel);
-    fitter.AddEdges(views, edge_maps, response, edge_sigma_px);
-    fitter.AddBends(kStiffness * options.smoothing_px);
+    fitter.AddEdges(input, response);
+    fitter.AddBends(kStiffness * smoothing_px);
     fitted[i] = fitter.Solve();
   });
   return fitted;

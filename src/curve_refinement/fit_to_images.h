@@ -3,22 +3,20 @@
 #pragma once
 
 #include <curvix/curves.h>
-#include <curvix/edges.h>
-#include <curvix/options.h>
 #include <vector>
 
+#include "curve_refinement/refinement_input.h"
 #include "curve_refinement/response_curve.h"
-#include "model/posed_view.h"
 
 namespace curvix {
 
 // Moves the samples of each curve across it to where they best agree with all
 // their 2D edges in all views, under the assumption that curves bend evenly:
 // the least, by Ceres, of
-//   sum rho1(d / edge_sigma_px) + sum rho2(b^3 |x'''| / (0.05 px)),
+//   sum rho1(d / input.edge_sigma_px) + sum rho2(b^3 |x'''| / (0.05 px)),
 // where d is the distance of a projected sample from the line of its 2D edge,
 // which stands where it would without blur (response_curve.h, in images of
-// this response curve), b is 1.2 options.smoothing_px, x''' is the third
+// this response curve), b is 1.2 input.options.smoothing_px, x''' is the third
 // derivative by arc length of four samples in a row, small for all smooth
 // curves, and the losses are Cauchy's: a wrong 2D edge hardly pulls, and a kink
 // that the images show stays. So noise goes on lengths of some b and curvature
@@ -26,11 +24,7 @@ namespace curvix {
 // than six samples stay; smoothing_px = 0 returns the input. Pixels in space as
 // in pixel_size.h.
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
-                               const std::vector<PosedView>& views,
-                               const std::vector<EdgeMap>& edge_maps,
-                               const ResponseCurve& response,
-                               double edge_sigma_px,
-                               const CurveRefinementOptions& options,
-                               int num_threads);
+                               const RefinementInput& input,
+                               const ResponseCurve& response);
 
 }  // namespace curvix

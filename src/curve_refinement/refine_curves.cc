@@ -19,33 +19,21 @@
 namespace curvix {
 
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
-                                const std::vector<PosedView>& views,
-                                const std::vector<EdgeMap>& edge_maps,
-                                double edge_sigma_px,
-                                const CurveRefinementOptions& options,
-                                int num_threads) {
+                                const RefinementInput& input) {
+  const auto& [views, edge_maps, edge_sigma_px, options, num_threads] = input;
   if (!options.enabled) return curves;
   const ImageSupport images(views, edge_maps, num_threads);
-  SelectedCurves selected = SelectCurves(
-      curves, views, edge_maps, images, edge_sigma_px, options, num_threads);
+  SelectedCurves selected = SelectCurves(curves, input, images);
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
   if (options.separate_touching) {
     refined = SeparateTouching(std::move(refined), views, images);
   }
   refined = BridgeGaps(std::move(refined), views, images, options);
-  const ResponseCurve response =
-      options.undo_response_curve
-          ? EstimateResponseCurve(
-                refined, views, edge_maps, edge_sigma_px, num_threads)
-          : ResponseCurve();
-  refined = FitToImages(std::move(refined),
-                        views,
-                        edge_maps,
-                        response,
-                        edge_sigma_px,
-                        options,
-                        num_threads);
+  const ResponseCurve response = options.undo_response_curve
+                                     ? EstimateResponseCurve(refined, input)
+                                     : ResponseCurve();
+  refined = FitToImages(std::move(refined), input, response);
   if (options.separate_touching) {
     refined = CutAtTouches(std::move(refined), views);
   }
@@ -59,13 +47,7 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
       refined.push_back(std::move(contour));
     }
   }
-  return EstimateCovariances(std::move(refined),
-                             views,
-                             edge_maps,
-                             response,
-                             edge_sigma_px,
-                             options,
-                             num_threads);
+  return EstimateCovariances(std::move(refined), input, response);
 }
 
 }  // namespace curvix

@@ -130,17 +130,16 @@ struct ResponsePlace {
 ResponsePlace PlaceOf(const Curve& curve,
                       std::size_t index,
                       double pixel,
-                      const std::vector<PosedView>& views,
-                      const std::vector<EdgeMap>& edge_maps,
+                      const RefinementInput& input,
                       const ResponseCurve& response) {
   const CurveSample& sample = curve.samples[index];
   ResponsePlace place = {{sample.position, sample.tangent}, {}, {}};
   const std::optional<Bend> bend = BendAround(curve, index, pixel);
   for (const EdgeRef& ref : sample.support) {
-    const auto v = static_cast<std::size_t>(ref.view_idx);
-    const Edge2d& edge = EdgeOf(ref, edge_maps);
+    const PosedView& view = input.views[static_cast<std::size_t>(ref.view_idx)];
+    const Edge2d& edge = EdgeOf(ref, input.edge_maps);
     place.measurements.push_back(
-        MeasurePlane(views[v], Unblurred(edge, views[v], bend, response)));
+        MeasurePlane(view, Unblurred(edge, view, bend, response)));
     place.levers.push_back(ResponseShift(edge));
   }
   return place;
@@ -175,15 +174,14 @@ NormalEquations WithoutMoving(const ResponsePlace& place,
 }
 
 NormalEquations OfCurve(const Curve& curve,
-                        const std::vector<PosedView>& views,
-                        const std::vector<EdgeMap>& edge_maps,
-                        const ResponseCurve& response,
-                        double edge_sigma_px) {
+                        const RefinementInput& input,
+                        const ResponseCurve& response) {
   NormalEquations sum;
   double since_last_px = kResponseStepPx;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel =
+        PixelSize(sample.position, sample.support, input.views);
     if (k > 0) {
       since_last_px +=
           (sample.position - curve.samples[k - 1].position).norm() / pixel;
@@ -193,8 +191,8 @@ NormalEquations OfCurve(const Curve& curve,
       continue;
     }
     since_last_px = 0;
-    sum += WithoutMoving(PlaceOf(curve, k, pixel, views, edge_maps, response),
-                         edge_sigma_px);
+    sum += WithoutMoving(PlaceOf(curve, k, pixel, input, response),
+                         input.edge_sigma_px);
   }
   return sum;
 }
@@ -215,16 +213,12 @@ Eigen::Vector2d SolveNotNegative(const NormalEquations& sum) {
 }  // namespace
 
 ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
-                                    const std::vector<PosedView>& views,
-                                    const std::vector<EdgeMap>& edge_maps,
-                                    double edge_sigma_px,
-                                    int num_threads) {
+                                    const RefinementInput& input) {
   ResponseCurve response;
   for (int round = 0; round < kMaxNumRounds; ++round) {
     std::vector<NormalEquations> of_curves(curves.size());
-    ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-      of_curves[i] =
-          OfCurve(curves[i], views, edge_maps, response, edge_sigma_px);
+    ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+      of_curves[i] = OfCurve(curves[i], input, response);
     });
     NormalEquations sum;
     for (const NormalEquations& of_curve : of_curves) sum += of_curve;

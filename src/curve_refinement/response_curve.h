@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "curve_refinement/refinement_input.h"
 #include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 
@@ -65,15 +66,11 @@ ImageEdge Unblurred(const Edge2d& edge,
 // another contrast and level in each, so a response curve moves it by another
 // amount in each, or to the other side. Only the part of the residuals that
 // moving the sample cannot absorb determines the response. Least squares with
-// Cauchy's weights
-// (`edge_sigma_px`) over samples some ten pixels apart, in turn with their
-// places; neither parameter is below 0, since no camera's brightness grows
-// faster than light; a weak prior pulls to the identity, so that few curves
-// change nothing.
+// Cauchy's weights (input.edge_sigma_px) over samples some ten pixels apart, in
+// turn with their places; neither parameter is below 0, since no camera's
+// brightness grows faster than light; a weak prior pulls to the identity, so
+// that few curves change nothing.
 ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
-                                    const std::vector<PosedView>& views,
-                                    const std::vector<EdgeMap>& edge_maps,
-                                    double edge_sigma_px,
-                                    int num_threads);
+                                    const RefinementInput& input);
 
 }  // namespace curvix

@@ -96,10 +96,9 @@ double BlurredShare(const Support& support,
 // Of the place that the edges of sharp views alone determine; infinite without
 // two of them.
 double SharpDilution(const CurveSample& sample,
-                     const std::vector<PosedView>& views,
-                     const std::vector<EdgeMap>& edge_maps,
-                     const std::vector<bool>& are_sharp,
-                     double edge_sigma_px) {
+                     const RefinementInput& input,
+                     const std::vector<bool>& are_sharp) {
+  const auto& [views, edge_maps, edge_sigma_px, options, num_threads] = input;
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : sample.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
@@ -116,14 +115,11 @@ double SharpDilution(const CurveSample& sample,
 }
 
 double SharpDilution(const Curve& curve,
-                     const std::vector<PosedView>& views,
-                     const std::vector<EdgeMap>& edge_maps,
-                     const std::vector<bool>& are_sharp,
-                     double edge_sigma_px) {
+                     const RefinementInput& input,
+                     const std::vector<bool>& are_sharp) {
   std::vector<double> dilutions;
   for (std::size_t k = 0; k < curve.samples.size(); k += kSampleStep) {
-    dilutions.push_back(SharpDilution(
-        curve.samples[k], views, edge_maps, are_sharp, edge_sigma_px));
+    dilutions.push_back(SharpDilution(curve.samples[k], input, are_sharp));
   }
   return Median(std::move(dilutions));
 }
@@ -189,17 +185,16 @@ struct CurveTraits {
 // nullopt if no sample has both a sigma and support.
 std::optional<CurveTraits> MeasureCurve(
     const Curve& curve,
-    const std::vector<PosedView>& views,
-    const std::vector<EdgeMap>& edge_maps,
-    const std::vector<double>& least_sharpness,
-    double edge_sigma_px) {
+    const RefinementInput& input,
+    const std::vector<double>& least_sharpness) {
+  const std::vector<PosedView>& views = input.views;
   std::vector<double> dilutions;
   Support support;
   for (const CurveSample& sample : curve.samples) {
     const double pixel = PixelSize(sample.position, sample.support, views);
     if (!(sample.sigma > 0) || !(pixel > 0)) continue;
-    dilutions.push_back(sample.sigma / (edge_sigma_px * pixel));
-    AddSupport(sample, views, edge_maps, support);
+    dilutions.push_back(sample.sigma / (input.edge_sigma_px * pixel));
+    AddSupport(sample, views, input.edge_maps, support);
   }
   if (support.distances_px.empty()) return std::nullopt;
   CurveTraits traits;
@@ -208,10 +203,9 @@ std::optional<CurveTraits> MeasureCurve(
       LeastDilution(curve.samples[curve.samples.size() / 2], views);
   const std::vector<bool> are_sharp = AreSharp(support, least_sharpness);
   traits.blurred_share = BlurredShare(support, are_sharp);
-  traits.sharp_dilution =
-      traits.blurred_share > 0
-          ? SharpDilution(curve, views, edge_maps, are_sharp, edge_sigma_px)
-          : traits.dilution;
+  traits.sharp_dilution = traits.blurred_share > 0
+                              ? SharpDilution(curve, input, are_sharp)
+                              : traits.dilution;
   traits.scatter_px =
       kSigmasPerMedian * Median(std::move(support.distances_px));
   return traits;
@@ -304,23 +298,19 @@ Verdict Judge(const CurveTraits& traits,
 }  // namespace
 
 SelectedCurves SelectCurves(std::vector<Curve> curves,
-                            const std::vector<PosedView>& views,
-                            const std::vector<EdgeMap>& edge_maps,
-                            const ImageSupport& images,
-                            double edge_sigma_px,
-                            const CurveRefinementOptions& options,
-                            int num_threads) {
-  const std::vector<double> least_sharpness = LeastSharpness(edge_maps);
+                            const RefinementInput& input,
+                            const ImageSupport& images) {
+  const CurveRefinementOptions& options = input.options;
+  const std::vector<double> least_sharpness = LeastSharpness(input.edge_maps);
   AllTraits all_traits(curves.size());
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    all_traits[i] = MeasureCurve(
-        curves[i], views, edge_maps, least_sharpness, edge_sigma_px);
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+    all_traits[i] = MeasureCurve(curves[i], input, least_sharpness);
   });
   const double typical_scatter =
       TypicalScatter(curves, all_traits, options.max_blurred_share);
-  const bool are_crowded = AreCrowded(edge_maps);
+  const bool are_crowded = AreCrowded(input.edge_maps);
   std::vector<Verdict> verdicts(curves.size(), Verdict::kEdge);
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
     if (!all_traits[i] || options.max_dilution == 0) return;
     const auto judge = [&](double contour_log_likelihood_ratio) {
       return Judge(*all_traits[i],
@@ -331,8 +321,8 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
     };
     verdicts[i] = judge(0);
     if (verdicts[i] != Verdict::kEdge || are_crowded) return;
-    verdicts[i] = judge(
-        ContourLogLikelihoodRatio(curves[i], views, images, edge_sigma_px));
+    verdicts[i] = judge(ContourLogLikelihoodRatio(
+        curves[i], input.views, images, input.edge_sigma_px));
   });
   SelectedCurves selected;
   for (std::size_t i = 0; i < curves.size(); ++i) {

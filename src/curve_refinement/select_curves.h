@@ -4,12 +4,10 @@
 #pragma once
 
 #include <curvix/curves.h>
-#include <curvix/edges.h>
-#include <curvix/options.h>
 #include <vector>
 
 #include "curve_refinement/image_support.h"
-#include "model/posed_view.h"
+#include "curve_refinement/refinement_input.h"
 
 namespace curvix {
 
@@ -37,14 +35,14 @@ struct SelectedCurves {
 //  * an occluding contour, if
 //      dilution * max(1, s / r) > allowed * (1 - max(0, l) / 4)
 //    with s its scatter, r that of good curves of this scene, l its
-//    ContourLogLikelihoodRatio(), and allowed options.max_dilution; where views
-//    cannot tell places so well, 6 times the least dilution, up to 1.6
-//    options.max_dilution; of crowded images (AreCrowded()) l is 0, and allowed
-//    15 times the least dilution,
+//    ContourLogLikelihoodRatio(), and allowed input.options.max_dilution; where
+//    views cannot tell places so well, 6 times the least dilution, up to 1.6
+//    input.options.max_dilution; of crowded images (AreCrowded()) l is 0, and
+//    allowed 15 times the least dilution,
 //  * an edge of the scene, if also
 //      sharp dilution * max(1, s / r)
 //          <= allowed * (1 - max(0, l) / 4) * (1 - blurred / max_blurred_share)
-//    or options.max_blurred_share is 1,
+//    or input.options.max_blurred_share is 1,
 //  * dropped as a shading edge, otherwise.
 // An occluding contour lies elsewhere in every view, so its edges scatter,
 // and shows from directions in one plane, so it is badly determined; what views
@@ -52,15 +50,10 @@ struct SelectedCurves {
 // cameras and poses: the lower quartile of the scatter of the sharpest curves,
 // weighted by length / dilution^2; at least 0.06 px, which sampling by pixels
 // leaves. Curves whose sigma is not known or that have no support count as
-// edges; if options.max_dilution is 0, all do. `images`: of these views and
-// edge maps. `edge_sigma_px`: the standard deviation of a 2D edge's place that
-// the sigmas of samples assume, > 0.
+// edges; if input.options.max_dilution is 0, all do. `images`: of the views and
+// edge maps of `input`.
 SelectedCurves SelectCurves(std::vector<Curve> curves,
-                            const std::vector<PosedView>& views,
-                            const std::vector<EdgeMap>& edge_maps,
-                            const ImageSupport& images,
-                            double edge_sigma_px,
-                            const CurveRefinementOptions& options,
-                            int num_threads);
+                            const RefinementInput& input,
+                            const ImageSupport& images);
 
 }  // namespace curvix

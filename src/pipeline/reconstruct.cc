@@ -167,11 +167,11 @@ Reconstruction Connect(const Scene& scene,
   // Beyond the paper.
   if (!run.Begin("refine_curves")) return result;
   result.curves.curves = RefineCurves(result.curves.curves,
-                                      views,
-                                      edge_maps,
-                                      sketch.edge_sigma_px,
-                                      options.curve_refinement,
-                                      num_threads);
+                                      {views,
+                                       edge_maps,
+                                       sketch.edge_sigma_px,
+                                       options.curve_refinement,
+                                       num_threads});
   run.End(CountsOf(result.curves));
 
   if (options.curve_kinds.enabled) {

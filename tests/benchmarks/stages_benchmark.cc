@@ -102,11 +102,11 @@ std::unique_ptr<Input> MakeInput(int num_views, int size_px) {
                              1);
   double length = 0;
   for (const Curve& curve : RefineCurves(input->curves,
-                                         input->views,
-                                         input->edge_maps,
-                                         input->sketch.edge_sigma_px,
-                                         kOptions.curve_refinement,
-                                         1)) {
+                                         {input->views,
+                                          input->edge_maps,
+                                          input->sketch.edge_sigma_px,
+                                          kOptions.curve_refinement,
+                                          1})) {
     length += Length(curve);
   }
   const double truth = static_cast<double>(input->made.truth.size()) / 500;
@@ -168,11 +168,11 @@ void Connect(benchmark::State& state) {
 void Refine(benchmark::State& state) {
   Time(state, [](const Input& input) {
     return RefineCurves(input.curves,
-                        input.views,
-                        input.edge_maps,
-                        input.sketch.edge_sigma_px,
-                        kOptions.curve_refinement,
-                        1);
+                        {input.views,
+                         input.edge_maps,
+                         input.sketch.edge_sigma_px,
+                         kOptions.curve_refinement,
+                         1});
   });
 }
 

@@ -62,13 +62,10 @@ void Disturb(double shared_px,
 }
 
 std::vector<Curve> WithCovariances(const SeenCurves& seen) {
-  return EstimateCovariances(seen.curves,
-                             seen.views,
-                             seen.edge_maps,
-                             {},
-                             kEdgeSigmaPx,
-                             kFitOptions,
-                             1);
+  return EstimateCovariances(
+      seen.curves,
+      {seen.views, seen.edge_maps, kEdgeSigmaPx, kFitOptions, 1},
+      {});
 }
 
 SeenCurves DisturbedLines(int num_lines,
@@ -106,13 +103,10 @@ TEST(EstimateCovariances, ErrorsAreAsLargeAsTheySay) {
          {std::pair{0.05, 0.05}, std::pair{0.08, 0.0}}) {
       SeenCurves seen =
           DisturbedLines(60, ViewsAround(num_views, step), shared_px, own_px);
-      seen.curves = FitToImages(std::move(seen.curves),
-                                seen.views,
-                                seen.edge_maps,
-                                {},
-                                kEdgeSigmaPx,
-                                kFitOptions,
-                                1);
+      seen.curves = FitToImages(
+          std::move(seen.curves),
+          {seen.views, seen.edge_maps, kEdgeSigmaPx, kFitOptions, 1},
+          {});
       EXPECT_NEAR(NormalisedSpread(WithCovariances(seen)), 1, 0.3)
           << num_views << " views, " << shared_px << " and " << own_px << " px";
     }
@@ -192,13 +186,10 @@ TEST(EstimateCovariances, DoesNotDependOnTheUnit) {
 TEST(EstimateCovariances, ThreadsChangeNothing) {
   const SeenCurves seen = DisturbedLines(7, ViewsAround(8, 0.25), 0.1, 0.05);
   const std::vector<Curve> one = WithCovariances(seen);
-  const std::vector<Curve> three = EstimateCovariances(seen.curves,
-                                                       seen.views,
-                                                       seen.edge_maps,
-                                                       {},
-                                                       kEdgeSigmaPx,
-                                                       kFitOptions,
-                                                       3);
+  const std::vector<Curve> three = EstimateCovariances(
+      seen.curves,
+      {seen.views, seen.edge_maps, kEdgeSigmaPx, kFitOptions, 3},
+      {});
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t k = 0; k < one[i].samples.size(); ++k) {
       EXPECT_EQ(one[i].samples[k].covariance, three[i].samples[k].covariance);

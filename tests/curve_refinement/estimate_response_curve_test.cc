@@ -61,7 +61,8 @@ SeenCurves SeeLines(const Eigen::Vector2d& response_px, int length_px = 40) {
 
 Eigen::Vector2d EstimatedResponse(const SeenCurves& seen, int num_threads = 1) {
   return EstimateResponseCurve(
-             seen.curves, seen.views, seen.edge_maps, kEdgeSigmaPx, num_threads)
+             seen.curves,
+             {seen.views, seen.edge_maps, kEdgeSigmaPx, {}, num_threads})
       .px;
 }
 

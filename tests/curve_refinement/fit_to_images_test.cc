@@ -39,12 +39,8 @@ Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
   CurveRefinementOptions options;
   options.smoothing_px = smoothing_px;
   return FitToImages({Noisy(seen.truth)},
-                     seen.views,
-                     seen.edge_maps,
-                     {},
-                     kEdgeSigmaPx,
-                     options,
-                     1)[0];
+                     {seen.views, seen.edge_maps, kEdgeSigmaPx, options, 1},
+                     {})[0];
 }
 
 TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
@@ -131,14 +127,11 @@ TEST(FitToImages, DoesNotDependOnTheUnit) {
   const SeenCurve seen = SeeFromEightViews(Arc(40, 0, 3));
   const std::vector<Curve> noisy = {Noisy(seen.truth)};
   const std::vector<Curve> fitted =
-      FitToImages(noisy, seen.views, seen.edge_maps, {}, kEdgeSigmaPx, {}, 1);
-  const std::vector<Curve> large = FitToImages(Scaled(noisy, factor),
-                                               Scaled(seen.views, factor),
-                                               seen.edge_maps,
-                                               {},
-                                               kEdgeSigmaPx,
-                                               {},
-                                               1);
+      FitToImages(noisy, {seen.views, seen.edge_maps, kEdgeSigmaPx, {}, 1}, {});
+  const std::vector<Curve> large = FitToImages(
+      Scaled(noisy, factor),
+      {Scaled(seen.views, factor), seen.edge_maps, kEdgeSigmaPx, {}, 1},
+      {});
   EXPECT_LT(LargestDistance(large, Scaled(fitted, factor)), 1e-6 * factor);
 }
 

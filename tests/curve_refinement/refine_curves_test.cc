@@ -37,7 +37,7 @@ std::vector<Curve> RefineRoughSquare(const CurveRefinementOptions& options,
   std::vector<Curve> curves = RoughSquare();
   const std::vector<EdgeMap> edge_maps = SupportByEdges(FrontalViews(), curves);
   return RefineCurves(
-      curves, FrontalViews(), edge_maps, kEdgeSigmaPx, options, num_threads);
+      curves, {FrontalViews(), edge_maps, kEdgeSigmaPx, options, num_threads});
 }
 
 TEST(RefineCurves, DrawsASquareAsFourSidesBetweenCorners) {

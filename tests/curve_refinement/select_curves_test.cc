@@ -84,12 +84,8 @@ class DrawnScene {
                         double unit = 1) const {
     const std::vector<PosedView> views = Scaled(views_, unit);
     return SelectCurves(Scaled(curves_, unit),
-                        views,
-                        edge_maps_,
-                        ImageSupport(views, edge_maps_, 1),
-                        kSceneSigmaPx,
-                        options,
-                        1);
+                        {views, edge_maps_, kSceneSigmaPx, options, 1},
+                        ImageSupport(views, edge_maps_, 1));
   }
 
  private:
