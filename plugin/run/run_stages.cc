@@ -82,46 +82,36 @@ Result<SceneStages> RunStages::Run(const ColmapModel& model,
   return stages;
 }
 
-Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
-  Scene& scene = stages.scene;
-  Result<CurvePoseRefinement> refined =
-      RefinePosesWithCurves(model, scene, stages.edge_maps);
-  if (!refined.ok()) return refined.status();
-  if (!refined->model) return {};
-  const CurvePoses& poses = refined->record.poses;
-  auto moved =
-      EdgesWithCameras(scene, std::move(stages.edge_maps), poses.cameras);
-  if (!moved.ok()) return moved.status();
-  stages.edge_maps = *std::move(moved);
-  stages.refined_model = std::move(refined->model);
-  scene.cameras = poses.cameras;
-  for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    scene.views[i].cam_from_world = poses.cam_from_world[i];
+// The result of a stage as an earlier run left it, or else what `make` gives,
+// which is kept.
+template <typename T, typename Make>
+Result<T> RunStages::LoadOrMake(const StoredStage<T>& stage,
+                                std::uint64_t key,
+                                const Make& make,
+                                bool& is_resumed) {
+  progress_.Update(stage.name, 0, 0);
+  std::optional<T> saved = store_.Load(stage, key);
+  is_resumed = saved.has_value();
+  if (saved) return *std::move(saved);
+  Result<T> made = make();
+  if (!made.ok() || record_.settings.clean) return made;
+  const std::string problem = store_.Save(stage, key, *made);
+  if (!problem.empty()) {
+    progress_.Note("A later run cannot resume from here: " + problem);
   }
-  std::map<std::uint64_t, Eigen::Vector3d> positions;
-  for (const ColmapPoint3D& point : stages.refined_model->points) {
-    positions[point.point3D_id] = point.position;
-  }
-  for (ScenePoint& point : scene.points) {
-    point.position = positions.at(point.point3D_id);
-  }
-  return {};
+  return made;
 }
 
 Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {
   const Stopwatch stopwatch;
-  progress_.Update("detect_edges", 0, 0);
-  const std::uint64_t key = EdgesKey(scene, record_.settings.options);
-  Result<std::vector<EdgeMap>> edge_maps = Status();
-  if (auto saved = store_.LoadEdges(key)) edge_maps = *std::move(saved);
-  const bool is_resumed = edge_maps.ok();
-  if (!is_resumed) {
-    edge_maps =
-        DetectEdges(scene, record_.settings.options, progress_.Callback());
-    if (!edge_maps.ok()) return edge_maps.status();
-    Save(key, *edge_maps);
-  }
-  FinishEdges(stopwatch, *edge_maps, is_resumed);
+  const Options& options = record_.settings.options;
+  bool is_resumed = false;
+  Result<std::vector<EdgeMap>> edge_maps = LoadOrMake(
+      kDetectEdges,
+      EdgesKey(scene, options),
+      [&] { return DetectEdges(scene, options, progress_.Callback()); },
+      is_resumed);
+  if (edge_maps.ok()) FinishEdges(stopwatch, *edge_maps, is_resumed);
   return edge_maps;
 }
 
@@ -142,60 +132,73 @@ void RunStages::FinishEdges(const Stopwatch& stopwatch,
   record_.result.num_edges_2d = counts.front().second;
   counts.insert(counts.begin(), {"views", record_.input.num_views});
   std::string text = CountsText(counts);
-  FinishStage(stopwatch.Read("detect_edges"),
+  FinishStage(stopwatch.Read(kDetectEdges.name),
               std::move(counts),
               std::move(text),
               is_resumed);
 }
 
-Result<CurvePoseRefinement> RunStages::RefinePosesWithCurves(
-    const ColmapModel& model,
-    const Scene& scene,
-    const std::vector<EdgeMap>& edge_maps) {
+Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
   const Stopwatch stopwatch;
-  progress_.Update("refine_poses_with_curves", 0, 0);
   const Options& options = record_.settings.options;
-  const std::uint64_t key =
-      CurvePosesKey(scene, options, record_.settings.poses.refine_intrinsics);
-  std::optional<CurvePoses> poses = store_.LoadCurvePoses(key);
-  const bool is_resumed = poses.has_value();
-  if (!is_resumed) {
-    Result<CurvePoses> refined =
-        curvix::RefinePosesWithCurves(scene,
-                                      edge_maps,
-                                      options,
-                                      progress_.Callback(),
-                                      record_.settings.poses.refine_intrinsics);
-    if (!refined.ok()) return refined.status();
-    poses = std::move(refined).value();
-    Save(key, *poses);
-  }
+  const bool refine_intrinsics = record_.settings.poses.refine_intrinsics;
+  Scene& scene = stages.scene;
+  bool is_resumed = false;
+  Result<CurvePoses> refined = LoadOrMake(
+      kRefinePosesWithCurves,
+      CurvePosesKey(scene, options, refine_intrinsics),
+      [&] {
+        return RefinePosesWithCurves(scene,
+                                     stages.edge_maps,
+                                     options,
+                                     progress_.Callback(),
+                                     refine_intrinsics);
+      },
+      is_resumed);
+  if (!refined.ok()) return refined.status();
   CurvePoseRefinement result =
-      ModelWithCurvePoses(model, scene, *std::move(poses));
+      ModelWithCurvePoses(model, scene, *std::move(refined));
   record_.curve_poses = result.record;
-  FinishStage(stopwatch.Read("refine_poses_with_curves"),
+  FinishStage(stopwatch.Read(kRefinePosesWithCurves.name),
               {},
               CurvePosesText(result.record),
               is_resumed);
-  return result;
+  if (!result.model) return {};
+  const CurvePoses& poses = result.record.poses;
+  auto moved =
+      EdgesWithCameras(scene, std::move(stages.edge_maps), poses.cameras);
+  if (!moved.ok()) return moved.status();
+  stages.edge_maps = *std::move(moved);
+  stages.refined_model = std::move(result.model);
+  scene.cameras = poses.cameras;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].cam_from_world = poses.cam_from_world[i];
+  }
+  std::map<std::uint64_t, Eigen::Vector3d> positions;
+  for (const ColmapPoint3D& point : stages.refined_model->points) {
+    positions[point.point3D_id] = point.position;
+  }
+  for (ScenePoint& point : scene.points) {
+    point.position = positions.at(point.point3D_id);
+  }
+  return {};
 }
 
 Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps) {
   const Stopwatch stopwatch;
-  progress_.Update("sketch_edges", 0, 0);
-  const std::uint64_t key = SketchKey(scene, record_.settings.options);
-  Result<EdgeSketch> sketch = Status();
-  if (auto saved = store_.LoadSketch(key)) sketch = *std::move(saved);
-  const bool is_resumed = sketch.ok();
-  if (!is_resumed) {
-    sketch = SketchEdges(
-        scene, edge_maps, record_.settings.options, progress_.Callback());
-    if (!sketch.ok()) return sketch;
-    Save(key, *sketch);
-  }
+  const Options& options = record_.settings.options;
+  bool is_resumed = false;
+  Result<EdgeSketch> sketch = LoadOrMake(
+      kSketchEdges,
+      SketchKey(scene, options),
+      [&] {
+        return SketchEdges(scene, edge_maps, options, progress_.Callback());
+      },
+      is_resumed);
+  if (!sketch.ok()) return sketch;
   record_.result.edge_sigma_px = sketch->edge_sigma_px;
-  FinishStage(stopwatch.Read("sketch_edges"),
+  FinishStage(stopwatch.Read(kSketchEdges.name),
               CountsOf(*sketch),
               RepeatedViewsText(sketch->counts.repeated_views),
               is_resumed);
@@ -206,22 +209,13 @@ void RunStages::FinishStage(StageReport report,
                             StageCounts counts,
                             std::string text,
                             bool is_resumed) {
-  if (is_resumed) record_.resumed_stages.push_back(report.name);
   if (is_resumed) {
+    record_.resumed_stages.push_back(report.name);
     text += std::string(text.empty() ? "" : ", ") + "as an earlier run left it";
   }
   progress_.Finish(text);
   record_.stages.push_back(std::move(report));
   record_.stages.back().counts = std::move(counts);
-}
-
-template <typename T>
-void RunStages::Save(std::uint64_t key, const T& result) {
-  if (record_.settings.clean) return;
-  const std::string problem = store_.Save(key, result);
-  if (!problem.empty()) {
-    progress_.Note("A later run cannot resume from here: " + problem);
-  }
 }
 
 Status RunStages::KeptStages(Status status) const {

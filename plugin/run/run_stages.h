@@ -27,9 +27,8 @@ using StageCounts = decltype(StageReport::counts);
 // What the stages of a scene give.
 struct SceneStages {
   Scene scene;  // with the poses and cameras that the curves are made with
-  std::vector<EdgeMap> edge_maps;  // one per view
-  std::optional<ColmapModel>
-      refined_model;  // if poses were refined with curves
+  std::vector<EdgeMap> edge_maps;            // one per view
+  std::optional<ColmapModel> refined_model;  // if curves have refined it
   Reconstruction reconstruction;
 };
 
@@ -56,10 +55,6 @@ class RunStages {
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
   std::vector<EdgeMap> Link(std::vector<EdgeMap> edge_maps);
   Status RefinePoses(const ColmapModel& model, SceneStages& stages);
-  Result<CurvePoseRefinement> RefinePosesWithCurves(
-      const ColmapModel& model,
-      const Scene& scene,
-      const std::vector<EdgeMap>& edge_maps);
   Result<Reconstruction> Reconstruct(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps);
   // What to say when the run is interrupted now: `status`, and what is kept.
@@ -73,8 +68,11 @@ class RunStages {
                    StageCounts counts,
                    std::string text,
                    bool is_resumed);
-  template <typename T>
-  void Save(std::uint64_t key, const T& result);
+  template <typename T, typename Make>
+  Result<T> LoadOrMake(const StoredStage<T>& stage,
+                       std::uint64_t key,
+                       const Make& make,
+                       bool& is_resumed);
 
   StageStore store_;
   RunProgress& progress_;

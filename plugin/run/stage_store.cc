@@ -17,10 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kEdgesName = "edges.bin";
-constexpr const char* kSketchName = "sketch.bin";
-constexpr const char* kCurvePosesName = "curve_poses.bin";
-
 // Hashes one thing after the other; texts with their end.
 class KeyMaker {
  public:
@@ -148,30 +144,6 @@ std::uint64_t CurvePosesKey(const Scene& scene,
   return key.key();
 }
 
-template <typename T>
-std::optional<T> StageStore::LoadBy(Result<T> read(const fs::path&,
-                                                   std::uint64_t),
-                                    const char* name,
-                                    std::uint64_t key) const {
-  if (folder_.empty()) return std::nullopt;
-  Result<T> result = read(folder_ / name, key);
-  if (!result.ok()) return std::nullopt;
-  return std::move(result).value();
-}
-
-std::optional<std::vector<EdgeMap>> StageStore::LoadEdges(
-    std::uint64_t key) const {
-  return LoadBy(ReadEdgeMaps, kEdgesName, key);
-}
-
-std::optional<EdgeSketch> StageStore::LoadSketch(std::uint64_t key) const {
-  return LoadBy(ReadEdgeSketch, kSketchName, key);
-}
-
-std::optional<CurvePoses> StageStore::LoadCurvePoses(std::uint64_t key) const {
-  return LoadBy(ReadCurvePoses, kCurvePosesName, key);
-}
-
 bool StageStore::IsLink() const {
   std::error_code error;
   return fs::is_symlink(folder_, error);
@@ -184,38 +156,12 @@ std::string StageStore::MakeFolder() const {
   return error ? "cannot make " + folder_.string() : "";
 }
 
-template <typename T>
-std::string StageStore::SaveBy(Status write(const fs::path&,
-                                            std::uint64_t,
-                                            const T&),
-                               const char* name,
-                               std::uint64_t key,
-                               const T& result) {
-  if (folder_.empty()) return "";
-  if (std::string why = MakeFolder(); !why.empty()) return why;
-  const Status status = write(folder_ / name, key, result);
-  has_saved_ = has_saved_ || status.ok();
-  return status.message();
-}
-
-std::string StageStore::Save(std::uint64_t key,
-                             const std::vector<EdgeMap>& edge_maps) {
-  return SaveBy(WriteEdgeMaps, kEdgesName, key, edge_maps);
-}
-
-std::string StageStore::Save(std::uint64_t key, const EdgeSketch& sketch) {
-  return SaveBy(WriteEdgeSketch, kSketchName, key, sketch);
-}
-
-std::string StageStore::Save(std::uint64_t key, const CurvePoses& poses) {
-  return SaveBy(WriteCurvePoses, kCurvePosesName, key, poses);
-}
-
 void StageStore::Clean() {
   if (folder_.empty() || IsLink()) return;
   std::error_code ignored;
-  for (const char* name : {kEdgesName, kSketchName, kCurvePosesName}) {
-    fs::remove(folder_ / name, ignored);
+  for (const char* file :
+       {kDetectEdges.file, kSketchEdges.file, kRefinePosesWithCurves.file}) {
+    fs::remove(folder_ / file, ignored);
   }
   fs::remove(folder_, ignored);
 }

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/stage_io.h"
+
 namespace curvix {
 
 // Stands for cameras, views and points, not for images.
@@ -34,22 +36,53 @@ std::uint64_t CurvePosesKey(const Scene& scene,
                             const Options& options,
                             bool refine_intrinsics);
 
-// The stages that take long: files in a folder; with an empty path there are
-// none. A file that another key was meant for, or that is broken, is as good as
-// none. If the folder is a link, nothing is written or removed behind it.
+// A stage that takes long, and the file of its results.
+template <typename T>
+struct StoredStage {
+  const char* name;
+  const char* file;
+  Result<T> (*read)(const std::filesystem::path& path, std::uint64_t key);
+  Status (*write)(const std::filesystem::path& path,
+                  std::uint64_t key,
+                  const T& result);
+};
+inline constexpr StoredStage<std::vector<EdgeMap>> kDetectEdges = {
+    "detect_edges", "edges.bin", ReadEdgeMaps, WriteEdgeMaps};
+inline constexpr StoredStage<EdgeSketch> kSketchEdges = {
+    "sketch_edges", "sketch.bin", ReadEdgeSketch, WriteEdgeSketch};
+inline constexpr StoredStage<CurvePoses> kRefinePosesWithCurves = {
+    "refine_poses_with_curves",
+    "curve_poses.bin",
+    ReadCurvePoses,
+    WriteCurvePoses};
+
+// Their files in a folder; with an empty path there are none. A file that
+// another key was meant for, or that is broken, is as good as none. If the
+// folder is a link, nothing is written or removed behind it.
 class StageStore {
  public:
   explicit StageStore(std::filesystem::path folder)
       : folder_(std::move(folder)) {}
 
-  std::optional<std::vector<EdgeMap>> LoadEdges(std::uint64_t key) const;
-  std::optional<EdgeSketch> LoadSketch(std::uint64_t key) const;
-  std::optional<CurvePoses> LoadCurvePoses(std::uint64_t key) const;
+  template <typename T>
+  std::optional<T> Load(const StoredStage<T>& stage, std::uint64_t key) const {
+    if (folder_.empty()) return std::nullopt;
+    Result<T> result = stage.read(folder_ / stage.file, key);
+    if (!result.ok()) return std::nullopt;
+    return *std::move(result);
+  }
 
   // A sentence why it could not be saved, or "": a run can do without.
-  std::string Save(std::uint64_t key, const std::vector<EdgeMap>& edge_maps);
-  std::string Save(std::uint64_t key, const EdgeSketch& sketch);
-  std::string Save(std::uint64_t key, const CurvePoses& poses);
+  template <typename T>
+  std::string Save(const StoredStage<T>& stage,
+                   std::uint64_t key,
+                   const T& result) {
+    if (folder_.empty()) return "";
+    if (std::string why = MakeFolder(); !why.empty()) return why;
+    const Status status = stage.write(folder_ / stage.file, key, result);
+    has_saved_ = has_saved_ || status.ok();
+    return status.message();
+  }
 
   // Whether anything was saved.
   bool has_saved() const { return has_saved_; }
@@ -60,18 +93,6 @@ class StageStore {
  private:
   bool IsLink() const;
   std::string MakeFolder() const;
-  template <typename T>
-  std::optional<T> LoadBy(Result<T> read(const std::filesystem::path&,
-                                         std::uint64_t),
-                          const char* name,
-                          std::uint64_t key) const;
-  template <typename T>
-  std::string SaveBy(Status write(const std::filesystem::path&,
-                                  std::uint64_t,
-                                  const T&),
-                     const char* name,
-                     std::uint64_t key,
-                     const T& result);
 
   std::filesystem::path folder_;
   bool has_saved_ = false;

@@ -21,10 +21,10 @@ TEST(SketchKey, DependsOnTheOptionsOfGrowthThatChooseSeeds) {
 
 TEST(StageStore, KeepsNothingWithoutAFolder) {
   StageStore store{std::filesystem::path()};
-  EXPECT_EQ(store.Save(1, std::vector<EdgeMap>(2)), "");
+  EXPECT_EQ(store.Save(kDetectEdges, 1, std::vector<EdgeMap>(2)), "");
   EXPECT_FALSE(store.has_saved());
   EXPECT_FALSE(std::filesystem::exists("edges.bin"));
-  EXPECT_FALSE(store.LoadEdges(1));
+  EXPECT_FALSE(store.Load(kDetectEdges, 1));
   store.Clean();
 }
 
