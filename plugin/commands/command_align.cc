@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
 #include <iostream>
 #include <utility>
 
@@ -117,11 +116,10 @@ ExitCode RunAlign(const Arguments& arguments) {
                    WithDistancesJoined(arguments),
                    Sections(&settings, &write_results));
   if (code) return *code;
-  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  const Result<AlignSummary> summary = AlignWorkspace(settings, progress);
-  if (!summary.ok()) {
-    return Fail(summary.status(), ExitCodeOf(summary.status()));
-  }
+  const auto summary = WithProgress([&](ProgressPrinter& progress) {
+    return AlignWorkspace(settings, progress);
+  });
+  if (!summary.ok()) return Fail(summary.status());
   std::cout << summary->text << std::flush;
   if (!write_results) return kExitSuccess;
   return WriteResultsAgain(settings, summary->output_path);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
 #include <iostream>
 
 #include "plugin/base/progress.h"
@@ -64,12 +63,11 @@ ExitCode RunDraw(const Arguments& arguments) {
   const std::optional<ExitCode> code =
       ParseCommand("draw", arguments, Sections(&settings));
   if (code) return *code;
-  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  const Result<DrawSummary> summary = DrawWorkspace(settings, progress);
-  if (!summary.ok()) {
-    return Fail(summary.status(), ExitCodeOf(summary.status()));
-  }
-  std::cout << summary->text << std::flush;
+  const auto summary = WithProgress([&](ProgressPrinter& progress) {
+    return DrawWorkspace(settings, progress);
+  });
+  if (!summary.ok()) return Fail(summary.status());
+  std::cout << *summary << std::flush;
   return kExitSuccess;
 }
 

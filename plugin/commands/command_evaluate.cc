@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
 #include <iostream>
 #include <utility>
 
@@ -77,13 +76,14 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
 Status EvaluateWorkspace(const EvaluateSettings& settings) {
   Status valid = Validate(settings.run.options);
   if (!valid.ok()) return valid;
-  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  return RunHoldout(settings.run,
-                    settings.curves_path,
-                    settings.holdout_every,
-                    settings.format(),
-                    progress,
-                    std::cout);
+  return WithProgress([&](ProgressPrinter& progress) {
+    return RunHoldout(settings.run,
+                      settings.curves_path,
+                      settings.holdout_every,
+                      settings.format(),
+                      progress,
+                      std::cout);
+  });
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ ExitCode RunEvaluate(const Arguments& arguments) {
                                                       settings.options,
                                                       settings.format(),
                                                       std::cout);
-  return status.ok() ? kExitSuccess : Fail(status, ExitCodeOf(status));
+  return status.ok() ? kExitSuccess : Fail(status);
 }
 
 }  // namespace curvix

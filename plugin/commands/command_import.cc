@@ -157,14 +157,14 @@ CopyPolicy PolicyOf(const std::string& name) {
 
 ExitCode ImportDataSet(const ImportSettings& settings) {
   Status status = CheckWorkspaceUnused(settings.workspace_path);
-  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  if (!status.ok()) return Fail(status);
   const Result<ImportedScene> scene = Import(settings);
-  if (!scene.ok()) return Fail(scene.status(), ExitCodeOf(scene.status()));
+  if (!scene.ok()) return Fail(scene.status());
   status = WriteNewWorkspace(scene->model,
                              scene->image_files,
                              PolicyOf(settings.copy_policy),
                              settings.workspace_path);
-  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  if (!status.ok()) return Fail(status);
   for (const std::string& note : scene->notes) std::cerr << note << std::endl;
   const std::string path = settings.workspace_path.string();
   const bool has_links =
@@ -189,7 +189,7 @@ ExitCode RunImport(const Arguments& arguments) {
                                                      ResultFlags(&settings)});
   if (code) return *code;
   const Status status = CheckInput(settings);
-  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  if (!status.ok()) return Fail(status);
   for (const LineFormat& format : kLineFormats) {
     if (settings.format == format.name) return ImportLines(settings, format);
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
 #include <algorithm>
 #include <iostream>
 
@@ -30,14 +29,10 @@ ExitCode RunPartitionCommand(const Arguments& arguments) {
       arguments,
       {PathsSection(&settings), PartsSection(&max_views_per_part)});
   if (code) return *code;
-  Result<ScenePartition> partition = Status();
-  {
-    ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-    partition = RunPartition(settings, max_views_per_part, progress);
-  }
-  if (!partition.ok()) {
-    return Fail(partition.status(), ExitCodeOf(partition.status()));
-  }
+  const auto partition = WithProgress([&](ProgressPrinter& progress) {
+    return RunPartition(settings, max_views_per_part, progress);
+  });
+  if (!partition.ok()) return Fail(partition.status());
   for (std::size_t i = 0; i < partition->parts.size(); ++i) {
     const ScenePart& part = partition->parts[i];
     std::cout << "part " << i << ": " << part.view_idxs.size() << " views, "

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <unistd.h>
 #include <iostream>
 #include <utility>
 
@@ -32,19 +31,14 @@ Flag PresetFlag(RunSettings* settings) {
 
 constexpr int kNoPart = -1;
 
-Result<RunRecord> RunWithProgress(const Job& job) {
-  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  return job(progress);
-}
-
 // A part without curves is as good as any.
 ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto record = RunWithProgress([&](ProgressPrinter& progress) {
+  const auto record = WithProgress([&](ProgressPrinter& progress) {
     return RunPart(settings, part_idx, progress);
   });
-  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
+  if (!record.ok()) return Fail(record.status());
   std::cout << "\npart " << part_idx << ": " << record->result.num_curves
             << " curves, in " << record->result.output_path.string() << "\n";
   return kExitSuccess;
@@ -55,8 +49,8 @@ ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
 ExitCode RunAndSummarize(const RunSettings& settings, const Job& job) {
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Result<RunRecord> record = RunWithProgress(job);
-  if (!record.ok()) return Fail(record.status(), ExitCodeOf(record.status()));
+  const Result<RunRecord> record = WithProgress(job);
+  if (!record.ok()) return Fail(record.status());
   const bool is_empty = record->result.num_curves == 0;
   (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
   return is_empty ? kExitNoCurves : kExitSuccess;

@@ -207,7 +207,7 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   settings.options.camera_model = *ModelFromName(settings.camera_model);
   settings.options.seed = static_cast<std::uint64_t>(settings.seed);
   const Status status = Synthesize(settings.options, settings.workspace_path);
-  if (!status.ok()) return Fail(status, ExitCodeOf(status));
+  if (!status.ok()) return Fail(status);
   const std::string path = settings.workspace_path.string();
   std::cout << "Wrote " << settings.options.num_views
             << " images and their poses to " << path

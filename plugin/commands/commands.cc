@@ -37,6 +37,25 @@ FlagSection CommonSection(CommonSettings* settings) {
                          .help = "how much libraries log"}))}};
 }
 
+ExitCode ExitCodeOf(const Status& status) {
+  switch (status.code()) {
+    case StatusCode::kOk:
+      return kExitSuccess;
+    case StatusCode::kInvalidArgument:
+    case StatusCode::kNotFound:
+    case StatusCode::kDataLoss:
+    case StatusCode::kUnsupported:
+      return kExitInput;
+    case StatusCode::kExternalTool:
+      return kExitTool;
+    case StatusCode::kCancelled:
+      return kExitInterrupted;
+    case StatusCode::kInternal:
+      return kExitInternal;
+  }
+  return kExitInternal;
+}
+
 ExitCode Help(const Arguments& arguments);
 ExitCode Version(const Arguments& arguments);
 
@@ -142,25 +161,6 @@ const Command* FindCommand(const std::string& name) {
   return nullptr;
 }
 
-ExitCode ExitCodeOf(const Status& status) {
-  switch (status.code()) {
-    case StatusCode::kOk:
-      return kExitSuccess;
-    case StatusCode::kInvalidArgument:
-    case StatusCode::kNotFound:
-    case StatusCode::kDataLoss:
-    case StatusCode::kUnsupported:
-      return kExitInput;
-    case StatusCode::kExternalTool:
-      return kExitTool;
-    case StatusCode::kCancelled:
-      return kExitInterrupted;
-    case StatusCode::kInternal:
-      return kExitInternal;
-  }
-  return kExitInternal;
-}
-
 ExitCode RunProgram(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return Help({});
   const std::string& first = arguments.front();
@@ -185,6 +185,8 @@ ExitCode Fail(const Status& status, ExitCode code) {
   std::cerr << "ERROR: " << message << std::endl;
   return code;
 }
+
+ExitCode Fail(const Status& status) { return Fail(status, ExitCodeOf(status)); }
 
 std::optional<ExitCode> ParseCommand(const std::string& name,
                                      const Arguments& arguments,

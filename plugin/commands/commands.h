@@ -4,7 +4,9 @@
 #pragma once
 
 #include <curvix/status.h>
+#include <unistd.h>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,9 +16,6 @@
 #include "plugin/run/run_report.h"
 
 namespace curvix {
-
-// The code of a failure after the command line was accepted.
-ExitCode ExitCodeOf(const Status& status);
 
 // Runs the word that comes first in `arguments`, which exclude the name of the
 // program; flags without a word mean `reconstruct`, nothing at all `help`.
@@ -47,6 +46,13 @@ FlagSection PathsSection(RunSettings* settings);
 // What `reconstruct` can be told; the preset comes before what it changes.
 std::vector<FlagSection> ReconstructSections(RunSettings* settings);
 
+// f(progress), which is shown on stderr.
+template <typename F>
+auto WithProgress(const F& f) {
+  ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  return f(progress);
+}
+
 // Does a job with its progress on stderr, and prints its closing words.
 using Job = std::function<Result<RunRecord>(ProgressPrinter& progress)>;
 ExitCode RunAndSummarize(const RunSettings& settings, const Job& job);
@@ -54,8 +60,10 @@ ExitCode RunAndSummarize(const RunSettings& settings, const Job& job);
 // nullptr: there is no such word.
 const Command* FindCommand(const std::string& name);
 
-// Prints "ERROR: <message>." to stderr and returns `code`.
+// Prints "ERROR: <message>." to stderr and returns `code`, or that of a failure
+// after the command line was accepted.
 ExitCode Fail(const Status& status, ExitCode code);
+ExitCode Fail(const Status& status);
 
 // Parses the flags of a word, in at least one section, to which those are added
 // that every word has (project file, logging), and applies the latter. An exit

@@ -51,7 +51,7 @@ class Drafter {
   Drafter(const DrawSettings& settings, ProgressPrinter& progress)
       : settings_(settings), progress_(progress) {}
 
-  Result<DrawSummary> Run();
+  Result<std::string> Run();
 
  private:
   Status Read();
@@ -284,7 +284,7 @@ Status Drafter::Write() {
   return output->Publish(Obsolete());
 }
 
-Result<DrawSummary> Drafter::Run() {
+Result<std::string> Drafter::Run() {
   for (const auto step : {&Drafter::Read,
                           &Drafter::TakePlanes,
                           &Drafter::TakeName,
@@ -319,12 +319,12 @@ Result<DrawSummary> Drafter::Run() {
   }
   Status written = Write();
   if (!written.ok()) return written;
-  return DrawSummary{std::move(text_)};
+  return std::move(text_);
 }
 
 }  // namespace
 
-Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
+Result<std::string> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress) {
   return CatchFileErrors(StatusCode::kInvalidArgument,
                          [&] { return Drafter(settings, progress).Run(); });

@@ -30,14 +30,11 @@ struct DrawSettings {
   std::string name;        // of the files; "": drawing_<plane>
 };
 
-struct DrawSummary {
-  std::string text;  // what was drawn and where it is, for people
-};
-
 // Writes <name>.dxf and <name>.svg, and <name>.jpg, <name>.gpkg and
 // <name>.geojson if they are asked for, into the folder of results, all or
-// none. kInvalidArgument: settings that cannot work; errors of what is read.
-Result<DrawSummary> DrawWorkspace(const DrawSettings& settings,
+// none. Returns what was drawn and where it is, for people. kInvalidArgument:
+// settings that cannot work; errors of what is read.
+Result<std::string> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress);
 
 }  // namespace curvix
