@@ -39,20 +39,6 @@ DistortionRange RangeOf(CameraModel model) {
   }
 }
 
-// A pose at `centre` that looks at the origin, its x axis turned by `roll`.
-Rigid3 LookingAtOrigin(const Vector3d& centre, double roll) {
-  const Vector3d forward = -centre.normalized();
-  const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d world_from_cam;
-  world_from_cam << right, forward.cross(right), forward;
-  const Eigen::AngleAxisd turn(roll, Vector3d::UnitZ());
-  Rigid3 pose;
-  pose.rotation =
-      Eigen::Quaterniond(turn * world_from_cam.transpose()).normalized();
-  pose.translation = -(pose.rotation * centre);
-  return pose;
-}
-
 // A pose increment in the camera frame: half rotation (axis . angle), half
 // translation.
 struct Motion {
@@ -128,6 +114,19 @@ Result<Camera> MakeCamera(const SyntheticOptions& options) {
   return camera;
 }
 
+Rigid3 LookingAt(const Vector3d& centre, const Vector3d& target, double roll) {
+  const Vector3d forward = (target - centre).normalized();
+  const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
+  Eigen::Matrix3d world_from_cam;
+  world_from_cam << right, forward.cross(right), forward;
+  const Eigen::AngleAxisd turn(roll, Vector3d::UnitZ());
+  Rigid3 pose;
+  pose.rotation =
+      Eigen::Quaterniond(turn * world_from_cam.transpose()).normalized();
+  pose.translation = -(pose.rotation * centre);
+  return pose;
+}
+
 std::vector<Rigid3> MakePoses(int num_views,
                               double radius,
                               std::uint64_t seed) {
@@ -149,7 +148,7 @@ std::vector<Rigid3> MakePoses(int num_views,
     // tan(half angle of the ball) = share / 2 / focal length in sides.
     const double tangent = share / 2 / kFocalPerSide;
     const double distance = radius * std::sqrt(1 + 1 / (tangent * tangent));
-    poses.push_back(LookingAtOrigin(distance * direction, roll));
+    poses.push_back(LookingAt(distance * direction, {0, 0, 0}, roll));
   }
   return poses;
 }

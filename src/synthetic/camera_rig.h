@@ -16,6 +16,12 @@ namespace curvix {
 // options.camera_model.
 Result<Camera> MakeCamera(const SyntheticOptions& options);
 
+// cam_from_world at `centre`, upright but for `roll` (radians) about the axis
+// through `target`.
+Rigid3 LookingAt(const Eigen::Vector3d& centre,
+                 const Eigen::Vector3d& target,
+                 double roll = 0);
+
 // cam_from_world of `num_views` views that look at the origin, spread evenly
 // over the elevations from -30 to 70 degrees, rolled by up to 20 degrees; a
 // ball of `radius` fills 85 to 98 % of the image's shorter side.

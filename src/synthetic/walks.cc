@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/walks.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/angles.h"
 #include "synthetic/bodies.h"
+#include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
 
 namespace curvix {
@@ -78,17 +78,6 @@ void AddBay(int bay_idx, double x, std::vector<SolidPrimitive>& parts) {
       parts.push_back(Disc(x + 0.3, 0.29, 0.11, -0.05, 0.01));
       return;
   }
-}
-
-Rigid3 LookingAt(const Vector3d& centre, const Vector3d& target) {
-  const Vector3d forward = (target - centre).normalized();
-  const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
-  Eigen::Matrix3d world_from_cam;
-  world_from_cam << right, forward.cross(right), forward;
-  Rigid3 pose;
-  pose.rotation = Eigen::Quaterniond(world_from_cam.transpose()).normalized();
-  pose.translation = -(pose.rotation * centre);
-  return pose;
 }
 
 }  // namespace
