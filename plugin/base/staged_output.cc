@@ -5,12 +5,13 @@
 #include <stdlib.h>
 #include <sys/file.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cerrno>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
+
+#include "colmap/links.h"
 
 namespace curvix {
 
@@ -66,13 +67,10 @@ constexpr const char* kUnfinished = ".unfinished-";
 
 std::vector<fs::path> EntryNames(const fs::path& folder) {
   std::vector<fs::path> names;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const fs::path name = entry->path().filename();
+  for (const fs::path& entry : EntriesOf(folder)) {
+    const fs::path name = entry.filename();
     if (name != kOlder && name != kObsolete) names.push_back(name);
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 

@@ -102,13 +102,10 @@ Result<Matrix34d> ReadPos(const fs::path& file) {
 
 Result<Projections> ReadPosFolder(const fs::path& folder) {
   Projections projections;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const auto number =
-        NumberIn(entry->path().filename().string(), "pos_", ".txt");
+  for (const fs::path& file : EntriesOf(folder)) {
+    const auto number = NumberIn(file.filename().string(), "pos_", ".txt");
     if (!number) continue;
-    const Result<Matrix34d> projection = ReadPos(entry->path());
+    const Result<Matrix34d> projection = ReadPos(file);
     if (!projection.ok()) return projection.status();
     projections[*number] = *projection;
   }

@@ -136,13 +136,9 @@ Result<fs::path> FindImageFolder(const fs::path& image_path,
 
 std::vector<std::string> FileNames(const fs::path& folder) {
   std::vector<std::string> names;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (!IsFile(entry->path())) continue;
-    names.push_back(entry->path().filename().string());
+  for (const fs::path& path : EntriesOf(folder)) {
+    if (IsFile(path)) names.push_back(path.filename().string());
   }
-  std::sort(names.begin(), names.end());
   return names;
 }
 

@@ -25,6 +25,17 @@ bool LiesIn(const fs::path& path, const std::vector<fs::path>& folders) {
       });
 }
 
+std::vector<fs::path> EntriesOf(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    entries.push_back(entry->path());
+  }
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
 std::string FirstNames(const std::vector<std::string>& names) {
   constexpr std::size_t kMany = 5;
   std::string text;

@@ -30,6 +30,10 @@ inline bool IsFolder(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path, error);
 }
 
+// Sorted; empty on errors.
+std::vector<std::filesystem::path> EntriesOf(
+    const std::filesystem::path& folder);
+
 // "a, b, c, d, e, ...": at most five.
 std::string FirstNames(const std::vector<std::string>& names);
 

@@ -31,12 +31,10 @@ bool IsNumber(const std::string& name) {
 // The sub-folders of `folder` that are named by numbers, in numerical order.
 std::vector<fs::path> NumberedFolders(const fs::path& folder) {
   std::vector<std::pair<int, fs::path>> found;
-  std::error_code error;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (IsNumber(name) && IsFolder(entry->path())) {
-      found.emplace_back(std::stoi(name), entry->path());
+  for (const fs::path& path : EntriesOf(folder)) {
+    const std::string name = path.filename().string();
+    if (IsNumber(name) && IsFolder(path)) {
+      found.emplace_back(std::stoi(name), path);
     }
   }
   std::sort(found.begin(), found.end());
