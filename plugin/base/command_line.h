@@ -4,10 +4,13 @@
 #pragma once
 
 #include <curvix/status.h>
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/option_table.h"
@@ -45,6 +48,23 @@ Flag ChoiceFlag(std::string name,
                 std::vector<std::string> choices,
                 std::string* choice,
                 std::string help);
+// The same of enumerators; `choices` names them all, in their order.
+template <typename Enum>
+Flag EnumFlag(std::string name,
+              const std::vector<std::string>& choices,
+              Enum* choice,
+              std::string help) {
+  const auto text = std::make_shared<std::string>(
+      choices.at(static_cast<std::size_t>(*choice)));
+  Flag flag = ChoiceFlag(std::move(name), choices, text.get(), std::move(help));
+  flag.set = [=, set_text = flag.set](const std::string& value) {
+    const Status status = set_text(value);
+    const auto place = std::find(choices.begin(), choices.end(), *text);
+    *choice = static_cast<Enum>(place - choices.begin());
+    return status;
+  };
+  return flag;
+}
 Flag Switch(std::string name, bool* value, std::string help);
 Flag Required(Flag flag);
 Flag Advanced(Flag flag);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <array>
 #include <iostream>
 #include <iterator>
@@ -25,13 +24,6 @@ constexpr std::array kFormats = {Format{"middlebury", ImportMiddlebury},
                                  Format{"nerf", ImportNerf},
                                  Format{"colmap_images", ImportColmapImages}};
 
-// In the order of CopyPolicy.
-const std::vector<std::string>& CopyPolicies() {
-  static const std::vector<std::string> names = {
-      "copy", "soft-link", "hard-link"};
-  return names;
-}
-
 // Lines of other programs, in the world of a workspace.
 struct LineFormat {
   const char* name;
@@ -45,7 +37,7 @@ struct ImportSettings {
   std::filesystem::path output_path;
   OutputSettings output;
   std::string format;
-  std::string copy_policy = "copy";
+  CopyPolicy copy_policy = CopyPolicy::kCopy;
   std::string first_pixel = "auto";
   std::filesystem::path image_filter;
   ImportOptions options;
@@ -93,11 +85,11 @@ FlagSection WorkspaceFlags(ImportSettings* settings) {
                              "folder to write: images/ and sparse/0/; nothing "
                              "is overwritten; line3dpp, limap: the workspace "
                              "that the lines were made of, which stays")),
-           ChoiceFlag("copy_policy",
-                      CopyPolicies(),
-                      &settings->copy_policy,
-                      "how images get there; those that are in images/ "
-                      "already stay")}};
+           EnumFlag("copy_policy",
+                    {"copy", "soft-link", "hard-link"},
+                    &settings->copy_policy,
+                    "how images get there; those that are in images/ "
+                    "already stay")}};
 }
 
 FlagSection ResultFlags(ImportSettings* settings) {
@@ -149,12 +141,6 @@ Result<ImportedScene> Import(const ImportSettings& settings) {
   return Status(StatusCode::kInternal, "no format " + settings.format);
 }
 
-CopyPolicy PolicyOf(const std::string& name) {
-  const auto& names = CopyPolicies();
-  return static_cast<CopyPolicy>(std::find(names.begin(), names.end(), name) -
-                                 names.begin());
-}
-
 ExitCode ImportDataSet(const ImportSettings& settings) {
   Status status = CheckWorkspaceUnused(settings.workspace_path);
   if (!status.ok()) return Fail(status);
@@ -162,13 +148,12 @@ ExitCode ImportDataSet(const ImportSettings& settings) {
   if (!scene.ok()) return Fail(scene.status());
   status = WriteNewWorkspace(scene->model,
                              scene->image_files,
-                             PolicyOf(settings.copy_policy),
+                             settings.copy_policy,
                              settings.workspace_path);
   if (!status.ok()) return Fail(status);
   for (const std::string& note : scene->notes) std::cerr << note << std::endl;
   const std::string path = settings.workspace_path.string();
-  const bool has_links =
-      PolicyOf(settings.copy_policy) == CopyPolicy::kSoftLink;
+  const bool has_links = settings.copy_policy == CopyPolicy::kSoftLink;
   std::cout << "Wrote " << Plural(std::ssize(scene->model.images), "image")
             << ", " << Plural(std::ssize(scene->model.cameras), "camera")
             << " and " << Plural(std::ssize(scene->model.points), "point")

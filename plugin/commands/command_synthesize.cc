@@ -2,7 +2,6 @@
 #include "plugin/commands/command_synthesize.h"
 
 #include <curvix/scene.h>
-#include <algorithm>
 #include <iostream>
 #include <string>
 #include <system_error>
@@ -59,42 +58,11 @@ std::string TruthText(const std::vector<TrueSample>& samples) {
 
 struct SynthesizeSettings {
   std::filesystem::path workspace_path;
-  std::string solid = "part";
-  std::string pattern = "none";
-  std::string camera_model = "PINHOLE";
   int seed = 1;
   SyntheticOptions options;
 };
 
-// In the order of SyntheticSolid.
-const std::vector<std::string>& Solids() {
-  static const std::vector<std::string> names = {"block",
-                                                 "cylinder",
-                                                 "cone",
-                                                 "sphere",
-                                                 "part",
-                                                 "facade",
-                                                 "house",
-                                                 "table",
-                                                 "knobs",
-                                                 "room"};
-  return names;
-}
-
-// In the order of SurfacePattern.
-const std::vector<std::string>& Patterns() {
-  static const std::vector<std::string> names = {
-      "none", "brick", "wood", "print", "mixed"};
-  return names;
-}
-
-// The place of `name` in `names`, which hold it.
-template <typename Choice>
-Choice Chosen(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<Choice>(std::find(names.begin(), names.end(), name) -
-                             names.begin());
-}
-
+// In the order of CameraModel.
 std::vector<std::string> CameraModels() {
   std::vector<std::string> names;
   for (int id = 0; const auto model = ModelFromId(id); ++id) {
@@ -139,10 +107,10 @@ FlagSection ImageFlags(SynthesizeSettings* settings) {
 FlagSection CameraFlags(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
   return {"Cameras",
-          {ChoiceFlag("camera_model",
-                      CameraModels(),
-                      &settings->camera_model,
-                      "COLMAP's name of the camera model"),
+          {EnumFlag("camera_model",
+                    CameraModels(),
+                    &o.camera_model,
+                    "COLMAP's name of the camera model"),
            RowFlag({.name = "distortion",
                     .field = &o.distortion,
                     .min = -1,
@@ -166,11 +134,23 @@ std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
            {Required(PathFlag("workspace_path",
                               &settings->workspace_path,
                               "folder to write: images/, sparse/0/, gt.txt")),
-            ChoiceFlag("solid", Solids(), &settings->solid, "what is shown"),
-            ChoiceFlag("pattern",
-                       Patterns(),
-                       &settings->pattern,
-                       "painted on it; mixed: on each piece what suits it"),
+            EnumFlag("solid",
+                     {"block",
+                      "cylinder",
+                      "cone",
+                      "sphere",
+                      "part",
+                      "facade",
+                      "house",
+                      "table",
+                      "knobs",
+                      "room"},
+                     &o.solid,
+                     "what is shown"),
+            EnumFlag("pattern",
+                     {"none", "brick", "wood", "print", "mixed"},
+                     &o.pattern,
+                     "painted on it; mixed: on each piece what suits it"),
             RowFlag({.name = "shadows",
                      .field = &o.shadows,
                      .help = "1: the sun casts shadows"}),
@@ -201,10 +181,6 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   const std::optional<ExitCode> code =
       ParseCommand("synthesize", arguments, Sections(&settings));
   if (code) return *code;
-  settings.options.solid = Chosen<SyntheticSolid>(Solids(), settings.solid);
-  settings.options.pattern =
-      Chosen<SurfacePattern>(Patterns(), settings.pattern);
-  settings.options.camera_model = *ModelFromName(settings.camera_model);
   settings.options.seed = static_cast<std::uint64_t>(settings.seed);
   const Status status = Synthesize(settings.options, settings.workspace_path);
   if (!status.ok()) return Fail(status);
