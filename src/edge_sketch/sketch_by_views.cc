@@ -17,7 +17,7 @@
 #include "edge_sketch/select_views.h"
 #include "edge_sketch/split_along_contours.h"
 #include "edge_sketch/track_support.h"
-#include "edge_sketch/view_indices.h"
+#include "edge_sketch/view_index.h"
 
 namespace curvix {
 namespace {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, Fig. 3(c). One view and the means to find its edges.
+// Paper: Sec. 3, Fig. 3(c). Views and the means to find their edges.
 #pragma once
 
 #include <curvix/edges.h>
+#include <curvix/options.h>
 #include <vector>
 
 #include "base/grid_index.h"
 #include "edge_sketch/edge_density.h"
+#include "edge_sketch/evidence.h"
+#include "edge_sketch/view_overlap.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
@@ -34,5 +37,20 @@ double VoteWithSupport(const ViewIndex& view,
                        const ImageEdge& projected,
                        double expected_px,
                        const ImageEdge& support);
+
+// One index per view; both vectors must outlive them.
+std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
+                                  const std::vector<EdgeMap>& edge_maps,
+                                  int num_threads);
+
+// Adds to each index the `presence` for searches with `options`.
+void AddPresence(const ValidationOptions& options,
+                 int num_threads,
+                 std::vector<ViewIndex>& indices);
+
+// Of each view the nearest in direction, nearest first, with the weights of
+// their votes.
+std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
+    const std::vector<std::vector<ViewOverlap>>& overlaps);
 
 }  // namespace curvix

@@ -21,7 +21,7 @@
 #include "curve_refinement/round_bars.h"
 #include "edge_detection/detect_view_edges.h"
 #include "edge_sketch/track_support.h"
-#include "edge_sketch/view_indices.h"
+#include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
 #include "geometry/camera_of.h"
 #include "geometry/posed_views.h"

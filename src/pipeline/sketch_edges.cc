@@ -7,7 +7,7 @@
 #include "edge_sketch/edge_noise.h"
 #include "edge_sketch/sketch_by_views.h"
 #include "edge_sketch/sketch_input.h"
-#include "edge_sketch/view_indices.h"
+#include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
 #include "paper/sketch_by_pairs.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "edge_sketch/sketch_input.h"
-#include "edge_sketch/view_indices.h"
+#include "edge_sketch/view_index.h"
 #include "geometry/fit_point.h"
 #include "geometry/occluding_contour.h"
 #include "poses/adjust_poses.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "edge_sketch/view_indices.h"
+#include "edge_sketch/view_index.h"
 
 namespace curvix {
 namespace {
