@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). The edges of a view for which hypotheses are made.
+// Paper: none (beyond it). The edges of a view for which hypotheses are made,
+// and their order.
 #pragma once
 
 #include <curvix/edges.h>
@@ -26,5 +27,21 @@ std::vector<std::int32_t> QueryEdges(const SketchInput& input,
 // Number of links along a contour from one query edge to the next: two, four in
 // crowded images, eight for seeds.
 int LinksBetweenQueries(const SketchInput& input);
+
+// Edges that are queried in two turns. Neighbours along a contour mostly have
+// the same result, so the first turn tells which edges of the second are worth
+// it.
+struct TwoTurns {
+  // At least `step` links apart along their contours.
+  std::vector<std::int32_t> first;
+  // Fewer than `step` links from an edge of `first`.
+  std::vector<std::int32_t> second;
+};
+
+// Splits `edge_idxs`, in their order; `neighbors` by edge index; `step` >= 2.
+// Takes O(edges * step).
+TwoTurns SplitAlongContours(const std::vector<std::int32_t>& edge_idxs,
+                            const std::vector<EdgeNeighbors>& neighbors,
+                            int step);
 
 }  // namespace curvix
