@@ -3,14 +3,16 @@
 
 #include <curvix/curve_io.h>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
+#include "io/curve_style.h"
 #include "measuring/moved_curves.h"
-#include "plugin/export/curves_as_points.h"
 #include "plugin/export/dimensions.h"
 #include "plugin/export/small_images.h"
 #include "plugin/export/viewer_html.h"
@@ -52,8 +54,43 @@ Status WriteText(const CurveRecord& record,
   return read.ok() ? file.Finish() : read;
 }
 
+void AddSample(const CurveRecord& record,
+               const CurveSample& sample,
+               const std::array<std::uint8_t, 3>& color,
+               ColmapModel& model) {
+  std::vector<std::pair<EdgeRef, SupportingEdge>> edges;
+  for (const EdgeRef& ref : sample.support) {
+    const auto edge = FindSupportingEdge(record, sample, ref);
+    if (edge && edge->pixel.allFinite()) edges.emplace_back(ref, *edge);
+  }
+  if (edges.size() < 2) return;
+  ColmapPoint3D point;
+  point.point3D_id = model.points.size() + 1;
+  point.position = sample.position;
+  point.rgb = color;
+  point.error = 0;
+  for (const auto& [ref, edge] : edges) {
+    AddObservation(edge.pixel,
+                   model.images[static_cast<std::size_t>(ref.view_idx)],
+                   point);
+    point.error += std::abs(edge.residual_px);
+  }
+  point.error /= static_cast<double>(edges.size());
+  model.points.push_back(std::move(point));
+}
+
+// The cameras and poses of the scene; every sample of a curve with support in
+// two views or more is a point, numbered from 1, curve after curve, with the
+// colour of its curve, its mean reprojection error, and a track through the
+// edges that support it, which are the 2D points of the images. For COLMAP, and
+// for programs that start from its points.
 Status WriteModel(const CurveRecord& record, const fs::path& path) {
-  const ColmapModel model = CurvesAsPoints(record);
+  ColmapModel model = ModelOfViews(record.scene);
+  record.curves.ForEach([&](std::size_t id, const Curve& curve) {
+    for (const CurveSample& sample : curve.samples) {
+      AddSample(record, sample, CurveColor(id), model);
+    }
+  });
   Status read = record.curves.status();
   if (!read.ok()) return read;
   return WriteColmapModel(model, path);

@@ -180,10 +180,10 @@ Result<std::string> HelpText(const std::vector<std::string>& arguments,
     return ToolFailure("its help was not done after " +
                        DurationText(timeout_s));
   }
-  constexpr std::size_t kMaxBytes = 100000;
-  std::string text(kMaxBytes, '\0');
+  constexpr std::size_t kMaxHelpBytes = 100000;
+  std::string text(kMaxHelpBytes, '\0');
   std::ifstream file(text_path, std::ios::binary);
-  file.read(text.data(), kMaxBytes);
+  file.read(text.data(), kMaxHelpBytes);
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;
 }
