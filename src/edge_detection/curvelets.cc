@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 5 (ii). Neighbours along image contours.
 #include "edge_detection/curvelets.h"
 
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, ref. [15]. All edges of one view.
 #include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>

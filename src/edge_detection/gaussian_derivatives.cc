@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, ref. [15]. Gaussian derivative filters.
 #include "edge_detection/gaussian_derivatives.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, ref. [15]. The gradient of an image at half-pixel sampling.
 #include "edge_detection/gradient_rows.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What image files say about themselves.
 #include "edge_detection/image_header.h"
 
 #include <cstddef>

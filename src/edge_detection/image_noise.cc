@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). How noisy an image is.
 #include "edge_detection/image_noise.h"
 
 #include <algorithm>

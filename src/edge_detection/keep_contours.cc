@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Which edges of an image are worth keeping.
 #include "edge_detection/keep_contours.h"
 
 #include <algorithm>

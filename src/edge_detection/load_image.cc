@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Images to grey levels.
 #include "edge_detection/load_image.h"
 
 #include <cstddef>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Structure apart from texture.
 #include "edge_detection/prominence.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it).
 #include "edge_detection/separate_edges.h"
 
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "edge_detection/steep_tiles.h"
 
 #include <algorithm>

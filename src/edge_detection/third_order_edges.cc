@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, ref. [15]. Sub-pixel edges with third-order orientation.
 #include "edge_detection/third_order_edges.h"
 
 #include <algorithm>

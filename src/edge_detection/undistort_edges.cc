@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Edges from the image to its ideal pinhole.
 #include "edge_detection/undistort_edges.h"
 
 #include <curvix/scene.h>

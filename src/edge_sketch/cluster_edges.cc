@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 4, Fig. 5(c).
 #include "edge_sketch/cluster_edges.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5.
 #include "edge_sketch/hypothesise.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3.
 #include "edge_sketch/select_views.h"
 
 #include <algorithm>

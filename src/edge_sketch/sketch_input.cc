@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Secs. 3 and 4.
 #include "edge_sketch/sketch_input.h"
 
 #include "model/contours.h"

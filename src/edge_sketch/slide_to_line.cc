@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 4, Fig. 5(b).
 #include "edge_sketch/slide_to_line.h"
 
 #include <Eigen/Geometry>

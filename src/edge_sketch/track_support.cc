@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, Fig. 3(c).
 #include "edge_sketch/track_support.h"
 
 #include <algorithm>

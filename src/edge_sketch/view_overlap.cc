@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3 ("overlapping views").
 #include "edge_sketch/view_overlap.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Reconstructs from some views, looks at the others.
 #include "evaluation/holdout.h"
 
 #include <algorithm>

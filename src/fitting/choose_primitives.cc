@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Curves of several lines and arcs.
 #include "fitting/choose_primitives.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Fitted curves for CAD.
 #include "io/dxf_drawing.h"
 
 #include <Eigen/Geometry>

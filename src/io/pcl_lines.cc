@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Curves as PCD.
 #include "io/pcl_lines.h"
 
 #include <pcl/common/io.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
 #include "measuring/known_directions.h"
 
 #include <Eigen/Dense>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What is in the frame of the model, in another.
 #include "measuring/moved_curves.h"
 
 namespace curvix {

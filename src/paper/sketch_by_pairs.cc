@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Secs. 3 and 4, Fig. 3(d), (e).
 #include "paper/sketch_by_pairs.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). Scenes in parts.
 #include "parts/scene_parts.h"
 
 #include <algorithm>
