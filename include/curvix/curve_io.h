@@ -48,10 +48,12 @@ Status WriteEdges(const std::filesystem::path& path,
 
 // Writes fitted curves for CAD: .dxf, of AutoCAD 2000, with LINE, ARC, CIRCLE,
 // ELLIPSE and SPLINE entities on a layer per kind; or .step, of AP242, with the
-// same curves, where one unit of the world is declared a millimetre. Errors as
-// WriteCurves.
+// same curves, where one unit of the world is declared a millimetre. DXF
+// declares `unit`, that of the world, if it is "mm", "cm", "m", "in" or "ft".
+// Errors as WriteCurves.
 Status WriteDrawing(const std::filesystem::path& path,
-                    const FittedCurves& fitted);
+                    const FittedCurves& fitted,
+                    std::string_view unit = {});
 
 // Writes the curves as a view sees them: .svg, in the pixels of its image. What
 // the view does not show (ProjectedStretch) is drawn faintly. Errors as

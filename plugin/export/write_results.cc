@@ -219,7 +219,12 @@ Status WriteFormat(const CurveRecord& record,
       EncodeViewerHtml(record, num_threads, sink);
     });
   }
-  if (format == "dxf") return WriteDrawing(path, record.fitted);
+  if (format == "dxf") {
+    return WriteDrawing(
+        path,
+        record.fitted,
+        record.alignment == nullptr ? "" : record.alignment->unit);
+  }
   if (format == "step") return WriteStep(record, path);
   if (format == "svg") return WriteSvg(record, settings.svg_image, path);
   if (format == "colmap") return WriteModel(record, path);

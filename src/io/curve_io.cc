@@ -99,7 +99,9 @@ Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
       path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
 }
 
-Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
+Status WriteDrawing(const fs::path& path,
+                    const FittedCurves& fitted,
+                    std::string_view unit) {
   const std::string extension = path.extension().string();
   if (extension != ".dxf" && extension != ".step") {
     return InFile(path,
@@ -108,7 +110,7 @@ Status WriteDrawing(const fs::path& path, const FittedCurves& fitted) {
                        extension + "\""});
   }
   return Write(path, [&](const ByteSink& sink) {
-    extension == ".dxf" ? EncodeDxfDrawing(fitted, sink)
+    extension == ".dxf" ? EncodeDxfDrawing(fitted, unit, sink)
                         : EncodeStepDrawing(fitted, sink);
     return Status();
   });

@@ -241,14 +241,16 @@ void PutDimension(const Sheet& sheet,
 
 }  // namespace
 
-void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink) {
+void EncodeDxfDrawing(const FittedCurves& fitted,
+                      std::string_view unit,
+                      const ByteSink& sink) {
   DxfWriter w;
   PutDxfTables(KindLayers(), {}, 1, {}, w);
   int next_handle = w.next_handle();
   for (const FittedCurve& curve : fitted.curves) {
     next_handle += static_cast<int>(curve.fits.size());
   }
-  sink(DxfHeader(next_handle, "", 1, nullptr));
+  sink(DxfHeader(next_handle, unit, 1, nullptr));
   w.Put(0, "SECTION");
   w.Put(2, "ENTITIES");
   for (const FittedCurve& curve : fitted.curves) {

@@ -4,6 +4,7 @@
 
 #include <curvix/fitting.h>
 #include <string>
+#include <string_view>
 
 #include "base/file_io.h"
 #include "drawing/sheet.h"
@@ -12,9 +13,11 @@ namespace curvix {
 
 // DXF of AutoCAD 2000 (AC1015), text: LINE, ARC, CIRCLE, ELLIPSE and SPLINE
 // entities in model space, in the order of the curves, on one layer per kind of
-// curve (drawing_layers.h). Coordinates are those of the model; no unit is
-// declared.
-void EncodeDxfDrawing(const FittedCurves& fitted, const ByteSink& sink);
+// curve (drawing_layers.h). Coordinates are those of the model; `unit` is
+// declared if DxfHeader knows it.
+void EncodeDxfDrawing(const FittedCurves& fitted,
+                      std::string_view unit,
+                      const ByteSink& sink);
 
 // The same of a sheet, in drawing units, which are declared. Frame, scale bar
 // and texts are on the layer FRAME, the picture, an IMAGE that refers to its
