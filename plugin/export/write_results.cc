@@ -170,7 +170,7 @@ Flag FormatsFlag(std::vector<std::string>* formats) {
 const std::vector<OutputFormat>& OutputFormats() {
   static const std::vector<OutputFormat> formats = {
       {"ply", "curves.ply", "lines: MeshLab, Blender, Open3D; points: COLMAP"},
-      {"obj", "curves.obj", "lines: CloudCompare, MeshLab, Blender"},
+      {"obj", "curves.obj", "lines: CloudCompare, ParaView, MeshLab, Blender"},
       {"pcd", "curves.pcd", "points with tangents: PCL"},
       {"txt", "curves.txt", "text, like COLMAP's points3D.txt"},
       {"json", "curves.json", "everything: fits, junctions, 2D support"},

@@ -221,7 +221,7 @@ std::string FilesText(const ResultSummary& result) {
   std::string text = "Written to " + result.output_path.string() + "\n";
   for (const std::string& file : result.files) {
     std::string line = "  " + file;
-    line.resize(std::max<std::size_t>(line.size() + 2, 16), ' ');
+    line.resize(std::max<std::size_t>(line.size() + 2, 18), ' ');
     text += line + OpenedBy(file) + "\n";
   }
   return text;
