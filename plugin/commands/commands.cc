@@ -203,7 +203,9 @@ std::optional<ExitCode> ParseCommand(const std::string& name,
   }
   if (*request != Request::kRun) {
     std::cout << HelpText("colmap_curvix " + name + " [options]",
-                          FindCommand(name)->summary + std::string("."),
+                          FindCommand(name)->summary +
+                              std::string(". 'colmap_curvix help' lists the "
+                                          "other commands."),
                           sections,
                           *request == Request::kHelpAll);
     return kExitSuccess;

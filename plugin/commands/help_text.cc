@@ -41,7 +41,9 @@ std::string FlagHelp(const Flag& flag) {
   std::string symbol = flag.symbol.empty() ? "" : "(" + flag.symbol + ")";
   std::replace(symbol.begin(), symbol.end(), ' ', kNoBreak);
   text += WrapText(flag.help + " " + symbol, 6);
-  return is_list ? text + WrapText("one of: " + allowed, 6) : text;
+  if (!is_list) return text;
+  const bool says_how_many = allowed.starts_with("one or more of ");
+  return text + WrapText((says_how_many ? "" : "one of: ") + allowed, 6);
 }
 
 // `text`, and `more` behind it if it says something.
