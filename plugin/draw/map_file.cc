@@ -93,7 +93,7 @@ Status WriteMapFiles(const std::filesystem::path& dxf,
     const std::filesystem::path map = dxf.stem().concat(ending);
     Status status = WriteMapFile(dxf, crs, dxf.parent_path() / map);
     if (!status.ok()) return status;
-    *text += " " + map.string();
+    text->append(" ").append(map.string());
   }
   return {};
 }
