@@ -71,7 +71,7 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
   } else if (sketch.edges.empty()) {
     text << "None of " << counts.hypotheses
          << " edge pairs is confirmed by enough other views. Are the poses "
-            "right to about a pixel, and do at least "
+            "right to about two pixels, and do at least "
          << FewestSupports(options.validation,
                            edge_maps.size() -
                                static_cast<std::size_t>(counts.repeated_views))
