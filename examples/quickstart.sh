@@ -36,7 +36,8 @@ scores="$("$program" evaluate --json \
   --truth_path "$workspace/gt.txt")"
 cat <<END
 
-The curves are in $workspace/curvix/0; open curves.ply in MeshLab or Blender.
+The curves are in $workspace/curvix/0. Open viewer.html in a browser, or
+curves.ply in MeshLab or Blender.
 
 Compared with the exact edges of the part ("on": within 0.5 % of its length):
   $(score Rv5) % of the edges that the photographs show are on a curve
