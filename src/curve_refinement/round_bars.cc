@@ -29,10 +29,10 @@ using Eigen::Vector3d;
 // Places of a curve, at least so far apart, and no more than this.
 constexpr std::size_t kMaxPlaces = 12;
 constexpr double kMinBarRadiusPx = 1;
-constexpr double kMaxBarRadiusPx = 11;
+constexpr double kMaxBarRadiusPx = 16;
 // The far contour is twice the radius away.
 constexpr double kBarReachPx = 2 * kMaxBarRadiusPx + 4;
-constexpr double kStartRadiiPx[] = {1.5, 2.5, 4, 6, 9};
+constexpr double kStartRadiiPx[] = {1.5, 2, 2.7, 3.7, 5, 6.7, 9, 12.3};
 // Views that see the bar from about the same side as most do: the cosine of the
 // angle.
 constexpr double kMinCosine = 0.3;

@@ -18,7 +18,7 @@ namespace curvix {
 
 // Makes such curves CurveKind::kOccludingContour, all samples, if the 2D edges
 // about them are likelier with two contours than with edges in space; the
-// probability is by that ratio. Radii are 1 to 11 px. Curves that are occluding
+// probability is by that ratio. Radii are 1 to 16 px. Curves that are occluding
 // contours already stay so. One edge map per view; `edge_sigma_px`: the
 // standard deviation of a 2D edge's place, > 0.
 void LabelRoundBars(const std::vector<PosedView>& views,
