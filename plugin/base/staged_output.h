@@ -47,6 +47,9 @@ class StagedOutput {
   StagedOutput& operator=(StagedOutput&& other) = delete;
   ~StagedOutput();
 
+  // Where the files will be; absolute.
+  const std::filesystem::path& output_path() const { return output_path_; }
+
   // Where to write, under the final file names.
   const std::filesystem::path& folder() const { return folder_; }
 

@@ -67,15 +67,8 @@ Result<RunRecord> FitLines(
   if (curves.size() == 0) findings.why_empty = "no line has a length";
   Status status =
       WriteFindings(input->scene, findings, output->folder(), record).status();
-  // Those of an earlier run, of another command too, would tell of other
-  // curves.
   if (status.ok()) {
-    status =
-        FinishRun(since_start,
-                  {"sparse", "bundle_adjuster.log", "project.ini", "edges.ply"},
-                  *output,
-                  progress,
-                  record);
+    status = FinishRun(since_start, *output, progress, record);
   }
   if (!status.ok()) return status;
   return record;

@@ -120,7 +120,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
                              part);
   }
   if (status.ok()) {
-    status = FinishRun(since_start, {}, *output, progress, record);
+    status = FinishRun(since_start, *output, progress, record);
   }
   if (!status.ok()) return status;
   return record;
@@ -180,11 +180,7 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
                     record)
           .status();
   if (status.ok()) {
-    status = FinishRun(since_start,
-                       {"sparse", "bundle_adjuster.log"},
-                       *output,
-                       progress,
-                       record);
+    status = FinishRun(since_start, *output, progress, record);
   }
   if (!status.ok()) return status;
   return record;

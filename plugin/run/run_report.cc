@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/file_io.h"
 #include "base/option_table.h"
 #include "base/text_fields.h"
 #include "plugin/base/json.h"
@@ -239,6 +240,23 @@ std::string EmptyText(const RunRecord& record) {
 }  // namespace
 
 std::string_view ProgramVersion() { return CURVIX_VERSION; }
+
+std::vector<std::filesystem::path> FilesOfEarlierRun(
+    const std::filesystem::path& folder) {
+  const Result<std::string> text = ReadFile(folder / "report.json");
+  if (!text.ok()) return {};
+  const Json report = Json::parse(*text, nullptr, false);
+  const Json::json_pointer pointer("/result/files");
+  std::vector<std::filesystem::path> files;
+  if (!report.is_object() || !report.contains(pointer)) return files;
+  for (const Json& file : report.at(pointer)) {
+    // Nothing but what runs write.
+    if (file.is_string() && *OpenedBy(file) != '\0') {
+      files.emplace_back(file.get<std::string>());
+    }
+  }
+  return files;
+}
 
 void Count(const Curve& curve, ResultSummary& result) {
   ++result.num_curves;

@@ -70,6 +70,11 @@ struct RunRecord {
   StageReport total;  // of the whole run
 };
 
+// The files and folders that the run before wrote into `folder`, by its
+// report.json. None if there is no such report.
+std::vector<std::filesystem::path> FilesOfEarlierRun(
+    const std::filesystem::path& folder);
+
 // Counts a curve in `result`, and adds its length.
 void Count(const Curve& curve, ResultSummary& result);
 

@@ -207,7 +207,6 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
 }
 
 Status FinishRun(const Stopwatch& since_start,
-                 const std::vector<fs::path>& obsolete,
                  StagedOutput& output,
                  RunProgress& progress,
                  RunRecord& record) {
@@ -217,7 +216,8 @@ Status FinishRun(const Stopwatch& since_start,
   Status status =
       WriteFileAtomically(output.folder() / "report.json", ReportJson(record));
   if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  return status.ok() ? output.Publish(obsolete) : status;
+  if (!status.ok()) return status;
+  return output.Publish(FilesOfEarlierRun(output.output_path()));
 }
 
 }  // namespace curvix

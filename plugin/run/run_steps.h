@@ -63,10 +63,9 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
                                    RunRecord& record);
 
 // Writes report.json of a run that began with `since_start`, and publishes its
-// files, in place of older ones and of the `obsolete`. kCancelled, and nothing
-// is published, if the run is to stop.
+// files, in place of those of the run before in this folder. kCancelled, and
+// nothing is published, if the run is to stop.
 Status FinishRun(const Stopwatch& since_start,
-                 const std::vector<std::filesystem::path>& obsolete,
                  StagedOutput& output,
                  RunProgress& progress,
                  RunRecord& record);

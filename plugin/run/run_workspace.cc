@@ -91,12 +91,7 @@ Result<WorkspaceRun> ReconstructWorkspace(const RunSettings& settings,
                     staging,
                     record);
   if (!fitted.ok()) return fitted.status();
-  // Those of an earlier run would tell of other poses.
-  Status finished = FinishRun(since_start,
-                              {"sparse", "bundle_adjuster.log"},
-                              *output,
-                              progress,
-                              record);
+  Status finished = FinishRun(since_start, *output, progress, record);
   if (!finished.ok()) return finished;
   run.scene = std::move(found->scene);
   run.edge_maps = std::move(found->edge_maps);

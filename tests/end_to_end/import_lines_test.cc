@@ -69,8 +69,13 @@ TEST_F(ImportLines, TakeThePlaceOfWhatARunHasWritten) {
   ASSERT_EQ(RunProgram("--workspace_path " + Quoted(workspace_)).exit_code, 0);
   ASSERT_TRUE(fs::exists(results / "edges.ply"));
   ASSERT_TRUE(fs::exists(results / "project.ini"));
+  // As if the run had refined the poses.
   folder_.Write("proj/curvix/0/bundle_adjuster.log", "");
   folder_.Write("proj/curvix/0/sparse/cameras.bin", "");
+  json report = json::parse(Read(results / "report.json"));
+  report["result"]["files"].push_back("bundle_adjuster.log");
+  report["result"]["files"].push_back("sparse/");
+  folder_.Write("proj/curvix/0/report.json", report.dump());
   const std::string notes =
       folder_.Write("proj/curvix/0/notes.txt", "mine").string();
   const Outcome outcome =

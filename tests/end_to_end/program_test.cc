@@ -213,6 +213,29 @@ TEST_F(ProgramRun, AFailureKeepsEarlierResults) {
   EXPECT_EQ(Contents(workspace_ / "curvix"), before);
 }
 
+TEST_F(ProgramRun, NoFileOfTheRunBeforeStays) {
+  ASSERT_EQ(RunWorkspace("--output_formats ply,dxf,colmap").exit_code, 0);
+  std::ofstream(results_ / "curves.obj") << "# of somebody else\n";
+  const auto names = [&] {
+    auto files = Names(results_);
+    std::erase(files, "edges.ply");
+    std::erase(files, "report.json");
+    std::erase(files, "stages");
+    return files;
+  };
+  EXPECT_THAT(names(),
+              UnorderedElementsAre("curves.ply",
+                                   "curves.dxf",
+                                   "curves.obj",
+                                   "curves_model",
+                                   "project.ini"));
+  ASSERT_EQ(RunWorkspace("--output_formats txt").exit_code, 0);
+  EXPECT_THAT(names(),
+              UnorderedElementsAre("curves.txt", "curves.obj", "project.ini"));
+  ASSERT_EQ(RunWorkspace("--CurveFilter.min_length_px 9000").exit_code, 5);
+  EXPECT_THAT(names(), UnorderedElementsAre("curves.obj"));
+}
+
 TEST_F(ProgramRun, GoesOnFromTheStagesThatALateOptionLeavesAsTheyWere) {
   const auto resumed = [&](const std::string& more) {
     const Outcome outcome = RunWorkspace(more);
