@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/align/align_workspace.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -22,6 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string Text(double value) { return ShortText(value, 6); }
+
+// Above it, something that is given is wrong.
+constexpr double kLargeMisfit = 3;
 
 // Two digits, or all before the point.
 std::string SigmaText(double sigma) {
@@ -163,11 +168,16 @@ Status Aligner::TakeAxes() {
               WithSigma(axes->angle_deg[i], axes->angle_sigma_deg[i]);
   }
   json["num_directions"] = axes->num_directions;
-  json["total_length"] = axes->total_length;
   json["angle_deg"] = axes->angle_deg;
   json["angle_sigma_deg"] = axes->angle_sigma_deg;
   Say("Axes shared by " + counts +
       " lines, axes of arcs and rows of circles (x, y, z)");
+  const auto& num = axes->num_directions;
+  if (std::accumulate(num.begin(), num.end(), 0) ==
+      *std::max_element(num.begin(), num.end()) + 1) {
+    Say("  Only one of these is not along the axis that most share: look "
+        "whether the axes are right.");
+  }
   if (!angles.empty()) Say("  angles, fitted one by one, deg: " + angles);
   return {};
 }
@@ -241,6 +251,11 @@ Result<AlignSummary> Aligner::Run() {
   if (!settings_.epsg.empty()) alignment.crs = "EPSG:" + settings_.epsg;
   if (alignment.has_scale) DescribeScale(*result);
   if (!input_.positions.empty()) DescribePositions(*result);
+  if (result->misfit > kLargeMisfit) {
+    Say("What is given contradicts itself: it is " + SigmaText(result->misfit) +
+        " of its standard deviations off (root mean square). Look for a wrong "
+        "number, a wrong node or a moved marker.");
+  }
   if (alignment.has_rotation) {
     const Eigen::Vector3d variances =
         alignment.covariance.diagonal().segment<3>(1);

@@ -248,9 +248,7 @@ Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
       Eigen::Quaterniond(Eigen::Matrix3d(frame.transpose())).normalized();
   result.axes.covariance = BestTurn(members, frame).covariance;
   for (const Member& m : members) {
-    const auto axis = static_cast<std::size_t>(m.axis);
-    ++result.num_directions[axis];
-    result.total_length[axis] += m.direction->length;
+    ++result.num_directions[static_cast<std::size_t>(m.axis)];
   }
   JudgeAngles(members, frame, result);
   return result;

@@ -21,8 +21,7 @@ struct MainAxes {
   // most lines; z: up.
   KnownAxes axes;
   // Of x, y, z:
-  std::array<int, 3> num_directions = {};   // that share it
-  std::array<double, 3> total_length = {};  // of these, model units
+  std::array<int, 3> num_directions = {};  // that share it
   // Angles between the mean directions of those of (y, z), (z, x), (x, y),
   // each fitted by itself, and their standard deviations: how near to 90
   // degrees they come tells how good the axes are. NaN: no line in one of the

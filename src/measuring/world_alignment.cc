@@ -275,7 +275,12 @@ Result<AlignmentResult> Estimator::Run() {
   const int num_free = equations.count - (a.has_scale + 3 * a.has_rotation +
                                           3 * a.has_translation);
   if (num_free > 0) {
-    a.covariance *= std::max(1.0, equations.sum_of_squares / num_free);
+    const double mean_square = equations.sum_of_squares / num_free;
+    result_.misfit = std::sqrt(mean_square);
+    // Without positions, the axes are exactly those given.
+    const int num_affected = input_.positions.empty() ? 1 : 7;
+    a.covariance.topLeftCorner(num_affected, num_affected) *=
+        std::max(1.0, mean_square);
   }
   if (!a.covariance.allFinite() ||
       !a.world_from_model.translation.allFinite()) {

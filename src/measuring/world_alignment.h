@@ -87,17 +87,20 @@ struct AlignmentResult {
   std::vector<Eigen::Vector3d> position_residuals;
   // The standard deviation of the positions that had none.
   double position_sigma = 0;
+  // Root mean square of all residuals, in standard deviations: above 1, what is
+  // given contradicts itself. 0: it is no more than what is estimated.
+  double misfit = 0;
 };
 
 // The least squares estimate from all of `input`: the scale from distances,
 // scales and two positions or more; the rotation from axes and from three
 // positions or more that are not on a line; the translation from positions.
 // Unobserved parameters stay as in the model. The covariance is multiplied by
-// the mean square of the residuals in standard deviations, where this is above
-// 1. Positions without a sigma all have the same, estimated from their
-// residuals. kInvalidArgument, with a sentence: nothing is given, points of a
-// distance coincide, or positions do not fix the rotation and no axes are
-// given, or one position has no sigma.
+// the square of `misfit` where this is above 1; without positions, that of the
+// scale, which nothing else depends on. Positions without a sigma all have the
+// same, estimated from their residuals. kInvalidArgument, with a sentence:
+// nothing is given, points of a distance coincide, or positions do not fix the
+// rotation and no axes are given, or one position has no sigma.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 class Align : public BlockTest {
  protected:
@@ -107,6 +108,16 @@ TEST_F(Align, TellsLargeUncertaintiesWithoutExponents) {
   const Outcome outcome = RunAlign("--distance 0 1 250 500");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr(", to 200 %"));
+}
+
+TEST_F(Align, SaysThatDistancesContradictEachOther) {
+  const json line = FirstLine(before_);
+  const std::string known = "--distance " + line["start_node"].dump() + " " +
+                            line["end_node"].dump() + " ";
+  EXPECT_THAT(RunAlign(known + "2 " + known + "2.001 0.01").output,
+              Not(HasSubstr("contradicts itself")));
+  EXPECT_THAT(RunAlign(known + "2 0.01 " + known + "3 0.01").output,
+              HasSubstr("What is given contradicts itself"));
 }
 
 TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {

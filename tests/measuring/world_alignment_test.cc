@@ -170,6 +170,21 @@ TEST(EstimateAlignment, DistancesThatDisagreeRaiseTheSigma) {
   const auto result = EstimateAlignment(input);
   ASSERT_TRUE(result.ok());
   EXPECT_NEAR(result->alignment.scale_sigma(), 0.05, 0.01);
+  EXPECT_NEAR(result->misfit, 0.05 * std::sqrt(2) / 1e-4, 50);
+}
+
+TEST(EstimateAlignment, DistancesThatDisagreeTellNothingOfAxes) {
+  AlignmentInput input;
+  input.axes.emplace();
+  input.axes->covariance = 1e-6 * Matrix3d::Identity();
+  for (const double length : {1.0, 2.0}) {
+    input.distances.push_back(DistanceOf({0, 0, 0}, {1, 0, 0}, length));
+    input.distances.back().sigma = 1e-4;
+  }
+  const auto result = EstimateAlignment(input);
+  ASSERT_TRUE(result.ok());
+  EXPECT_GT(result->misfit, 100);
+  EXPECT_NEAR(result->alignment.covariance(3, 3), 1e-6, 1e-9);
 }
 
 TEST(EstimateAlignment, LargeCoordinatesGetAnOffset) {
