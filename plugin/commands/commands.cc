@@ -100,7 +100,7 @@ constexpr char kExamples[] =
     "      repeats an earlier run\n";
 
 ExitCode Help(const Arguments& arguments) {
-  if (!arguments.empty() && FindCommand(arguments.front()) != nullptr) {
+  if (!arguments.empty() && !arguments.front().starts_with("-")) {
     return RunProgram({arguments.front(), "--help"});
   }
   bool markdown = false;
