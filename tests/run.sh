@@ -4,6 +4,10 @@
 # all tests. The last line is "N passed, N failed, N skipped"; succeeds if none
 # failed. A step that fails before the tests counts as one failed test.
 set -euo pipefail
+if (($# > 0)); then
+  echo "usage: tests/run.sh, without arguments" >&2
+  exit 2
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=build-tests/results.xml
 
