@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/draw/draw_workspace.h"
 
+#include <curvix/fitting.h>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -56,6 +58,8 @@ class Drafter {
  private:
   Status Read();
   Status TakePlanes();
+  // kInvalidArgument, with the depths of all curves.
+  Status NothingInSlice(const DrawingPlane& plane) const;
   Status TakeName();
   Status TakePhotograph();
   Status LayOut();
@@ -123,6 +127,9 @@ Status Drafter::TakePlanes() {
              settings_.dimensions,
              settings_.crop.empty()},
             &views_);
+  if (!settings_.slice.empty() && views_.front().curves.empty()) {
+    return NothingInSlice(views_.front().plane);
+  }
   if (!(curves_.alignment && curves_.alignment->has_rotation) &&
       AxisPlane(settings_.plane.substr(0, 2))) {
     progress_.Note(
@@ -130,6 +137,24 @@ Status Drafter::TakePlanes() {
         "'colmap_curvix align --axes auto' turns them");
   }
   return {};
+}
+
+Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const FittedCurve& curve : curves_.fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      for (const double t : {0.0, 0.5, 1.0}) {
+        const double depth = plane.Depth(PointAt(fit, t));
+        low = std::min(low, depth);
+        high = std::max(high, depth);
+      }
+    }
+  }
+  return BadDrawing(
+      "There is nothing to draw from " + Short(window_.depth.from) + " to " +
+      Short(window_.depth.to) + "; " + plane.depth_name +
+      " of the curves is from " + Short(low) + " to " + Short(high));
 }
 
 Status Drafter::TakeName() {

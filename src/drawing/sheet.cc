@@ -132,7 +132,7 @@ Result<Sheet> LaySheet(const SheetSettings& settings,
   Eigen::AlignedBox2d bounds = BoundsOf(curves);
   if (bounds.isEmpty() || !(bounds.sizes().maxCoeff() > 0)) {
     return Status(StatusCode::kInvalidArgument,
-                  "There is nothing to draw; no curve lies in the slice");
+                  "There is nothing to draw; no curve lies in the window");
   }
   const double mm = settings.millimetres;
   if (!(mm > 0) && settings.denominator > 0) {

@@ -247,7 +247,7 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--scale 1:50", "colmap_curvix align"),
         std::pair("--scale big", "1:50"),
         std::pair("--slice 2,1", "lower and the higher"),
-        std::pair("--plane xy --slice 1000,1001", "nothing to draw"),
+        std::pair("--plane xy --slice 1000,1001", "; z of the curves is from "),
         std::pair("--plane xy --crop 1000,0,1001,1", "nothing to draw"),
         std::pair("--plane xy --crop 0,0,1", "left, bottom, right"),
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
