@@ -53,7 +53,8 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
         TextFlag("title", &s->title, "default: the name of the workspace"),
         TextFlag("name",
                  &s->name,
-                 "of the files; default: drawing_ and the plane")}}};
+                 "of the files; default: drawing_ and the plane, with "
+                 "_section and _from_behind where they apply")}}};
 }
 
 }  // namespace

@@ -158,8 +158,12 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
 }
 
 Status Drafter::TakeName() {
-  name_ =
-      settings_.name.empty() ? "drawing_" + settings_.plane : settings_.name;
+  name_ = settings_.name;
+  if (name_.empty()) {
+    name_ = "drawing_" + settings_.plane;
+    if (!settings_.slice.empty()) name_ += "_section";
+    if (settings_.from_behind) name_ += "_from_behind";
+  }
   for (char& c : name_) c = c == ' ' || c == ',' ? '_' : c;
   if (fs::path(name_).filename() != name_ || name_.front() == '.') {
     return BadDrawing("--name is \"" + name_ +

@@ -27,7 +27,8 @@ struct DrawSettings {
   bool geojson = false;
   std::string title;       // "": the name of the workspace
   std::string photograph;  // the name of an image, or "auto"; "": none
-  std::string name;        // of the files; "": drawing_<plane>
+  // Of the files; "": drawing_<plane>[_section][_from_behind].
+  std::string name;
 };
 
 // Writes <name>.dxf and <name>.svg, and <name>.jpg, <name>.gpkg and

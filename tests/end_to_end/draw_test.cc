@@ -168,7 +168,7 @@ TEST_F(Draw, CoordinatesAreThoseOfTheSurvey) {
   EXPECT_THAT(map["crs"].dump(), HasSubstr("EPSG::25832"));
 #endif
   ASSERT_EQ(Run("draw --plane xy --slice=-9,9").exit_code, 0);
-  const std::string dxf = Read(results_ / "drawing_xy.dxf");
+  const std::string dxf = Read(results_ / "drawing_xy_section.dxf");
   const auto after = LineLengths(dxf);
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -236,6 +236,16 @@ TEST_F(Draw, GeoJsonHasTheCurves) {
     EXPECT_EQ(map["name"], "curves");
     return map["features"].size();
   });
+}
+
+TEST_F(Draw, SectionsAndBacksReplaceNoOtherDrawing) {
+  ASSERT_EQ(Run("draw --plane xz").exit_code, 0);
+  const std::string front = Read(results_ / "drawing_xz.dxf");
+  ASSERT_EQ(Run("draw --plane xz --from_behind 1").exit_code, 0);
+  ASSERT_EQ(Run("draw --plane xz --slice=-9,9 --from_behind 1").exit_code, 0);
+  EXPECT_EQ(Read(results_ / "drawing_xz.dxf"), front);
+  EXPECT_NE(Read(results_ / "drawing_xz_from_behind.dxf"), front);
+  EXPECT_TRUE(fs::exists(results_ / "drawing_xz_section_from_behind.svg"));
 }
 
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
