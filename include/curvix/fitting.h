@@ -62,7 +62,7 @@ struct CurveFit {
   // Standard deviations of the primitive's position across itself, averaged
   // along it, and (kArc) of its radius. They contain the errors of the samples,
   // taken as independent, and, except for lines, the error that the samples
-  // share (options.common_error_px). World units.
+  // share (0.1 px). World units.
   double sigma = 0;
   double radius_sigma = 0;
   // kArc: of the centre, the unit normal (major x minor) and the radius, in
@@ -89,8 +89,8 @@ struct CurveNode {
   std::vector<End> ends;  // two or more, ascending by curve and fit
   // Of the position. It contains the errors of the samples of the primitives
   // that meet here, of which one in 4 px is independent, and the error that
-  // they share (options.common_error_px). It is larger where the primitives
-  // miss each other by more than these errors. World units squared.
+  // they share (0.1 px). It is larger where the primitives miss each other by
+  // more than these errors. World units squared.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
@@ -157,9 +157,9 @@ struct FittedCurves {
 // deviations off, as at rounded corners, thus cost the same at any distance.
 // Sigma is that of each sample (the median where it is not known, and a
 // twentieth of the distance between samples where it is known nowhere) together
-// with options.common_error_px, for which `scene` has the views that samples
-// name; without views it is left out. Next to open ends, which corners bend, it
-// is four times as large.
+// with the error that samples share, 0.1 px, for which `scene` has the views
+// that samples name; without views it is left out. Next to open ends, which
+// corners bend, it is four times as large.
 //
 // Ends of curves in the same place are one node, joints of a chain too. A node
 // lies where its lines and arcs, fitted alone, come nearest to each other, at

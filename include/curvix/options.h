@@ -18,8 +18,6 @@ struct EdgeDetectionOptions {
   // Weakest gradient kept, in standard deviations of the gradient of the
   // image's own noise; >= 0.
   double noise_factor = 5.0;
-  // Edges nearer to the border of the image are dropped. Pixels, >= 0.
-  double border_px = 4.0;
   // Longest step to the next edge along a contour (Sec. 5). Pixels, > 0.
   double max_neighbor_distance_px = 3.0;
   // Contours, that is chains of mutual neighbours, with fewer edges count as
@@ -27,9 +25,6 @@ struct EdgeDetectionOptions {
   // many edges. Edges are about half a pixel apart; >= 1, which makes none
   // short.
   int min_contour_edges = 6;
-  // Short contours are weak if their mean gradient is below this many times the
-  // weakest gradient kept; >= 0, and up to 1 drops none.
-  double short_contour_factor = 2.0;
   // Most edges of an image per million pixels, though any image may have
   // 10,000. Contours of images with more are thinned, and those that tell most
   // of structure are kept: strong, straight and not crowded ones; > 0.
@@ -148,11 +143,6 @@ struct ConnectivityOptions {
 // that grow from 3D edges along the contours of the images.
 struct CurveGrowthOptions {
   bool enabled = true;
-  // Least evidence of a sample (as of ValidationOptions), as a share of the
-  // mean of its curve. 0..1.
-  double min_relative_evidence = 0.3;
-  // Longest unsupported gap. Pixels, 0..1000.
-  double max_gap_px = 10.0;
   // Smallest significance of a curve: the sum of the log-likelihood ratios of
   // its samples, a pixel apart, over the square root of the number of queries
   // of views, times its contrast over that of the scene. >= 0.
@@ -201,8 +191,6 @@ struct CurveRefinementOptions {
   double min_length_px = 10.0;
   // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
   double junction_reach_px = 7.0;
-  // Largest distance of a continued end from its corner. Pixels, > 0.
-  double max_junction_gap_px = 1.5;
 };
 
 // Beyond the paper: whether curves are creases, boundaries or markings.
@@ -231,10 +219,6 @@ struct CurveFilterOptions {
 
 // Beyond the paper: curves as lines, arcs, ellipses and splines (fitting.h).
 struct CurveFittingOptions {
-  // Standard deviation of the error that neighbouring samples have in common,
-  // as of edges in blurred or bent images: added, in squares, to the sigma of
-  // each sample. Pixels of the view that sees the sample largest, >= 0.
-  double common_error_px = 0.1;
   // Whether fits are moved so that the structure that is found among them
   // (fitting.h) holds exactly, by at most three standard deviations.
   bool regularize = false;

@@ -77,15 +77,11 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "weakest gradient kept");
   row("noise_factor", &o.noise_factor, AtLeast(0), "", "",
       "weakest gradient kept, in sigmas of the noise");
-  row("border_px", &o.border_px, AtLeast(0), "px", "",
-      "border without edges");
   row("max_neighbor_distance_px", &o.max_neighbor_distance_px,
       AboveUpTo(0, 100), "px", "Sec. 5",
       "longest step along a contour");
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
       "shorter contours are dropped if weak");
-  row("short_contour_factor", &o.short_contour_factor, AtLeast(0), "", "",
-      "weak: below so many times the weakest gradient");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
       "most edges of an image, prominent contours first");
   row.Switch("separate_edges", &o.separate_edges,
@@ -186,10 +182,6 @@ void AddRows(ConnectivityOptions& o, Section row) {
 void AddRows(CurveGrowthOptions& o, Section row) {
   row.Switch("enabled", &o.enabled,
       "grow curves in crowded images, instead of Secs. 5 and 6");
-  row("min_relative_evidence", &o.min_relative_evidence, Between(0, 1), "", "",
-      "log-likelihood ratio where curves end, share of its mean");
-  row("max_gap_px", &o.max_gap_px, Between(0, 1000), "px", "",
-      "longest unsupported gap");
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
       "smallest significance of a curve");
   row("max_crowding", &o.max_crowding, AtLeast(0), "", "",
@@ -220,8 +212,6 @@ void AddRows(CurveRefinementOptions& o, Section row) {
       "shortest curve, except between junctions");
   row("junction_reach_px", &o.junction_reach_px, AtLeast(0), "px", "",
       "longest extension of an end to a corner");
-  row("max_junction_gap_px", &o.max_junction_gap_px, Above(0), "px", "",
-      "largest distance from the corner");
 }
 
 void AddRows(CurveKindOptions& o, Section row) {
@@ -246,8 +236,6 @@ void AddRows(CurveFilterOptions& o, Section row) {
 }
 
 void AddRows(CurveFittingOptions& o, Section row) {
-  row("common_error_px", &o.common_error_px, AtLeast(0), "px", "",
-      "error that neighbouring samples share");
   row.Switch("regularize", &o.regularize,
       "make nearly parallel, perpendicular or concentric fits exact");
 }

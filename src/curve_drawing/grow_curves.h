@@ -22,10 +22,9 @@ namespace curvix {
 // Views that support the curve three times in a row correct the tip, until they
 // miss it three times in a row; views in which the prediction is too uncertain
 // count neither way. A sample is supported if at least three such views support
-// it and its log-likelihood ratio (evidence.h) is at least the share
-// options.min_relative_evidence of the mean of the curve so far. A curve ends
-// at its last supported sample before a gap of more than options.max_gap_px; it
-// is closed where it returns to its seed.
+// it and its log-likelihood ratio (evidence.h) is at least 0.3 times the mean
+// of the curve so far. A curve ends at its last supported sample before a gap
+// of more than 10 px; it is closed where it returns to its seed.
 //
 // Curves that KeepSignificant() drops keep their edges from other curves. The
 // uncertainty of a position does not matter: a curve goes on where images show

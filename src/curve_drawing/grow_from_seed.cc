@@ -33,6 +33,11 @@ constexpr double kMaxTangentialPx = 1;
 constexpr double kMaxAngleDeg = 15;
 // Views in which the prediction is less certain are not queried.
 constexpr double kMaxPredictedSigmaPx = 0.7;
+// Least log-likelihood ratio (evidence.h) of a supported sample, as a share of
+// the mean of its curve, 0..1.
+constexpr double kMinRelativeEvidence = 0.3;
+// Longest gap without supported samples: pixels, as steps are.
+constexpr double kMaxUnsupportedPx = 10;
 // Number of samples that the log-likelihood ratio of the seed counts as.
 constexpr double kSeedWeight = 5;
 constexpr std::size_t kMinNumSamples = 5;
@@ -242,12 +247,11 @@ class Grower {
     std::size_t num_shown = 0;  // up to the last one that is shown
     std::size_t num_claimed = 0;
     while (static_cast<double>(path.size() - num_shown) * kStepPx <=
-           input_.options.max_gap_px) {
+           kMaxUnsupportedPx) {
       path.push_back(StepOn(tip, streaks, trusted));
       const double evidence = path.back().evidence;
       if (trusted.size() >= kMinNumSupports &&
-          evidence * num_evidence >=
-              input_.options.min_relative_evidence * sum_evidence) {
+          evidence * num_evidence >= kMinRelativeEvidence * sum_evidence) {
         sum_evidence += evidence;
         num_evidence += 1;
         num_shown = path.size();

@@ -20,6 +20,8 @@ namespace {
 constexpr double kShortRoundedPx = 0.5;  // of curves that are hardly longer
 constexpr double kFittedPx = 20;         // along which a line or arc is fitted
 constexpr double kMinCornerDeg = 10;
+// Largest distance of a continued end from its corner. Pixels.
+constexpr double kMaxJunctionGapPx = 1.5;
 constexpr int kNumMeetingRounds = 3;
 constexpr double kMeetingStepPx = 1.5;
 
@@ -149,7 +151,7 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
     point = *nearest;
   }
   const auto gap = GapAt(lines, point, options.junction_reach_px);
-  if (!gap || *gap > options.max_junction_gap_px) return std::nullopt;
+  if (!gap || *gap > kMaxJunctionGapPx) return std::nullopt;
   return Junction{std::move(members), point, *gap};
 }
 

@@ -18,6 +18,9 @@ namespace curvix {
 namespace {
 
 constexpr double kStraightDeg = 15;
+// Short contours are weak, and dropped, if their mean gradient is below this
+// many times the weakest gradient kept; up to 1 drops none.
+constexpr double kShortContourFactor = 2;
 
 const Edge2d& At(const std::vector<Edge2d>& edges, std::int32_t edge_idx) {
   return edges[static_cast<std::size_t>(edge_idx)];
@@ -179,7 +182,7 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
   CURVIX_CHECK(edges.size() == neighbors.size(), edges.size() << " edges");
   const Contours paths(neighbors);
   std::vector<Contour> contours = Measure(edges, paths);
-  const double weak = options.short_contour_factor * min_gradient;
+  const double weak = kShortContourFactor * min_gradient;
   KeptEdges kept;
   for (Contour& contour : contours) {
     contour.is_kept = contour.num_edges >= options.min_contour_edges ||

@@ -35,14 +35,13 @@ struct KeptEdges {
 };
 
 // Drops isolated edges, which are noise, mostly: contours of fewer than
-// options.min_contour_edges edges whose mean strength is below
-// options.short_contour_factor * min_gradient. (Strong short contours are
-// corners and tight bends.) If more than `max_edges` are left, keeps whole
-// contours up to the first that does not fit, in this order: those of
-// options.min_contour_edges before shorter ones, then by mean Prominence()
-// times the square root of the mean length of their straight segments, then by
-// index. At last thins them. Edges and `neighbors` correspond; `min_gradient`
-// is that of the detector.
+// options.min_contour_edges edges whose mean strength is below twice
+// `min_gradient`. (Strong short contours are corners and tight bends.) If more
+// than `max_edges` are left, keeps whole contours up to the first that does not
+// fit, in this order: those of options.min_contour_edges before shorter ones,
+// then by mean Prominence() times the square root of the mean length of their
+// straight segments, then by index. At last thins them. Edges and `neighbors`
+// correspond; `min_gradient` is that of the detector.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,

@@ -19,6 +19,8 @@ namespace {
 // Three consecutive rows of the half-pixel grid.
 using RowWindow = std::array<const GradientRow*, 3>;
 
+// Edges nearer to the border of the image are dropped. Pixels.
+constexpr double kBorderPx = 4;
 constexpr float kNoPeak = std::numeric_limits<float>::infinity();
 
 // Sets offsets[i], for points [begin, end) of the middle row, to where the
@@ -112,9 +114,9 @@ void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   edge.level = static_cast<Eigen::half>(d(0, 0));
 }
 
-bool IsInside(const GrayImage& image, const Eigen::Vector2d& p, double border) {
-  return p.x() >= border && p.y() >= border && p.x() <= image.width - border &&
-         p.y() <= image.height - border;
+bool IsOffBorder(const GrayImage& image, const Eigen::Vector2d& p) {
+  return p.x() >= kBorderPx && p.y() >= kBorderPx &&
+         p.x() <= image.width - kBorderPx && p.y() <= image.height - kBorderPx;
 }
 
 // Finds the edges of an image row by row. Three rows of gradients are kept, and
@@ -125,7 +127,6 @@ class EdgeLocator {
               const EdgeDetectionOptions& options,
               double min_gradient)
       : image_(image),
-        border_px_(options.border_px),
         min_gradient_(RoundedDown(min_gradient)),
         gradients_(image, options.sigma_px),
         tiles_(image, gradients_.reach_px(), MaxFlatSpan(min_gradient)),
@@ -199,12 +200,11 @@ class EdgeLocator {
     const Eigen::Vector2d position(
         static_cast<double>(i + 1) / 2 + pixels_per_gradient * row.x[i],
         (grid_row + 1) / 2.0 + pixels_per_gradient * row.y[i]);
-    if (!IsInside(image_, position, border_px_)) return;
+    if (!IsOffBorder(image_, position)) return;
     edges_.push_back({position, {row.x[i], row.y[i]}});
   }
 
   const GrayImage& image_;
-  double border_px_;
   float min_gradient_;
   GradientRows gradients_;
   SteepTiles tiles_;

@@ -32,7 +32,7 @@ struct LocatedEdge {
 //     dropped.
 //  2. Non-maximum suppression along the gradient with a parabola through three
 //     values interpolated between grid neighbours: position. Edges nearer than
-//     options.border_px to the border are dropped.
+//     4 px to the border are dropped.
 // Images below 2 x 2 pixels have no edges.
 std::vector<LocatedEdge> LocateEdges(const GrayImage& image,
                                      const EdgeDetectionOptions& options,

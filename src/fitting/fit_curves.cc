@@ -23,6 +23,10 @@ namespace curvix {
 namespace {
 
 constexpr double kUnknownSigmaSteps = 0.05;  // of the distance between samples
+// Standard deviation of the error that neighbouring samples have in common, as
+// of edges in blurred or bent images: added, in squares, to the sigma of each
+// sample. Pixels of the view that sees the sample largest.
+constexpr double kCommonErrorPx = 0.1;
 // Next to a corner, edges are bent and ends were moved to meet others: pixels,
 // and times the error that samples share elsewhere.
 constexpr double kBentPx = 4;
@@ -63,8 +67,7 @@ std::vector<double> DistancesToEnd(const Curve& curve) {
 
 // What the primitives of a curve are fitted to.
 FitSamples MakeSamples(const Curve& curve,
-                       const std::vector<PosedView>& views,
-                       const CurveFittingOptions& options) {
+                       const std::vector<PosedView>& views) {
   CURVIX_CHECK(curve.samples.size() >= 2, "a curve has two samples or more");
   FitSamples samples;
   const double usual = UsualSigma(curve);
@@ -72,7 +75,7 @@ FitSamples MakeSamples(const Curve& curve,
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& s = curve.samples[i];
     const double pixel = PixelSize(s.position, s.support, views);
-    const double common = options.common_error_px * pixel;
+    const double common = kCommonErrorPx * pixel;
     const double bent = to_end[i] < kBentPx * pixel ? kBentFactor : 1;
     const double own = s.sigma > 0 ? s.sigma : usual;
     const Eigen::Matrix3d across =
@@ -110,9 +113,8 @@ struct CurveToFit {
 
 CurveToFit MakeCurveToFit(std::size_t id,
                           const Curve& curve,
-                          const std::vector<PosedView>& views,
-                          const CurveFittingOptions& options) {
-  CurveToFit result{id, curve.closed, MakeSamples(curve, views, options), {}};
+                          const std::vector<PosedView>& views) {
+  CurveToFit result{id, curve.closed, MakeSamples(curve, views), {}};
   for (const CurveSample& sample : curve.samples) {
     result.kinds.push_back(sample.kind);
   }
@@ -135,7 +137,6 @@ CurveKind KindOf(const Primitive& primitive,
 template <typename Fit>
 void FitEach(const CurveSource& curves,
              const std::vector<PosedView>& views,
-             const CurveFittingOptions& options,
              int num_threads,
              const Fit& fit) {
   constexpr std::size_t kMaxSamples = 1 << 18;
@@ -147,7 +148,7 @@ void FitEach(const CurveSource& curves,
     num_samples = 0;
   };
   curves.ForEach([&](std::size_t id, const Curve& curve) {
-    some.push_back(MakeCurveToFit(id, curve, views, options));
+    some.push_back(MakeCurveToFit(id, curve, views));
     num_samples += curve.samples.size();
     if (num_samples >= kMaxSamples) fit_some();
   });
@@ -345,7 +346,7 @@ FittedCurves FitCurves(const CurveSource& curves,
                        int num_threads) {
   const std::vector<PosedView> views = MakePosedViews(scene);
   std::vector<CurvePrimitives> alone(curves.size());
-  FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
+  FitEach(curves, views, num_threads, [&](const CurveToFit& curve) {
     alone[curve.id] = FitAlone(curve.samples, curve.closed);
   });
   FittedCurves result;
@@ -361,7 +362,7 @@ FittedCurves FitCurves(const CurveSource& curves,
     fit.curve_kind = KindOf(own.primitive, curve.kinds);
     return fit;
   };
-  FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
+  FitEach(curves, views, num_threads, [&](const CurveToFit& curve) {
     for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {
       result.curves[curve.id].fits.push_back(fit_one(curve, f));
     }
@@ -370,7 +371,7 @@ FittedCurves FitCurves(const CurveSource& curves,
   if (!options.regularize) return result;
   Regularize(result);
   // Lines and arcs have moved; the others follow their nodes.
-  FitEach(curves, views, options, num_threads, [&](const CurveToFit& curve) {
+  FitEach(curves, views, num_threads, [&](const CurveToFit& curve) {
     for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {
       CurveFit& fit = result.curves[curve.id].fits[f];
       if (const std::optional<Shape> shape = ShapeOf(fit)) {

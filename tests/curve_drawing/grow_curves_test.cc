@@ -286,8 +286,6 @@ TEST(GrowCurves, WhatIsTooShortLeavesItsEdgesToOthers) {
   CurveGrowthOptions options;
   options.min_significance = 1e6;
   EXPECT_TRUE(seen.Grow({seen.Seed(0, 0.3)}, options).empty());
-  options.min_significance = 0;
-  options.max_gap_px = 0;
   // The strongest seed is turned away from the line and finds nothing.
   Edge3d wrong = seen.Seed(0, 0.5, 90);
   wrong.tangent = wrong.tangent.unitOrthogonal();

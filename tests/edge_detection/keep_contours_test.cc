@@ -40,7 +40,6 @@ class KeepContoursTest : public ::testing::Test {
   KeptEdges Keep(std::int64_t max_edges, const Thinning& thinning = {}) const {
     EdgeDetectionOptions options;
     options.min_contour_edges = 4;
-    options.short_contour_factor = 2;
     return KeepContours(edges_, neighbors_, options, 10, max_edges, thinning);
   }
 

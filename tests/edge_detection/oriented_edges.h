@@ -17,4 +17,16 @@ inline std::vector<Edge2d> OrientedEdges(const GrayImage& image,
   return edges;
 }
 
+// Those at least `border_px` from the border of the image.
+inline std::vector<Edge2d> WithoutBorder(std::vector<Edge2d> edges,
+                                         const GrayImage& image,
+                                         double border_px) {
+  std::erase_if(edges, [&](const Edge2d& edge) {
+    const Eigen::Vector2d& p = edge.position;
+    return p.minCoeff() < border_px || p.x() > image.width - border_px ||
+           p.y() > image.height - border_px;
+  });
+  return edges;
+}
+
 }  // namespace curvix

@@ -60,9 +60,8 @@ std::vector<Edge2d> ReadReference(const fs::path& path) {
 }
 
 std::vector<Edge2d> DetectLikeReference(const fs::path& image_path) {
-  EdgeDetectionOptions options;
-  options.border_px = 10;
-  return OrientedEdges(RoundedGrey(image_path), options, 1);
+  const GrayImage image = RoundedGrey(image_path);
+  return WithoutBorder(OrientedEdges(image, {}, 1), image, 10);
 }
 
 std::optional<std::size_t> Find(const GridIndex& index,

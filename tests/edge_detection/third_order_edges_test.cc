@@ -16,9 +16,7 @@ namespace {
 
 // Away from the border, where the continued image is not the true one.
 std::vector<Edge2d> Detect(const GrayImage& image, double min_gradient = 1) {
-  EdgeDetectionOptions options;
-  options.border_px = 8;
-  return OrientedEdges(image, options, min_gradient);
+  return WithoutBorder(OrientedEdges(image, {}, min_gradient), image, 8);
 }
 
 Eigen::Vector2d BrightSide(const Edge2d& edge) {
@@ -107,14 +105,13 @@ TEST(ThirdOrderEdges, RotatesWithTheImage) {
 }
 
 TEST(ThirdOrderEdges, GoesRowByRowAndStaysOffTheBorder) {
-  EdgeDetectionOptions options;
-  options.border_px = 7;
   const std::vector<Edge2d> edges =
-      OrientedEdges(RenderLine(64, {32, 32}, 1.0), options, 1);
+      OrientedEdges(RenderLine(64, {32, 32}, 1.0), {}, 1);
   ASSERT_FALSE(edges.empty());
+  EXPECT_LT(edges.front().position.y(), 5) << "no further off than it must";
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    EXPECT_GE(edges[i].position.minCoeff(), 7);
-    EXPECT_LE(edges[i].position.maxCoeff(), 57);
+    EXPECT_GE(edges[i].position.minCoeff(), 4);
+    EXPECT_LE(edges[i].position.maxCoeff(), 60);
     if (i > 0) {
       // Positions move by at most sqrt(2) half pixels from their grid row.
       EXPECT_GT(edges[i].position.y(), edges[i - 1].position.y() - 1.5);
@@ -137,8 +134,7 @@ TEST(LocateEdges, ThresholdOnlyLeavesOutWeakerEdges) {
           static_cast<float>((x * x + 3 * y) % 7) * static_cast<float>(y) / 30;
     }
   }
-  EdgeDetectionOptions options;
-  options.border_px = 0;
+  const EdgeDetectionOptions options;
   const std::vector<LocatedEdge> all = LocateEdges(image, options, 0);
   for (const double min_gradient : {0.3, 1.0, 5.0, 20.0}) {
     std::vector<LocatedEdge> expected;
@@ -157,24 +153,24 @@ TEST(LocateEdges, ThresholdOnlyLeavesOutWeakerEdges) {
 TEST(ThirdOrderEdges, FindsNothingInBlankImages) {
   for (const float grey : {0.0f, 77.3f, 255.0f}) {
     const GrayImage blank{40, 30, std::vector<float>(1200, grey)};
-    EdgeDetectionOptions options;
-    options.border_px = 0;
-    EXPECT_TRUE(OrientedEdges(blank, options, 0.001).empty());
+    EXPECT_TRUE(OrientedEdges(blank, {}, 0.001).empty());
   }
 }
 
 TEST(ThirdOrderEdges, SurvivesTinyImages) {
-  EdgeDetectionOptions options;
-  options.border_px = 0;
-  for (int width = 0; width <= 4; ++width) {
-    for (int height = 0; height <= 4; ++height) {
+  // Below 8 px, all is border.
+  for (int width = 0; width <= 12; ++width) {
+    for (int height = 0; height <= 12; ++height) {
       GrayImage image{width, height, {}};
       for (int i = 0; i < width * height; ++i) {
         image.pixels.push_back(static_cast<float>(50 * (i % 3)));
       }
-      const std::vector<Edge2d> edges = OrientedEdges(image, options, 1);
-      if (width < 2 || height < 2) {
+      const std::vector<Edge2d> edges = OrientedEdges(image, {}, 1);
+      if (width < 8 || height < 8) {
         EXPECT_TRUE(edges.empty());
+      }
+      if (width == 12 && height == 12) {
+        EXPECT_FALSE(edges.empty());
       }
       for (const Edge2d& edge : edges) EXPECT_TRUE(edge.position.allFinite());
     }
