@@ -103,11 +103,29 @@ bool IsFlag(const std::string& name, const std::vector<FlagSection>& sections) {
   return false;
 }
 
-// The entries as one value per name.
+// Options of earlier versions that are constants now, and their values.
+const Values& FormerOptions() {
+  static const Values options = {{"EdgeDetection.border_px", "4"},
+                                 {"EdgeDetection.short_contour_factor", "2"},
+                                 {"CurveGrowth.min_relative_evidence", "0.3"},
+                                 {"CurveGrowth.max_gap_px", "10"},
+                                 {"CurveRefinement.max_junction_gap_px", "1.5"},
+                                 {"CurveFitting.common_error_px", "0.1"}};
+  return options;
+}
+
+// The entries as one value per name, without former options.
 Result<Values> Collect(std::vector<ProjectEntry> entries,
                        const std::vector<FlagSection>& sections) {
   Values values;
   for (ProjectEntry& entry : entries) {
+    const auto former = FormerOptions().find(entry.name);
+    if (former != FormerOptions().end()) {
+      if (entry.value == former->second) continue;
+      return BadArgument("'" + entry.name +
+                         "' is no longer an option; it is always " +
+                         former->second);
+    }
     if (!IsFlag(entry.name, sections)) return UnknownFlag(entry.name, sections);
     if (!values.emplace(entry.name, std::move(entry.value)).second) {
       return GivenTwice(entry.name);

@@ -111,6 +111,17 @@ TEST_F(CommandLine, ArgumentsWinOverTheProjectFile) {
   }
 }
 
+TEST_F(CommandLine, AProjectFileMayHaveFormerOptionsAtTheirConstants) {
+  const std::string path = ProjectFile(
+      "workspace_path=w\n[EdgeDetection]\nborder_px=4\nsigma_px=2\n");
+  ASSERT_TRUE(Parse({"--project_path", path}).ok());
+  EXPECT_EQ(options_.edge_detection.sigma_px, 2);
+  ProjectFile("[EdgeDetection]\nborder_px=5\n");
+  EXPECT_THAT(
+      Error({"--project_path", path}),
+      AllOf(HasSubstr("EdgeDetection.border_px"), HasSubstr("it is always 4")));
+}
+
 TEST_F(CommandLine, ErrorsInTheProjectFileNameIt) {
   const std::string unknown = ProjectFile("[Validation]\nmax_angel_deg=7\n");
   EXPECT_THAT(Error({"--project_path", unknown}),
