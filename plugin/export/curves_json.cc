@@ -3,11 +3,12 @@
 
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
+#include <array>
 #include <boost/algorithm/string/replace.hpp>
 #include <cmath>
-#include <cstddef>
-#include <vector>
+#include <utility>
 
+#include "base/parallel.h"
 #include "geometry/camera_of.h"
 #include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
@@ -16,6 +17,11 @@ namespace curvix {
 namespace {
 
 constexpr int kPixelDecimals = 3;
+constexpr int kTangentDecimals = 7;
+constexpr int kProbabilityDecimals = 4;
+// Of samples. Enough for a matrix that stays positive definite if the standard
+// deviation along one axis is 10,000 times that along another.
+constexpr int kCovarianceDigits = 9;
 
 Json MatrixJson(const Eigen::Matrix3d& m) { return Triangle(m); }
 
@@ -66,30 +72,40 @@ Json FitJson(const CurveFit& fit) {
   return json;
 }
 
-Json SupportJson(const CurveRecord& record, const CurveSample& sample) {
+// `edge` is the first of the sample's edges; it is moved behind the last.
+Json SupportJson(const Scene& scene,
+                 const CurveSample& sample,
+                 std::vector<Edge2d>::const_iterator& edge) {
   Json support = Json::array();
   for (const EdgeRef& ref : sample.support) {
-    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
-    const auto edge = FindSupportingEdge(record, sample, ref);
+    const auto shown = FindSupportingEdge(scene, sample, ref, *edge++);
     const auto rounded = [&](double value) {
-      return edge ? Json(Rounded(value, kPixelDecimals)) : Json();
+      return shown ? Json(Rounded(value, kPixelDecimals)) : Json();
     };
-    const SupportingEdge shown = edge.value_or(SupportingEdge());
-    support.push_back({record.scene.views[view_idx].image_id,
-                       rounded(shown.pixel.x()),
-                       rounded(shown.pixel.y()),
-                       rounded(shown.residual_px)});
+    const auto [pixel, residual_px] = shown.value_or(SupportingEdge());
+    support.push_back(
+        {scene.views[static_cast<std::size_t>(ref.view_idx)].image_id,
+         rounded(pixel.x()),
+         rounded(pixel.y()),
+         rounded(residual_px)});
   }
   return support;
 }
 
-Json SampleJson(const CurveRecord& record, const CurveSample& sample) {
+Json SampleJson(const Scene& scene,
+                const CurveSample& sample,
+                std::vector<Edge2d>::const_iterator& edge) {
+  Json tangent = Json::array();
+  for (const double x : sample.tangent) {
+    tangent.push_back(Rounded(x, kTangentDecimals));
+  }
   return {{"position", VectorJson(sample.position)},
-          {"tangent", VectorJson(sample.tangent)},
-          {"sigma", sample.sigma},
-          {"covariance", MatrixJson(sample.covariance)},
-          {"kind_probability", sample.kind_probability},
-          {"support", SupportJson(record, sample)}};
+          {"tangent", std::move(tangent)},
+          {"sigma", RoundedToDigits(sample.sigma, kCovarianceDigits)},
+          {"covariance", CovarianceJson(sample.covariance, kCovarianceDigits)},
+          {"kind_probability",
+           Rounded(sample.kind_probability, kProbabilityDecimals)},
+          {"support", SupportJson(scene, sample, edge)}};
 }
 
 // The runs of samples of one kind.
@@ -108,7 +124,11 @@ Json KindsJson(const Curve& curve) {
   return kinds;
 }
 
-Json CurveJson(const CurveRecord& record, std::size_t id, const Curve& curve) {
+// `edges` are the support of the samples, one after the other.
+Json CurveJson(const CurveRecord& record,
+               std::size_t id,
+               const Curve& curve,
+               const std::vector<Edge2d>& edges) {
   Json json = {{"id", id},
                {"closed", curve.closed},
                {"length", Length(curve)},
@@ -119,10 +139,21 @@ Json CurveJson(const CurveRecord& record, std::size_t id, const Curve& curve) {
   for (const CurveFit& fit : record.fitted.curves[id].fits) {
     json["fits"].push_back(FitJson(fit));
   }
+  auto edge = edges.begin();
   for (const CurveSample& sample : curve.samples) {
-    json["samples"].push_back(SampleJson(record, sample));
+    json["samples"].push_back(SampleJson(record.scene, sample, edge));
   }
   return json;
+}
+
+std::vector<Edge2d> SupportOf(const CurveSource& curves, const Curve& curve) {
+  std::vector<Edge2d> edges;
+  for (const CurveSample& sample : curve.samples) {
+    for (const EdgeRef& ref : sample.support) {
+      edges.push_back(curves.EdgeOf(ref));
+    }
+  }
+  return edges;
 }
 
 Json ImageJson(const View& view, const Camera& camera) {
@@ -186,12 +217,12 @@ void PutLines(const std::vector<Json>& items, const ByteSink& sink) {
 
 }  // namespace
 
-std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
+std::optional<SupportingEdge> FindSupportingEdge(const Scene& scene,
                                                  const CurveSample& sample,
-                                                 const EdgeRef& ref) {
-  const View& view = record.scene.views[static_cast<std::size_t>(ref.view_idx)];
-  const Camera& camera = CameraOf(record.scene, view);
-  const Edge2d edge = record.curves.EdgeOf(ref);
+                                                 const EdgeRef& ref,
+                                                 const Edge2d& edge) {
+  const View& view = scene.views[static_cast<std::size_t>(ref.view_idx)];
+  const Camera& camera = CameraOf(scene, view);
   const Eigen::Matrix3d calibration = PinholeCalibration(camera);
   const Eigen::Vector3d ray =
       calibration.inverse() * edge.position.homogeneous();
@@ -211,6 +242,17 @@ double Rounded(double value, int num_decimals) {
   return scaled == 0 ? 0.0 : scaled / scale;
 }
 
+double RoundedToDigits(double value, int num_digits) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  return Rounded(value, num_digits - 1 - std::ilogb(value) * 3 / 10);
+}
+
+Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {
+  std::array<double, 6> values = Triangle(covariance);
+  for (double& value : values) value = RoundedToDigits(value, num_digits);
+  return values;
+}
+
 std::string JsonText(const Json& json) {
   // Not UTF-8: replaced. "<" would end a script; ASCII only for the rest.
   const std::string text =
@@ -218,7 +260,28 @@ std::string JsonText(const Json& json) {
   return boost::algorithm::replace_all_copy(text, "<", "\\u003c");
 }
 
-void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
+void JsonLines::Add(std::function<Json()> value) {
+  constexpr std::size_t kNumAtATime = 256;
+  values_.push_back(std::move(value));
+  if (values_.size() == kNumAtATime) Flush();
+}
+
+void JsonLines::Flush() {
+  std::vector<std::string> lines(values_.size());
+  ParallelFor(lines.size(), num_threads_, [&](std::size_t i) {
+    lines[i] = JsonText(values_[i]());
+  });
+  for (const std::string& line : lines) {
+    sink_(is_first_ ? "\n" : ",\n");
+    sink_(line);
+    is_first_ = false;
+  }
+  values_.clear();
+}
+
+void EncodeCurvesJson(const CurveRecord& record,
+                      int num_threads,
+                      const ByteSink& sink) {
   std::vector<Json> images;
   for (const View& view : record.scene.views) {
     images.push_back(ImageJson(view, CameraOf(record.scene, view)));
@@ -245,9 +308,13 @@ void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink) {
   sink("],\"perpendicular\":[");
   PutLines(perpendicular, sink);
   sink("]},\"curves\":[");
+  JsonLines lines(num_threads, sink);
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {
-    sink((id > 0 ? ",\n" : "\n") + JsonText(CurveJson(record, id, curve)));
+    lines.Add([&record, id, curve, edges = SupportOf(record.curves, curve)] {
+      return CurveJson(record, id, curve, edges);
+    });
   });
+  lines.Flush();
   sink("]}\n");
 }
 

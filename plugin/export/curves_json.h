@@ -7,8 +7,11 @@
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/file_io.h"
 #include "measuring/world_alignment.h"
@@ -34,15 +37,37 @@ struct SupportingEdge {
                            // on the bright side
 };
 
-// `ref` supports a sample of the curve that is being shown. nullopt if the view
-// has no pixel for it.
-std::optional<SupportingEdge> FindSupportingEdge(const CurveRecord& record,
+// `edge` of the view supports `sample`. nullopt if the view has no pixel for
+// it.
+std::optional<SupportingEdge> FindSupportingEdge(const Scene& scene,
                                                  const CurveSample& sample,
-                                                 const EdgeRef& ref);
+                                                 const EdgeRef& ref,
+                                                 const Edge2d& edge);
 
 // The text of curves.json, as docs/curves.schema.json and
 // docs/output_format.md describe it: one line per curve.
-void EncodeCurvesJson(const CurveRecord& record, const ByteSink& sink);
+void EncodeCurvesJson(const CurveRecord& record,
+                      int num_threads,
+                      const ByteSink& sink);
+
+// JSON values on a line each, with commas between, which are encoded on several
+// threads, some hundred at a time.
+class JsonLines {
+ public:
+  JsonLines(int num_threads, const ByteSink& sink)
+      : num_threads_(num_threads), sink_(sink) {}
+
+  // `value` is called later, on any thread.
+  void Add(std::function<Json()> value);
+  // Writes what has been added.
+  void Flush();
+
+ private:
+  int num_threads_;
+  const ByteSink& sink_;
+  bool is_first_ = true;
+  std::vector<std::function<Json()>> values_;
+};
 
 // `json` on one line, safe within an HTML <script> element too. Numbers that
 // are not finite are null.
@@ -52,5 +77,11 @@ Json VectorJson(const Eigen::Vector3d& v);
 
 // `value`, finite, with so many digits behind the point at most.
 double Rounded(double value, int num_decimals);
+
+// `value` with `num_digits` significant digits or one more.
+double RoundedToDigits(double value, int num_digits);
+
+// The upper triangle of a covariance matrix, by rows, with so many digits.
+Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits);
 
 }  // namespace curvix

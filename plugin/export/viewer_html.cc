@@ -22,8 +22,9 @@ namespace curvix {
 namespace {
 
 constexpr int kNumPhotos = 16;
-constexpr int kPhotoSize = 640;            // pixels
-constexpr int kNumCoordinateDigits = 6;    // with respect to the scene
+constexpr int kPhotoSize = 640;          // pixels
+constexpr int kNumCoordinateDigits = 6;  // with respect to the scene
+constexpr int kNumCovarianceDigits = 5;
 constexpr std::size_t kNumPoints = 10000;  // of the model
 
 std::string Base64(std::string_view bytes) {
@@ -88,15 +89,6 @@ std::string_view KindOf(const FittedCurve& fitted) {
   return fitted.fits.size() > 1 ? "chain" : KindName(fitted.fits.front());
 }
 
-// The upper triangle, by rows; five digits are enough.
-Json CovarianceJson(const Eigen::Matrix3d& m) {
-  std::array<double, 6> values = Triangle(m);
-  for (double& value : values) {
-    if (value != 0) value = Rounded(value, 4 - std::ilogb(value) * 3 / 10);
-  }
-  return values;
-}
-
 Json ShortFitJson(const CurveFit& fit) {
   Json json = {{"k", KindName(fit)},
                {"i", {fit.first_sample, fit.num_samples}},
@@ -106,8 +98,8 @@ Json ShortFitJson(const CurveFit& fit) {
   if (fit.kind == FitKind::kLine) {
     json["a"] = VectorJson(fit.start);
     json["b"] = VectorJson(fit.end);
-    json["qa"] = CovarianceJson(fit.start_covariance);
-    json["qb"] = CovarianceJson(fit.end_covariance);
+    json["qa"] = CovarianceJson(fit.start_covariance, kNumCovarianceDigits);
+    json["qb"] = CovarianceJson(fit.end_covariance, kNumCovarianceDigits);
   } else if (fit.kind == FitKind::kArc) {
     json["r"] = fit.major.norm();
     json["rs"] = fit.radius_sigma;
@@ -162,8 +154,8 @@ int NumDecimals(const CurveSource& curves) {
 Json NodesJson(const std::vector<CurveNode>& nodes) {
   Json json = Json::array();
   for (const CurveNode& node : nodes) {
-    json.push_back(
-        {VectorJson(node.position), CovarianceJson(node.covariance)});
+    json.push_back({VectorJson(node.position),
+                    CovarianceJson(node.covariance, kNumCovarianceDigits)});
   }
   return json;
 }
@@ -195,7 +187,8 @@ Json PointsJson(const Scene& scene, int num_decimals) {
     for (const double x : point.position) {
       position.push_back(Rounded(x, num_decimals));
     }
-    json.push_back({position, CovarianceJson(covariance)});
+    json.push_back(
+        {position, CovarianceJson(covariance, kNumCovarianceDigits)});
   }
   return json;
 }
@@ -251,10 +244,13 @@ void EncodeViewerHtml(const CurveRecord& record,
        ",\"nodes\":" + JsonText(NodesJson(record.fitted.nodes)) +
        ",\"points\":" + JsonText(PointsJson(scene, num_decimals)) +
        ",\"curves\":[");
-  record.curves.ForEach([&](std::size_t i, const Curve& curve) {
-    if (i > 0) sink(",\n");
-    sink(JsonText(CurveJson(curve, record.fitted.curves[i], num_decimals)));
+  JsonLines lines(num_threads, sink);
+  record.curves.ForEach([&](std::size_t id, const Curve& curve) {
+    lines.Add([&record, num_decimals, id, curve] {
+      return CurveJson(curve, record.fitted.curves[id], num_decimals);
+    });
   });
+  lines.Flush();
   sink("]}");
   sink(page.substr(mark + kMark.size()));
 }

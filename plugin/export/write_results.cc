@@ -60,7 +60,8 @@ void AddSample(const CurveRecord& record,
                ColmapModel& model) {
   std::vector<std::pair<EdgeRef, SupportingEdge>> edges;
   for (const EdgeRef& ref : sample.support) {
-    const auto edge = FindSupportingEdge(record, sample, ref);
+    const auto edge = FindSupportingEdge(
+        record.scene, sample, ref, record.curves.EdgeOf(ref));
     if (edge && edge->pixel.allFinite()) edges.emplace_back(ref, *edge);
   }
   if (edges.size() < 2) return;
@@ -206,7 +207,7 @@ Status WriteFormat(const CurveRecord& record,
                    const fs::path& path) {
   if (format == "json") {
     return WriteText(record, path, [&](const ByteSink& sink) {
-      EncodeCurvesJson(record, sink);
+      EncodeCurvesJson(record, num_threads, sink);
     });
   }
   if (format == "csv") {
