@@ -44,6 +44,10 @@ using Places = std::vector<std::vector<Vector3d>>;
 // Of its places that must lie in a part, for a view to belong to it.
 constexpr double kMinShare = 0.05;
 
+// Of a part. Parts with fewer are mostly views of others, or have too few to be
+// reconstructed.
+constexpr int kMinOwnViews = 3;
+
 // Unit; ties and signs do not depend on the order of the points.
 Vector3d LongestDirection(const std::vector<Vector3d>& points) {
   Vector3d mean = Vector3d::Zero();
@@ -192,13 +196,14 @@ std::optional<ScenePartition> PartitionViews(const Places& places,
   };
   // Doubling, then halving: few attempts for any number of parts.
   const int num_views = static_cast<int>(places.size());
+  const int most = std::max(1, num_views / kMinOwnViews);
   int too_few = 0;
   int enough = 1;
   std::optional<ScenePartition> best;
   while (!(best = divide(enough))) {
-    if (enough == num_views) return std::nullopt;
+    if (enough == most) return std::nullopt;
     too_few = enough;
-    enough = std::min(2 * enough, num_views);
+    enough = std::min(2 * enough, most);
   }
   while (enough - too_few > 1) {
     const int middle = too_few + (enough - too_few) / 2;

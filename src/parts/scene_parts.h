@@ -44,13 +44,13 @@ struct ScenePartition {
 };
 
 // Parts of at most `max_views_per_part` views (>= 3), as few as suffice, with
-// nearly as many own views each. Views are divided by the places that they see
-// (sparse points; without them, a grid at their working depth), by recursive
-// bisection across the longest direction. A part has all views with at least
-// one place in twenty in its core or within twice the overlap around it. The
-// overlap is 25 pixels at the depth of a typical view. O(n log n) for n views.
-// kInvalidArgument if the scene is none, or if so few views are too few to
-// divide it, as where all views see the same.
+// nearly as many own views each, at least three. Views are divided by the
+// places that they see (sparse points; without them, a grid at their working
+// depth), by recursive bisection across the longest direction. A part has all
+// views with at least one place in twenty in its core or within twice the
+// overlap around it. The overlap is 25 pixels at the depth of a typical view.
+// O(n log n) for n views. kInvalidArgument if the scene is none, or if so few
+// views are too few to divide it, as where all views see the same.
 Result<ScenePartition> PartitionScene(const Scene& scene,
                                       int max_views_per_part);
 

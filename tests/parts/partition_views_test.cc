@@ -95,6 +95,22 @@ TEST(PartitionViews, GivesAPartAllViewsThatSeeItsSurroundings) {
   }
 }
 
+// A part of one or two views could not be reconstructed.
+TEST(PartitionViews, GivesNoPartFewerThanThreeViewsOfItsOwn) {
+  Places far_apart(8);
+  for (std::size_t i = 0; i < far_apart.size(); ++i) {
+    far_apart[i].emplace_back(100.0 * static_cast<double>(i * i), 0, 0);
+  }
+  const auto partition = PartitionViews(far_apart, kOverlap, 4);
+  ASSERT_TRUE(partition.has_value());
+  EXPECT_EQ(partition->parts.size(), 2u);
+  EXPECT_FALSE(PartitionViews(far_apart, kOverlap, 3).has_value());
+  // Three are found, between two, which are too few, and four, too many.
+  far_apart.resize(9);
+  far_apart.back().emplace_back(1e5, 0, 0);
+  EXPECT_EQ(PartitionViews(far_apart, kOverlap, 3)->parts.size(), 3u);
+}
+
 TEST(PartitionViews, CannotDivideViewsOfOnePlace) {
   Places ring(50);
   for (auto& places : ring) {

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-constexpr int kMaxViews = 44;
+constexpr int kMaxViews = 46;
 
 // A short street in small photographs.
 class RunParts : public testing::Test {
