@@ -14,6 +14,7 @@
 #include "base/option_table.h"
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
+#include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"
 
 namespace curvix {
@@ -180,28 +181,35 @@ ColmapModel ModelOfViews(const ColmapModel& model,
   return part;
 }
 
-Result<PartFile> OpenPart(const PartPlan& plan,
-                          std::size_t part_idx,
-                          const Options& options,
-                          const fs::path& folder) {
-  const int idx = static_cast<int>(part_idx);
-  return PartFile::Open(PartFolder(folder, idx) / kPartResultName,
-                        PartKey(plan, idx, options));
+template <typename T>
+std::vector<T> Chosen(const std::vector<T>& values,
+                      const std::vector<int>& idxs) {
+  std::vector<T> chosen;
+  for (const int idx : idxs) chosen.push_back(values[Idx(idx)]);
+  return chosen;
 }
 
-// Names the parts that are not done.
-Status PartsNotDone(const PartPlan& plan,
-                    const Options& options,
-                    const fs::path& folder) {
-  std::string names;
-  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    if (OpenPart(plan, i, options, folder).ok()) continue;
-    names += (names.empty() ? "" : ", ") + std::to_string(i);
+// "these parts are not there: 1, 3" and the like; "" without parts.
+std::string PartsText(const std::string& what, const std::vector<int>& idxs) {
+  std::string text;
+  for (const int idx : idxs) {
+    text += (text.empty() ? what + ": " : ", ") + std::to_string(idx);
   }
+  return text;
+}
+
+Status PartsNotDone(const std::vector<int>& missing,
+                    const std::vector<int>& other) {
+  std::string text = PartsText("these parts are not there", missing);
+  if (!missing.empty() && !other.empty()) text += "; ";
+  text += PartsText(
+      "these parts are broken, or of other images, masks or options, or of "
+      "another version",
+      other);
   return {StatusCode::kNotFound,
-          "these parts are not there, or of other options: " + names +
-              "; run 'colmap_curvix reconstruct' with --part and the options "
-              "of this command for each of them"};
+          text +
+              "; run 'colmap_curvix reconstruct' with --part and the paths "
+              "and options of this command for each of them"};
 }
 
 }  // namespace
@@ -271,8 +279,15 @@ Result<PartPlan> ReadPlan(const fs::path& folder) {
 
 std::uint64_t PartKey(const PartPlan& plan,
                       int part_idx,
-                      const Options& options) {
+                      const Options& options,
+                      const std::vector<std::uint64_t>& image_hashes) {
   std::string text = plan.text + std::to_string(part_idx);
+  text += ' ';
+  text += ProgramVersion();
+  for (const std::uint64_t hash : image_hashes) {
+    text += ' ';
+    text += std::to_string(hash);
+  }
   Options copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
     const bool is_of_a_stage = row.name.find('.') != std::string::npos &&
@@ -286,21 +301,36 @@ fs::path PartFolder(const fs::path& folder, int part_idx) {
   return folder / std::to_string(part_idx);
 }
 
-Result<PartFiles> PartFiles::Open(const PartPlan& plan,
-                                  const Options& options,
-                                  const fs::path& folder,
-                                  RunProgress& progress) {
+Result<PartFiles> PartFiles::Open(
+    const PartPlan& plan,
+    const Options& options,
+    const std::vector<std::uint64_t>& image_hashes,
+    const fs::path& folder,
+    RunProgress& progress) {
   PartFiles parts(progress);
-  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    Result<PartFile> file = OpenPart(plan, i, options, folder);
-    if (file.status().code() == StatusCode::kNotFound) {
-      return PartsNotDone(plan, options, folder);
-    }
-    if (!file.ok()) return file.status();
+  std::vector<int> missing;
+  std::vector<int> other;
+  const int num_parts = static_cast<int>(plan.partition.parts.size());
+  for (int i = 0; i < num_parts; ++i) {
     if (progress.IsCancelled()) return CancelledStatus();
+    const fs::path part = PartFolder(folder, i);
+    if (!fs::exists(part / kPartResultName) ||
+        !fs::exists(part / kPartEdgesName)) {
+      missing.push_back(i);
+      continue;
+    }
+    const auto hashes =
+        Chosen(image_hashes, plan.partition.parts[Idx(i)].view_idxs);
+    Result<PartFile> file = PartFile::Open(part / kPartResultName,
+                                           PartKey(plan, i, options, hashes));
+    if (!file.ok()) {
+      other.push_back(i);
+      continue;
+    }
     file->Close();
     parts.files_.push_back(std::move(file).value());
   }
+  if (!missing.empty() || !other.empty()) return PartsNotDone(missing, other);
   return parts;
 }
 

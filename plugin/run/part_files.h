@@ -45,11 +45,12 @@ struct PartPlan {
 // kNotFound without plan.json; kDataLoss if it is broken.
 Result<PartPlan> ReadPlan(const std::filesystem::path& folder);
 
-// What a part's result depends on besides the images: the plan and all options
-// of its stages.
+// What a part's result depends on: the program, the plan, all options of its
+// stages, and the images of its views by their hashes (file_hashes.h).
 std::uint64_t PartKey(const PartPlan& plan,
                       int part_idx,
-                      const Options& options);
+                      const Options& options,
+                      const std::vector<std::uint64_t>& image_hashes);
 
 std::filesystem::path PartFolder(const std::filesystem::path& folder,
                                  int part_idx);
@@ -60,10 +61,12 @@ constexpr const char* kPartEdgesName = "edges.ply";
 // The results of all parts, of which one file is open at a time.
 class PartFiles : public PartResults {
  public:
-  // Reads all files once, to check them. kNotFound names all parts that are not
-  // there, or not under their keys. `progress` outlives this.
+  // Reads all files once, to check them. `image_hashes`: of all views of the
+  // scene. kNotFound names all parts that are not there, broken or not under
+  // their keys. `progress` outlives this.
   static Result<PartFiles> Open(const PartPlan& plan,
                                 const Options& options,
+                                const std::vector<std::uint64_t>& image_hashes,
                                 const std::filesystem::path& folder,
                                 RunProgress& progress);
 

@@ -18,6 +18,7 @@
 #include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
 #include "plugin/base/staged_output.h"
+#include "plugin/run/file_hashes.h"
 #include "plugin/run/part_files.h"
 #include "plugin/run/run_stages.h"
 #include "plugin/run/run_steps.h"
@@ -99,6 +100,11 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   }
   Result<StagedOutput> output = StagedOutput::Create(folder);
   if (!output.ok()) return output.status();
+  const Options& options = settings.options;
+  // Before they are used, so that no change in between goes unnoticed.
+  const auto image_hashes =
+      HashImages(input->scene, options.runtime.num_threads, progress);
+  if (!image_hashes.ok()) return image_hashes.status();
   RunStages stages(folder / "stages", progress, record);
   Result<SceneStages> found = stages.Run(input->model, input->scene, nullptr);
   if (!found.ok()) return found.status();
@@ -116,7 +122,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   Status status = WriteEdges(output->folder() / kPartEdgesName, edges);
   if (status.ok()) {
     status = WritePartResult(output->folder() / kPartResultName,
-                             PartKey(*plan, part_idx, settings.options),
+                             PartKey(*plan, part_idx, options, *image_hashes),
                              part);
   }
   if (status.ok()) {
@@ -150,11 +156,14 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   record.settings.input_path = fs::absolute(model_path);
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
+  const auto image_hashes =
+      HashImages(input->scene, settings.options.runtime.num_threads, progress);
+  if (!image_hashes.ok()) return image_hashes.status();
 
   const Stopwatch since_join;
   progress.Update(kJoinStage, 0, 0);
   Result<PartFiles> parts =
-      PartFiles::Open(*plan, settings.options, folder, progress);
+      PartFiles::Open(*plan, settings.options, *image_hashes, folder, progress);
   if (!parts.ok()) return parts.status();
   const auto curves =
       JoinParts(plan->partition, *parts, input->scene, settings.options);

@@ -31,7 +31,7 @@ Result<RunRecord> RunPart(const RunSettings& settings,
 
 // Merges the parts, and writes the files that RunWorkspace would write.
 // Errors as RunWorkspace; kNotFound, too, with the parts that are still to be
-// reconstructed, or again because plan or options are others.
+// reconstructed, or again because images, masks or options are others.
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress);
 
 // Whether RunMerge wrote the results in `folder`, by their report.json.

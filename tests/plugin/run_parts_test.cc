@@ -117,7 +117,7 @@ TEST_F(RunParts, GoOnAfterAPartIsLost) {
   fs::remove(parts_ / "parts/1/part.bin");
   fs::remove(parts_ / "parts/1/stages/sketch.bin");
   EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
-  EXPECT_THAT(MergeStatus().message(), HasSubstr("options: 1;"));
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("not there: 1;"));
 
   settings_.options.runtime.num_threads = 1;
   Plan();  // the same, so the other parts stay
@@ -127,7 +127,39 @@ TEST_F(RunParts, GoOnAfterAPartIsLost) {
 
   settings_.options.validation.max_angle_deg = 14;
   EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
-  EXPECT_THAT(MergeStatus().message(), HasSubstr("options: 0, 1"));
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0, 1"));
+}
+
+TEST_F(RunParts, ChangedImagesAndMasksAreNoticed) {
+  MakeStreet(80);
+  ReconstructAll();
+  MergeAll();
+  const auto plan = ReadPlan(parts_ / "parts");
+  ASSERT_TRUE(plan.ok());
+  ASSERT_EQ(plan->partition.parts[0].view_idxs.front(), 0);
+  ASSERT_GT(plan->partition.parts[1].view_idxs.front(), 0);
+  const fs::path path = street_ / "images/view_000.png";
+  const std::string before = *ReadFile(path);
+
+  fs::copy_file(street_ / "images/view_001.png",
+                path,
+                fs::copy_options::overwrite_existing);
+  EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0;"));
+  Reconstruct(0);
+  MergeAll();
+
+  ASSERT_TRUE(WriteFileAtomically(path, before).ok());
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0;"));
+  Reconstruct(0);
+  // The time of a file does not count.
+  fs::last_write_time(path, fs::file_time_type::clock::now());
+  MergeAll();
+
+  settings_.mask_path = street_ / "masks";
+  fs::create_directories(settings_.mask_path);
+  fs::copy_file(path, settings_.mask_path / "view_000.png.png");
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0;"));
 }
 
 TEST_F(RunParts, ReadOnlyTheirOwnImages) {

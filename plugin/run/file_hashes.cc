@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plugin/run/file_hashes.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "base/cancelled.h"
+#include "base/parallel.h"
+#include "io/stage_io.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Goes on from `hash` with the bytes of a file and their number.
+Status AddFile(const fs::path& path, std::uint64_t& hash) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return {StatusCode::kNotFound,
+            "cannot open " + path.string() + "; check that it may be read"};
+  }
+  std::vector<char> buffer(1 << 20);
+  std::uint64_t num_bytes = 0;
+  while (file) {
+    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    const auto num_read = static_cast<std::size_t>(file.gcount());
+    hash = HashBytes({buffer.data(), num_read}, hash);
+    num_bytes += num_read;
+  }
+  if (file.bad()) {
+    return {StatusCode::kDataLoss,
+            "cannot read " + path.string() + " to its end; copy it again"};
+  }
+  hash = HashBytes(":" + std::to_string(num_bytes), hash);
+  return {};
+}
+
+Result<std::uint64_t> HashFiles(const std::vector<fs::path>& paths) {
+  std::uint64_t hash = HashBytes("");
+  for (const fs::path& path : paths) {
+    Status status = AddFile(path, hash);
+    if (!status.ok()) return status;
+  }
+  return hash;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint64_t>> HashImages(const Scene& scene,
+                                              int num_threads,
+                                              RunProgress& progress) {
+  constexpr const char* kName = "hash_images";
+  const std::size_t num_views = scene.views.size();
+  std::vector<std::uint64_t> hashes(num_views);
+  std::vector<Status> statuses(num_views);
+  progress.Update(kName, 0, 0);
+  ParallelForWhile(
+      num_views,
+      num_threads,
+      [&](std::size_t i) {
+        const View& view = scene.views[i];
+        std::vector<fs::path> paths = {view.image_path};
+        if (!view.mask_path.empty()) paths.push_back(view.mask_path);
+        const Result<std::uint64_t> hash = HashFiles(paths);
+        if (hash.ok()) hashes[i] = *hash;
+        statuses[i] = hash.status();
+        return hash.ok();
+      },
+      [&](std::size_t num_done) {
+        return progress.Update(
+            kName, static_cast<int>(num_done), static_cast<int>(num_views));
+      });
+  for (const Status& status : statuses) {
+    if (!status.ok()) return status;
+  }
+  if (progress.IsCancelled()) return CancelledStatus();
+  progress.Finish();
+  return hashes;
+}
+
+}  // namespace curvix
