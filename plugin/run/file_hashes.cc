@@ -2,7 +2,6 @@
 #include "plugin/run/file_hashes.h"
 
 #include <cstddef>
-#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -79,6 +78,17 @@ Result<std::vector<std::uint64_t>> HashImages(const Scene& scene,
   if (progress.IsCancelled()) return CancelledStatus();
   progress.Finish();
   return hashes;
+}
+
+Result<std::uint64_t> HashModel(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (const char* name : {"cameras", "images", "points3D"}) {
+    for (const char* extension : {".bin", ".txt"}) {
+      const fs::path path = folder / (std::string(name) + extension);
+      if (fs::exists(path)) paths.push_back(path);
+    }
+  }
+  return HashFiles(paths);
 }
 
 }  // namespace curvix

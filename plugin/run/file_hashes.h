@@ -7,6 +7,7 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "plugin/base/progress.h"
@@ -18,5 +19,8 @@ namespace curvix {
 Result<std::vector<std::uint64_t>> HashImages(const Scene& scene,
                                               int num_threads,
                                               RunProgress& progress);
+
+// Of cameras, images and points in the folder of a COLMAP model.
+Result<std::uint64_t> HashModel(const std::filesystem::path& folder);
 
 }  // namespace curvix

@@ -2,6 +2,7 @@
 // A scene in parts, on disk: parts/ among the results.
 //
 //   plan.json         the partition, for people too
+//   model_hash.txt    hash of the files of the model that was divided
 //   scene/*.bin       the model of the scene without its points
 //   <k>/sparse/*.bin  the model of part k: its views, and the points they see
 //   <k>/part.bin      what part k gave (io/stage_io.h)

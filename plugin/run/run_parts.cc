@@ -29,6 +29,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPartsName = "parts";
+// The hash of the files of the model that was divided. The model itself may be
+// too large for the memory of a merge.
+constexpr const char* kModelHashName = "model_hash.txt";
 // The stage of a run that no other kind of run has.
 constexpr const char* kJoinStage = "join_parts";
 
@@ -45,6 +48,9 @@ Result<ScenePartition> Partition(const RunSettings& settings,
                                  RunProgress& progress) {
   const Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
+  const Result<std::uint64_t> hash = HashModel(workspace->model_path);
+  if (!hash.ok()) return hash.status();
+  const std::string hash_text = std::to_string(*hash);
   RunRecord record = RecordOf(settings);
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
@@ -58,16 +64,43 @@ Result<ScenePartition> Partition(const RunSettings& settings,
       ReadPlan(workspace->output_path / kPartsName);
   if (present.ok() && present->text == PlanJson(*partition, input->scene)) {
     progress.Note("The plan is there already, and stays");
+    Status status = WriteFileAtomically(
+        workspace->output_path / kPartsName / kModelHashName, hash_text);
+    if (!status.ok()) return status;
     return partition;
   }
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
   Status status = WritePlan(
       *partition, input->scene, input->model, output->folder() / kPartsName);
+  if (status.ok()) {
+    status = WriteFileAtomically(output->folder() / kPartsName / kModelHashName,
+                                 hash_text);
+  }
   if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   if (status.ok()) status = output->Publish();
   if (!status.ok()) return status;
   return partition;
+}
+
+// Those of a model that 'partition' has written.
+Status CheckImagesAreThere(const WorkspaceScene& input) {
+  if (input.missing_images.empty()) return {};
+  return {StatusCode::kNotFound,
+          "image " + input.missing_images.front() + " is gone; bring it back " +
+              "or run 'colmap_curvix partition' again"};
+}
+
+// kNotFound if the model is no longer the one that was divided.
+Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
+  const Result<std::uint64_t> hash = HashModel(model_path);
+  if (!hash.ok()) return hash.status();
+  const Result<std::string> divided = ReadFile(folder / kModelHashName);
+  if (divided.ok() && *divided == std::to_string(*hash)) return {};
+  return {StatusCode::kNotFound,
+          "the model " + model_path.string() +
+              " has changed since it was divided; run 'colmap_curvix " +
+              "partition' again"};
 }
 
 Result<RunRecord> ReconstructPart(const RunSettings& settings,
@@ -92,12 +125,8 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   RunRecord record = RecordOf(settings);
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
-  if (!input->missing_images.empty()) {
-    return Status(StatusCode::kNotFound,
-                  "image " + input->missing_images.front() + " of part " +
-                      std::to_string(part_idx) + " is gone; bring it back or " +
-                      "run 'colmap_curvix partition' again");
-  }
+  Status status = CheckImagesAreThere(*input);
+  if (!status.ok()) return status;
   Result<StagedOutput> output = StagedOutput::Create(folder);
   if (!output.ok()) return output.status();
   const Options& options = settings.options;
@@ -119,7 +148,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
     Count(traced.curve, record.result);
   }
   record.result.num_edges_3d = part.num_core_edges_3d;
-  Status status = WriteEdges(output->folder() / kPartEdgesName, edges);
+  status = WriteEdges(output->folder() / kPartEdgesName, edges);
   if (status.ok()) {
     status = WritePartResult(output->folder() / kPartResultName,
                              PartKey(*plan, part_idx, options, *image_hashes),
@@ -153,6 +182,15 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   RunRecord record = RecordOf(settings);
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
+  Status status = CheckImagesAreThere(*input);
+  if (status.ok()) status = CheckModelIsSame(model_path, folder);
+  if (!status.ok()) return status;
+  if (input->scene.views.size() != plan->num_views) {
+    return Status(StatusCode::kDataLoss,
+                  workspace->model_path.string() +
+                      " does not fit the plan; remove it and run "
+                      "'colmap_curvix partition' again");
+  }
   record.settings.input_path = fs::absolute(model_path);
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
@@ -173,21 +211,20 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
       {"parts", static_cast<std::int64_t>(plan->partition.parts.size())},
       {"curves", static_cast<std::int64_t>((*curves)->size())}};
   record.result.num_edges_2d = parts->num_edges_2d();
-  Status status =
-      WriteFindings(input->scene,
-                    {**curves,
-                     parts->num_edges_3d(),
-                     [&](const fs::path& path) {
-                       return ConcatenatePlyEdges(path,
-                                                  EdgesPaths(*plan, folder));
-                     },
-                     (*curves)->size() > 0
-                         ? ""
-                         : "no part has any; report.json in the folders "
-                           "of the parts says more"},
-                    output->folder(),
-                    record)
-          .status();
+  status = WriteFindings(input->scene,
+                         {**curves,
+                          parts->num_edges_3d(),
+                          [&](const fs::path& path) {
+                            return ConcatenatePlyEdges(
+                                path, EdgesPaths(*plan, folder));
+                          },
+                          (*curves)->size() > 0
+                              ? ""
+                              : "no part has any; report.json in the folders "
+                                "of the parts says more"},
+                         output->folder(),
+                         record)
+               .status();
   if (status.ok()) {
     status = FinishRun(since_start, *output, progress, record);
   }

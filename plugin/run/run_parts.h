@@ -30,8 +30,9 @@ Result<RunRecord> RunPart(const RunSettings& settings,
                           RunProgress& progress);
 
 // Merges the parts, and writes the files that RunWorkspace would write.
-// Errors as RunWorkspace; kNotFound, too, with the parts that are still to be
-// reconstructed, or again because images, masks or options are others.
+// Errors as RunWorkspace; kNotFound, too, if the model has changed since it was
+// divided, or with the parts that are still to be reconstructed, or again
+// because images, masks or options are others.
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress);
 
 // Whether RunMerge wrote the results in `folder`, by their report.json.

@@ -162,6 +162,30 @@ TEST_F(RunParts, ChangedImagesAndMasksAreNoticed) {
   EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0;"));
 }
 
+TEST_F(RunParts, NeedTheModelAndTheImagesThatWereDivided) {
+  MakeStreet(80);
+  ReconstructAll();
+  const fs::path image = street_ / "images/view_047.png";
+  fs::rename(image, street_ / "elsewhere.png");
+  EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("view_047.png is gone"));
+  fs::rename(street_ / "elsewhere.png", image);
+
+  const fs::path path = street_ / "sparse/0/points3D.bin";
+  const std::string before = *ReadFile(path);
+  constexpr std::size_t kPosition = 16;
+  constexpr std::size_t kError = kPosition + 3 * 8 + 3;
+  for (const std::size_t at : {kPosition, kError}) {
+    std::string bytes = before;
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    ASSERT_TRUE(WriteFileAtomically(path, bytes).ok());
+    EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
+    EXPECT_THAT(MergeStatus().message(), HasSubstr("has changed"));
+  }
+  ASSERT_TRUE(WriteFileAtomically(path, before).ok());
+  MergeAll();
+}
+
 TEST_F(RunParts, ReadOnlyTheirOwnImages) {
   MakeStreet(80);
   const auto plan = ReadPlan(parts_ / "parts");
@@ -176,7 +200,7 @@ TEST_F(RunParts, ReadOnlyTheirOwnImages) {
   fs::remove(street_ / "images/view_000.png");
   const Status status = RunPart(settings_, 0, progress_).status();
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
-  EXPECT_THAT(status.message(), HasSubstr("view_000.png of part 0 is gone"));
+  EXPECT_THAT(status.message(), HasSubstr("view_000.png is gone"));
   EXPECT_THAT(RunPart(settings_, 99, progress_).status().message(),
               HasSubstr("there is no part 99"));
 }
