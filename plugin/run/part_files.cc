@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -181,6 +182,9 @@ ColmapModel ModelOfViews(const ColmapModel& model,
   return part;
 }
 
+constexpr const char* kModelFiles[] = {
+    "cameras.bin", "images.bin", "points3D.bin"};
+
 template <typename T>
 std::vector<T> Chosen(const std::vector<T>& values,
                       const std::vector<int>& idxs) {
@@ -237,17 +241,40 @@ Status WritePlan(const ScenePartition& partition,
                  const Scene& scene,
                  const ColmapModel& model,
                  const fs::path& folder) {
-  std::vector<int> all(scene.views.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  Status status = WriteColmapModel(ModelOfViews(model, scene, all, false),
-                                   folder / "scene");
-  for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
-    status = WriteColmapModel(
-        ModelOfViews(model, scene, partition.parts[i].view_idxs, true),
-        PartFolder(folder, static_cast<int>(i)) / "sparse");
-  }
+  Status status = RestoreModels(partition, scene, model, folder);
   if (!status.ok()) return status;
   return WriteFileAtomically(folder / kPlanName, PlanJson(partition, scene));
+}
+
+Status RestoreModels(const ScenePartition& partition,
+                     const Scene& scene,
+                     const ColmapModel& model,
+                     const fs::path& folder) {
+  std::vector<int> all(scene.views.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
+  Status status;
+  if (!CheckModelIsThere(folder / "scene").ok()) {
+    status = WriteColmapModel(ModelOfViews(model, scene, all, false),
+                              folder / "scene");
+  }
+  for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
+    const fs::path part = PartFolder(folder, static_cast<int>(i)) / "sparse";
+    if (CheckModelIsThere(part).ok()) continue;
+    status = WriteColmapModel(
+        ModelOfViews(model, scene, partition.parts[i].view_idxs, true), part);
+  }
+  return status;
+}
+
+Status CheckModelIsThere(const fs::path& folder) {
+  std::error_code error;
+  for (const char* file : kModelFiles) {
+    if (fs::exists(folder / file, error)) continue;
+    return {StatusCode::kNotFound,
+            "there is no " + (folder / file).string() +
+                "; run 'colmap_curvix partition' again, which brings it back"};
+  }
+  return {};
 }
 
 Result<PartPlan> ReadPlan(const fs::path& folder) {

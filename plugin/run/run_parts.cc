@@ -43,6 +43,15 @@ RunRecord RecordOf(const RunSettings& settings) {
   return record;
 }
 
+// Whether any part of the plan is done.
+bool HasResults(const PartPlan& plan, const fs::path& folder) {
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    const fs::path part = PartFolder(folder, static_cast<int>(i));
+    if (fs::exists(part / kPartResultName)) return true;
+  }
+  return false;
+}
+
 Result<ScenePartition> Partition(const RunSettings& settings,
                                  int max_views_per_part,
                                  RunProgress& progress) {
@@ -60,17 +69,26 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   if (!partition.ok()) return partition;
   progress.Finish(std::to_string(partition->parts.size()) + " parts");
 
-  const Result<PartPlan> present =
-      ReadPlan(workspace->output_path / kPartsName);
+  const fs::path folder = workspace->output_path / kPartsName;
+  const Result<PartPlan> present = ReadPlan(folder);
+  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  if (!output.ok()) return output.status();
   if (present.ok() && present->text == PlanJson(*partition, input->scene)) {
     progress.Note("The plan is there already, and stays");
-    Status status = WriteFileAtomically(
-        workspace->output_path / kPartsName / kModelHashName, hash_text);
+    Status status =
+        RestoreModels(*partition, input->scene, input->model, folder);
+    if (status.ok()) {
+      status = WriteFileAtomically(folder / kModelHashName, hash_text);
+    }
     if (!status.ok()) return status;
     return partition;
   }
-  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
-  if (!output.ok()) return output.status();
+  if (present.ok() && HasResults(*present, folder)) {
+    return Status(StatusCode::kInvalidArgument,
+                  "the plan in " + folder.string() +
+                      " is another one, and parts of it are done; to divide "
+                      "anew, remove this folder");
+  }
   Status status = WritePlan(
       *partition, input->scene, input->model, output->folder() / kPartsName);
   if (status.ok()) {
@@ -121,11 +139,13 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   }
   const fs::path folder = PartFolder(parts, part_idx);
   workspace->model_path = folder / "sparse";
+  Status status = CheckModelIsThere(workspace->model_path);
+  if (!status.ok()) return status;
   workspace->output_path = folder;
   RunRecord record = RecordOf(settings);
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
-  Status status = CheckImagesAreThere(*input);
+  status = CheckImagesAreThere(*input);
   if (!status.ok()) return status;
   Result<StagedOutput> output = StagedOutput::Create(folder);
   if (!output.ok()) return output.status();
@@ -179,10 +199,12 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   const Result<PartPlan> plan = ReadPlan(folder);
   if (!plan.ok()) return plan.status();
   workspace->model_path = folder / "scene";
+  Status status = CheckModelIsThere(workspace->model_path);
+  if (!status.ok()) return status;
   RunRecord record = RecordOf(settings);
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
-  Status status = CheckImagesAreThere(*input);
+  status = CheckImagesAreThere(*input);
   if (status.ok()) status = CheckModelIsSame(model_path, folder);
   if (!status.ok()) return status;
   if (input->scene.views.size() != plan->num_views) {

@@ -15,8 +15,9 @@ namespace curvix {
 
 // Divides the scene of a workspace as PartitionScene() does, and writes parts/
 // (part_files.h) into the folder of its results. If the same plan is there
-// already, it stays, and so do the results of its parts; another one goes with
-// all of them. Errors as RunWorkspace and PartitionScene.
+// already, it stays, and so do the results of its parts; models that are gone
+// come back. Errors as RunWorkspace and PartitionScene; kInvalidArgument, too,
+// if parts of another plan are done.
 Result<ScenePartition> RunPartition(const RunSettings& settings,
                                     int max_views_per_part,
                                     RunProgress& progress);

@@ -171,6 +171,8 @@ TEST_F(RunParts, NeedTheModelAndTheImagesThatWereDivided) {
   EXPECT_THAT(MergeStatus().message(), HasSubstr("view_047.png is gone"));
   fs::rename(street_ / "elsewhere.png", image);
 
+  // The position of a point counts; its error, which no stage reads, is a
+  // reason to look at the plan again, which stays.
   const fs::path path = street_ / "sparse/0/points3D.bin";
   const std::string before = *ReadFile(path);
   constexpr std::size_t kPosition = 16;
@@ -181,9 +183,42 @@ TEST_F(RunParts, NeedTheModelAndTheImagesThatWereDivided) {
     ASSERT_TRUE(WriteFileAtomically(path, bytes).ok());
     EXPECT_EQ(MergeStatus().code(), StatusCode::kNotFound);
     EXPECT_THAT(MergeStatus().message(), HasSubstr("has changed"));
+    EXPECT_EQ(RunPartition(settings_, kMaxViews, progress_).ok(), at == kError);
   }
-  ASSERT_TRUE(WriteFileAtomically(path, before).ok());
   MergeAll();
+}
+
+TEST_F(RunParts, AnotherPlanDoesNotTakeThePlaceOfResults) {
+  MakeStreet(80);
+  EXPECT_TRUE(RunPartition(settings_, 48, progress_).ok());
+  Plan();
+  Reconstruct(0);
+  const Status status = RunPartition(settings_, 48, progress_).status();
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("parts of it are done"));
+  EXPECT_TRUE(fs::exists(parts_ / "parts/0/part.bin"));
+}
+
+TEST_F(RunParts, LostFoldersAndBrokenResultsComeBack) {
+  MakeStreet(80);
+  ReconstructAll();
+  MergeAll();
+  const std::string before = *ReadFile(parts_ / "curves.json");
+  fs::resize_file(parts_ / "parts/0/part.bin", 100);
+  fs::remove_all(parts_ / "parts/1");
+  fs::remove_all(parts_ / "parts/scene");
+  for (const Status& status :
+       {RunPart(settings_, 1, progress_).status(), MergeStatus()}) {
+    EXPECT_EQ(status.code(), StatusCode::kNotFound);
+    EXPECT_THAT(status.message(), HasSubstr("'colmap_curvix partition' again"));
+  }
+  Plan();
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("not there: 1; "));
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0; "));
+  Reconstruct(0);
+  Reconstruct(1);
+  MergeAll();
+  EXPECT_EQ(*ReadFile(parts_ / "curves.json"), before);
 }
 
 TEST_F(RunParts, ReadOnlyTheirOwnImages) {
