@@ -39,8 +39,10 @@ ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
     return RunPart(settings, part_idx, progress);
   });
   if (!record.ok()) return Fail(record.status());
-  std::cout << "\npart " << part_idx << ": " << record->result.num_curves
-            << " curves, in " << record->result.output_path.string() << "\n";
+  const ResultSummary& result = record->result;
+  std::cout << "\npart " << part_idx << ": " << result.num_curves << " curves";
+  if (result.num_curves == 0) std::cout << " (" << result.why_empty << ")";
+  std::cout << ", in " << result.output_path.string() << "\n";
   return kExitSuccess;
 }
 

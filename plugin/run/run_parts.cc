@@ -43,6 +43,22 @@ RunRecord RecordOf(const RunSettings& settings) {
   return record;
 }
 
+// Parts whose views are mostly those of others, too, are a waste.
+void NoteOverlap(const ScenePartition& partition, RunProgress& progress) {
+  constexpr std::size_t kMany = 3;
+  std::size_t num_views = 0;
+  std::size_t num_own_views = 0;
+  for (const ScenePart& part : partition.parts) {
+    num_views += part.view_idxs.size();
+    num_own_views += part.own_view_idxs.size();
+  }
+  if (num_views <= kMany * num_own_views) return;
+  progress.Note("Parts share most of their views: each view is in about " +
+                std::to_string(num_views / num_own_views) +
+                " parts, and costs as many times as much; larger parts share "
+                "less (--max_views_per_part)");
+}
+
 // Whether any part of the plan is done.
 bool HasResults(const PartPlan& plan, const fs::path& folder) {
   for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
@@ -68,6 +84,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
       PartitionScene(input->scene, max_views_per_part);
   if (!partition.ok()) return partition;
   progress.Finish(std::to_string(partition->parts.size()) + " parts");
+  NoteOverlap(*partition, progress);
 
   const fs::path folder = workspace->output_path / kPartsName;
   const Result<PartPlan> present = ReadPlan(folder);
@@ -168,6 +185,10 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
     Count(traced.curve, record.result);
   }
   record.result.num_edges_3d = part.num_core_edges_3d;
+  if (part.curves.empty()) {
+    const std::string& why = reconstruction.report.why_empty;
+    record.result.why_empty = why.empty() ? "all lie in other parts" : why;
+  }
   status = WriteEdges(output->folder() / kPartEdgesName, edges);
   if (status.ok()) {
     status = WritePartResult(output->folder() / kPartResultName,

@@ -188,6 +188,24 @@ TEST_F(RunParts, NeedTheModelAndTheImagesThatWereDivided) {
   MergeAll();
 }
 
+TEST_F(RunParts, ThatShareMostOfTheirViewsAreNoted) {
+  MakeStreet(120);
+  EXPECT_THAT(text_.str(), testing::Not(HasSubstr("share most")));
+  const auto plan = RunPartition(settings_, 42, progress_);
+  ASSERT_TRUE(plan.ok()) << plan.status().message();
+  EXPECT_GT(plan->parts.size(), 4u);
+  EXPECT_THAT(text_.str(), HasSubstr("each view is in about 4 parts"));
+}
+
+TEST_F(RunParts, WithoutCurvesSayWhy) {
+  MakeStreet(80);
+  settings_.options.curve_filter.min_length_px = 1e6;
+  const auto record = RunPart(settings_, 0, progress_);
+  ASSERT_TRUE(record.ok()) << record.status().message();
+  EXPECT_EQ(record->result.num_curves, 0);
+  EXPECT_THAT(record->result.why_empty, HasSubstr("filter"));
+}
+
 TEST_F(RunParts, AnotherPlanDoesNotTakeThePlaceOfResults) {
   MakeStreet(80);
   EXPECT_TRUE(RunPartition(settings_, 48, progress_).ok());
