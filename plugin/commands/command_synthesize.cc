@@ -78,7 +78,7 @@ FlagSection ImageFlags(SynthesizeSettings* settings) {
       {RowFlag({.name = "num_views",
                 .field = &o.num_views,
                 .min = 3,
-                .max = 10000,
+                .max = 999,
                 .help = "images: all around, along a facade, or in a room"}),
        RowFlag({.name = "width",
                 .field = &o.width,
