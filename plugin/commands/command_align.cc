@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
+#include <string>
+#include <system_error>
 #include <utility>
 
+#include "base/file_io.h"
 #include "plugin/align/align_workspace.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
+#include "plugin/export/alignment_file.h"
 #include "plugin/run/run_parts.h"
+#include "plugin/run/run_steps.h"
 
 namespace curvix {
 namespace {
@@ -106,6 +111,19 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
                      folder.string()});
 }
 
+// An alignment that the results do not have would mislead.
+void BringBackAlignment(const fs::path& path,
+                        const Result<std::string>& older) {
+  Status status;
+  if (older.ok()) {
+    status = WriteFileAtomically(path, *older);
+  } else {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+  if (status.ok()) std::cerr << path.string() << " is as it was before.\n";
+}
+
 }  // namespace
 
 ExitCode RunAlign(const Arguments& arguments) {
@@ -116,13 +134,19 @@ ExitCode RunAlign(const Arguments& arguments) {
                    WithDistancesJoined(arguments),
                    Sections(&settings, &write_results));
   if (code) return *code;
+  const auto workspace = FindInput(settings.run);
+  if (!workspace.ok()) return Fail(workspace.status());
+  const fs::path path = workspace->output_path / kAlignmentName;
+  const Result<std::string> older = ReadFile(path);
   const auto summary = WithProgress([&](ProgressPrinter& progress) {
     return AlignWorkspace(settings, progress);
   });
   if (!summary.ok()) return Fail(summary.status());
   std::cout << summary->text << std::flush;
   if (!write_results) return kExitSuccess;
-  return WriteResultsAgain(settings, summary->output_path);
+  const ExitCode written = WriteResultsAgain(settings, summary->output_path);
+  if (written != kExitSuccess) BringBackAlignment(path, older);
+  return written;
 }
 
 }  // namespace curvix

@@ -104,6 +104,23 @@ TEST_F(Align, WritesAgainWhatReconstructWroteBesideAPlanOfParts) {
   EXPECT_TRUE(Curves().contains("alignment"));
 }
 
+TEST_F(Align, StaysAsItWasIfTheResultsCannotBeWrittenAgain) {
+  const fs::path alignment = results_ / "alignment.json";
+  const fs::path image = workspace_ / "images/view_003.png";
+  const std::string bytes = Read(image);
+  std::ofstream(image) << "no image";
+  ExpectError("align --axes auto", "view_003.png");
+  EXPECT_FALSE(fs::exists(alignment));
+  EXPECT_EQ(Curves(), before_);
+
+  std::ofstream(image, std::ios::binary) << bytes;
+  ASSERT_EQ(RunAlign("--axes auto").exit_code, 0);
+  const std::string older = Read(alignment);
+  std::ofstream(image) << "no image";
+  ExpectError("align --distance 0 1 2", "is as it was before");
+  EXPECT_EQ(Read(alignment), older);
+}
+
 TEST_F(Align, TellsLargeUncertaintiesWithoutExponents) {
   const Outcome outcome = RunAlign("--distance 0 1 250 500");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
