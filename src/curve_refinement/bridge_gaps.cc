@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
 #include "curve_refinement/fill_gap.h"
@@ -46,31 +47,26 @@ std::optional<double> Miss(const EndFit& from,
 class GapFinder {
  public:
   GapFinder(const std::vector<Curve>& curves,
-            const std::vector<PosedView>& views,
+            const std::vector<EndFit>& ends,
             const ImageSupport& images,
             const CurveRefinementOptions& options)
-      : curves_(curves), images_(images), options_(options) {
-    for (const Curve& curve : curves) {
-      ends_.push_back(FitLongEnd(curve, true, views));
-      ends_.push_back(FitLongEnd(curve, false, views));
-    }
-  }
+      : curves_(curves), ends_(ends), images_(images), options_(options) {}
 
-  std::vector<EndPair> Pairs() const {
+  std::vector<EndPair> Pairs(int num_threads) const {
     std::vector<Eigen::Vector3d> positions;
     for (const EndFit& end : ends_) positions.push_back(end.position);
     const PointTree tree(std::move(positions));
-    std::vector<EndPair> pairs;
-    for (EndIdx a = 0; a < ends_.size(); ++a) {
-      if (!(ends_[a].length > 0)) continue;
+    std::vector<std::vector<EndPair>> pairs(ends_.size());
+    ParallelFor(ends_.size(), num_threads, [&](EndIdx a) {
+      if (!(ends_[a].length > 0)) return;
       const double reach =
           std::max(options_.max_gap_px * ends_[a].pixel, ends_[a].length);
       for (const EndIdx b : tree.Within(ends_[a].position, reach)) {
         if (b == a) continue;
-        if (const auto cost = Cost(a, b)) pairs.push_back({*cost, a, b});
+        if (const auto cost = Cost(a, b)) pairs[a].push_back({*cost, a, b});
       }
-    }
-    return pairs;
+    });
+    return Concatenate(std::move(pairs));
   }
 
  private:
@@ -118,10 +114,21 @@ class GapFinder {
   }
 
   const std::vector<Curve>& curves_;
+  const std::vector<EndFit>& ends_;
   const ImageSupport& images_;
   const CurveRefinementOptions& options_;
-  std::vector<EndFit> ends_;
 };
+
+// By EndIdx.
+std::vector<EndFit> FitLongEnds(const std::vector<Curve>& curves,
+                                const std::vector<PosedView>& views,
+                                int num_threads) {
+  std::vector<EndFit> ends(2 * curves.size());
+  ParallelFor(ends.size(), num_threads, [&](EndIdx end) {
+    ends[end] = FitLongEnd(curves[ItemOf(end)], IsFront(end), views);
+  });
+  return ends;
+}
 
 // Last samples that leave the curve they end, as next to a corner.
 void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
@@ -139,15 +146,12 @@ void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
 
 // Ends that are tied and run past each other are cut half-way.
 void CutOverlaps(const EndTies& ties,
-                 const std::vector<PosedView>& views,
+                 const std::vector<EndFit>& ends,
                  std::vector<Curve>& curves) {
-  const std::vector<Curve> before = curves;
   for (EndIdx a = 0; a < ties.size(); ++a) {
     if (!ties[a]) continue;
-    const EndIdx b = *ties[a];
-    const EndFit from = FitLongEnd(before[ItemOf(a)], IsFront(a), views);
-    const EndFit to = FitLongEnd(before[ItemOf(b)], IsFront(b), views);
-    const double overlap = -from.ArcLengthTo(to.position);
+    const EndFit& from = ends[a];
+    const double overlap = -from.ArcLengthTo(ends[*ties[a]].position);
     if (!(overlap > 0)) continue;
     CutEnd(curves[ItemOf(a)], IsFront(a), [&](const CurveSample& sample) {
       return from.ArcLengthTo(sample.position) < -overlap / 2;
@@ -155,11 +159,20 @@ void CutOverlaps(const EndTies& ties,
   }
 }
 
+// Joins the pairs of ends that `may_join` is true for.
+template <typename MayJoin>
 std::vector<Curve> Join(std::vector<Curve> curves,
-                        const EndTies& ties,
                         const std::vector<PosedView>& views,
-                        const ImageSupport& images) {
-  CutOverlaps(ties, views, curves);
+                        const ImageSupport& images,
+                        const CurveRefinementOptions& options,
+                        int num_threads,
+                        const MayJoin& may_join) {
+  const std::vector<EndFit> ends = FitLongEnds(curves, views, num_threads);
+  std::vector<EndPair> pairs =
+      GapFinder(curves, ends, images, options).Pairs(num_threads);
+  std::erase_if(pairs, [&](const EndPair& pair) { return !may_join(pair); });
+  const EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
+  CutOverlaps(ties, ends, curves);
   return StringTogetherFilled(std::move(curves), ties, views, images);
 }
 
@@ -168,20 +181,26 @@ std::vector<Curve> Join(std::vector<Curve> curves,
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
                               const ImageSupport& images,
-                              const CurveRefinementOptions& options) {
+                              const CurveRefinementOptions& options,
+                              int num_threads) {
   if (!(options.max_gap_px > 0)) return curves;
-  for (Curve& curve : curves) CutBentEnds(views, curve);
-  std::vector<EndPair> pairs =
-      GapFinder(curves, views, images, options).Pairs();
-  EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
-  curves = Join(std::move(curves), ties, views, images);
-
-  pairs = GapFinder(curves, views, images, options).Pairs();
-  std::erase_if(pairs, [](const EndPair& pair) {
-    return ItemOf(pair.a) != ItemOf(pair.b);
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    CutBentEnds(views, curves[i]);
   });
-  ties = TieCheapestFirst(std::move(pairs), curves.size());
-  return Join(std::move(curves), ties, views, images);
+  curves = Join(std::move(curves),
+                views,
+                images,
+                options,
+                num_threads,
+                [](const EndPair&) { return true; });
+  // Now whole, some close.
+  return Join(
+      std::move(curves),
+      views,
+      images,
+      options,
+      num_threads,
+      [](const EndPair& pair) { return ItemOf(pair.a) == ItemOf(pair.b); });
 }
 
 }  // namespace curvix

@@ -27,6 +27,7 @@ namespace curvix {
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
                               const ImageSupport& images,
-                              const CurveRefinementOptions& options);
+                              const CurveRefinementOptions& options,
+                              int num_threads);
 
 }  // namespace curvix

@@ -12,6 +12,8 @@
 #include <tuple>
 
 #include "base/angles.h"
+#include "base/parallel.h"
+#include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
 
 namespace curvix {
@@ -45,20 +47,21 @@ struct CurveEnd {
 };
 
 std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
-                              const std::vector<PosedView>& views) {
-  std::vector<CurveEnd> ends;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
+                              const std::vector<PosedView>& views,
+                              int num_threads) {
+  std::vector<std::vector<CurveEnd>> ends(curves.size());
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     for (const bool at_back : {false, true}) {
       EndFit fit = FitEnd(curves[i], at_back, {kRoundedPx, kFittedPx}, views);
       if (!(fit.length > 0)) {
         fit = FitEnd(curves[i], at_back, {kShortRoundedPx, kFittedPx}, views);
       }
       if (fit.length > 0) {
-        ends.push_back({i, at_back, fit, fit.outward, fit.position});
+        ends[i].push_back({i, at_back, fit, fit.outward, fit.position});
       }
     }
-  }
-  return ends;
+  });
+  return Concatenate(std::move(ends));
 }
 
 // Without those of curves that were cut where they touch others: two ends in
@@ -156,20 +159,26 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
 }
 
 std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
-                                const CurveRefinementOptions& options) {
-  std::vector<Junction> pairs;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends.size(); ++j) {
-      const double reach = 2 * options.junction_reach_px *
-                           std::min(ends[i].fit.pixel, ends[j].fit.pixel);
-      if ((ends[i].fit.position - ends[j].fit.position).norm() > reach) {
-        continue;
-      }
+                                const CurveRefinementOptions& options,
+                                int num_threads) {
+  std::vector<Eigen::Vector3d> positions;
+  for (const CurveEnd& end : ends) positions.push_back(end.fit.position);
+  const PointTree tree(std::move(positions));
+  std::vector<std::vector<Junction>> pairs_of(ends.size());
+  ParallelFor(ends.size(), num_threads, [&](std::size_t i) {
+    const EndFit& a = ends[i].fit;
+    const auto reach = [&](const EndFit& b) {
+      return 2 * options.junction_reach_px * std::min(a.pixel, b.pixel);
+    };
+    for (const std::size_t j : tree.Within(a.position, reach(a))) {
+      const EndFit& b = ends[j].fit;
+      if (j <= i || (a.position - b.position).norm() > reach(b)) continue;
       if (auto pair = MakeJunction(ends, {i, j}, options)) {
-        pairs.push_back(*std::move(pair));
+        pairs_of[i].push_back(*std::move(pair));
       }
     }
-  }
+  });
+  std::vector<Junction> pairs = Concatenate(std::move(pairs_of));
   std::sort(
       pairs.begin(), pairs.end(), [](const Junction& a, const Junction& b) {
         return std::tie(a.gap_px, a.members) < std::tie(b.gap_px, b.members);
@@ -179,10 +188,11 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
 
 // Pairs by rising gap; a free end may still join the junction of the other one.
 std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
-                                    const CurveRefinementOptions& options) {
+                                    const CurveRefinementOptions& options,
+                                    int num_threads) {
   std::vector<Junction> junctions;
   std::vector<std::optional<std::size_t>> junction_of(ends.size());
-  for (const Junction& pair : FindPairs(ends, options)) {
+  for (const Junction& pair : FindPairs(ends, options, num_threads)) {
     const std::size_t i = pair.members[0], j = pair.members[1];
     if (junction_of[i] && junction_of[j]) continue;
     if (!junction_of[i] && !junction_of[j]) {
@@ -239,11 +249,12 @@ void CarryOn(const CurveEnd& end,
 
 std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
                                    const std::vector<PosedView>& views,
-                                   const CurveRefinementOptions& options) {
+                                   const CurveRefinementOptions& options,
+                                   int num_threads) {
   if (!(options.junction_reach_px > 0)) return curves;
   const std::vector<CurveEnd> ends =
-      WithoutTouches(FitEnds(curves, views), curves);
-  for (const Junction& junction : FormJunctions(ends, options)) {
+      WithoutTouches(FitEnds(curves, views, num_threads), curves);
+  for (const Junction& junction : FormJunctions(ends, options, num_threads)) {
     for (const std::size_t i : junction.members) {
       CarryOn(ends[i], junction.point, curves[ends[i].curve_idx]);
     }

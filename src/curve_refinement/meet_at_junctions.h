@@ -24,6 +24,7 @@ namespace curvix {
 // (cut_at_touches.h), stay. Pixels as in pixel_size.h.
 std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
                                    const std::vector<PosedView>& views,
-                                   const CurveRefinementOptions& options);
+                                   const CurveRefinementOptions& options,
+                                   int num_threads);
 
 }  // namespace curvix

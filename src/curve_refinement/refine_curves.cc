@@ -27,9 +27,9 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   std::vector<Curve> refined =
       SmoothCurves(selected.edges, views, options, num_threads);
   if (options.separate_touching) {
-    refined = SeparateTouching(std::move(refined), views, images);
+    refined = SeparateTouching(std::move(refined), views, images, num_threads);
   }
-  refined = BridgeGaps(std::move(refined), views, images, options);
+  refined = BridgeGaps(std::move(refined), views, images, options, num_threads);
   const ResponseCurve response = options.undo_response_curve
                                      ? EstimateResponseCurve(refined, input)
                                      : ResponseCurve();
@@ -38,7 +38,7 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
     refined = CutAtTouches(std::move(refined), views);
   }
   refined = CutCorners(refined, views, options, num_threads);
-  refined = MeetAtJunctions(std::move(refined), views, options);
+  refined = MeetAtJunctions(std::move(refined), views, options, num_threads);
   refined =
       DropLooseShortCurves(std::move(refined), views, options.min_length_px);
   if (options.keep_occluding_contours) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
 #include "curve_refinement/fill_gap.h"
@@ -78,15 +79,17 @@ class MeetingFinder {
  public:
   MeetingFinder(const std::vector<Curve>& curves,
                 const std::vector<PosedView>& views,
-                const ImageSupport& images)
-      : curves_(curves), images_(images), samples_(curves) {
-    for (const Curve& curve : curves) {
-      ends_.push_back(MakeEnd(curve, true, views));
-      ends_.push_back(MakeEnd(curve, false, views));
-    }
-    for (EndIdx end = 0; end < ends_.size(); ++end) {
-      passages_.push_back(PassagesAt(end));
-    }
+                const ImageSupport& images,
+                int num_threads)
+      : curves_(curves),
+        images_(images),
+        samples_(curves),
+        ends_(2 * curves.size()),
+        passages_(ends_.size()) {
+    ParallelFor(ends_.size(), num_threads, [&](EndIdx end) {
+      ends_[end] = MakeEnd(curves[ItemOf(end)], IsFront(end), views);
+      passages_[end] = PassagesAt(end);
+    });
   }
 
   std::vector<Meeting> Find() const {
@@ -237,8 +240,10 @@ class MeetingFinder {
 // curves. Pixels as in pixel_size.h.
 std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
                                   const std::vector<PosedView>& views,
-                                  const ImageSupport& images) {
-  std::vector<Meeting> meetings = MeetingFinder(curves, views, images).Find();
+                                  const ImageSupport& images,
+                                  int num_threads) {
+  std::vector<Meeting> meetings =
+      MeetingFinder(curves, views, images, num_threads).Find();
   std::sort(meetings.begin(), meetings.end(), [](const auto& x, const auto& y) {
     return std::tie(x.rms_px, x.a, x.b, x.passing_idx) <
            std::tie(y.rms_px, y.a, y.b, y.passing_idx);
@@ -321,9 +326,10 @@ EndTies TieMeetings(const std::vector<Meeting>& meetings,
 
 std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
                                     const std::vector<PosedView>& views,
-                                    const ImageSupport& images) {
+                                    const ImageSupport& images,
+                                    int num_threads) {
   while (true) {  // each time there are fewer open ends
-    const auto meetings = FindMeetings(curves, views, images);
+    const auto meetings = FindMeetings(curves, views, images, num_threads);
     if (meetings.empty()) return curves;
     const EndTies ties = TieMeetings(meetings, views, curves);
     curves = StringTogetherFilled(std::move(curves), ties, views, images);

@@ -20,6 +20,7 @@ inline constexpr double kBentEndPx = 3;
 // (fill_gap.h).
 std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
                                     const std::vector<PosedView>& views,
-                                    const ImageSupport& images);
+                                    const ImageSupport& images,
+                                    int num_threads);
 
 }  // namespace curvix

@@ -21,7 +21,7 @@ std::vector<Curve> BridgeIn(
   EdgeMap map;
   map.edges = edges;
   const std::vector<EdgeMap> maps(views.size(), map);
-  return BridgeGaps(curves, views, ImageSupport(views, maps, 1), options);
+  return BridgeGaps(curves, views, ImageSupport(views, maps, 1), options, 1);
 }
 
 std::vector<Curve> Bridge(const std::vector<Curve>& curves) {

@@ -19,7 +19,8 @@ struct TouchingScene {
   std::vector<EdgeMap> edge_maps = SupportByEdges(views, truth);
 
   std::vector<Curve> Separate(const std::vector<Curve>& curves) const {
-    return SeparateTouching(curves, views, ImageSupport(views, edge_maps, 1));
+    return SeparateTouching(
+        curves, views, ImageSupport(views, edge_maps, 1), 1);
   }
 };
 
