@@ -23,10 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Text(double value) { return ShortText(value, 6); }
-
 // Above it, something that is given is wrong.
 constexpr double kLargeMisfit = 3;
+
+std::string Text(double value) { return ShortText(value, 6); }
 
 // Two digits, or all before the point.
 std::string SigmaText(double sigma) {
@@ -252,8 +252,9 @@ Result<AlignSummary> Aligner::Run() {
   if (alignment.has_scale) DescribeScale(*result);
   if (!input_.positions.empty()) DescribePositions(*result);
   if (result->misfit > kLargeMisfit) {
-    Say("What is given contradicts itself: it is " + SigmaText(result->misfit) +
-        " of its standard deviations off (root mean square). Look for a wrong "
+    Say("What is given contradicts itself: its errors are " +
+        SigmaText(result->misfit) +
+        " times what they should be (root mean square). Look for a wrong "
         "number, a wrong node or a moved marker.");
   }
   if (alignment.has_rotation) {

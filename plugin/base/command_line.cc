@@ -35,16 +35,33 @@ po::options_description Describe(const std::vector<FlagSection>& sections) {
   return description;
 }
 
+// Options of earlier versions that are constants now, and their values.
+const Values& FormerOptions() {
+  static const Values options = {{"EdgeDetection.border_px", "4"},
+                                 {"EdgeDetection.short_contour_factor", "2"},
+                                 {"CurveGrowth.min_relative_evidence", "0.3"},
+                                 {"CurveGrowth.max_gap_px", "10"},
+                                 {"CurveRefinement.max_junction_gap_px", "1.5"},
+                                 {"CurveFitting.common_error_px", "0.1"}};
+  return options;
+}
+
 Status UnknownFlag(std::string token,
                    const std::vector<FlagSection>& sections) {
   token = token.substr(0, token.find('='));
+  const std::size_t dashes = token.find_first_not_of('-');
+  const std::string name =
+      dashes == std::string::npos ? token : token.substr(dashes);
+  const auto former = FormerOptions().find(name);
+  if (former != FormerOptions().end()) {
+    return BadArgument("'" + token + "' is no longer an option; it is always " +
+                       former->second);
+  }
   std::vector<std::string> names = {"help", "help_all"};
   for (const FlagSection& section : sections) {
     for (const Flag& flag : section.flags) names.push_back(flag.name);
   }
-  const std::size_t dashes = token.find_first_not_of('-');
-  const std::string nearest = NearestName(
-      dashes == std::string::npos ? token : token.substr(dashes), names);
+  const std::string nearest = NearestName(name, names);
   return BadArgument("There is no option '" + token + "'" +
                      (nearest.empty() ? "; --help_all lists all options"
                                       : "; did you mean '--" + nearest + "'?"));
@@ -103,28 +120,15 @@ bool IsFlag(const std::string& name, const std::vector<FlagSection>& sections) {
   return false;
 }
 
-// Options of earlier versions that are constants now, and their values.
-const Values& FormerOptions() {
-  static const Values options = {{"EdgeDetection.border_px", "4"},
-                                 {"EdgeDetection.short_contour_factor", "2"},
-                                 {"CurveGrowth.min_relative_evidence", "0.3"},
-                                 {"CurveGrowth.max_gap_px", "10"},
-                                 {"CurveRefinement.max_junction_gap_px", "1.5"},
-                                 {"CurveFitting.common_error_px", "0.1"}};
-  return options;
-}
-
-// The entries as one value per name, without former options.
+// The entries as one value per name, without former options that have their
+// constants.
 Result<Values> Collect(std::vector<ProjectEntry> entries,
                        const std::vector<FlagSection>& sections) {
   Values values;
   for (ProjectEntry& entry : entries) {
     const auto former = FormerOptions().find(entry.name);
-    if (former != FormerOptions().end()) {
-      if (entry.value == former->second) continue;
-      return BadArgument("'" + entry.name +
-                         "' is no longer an option; it is always " +
-                         former->second);
+    if (former != FormerOptions().end() && entry.value == former->second) {
+      continue;
     }
     if (!IsFlag(entry.name, sections)) return UnknownFlag(entry.name, sections);
     if (!values.emplace(entry.name, std::move(entry.value)).second) {

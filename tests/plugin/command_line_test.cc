@@ -144,6 +144,8 @@ TEST_F(CommandLine, SuggestsTheNearestName) {
               HasSubstr("did you mean '--EdgeDetection.sigma_px'?"));
   EXPECT_THAT(Error({"--validation.Max_Angle_deg", "3"}),
               HasSubstr("did you mean '--Validation.max_angle_deg'?"));
+  EXPECT_THAT(Error({"--EdgeDetection.border_px", "5"}),
+              HasSubstr("is no longer an option; it is always 4"));
   EXPECT_THAT(Error({"--completely_different_thing", "3"}),
               AllOf(HasSubstr("--completely_different_thing"),
                     Not(HasSubstr("did you mean"))));
