@@ -244,7 +244,8 @@ double Rounded(double value, int num_decimals) {
 
 double RoundedToDigits(double value, int num_digits) {
   if (value == 0 || !std::isfinite(value)) return value;
-  return Rounded(value, num_digits - 1 - std::ilogb(value) * 3 / 10);
+  const double exponent = std::floor(std::ilogb(value) * std::log10(2.0));
+  return Rounded(value, num_digits - 1 - static_cast<int>(exponent));
 }
 
 Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {

@@ -55,10 +55,12 @@ class Arrays(WorkspaceTest):
     def test_samples_are_those_of_the_file(self):
         samples = [sample for curve in self.json['curves'] for sample in curve['samples']]
         self.assertEqual(len(samples), len(self.curves.positions))
-        for name, key in (('positions', 'position'), ('tangents', 'tangent'), ('sigmas', 'sigma')):
-            np.testing.assert_array_equal(getattr(self.curves, name), [sample[key] for sample in samples])
+        np.testing.assert_array_equal(self.curves.positions, [sample['position'] for sample in samples])
+        # Seven decimals and nine digits, as the schema says.
+        np.testing.assert_allclose(self.curves.tangents, [sample['tangent'] for sample in samples], rtol=0, atol=1e-7)
+        np.testing.assert_allclose(self.curves.sigmas, [sample['sigma'] for sample in samples], rtol=1e-8)
         triangle = self.curves.covariances[:, (0, 0, 0, 1, 1, 2), (0, 1, 2, 1, 2, 2)]
-        np.testing.assert_array_equal(triangle, [sample['covariance'] for sample in samples])
+        np.testing.assert_allclose(triangle, [sample['covariance'] for sample in samples], rtol=1e-8)
         ids = np.array(self.curves.scene.image_ids)
         expected = [support[0] for sample in samples for support in sample['support']]
         np.testing.assert_array_equal(ids[self.curves.views], expected)
