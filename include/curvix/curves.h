@@ -142,7 +142,7 @@ std::vector<ProjectedStretch> ProjectShownAndHidden(const Curve& curve,
                                                     int view_idx);
 
 // Gives curves one after the other, as often as needed, so that writers and
-// fits keep only one in memory. For one thread.
+// fits keep few in memory. For one thread.
 class CurveSource {
  public:
   using Visit = std::function<void(std::size_t id, const Curve& curve)>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "base/file_io.h"
 #include "plugin/align/align_workspace.h"
 #include "plugin/align/find_markers.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
 #include "plugin/export/alignment_file.h"
@@ -111,17 +113,46 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
                      folder.string()});
 }
 
-// An alignment that the results do not have would mislead.
-void BringBackAlignment(const fs::path& path,
-                        const Result<std::string>& older) {
-  Status status;
-  if (older.ok()) {
-    status = WriteFileAtomically(path, *older);
-  } else {
-    std::error_code ignored;
-    fs::remove(path, ignored);
+// Brings the older alignment back, if any, unless Keep() is called: one that
+// the results do not have would mislead.
+class AlignmentGuard {
+ public:
+  AlignmentGuard(fs::path path, std::optional<std::string> older)
+      : path_(std::move(path)), older_(std::move(older)) {}
+  AlignmentGuard(const AlignmentGuard&) = delete;
+  AlignmentGuard& operator=(const AlignmentGuard&) = delete;
+  ~AlignmentGuard() {
+    if (!is_kept_) BringBack();
   }
-  if (status.ok()) std::cerr << path.string() << " is as it was before.\n";
+  void Keep() { is_kept_ = true; }
+
+ private:
+  void BringBack() const {
+    std::error_code error;
+    if (older_) {
+      if (!WriteFileAtomically(path_, *older_).ok()) {
+        error = std::make_error_code(std::errc::io_error);
+      }
+    } else {
+      fs::remove(path_, error);
+    }
+    std::cerr << path_.string()
+              << (error ? " is not that of the results; remove it.\n"
+                        : " is as it was before.\n");
+  }
+
+  fs::path path_;
+  std::optional<std::string> older_;
+  bool is_kept_ = false;
+};
+
+// Of a file that may not be there.
+Result<std::optional<std::string>> ReadIfThere(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::optional<std::string>();
+  Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  return std::optional<std::string>(*std::move(text));
 }
 
 }  // namespace
@@ -134,18 +165,21 @@ ExitCode RunAlign(const Arguments& arguments) {
                    WithDistancesJoined(arguments),
                    Sections(&settings, &write_results));
   if (code) return *code;
-  const auto workspace = FindInput(settings.run);
+  const auto workspace = CatchFileErrors(
+      StatusCode::kInvalidArgument, [&] { return FindInput(settings.run); });
   if (!workspace.ok()) return Fail(workspace.status());
   const fs::path path = workspace->output_path / kAlignmentName;
-  const Result<std::string> older = ReadFile(path);
+  auto older = ReadIfThere(path);
+  if (!older.ok()) return Fail(older.status());
   const auto summary = WithProgress([&](ProgressPrinter& progress) {
     return AlignWorkspace(settings, progress);
   });
   if (!summary.ok()) return Fail(summary.status());
   std::cout << summary->text << std::flush;
   if (!write_results) return kExitSuccess;
+  AlignmentGuard guard(path, *std::move(older));
   const ExitCode written = WriteResultsAgain(settings, summary->output_path);
-  if (written != kExitSuccess) BringBackAlignment(path, older);
+  if (written == kExitSuccess) guard.Keep();
   return written;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -19,8 +20,8 @@ namespace {
 constexpr int kPixelDecimals = 3;
 constexpr int kTangentDecimals = 7;
 constexpr int kProbabilityDecimals = 4;
-// Of samples. Enough for a matrix that stays positive definite if the standard
-// deviation along one axis is 10,000 times that along another.
+// Of samples. Enough for standard deviations along two axes that differ by a
+// factor of 10,000.
 constexpr int kCovarianceDigits = 9;
 
 Json MatrixJson(const Eigen::Matrix3d& m) { return Triangle(m); }
@@ -243,9 +244,16 @@ double Rounded(double value, int num_decimals) {
 }
 
 double RoundedToDigits(double value, int num_digits) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  const double exponent = std::floor(std::ilogb(value) * std::log10(2.0));
-  return Rounded(value, num_digits - 1 - static_cast<int>(exponent));
+  std::array<char, 64> text;  // num_digits <= 17
+  const auto end = std::to_chars(text.data(),
+                                 text.data() + text.size(),
+                                 value,
+                                 std::chars_format::scientific,
+                                 num_digits - 1)
+                       .ptr;
+  double rounded = value;
+  std::from_chars(text.data(), end, rounded);
+  return rounded;
 }
 
 Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {

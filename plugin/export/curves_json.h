@@ -78,7 +78,7 @@ Json VectorJson(const Eigen::Vector3d& v);
 // `value`, finite, with so many digits behind the point at most.
 double Rounded(double value, int num_decimals);
 
-// `value` with `num_digits` significant digits or one more.
+// The double nearest to `value` in so many significant digits, at most 17.
 double RoundedToDigits(double value, int num_digits);
 
 // The upper triangle of a covariance matrix, by rows, with so many digits.

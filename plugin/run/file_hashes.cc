@@ -7,6 +7,7 @@
 
 #include "base/cancelled.h"
 #include "base/parallel.h"
+#include "colmap/colmap_model.h"
 #include "io/stage_io.h"
 
 namespace curvix {
@@ -80,13 +81,20 @@ Result<std::vector<std::uint64_t>> HashImages(const Scene& scene,
   return hashes;
 }
 
+std::uint64_t HashOf(const std::vector<std::uint64_t>& hashes) {
+  std::string text;
+  for (const std::uint64_t hash : hashes) text += std::to_string(hash) + ' ';
+  return HashBytes(text);
+}
+
 Result<std::uint64_t> HashModel(const fs::path& folder) {
+  const Result<ColmapFormat> format = FindColmapFormat(folder);
+  if (!format.ok()) return format.status();
+  const char* extension = *format == ColmapFormat::kText ? ".txt" : ".bin";
   std::vector<fs::path> paths;
   for (const char* name : {"cameras", "images", "points3D"}) {
-    for (const char* extension : {".bin", ".txt"}) {
-      const fs::path path = folder / (std::string(name) + extension);
-      if (fs::exists(path)) paths.push_back(path);
-    }
+    const fs::path path = folder / (std::string(name) + extension);
+    if (fs::exists(path)) paths.push_back(path);
   }
   return HashFiles(paths);
 }

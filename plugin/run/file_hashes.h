@@ -20,7 +20,11 @@ Result<std::vector<std::uint64_t>> HashImages(const Scene& scene,
                                               int num_threads,
                                               RunProgress& progress);
 
-// Of cameras, images and points in the folder of a COLMAP model.
+// Of such hashes.
+std::uint64_t HashOf(const std::vector<std::uint64_t>& hashes);
+
+// Of cameras, images and points in the folder of a COLMAP model, in the format
+// in which it is read.
 Result<std::uint64_t> HashModel(const std::filesystem::path& folder);
 
 }  // namespace curvix

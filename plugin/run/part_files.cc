@@ -15,6 +15,7 @@
 #include "base/option_table.h"
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
+#include "plugin/run/file_hashes.h"
 #include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"
 
@@ -241,29 +242,17 @@ Status WritePlan(const ScenePartition& partition,
                  const Scene& scene,
                  const ColmapModel& model,
                  const fs::path& folder) {
-  Status status = RestoreModels(partition, scene, model, folder);
-  if (!status.ok()) return status;
-  return WriteFileAtomically(folder / kPlanName, PlanJson(partition, scene));
-}
-
-Status RestoreModels(const ScenePartition& partition,
-                     const Scene& scene,
-                     const ColmapModel& model,
-                     const fs::path& folder) {
   std::vector<int> all(scene.views.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  Status status;
-  if (!CheckModelIsThere(folder / "scene").ok()) {
-    status = WriteColmapModel(ModelOfViews(model, scene, all, false),
-                              folder / "scene");
-  }
+  Status status = WriteColmapModel(ModelOfViews(model, scene, all, false),
+                                   folder / "scene");
   for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
-    const fs::path part = PartFolder(folder, static_cast<int>(i)) / "sparse";
-    if (CheckModelIsThere(part).ok()) continue;
     status = WriteColmapModel(
-        ModelOfViews(model, scene, partition.parts[i].view_idxs, true), part);
+        ModelOfViews(model, scene, partition.parts[i].view_idxs, true),
+        PartFolder(folder, static_cast<int>(i)) / "sparse");
   }
-  return status;
+  if (!status.ok()) return status;
+  return WriteFileAtomically(folder / kPlanName, PlanJson(partition, scene));
 }
 
 Status CheckModelIsThere(const fs::path& folder) {
@@ -311,10 +300,7 @@ std::uint64_t PartKey(const PartPlan& plan,
   std::string text = plan.text + std::to_string(part_idx);
   text += ' ';
   text += ProgramVersion();
-  for (const std::uint64_t hash : image_hashes) {
-    text += ' ';
-    text += std::to_string(hash);
-  }
+  text += ' ' + std::to_string(HashOf(image_hashes));
   Options copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
     const bool is_of_a_stage = row.name.find('.') != std::string::npos &&

@@ -33,11 +33,6 @@ Status WritePlan(const ScenePartition& partition,
                  const Scene& scene,
                  const ColmapModel& model,
                  const std::filesystem::path& folder);
-// Of these, the models that are no longer there.
-Status RestoreModels(const ScenePartition& partition,
-                     const Scene& scene,
-                     const ColmapModel& model,
-                     const std::filesystem::path& folder);
 // kNotFound if a model of WritePlan() is not there, or not whole.
 Status CheckModelIsThere(const std::filesystem::path& folder);
 

@@ -59,13 +59,14 @@ void NoteOverlap(const ScenePartition& partition, RunProgress& progress) {
                 "less (--max_views_per_part)");
 }
 
-// Whether any part of the plan is done.
-bool HasResults(const PartPlan& plan, const fs::path& folder) {
-  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    const fs::path part = PartFolder(folder, static_cast<int>(i));
-    if (fs::exists(part / kPartResultName)) return true;
-  }
-  return false;
+// Whether any part is done, of whatever plan.
+bool HasResults(const fs::path& folder) {
+  if (!fs::exists(folder)) return false;
+  return std::any_of(fs::directory_iterator(folder),
+                     fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) {
+                       return fs::exists(entry.path() / kPartResultName);
+                     });
 }
 
 Result<ScenePartition> Partition(const RunSettings& settings,
@@ -90,30 +91,25 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   const Result<PartPlan> present = ReadPlan(folder);
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
-  if (present.ok() && present->text == PlanJson(*partition, input->scene)) {
-    progress.Note("The plan is there already, and stays");
-    Status status =
-        RestoreModels(*partition, input->scene, input->model, folder);
-    if (status.ok()) {
-      status = WriteFileAtomically(folder / kModelHashName, hash_text);
-    }
-    if (!status.ok()) return status;
-    return partition;
-  }
-  if (present.ok() && HasResults(*present, folder)) {
+  const bool is_same =
+      present.ok() && present->text == PlanJson(*partition, input->scene);
+  const bool has_results = HasResults(folder);
+  if (present.ok() && !is_same && has_results) {
     return Status(StatusCode::kInvalidArgument,
                   "the plan in " + folder.string() +
                       " is another one, and parts of it are done; to divide "
                       "anew, remove this folder");
   }
-  Status status = WritePlan(
-      *partition, input->scene, input->model, output->folder() / kPartsName);
+  if (is_same) progress.Note("The plan is there already, and stays");
+  // Beside finished parts; a merge finds those of another plan or model.
+  const bool in_place = is_same || has_results;
+  const fs::path written = in_place ? folder : output->folder() / kPartsName;
+  Status status = WritePlan(*partition, input->scene, input->model, written);
   if (status.ok()) {
-    status = WriteFileAtomically(output->folder() / kPartsName / kModelHashName,
-                                 hash_text);
+    status = WriteFileAtomically(written / kModelHashName, hash_text);
   }
   if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  if (status.ok()) status = output->Publish();
+  if (status.ok() && !in_place) status = output->Publish();
   if (!status.ok()) return status;
   return partition;
 }
@@ -122,8 +118,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
 Status CheckImagesAreThere(const WorkspaceScene& input) {
   if (input.missing_images.empty()) return {};
   return {StatusCode::kNotFound,
-          "image " + input.missing_images.front() + " is gone; bring it back " +
-              "or run 'colmap_curvix partition' again"};
+          "image " + input.missing_images.front() + " is gone; bring it back"};
 }
 
 // kNotFound if the model is no longer the one that was divided.
@@ -131,11 +126,29 @@ Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
   const Result<std::uint64_t> hash = HashModel(model_path);
   if (!hash.ok()) return hash.status();
   const Result<std::string> divided = ReadFile(folder / kModelHashName);
-  if (divided.ok() && *divided == std::to_string(*hash)) return {};
+  if (!divided.ok()) {
+    return {StatusCode::kNotFound,
+            "there is no " + (folder / kModelHashName).string() +
+                "; run 'colmap_curvix partition' again"};
+  }
+  if (*divided == std::to_string(*hash)) return {};
   return {StatusCode::kNotFound,
           "the model " + model_path.string() +
               " has changed since it was divided; run 'colmap_curvix " +
               "partition' again"};
+}
+
+// What a merge needs besides the parts.
+Status CheckScene(const WorkspaceScene& input,
+                  const PartPlan& plan,
+                  const fs::path& model_path,
+                  const fs::path& folder) {
+  Status status = CheckImagesAreThere(input);
+  if (status.ok()) status = CheckModelIsSame(model_path, folder);
+  if (!status.ok() || input.scene.views.size() == plan.num_views) return status;
+  return {StatusCode::kDataLoss,
+          (folder / "scene").string() +
+              " does not fit the plan; run 'colmap_curvix partition' again"};
 }
 
 Result<RunRecord> ReconstructPart(const RunSettings& settings,
@@ -171,7 +184,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   const auto image_hashes =
       HashImages(input->scene, options.runtime.num_threads, progress);
   if (!image_hashes.ok()) return image_hashes.status();
-  RunStages stages(folder / "stages", progress, record);
+  RunStages stages(folder / "stages", progress, record, HashOf(*image_hashes));
   Result<SceneStages> found = stages.Run(input->model, input->scene, nullptr);
   if (!found.ok()) return found.status();
   Reconstruction& reconstruction = found->reconstruction;
@@ -225,15 +238,8 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   RunRecord record = RecordOf(settings);
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
-  status = CheckImagesAreThere(*input);
-  if (status.ok()) status = CheckModelIsSame(model_path, folder);
+  status = CheckScene(*input, *plan, model_path, folder);
   if (!status.ok()) return status;
-  if (input->scene.views.size() != plan->num_views) {
-    return Status(StatusCode::kDataLoss,
-                  workspace->model_path.string() +
-                      " does not fit the plan; remove it and run "
-                      "'colmap_curvix partition' again");
-  }
   record.settings.input_path = fs::absolute(model_path);
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();

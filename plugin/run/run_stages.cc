@@ -58,8 +58,11 @@ std::string CountsText(const StageCounts& counts) {
 
 RunStages::RunStages(std::filesystem::path folder,
                      RunProgress& progress,
-                     RunRecord& record)
-    : store_(std::move(folder)), progress_(progress), record_(record) {
+                     RunRecord& record,
+                     std::uint64_t images_key)
+    : store_(std::move(folder), images_key),
+      progress_(progress),
+      record_(record) {
   if (record.settings.clean) store_.Clean();
 }
 

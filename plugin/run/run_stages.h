@@ -37,10 +37,11 @@ struct SceneStages {
 class RunStages {
  public:
   // `folder`: where results of stages are kept, unless it is empty or the run
-  // is to be clean.
+  // is to be clean; they are only read where `images_key` is the same.
   RunStages(std::filesystem::path folder,
             RunProgress& progress,
-            RunRecord& record);
+            RunRecord& record,
+            std::uint64_t images_key = 0);
 
   // Edges, unless `edges` has them, one map per view, whose neighbours are
   // looked for as among detected ones; poses refined with curves, if

@@ -57,17 +57,19 @@ inline constexpr StoredStage<CurvePoses> kRefinePosesWithCurves = {
     WriteCurvePoses};
 
 // Their files in a folder; with an empty path there are none. A file that
-// another key was meant for, or that is broken, is as good as none. If the
-// folder is a link, nothing is written or removed behind it.
+// another key was meant for, or that is broken, is as good as none. All keys
+// also depend on `images_key`, if the bytes of images are known by a hash. If
+// the folder is a link, nothing is written or removed behind it.
 class StageStore {
  public:
-  explicit StageStore(std::filesystem::path folder)
-      : folder_(std::move(folder)) {}
+  explicit StageStore(std::filesystem::path folder,
+                      std::uint64_t images_key = 0)
+      : folder_(std::move(folder)), images_key_(images_key) {}
 
   template <typename T>
   std::optional<T> Load(const StoredStage<T>& stage, std::uint64_t key) const {
     if (folder_.empty()) return std::nullopt;
-    Result<T> result = stage.read(folder_ / stage.file, key);
+    Result<T> result = stage.read(folder_ / stage.file, key ^ images_key_);
     if (!result.ok()) return std::nullopt;
     return *std::move(result);
   }
@@ -79,7 +81,8 @@ class StageStore {
                    const T& result) {
     if (folder_.empty()) return "";
     if (std::string why = MakeFolder(); !why.empty()) return why;
-    const Status status = stage.write(folder_ / stage.file, key, result);
+    const Status status =
+        stage.write(folder_ / stage.file, key ^ images_key_, result);
     has_saved_ = has_saved_ || status.ok();
     return status.message();
   }
@@ -95,6 +98,7 @@ class StageStore {
   std::string MakeFolder() const;
 
   std::filesystem::path folder_;
+  std::uint64_t images_key_;
   bool has_saved_ = false;
 };
 

@@ -239,6 +239,25 @@ TEST_F(RunParts, LostFoldersAndBrokenResultsComeBack) {
   EXPECT_EQ(*ReadFile(parts_ / "curves.json"), before);
 }
 
+TEST_F(RunParts, FinishedPartsOutliveTheirPlan) {
+  MakeStreet(80);
+  ReconstructAll();
+  MergeAll();
+  const std::string before = *ReadFile(parts_ / "curves.json");
+  ASSERT_TRUE(WriteFileAtomically(parts_ / "parts/plan.json", "{").ok());
+  Plan();
+  MergeAll();
+  fs::remove(parts_ / "parts/plan.json");
+  fs::remove(parts_ / "parts/model_hash.txt");
+  Plan();
+  fs::remove(parts_ / "parts/model_hash.txt");  // as earlier versions left it
+  EXPECT_THAT(MergeStatus().message(),
+              HasSubstr("model_hash.txt; run 'colmap_curvix partition'"));
+  Plan();
+  MergeAll();
+  EXPECT_EQ(*ReadFile(parts_ / "curves.json"), before);
+}
+
 TEST_F(RunParts, ReadOnlyTheirOwnImages) {
   MakeStreet(80);
   const auto plan = ReadPlan(parts_ / "parts");

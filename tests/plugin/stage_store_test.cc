@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace curvix {
 namespace {
 
@@ -26,6 +28,17 @@ TEST(StageStore, KeepsNothingWithoutAFolder) {
   EXPECT_FALSE(std::filesystem::exists("edges.bin"));
   EXPECT_FALSE(store.Load(kDetectEdges, 1));
   store.Clean();
+}
+
+TEST(StageStore, LoadsNothingOfOtherImages) {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t kImages = 5;
+  StageStore store(folder.path(), kImages);
+  EXPECT_EQ(store.Save(kDetectEdges, 1, std::vector<EdgeMap>(2)), "");
+  EXPECT_TRUE(StageStore(folder.path(), kImages).Load(kDetectEdges, 1));
+  EXPECT_FALSE(StageStore(folder.path(), kImages).Load(kDetectEdges, 2));
+  EXPECT_FALSE(StageStore(folder.path(), kImages + 1).Load(kDetectEdges, 1));
+  EXPECT_FALSE(StageStore(folder.path()).Load(kDetectEdges, 1));
 }
 
 }  // namespace
