@@ -300,7 +300,8 @@ std::uint64_t PartKey(const PartPlan& plan,
   std::string text = plan.text + std::to_string(part_idx);
   text += ' ';
   text += ProgramVersion();
-  text += ' ' + std::to_string(HashOf(image_hashes));
+  text += ' ';
+  text += std::to_string(HashOf(image_hashes));
   Options copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
     const bool is_of_a_stage = row.name.find('.') != std::string::npos &&
