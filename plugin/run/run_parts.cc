@@ -151,6 +151,16 @@ Status CheckScene(const WorkspaceScene& input,
               " does not fit the plan; run 'colmap_curvix partition' again"};
 }
 
+Status CheckPartIdx(const PartPlan& plan, int part_idx) {
+  const std::size_t num_parts = plan.partition.parts.size();
+  if (part_idx >= 0 && static_cast<std::size_t>(part_idx) < num_parts) {
+    return {};
+  }
+  return {StatusCode::kNotFound,
+          "there is no part " + std::to_string(part_idx) +
+              "; the plan has the parts 0 to " + std::to_string(num_parts - 1)};
+}
+
 Result<RunRecord> ReconstructPart(const RunSettings& settings,
                                   int part_idx,
                                   RunProgress& progress) {
@@ -160,16 +170,10 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   const fs::path parts = workspace->output_path / kPartsName;
   const Result<PartPlan> plan = ReadPlan(parts);
   if (!plan.ok()) return plan.status();
-  const std::size_t num_parts = plan->partition.parts.size();
-  if (part_idx < 0 || static_cast<std::size_t>(part_idx) >= num_parts) {
-    return Status(StatusCode::kNotFound,
-                  "there is no part " + std::to_string(part_idx) +
-                      "; the plan has the parts 0 to " +
-                      std::to_string(num_parts - 1));
-  }
   const fs::path folder = PartFolder(parts, part_idx);
   workspace->model_path = folder / "sparse";
-  Status status = CheckModelIsThere(workspace->model_path);
+  Status status = CheckPartIdx(*plan, part_idx);
+  if (status.ok()) status = CheckModelIsThere(workspace->model_path);
   if (!status.ok()) return status;
   workspace->output_path = folder;
   RunRecord record = RecordOf(settings);
