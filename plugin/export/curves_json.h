@@ -51,7 +51,7 @@ void EncodeCurvesJson(const CurveRecord& record,
                       const ByteSink& sink);
 
 // JSON values on a line each, with commas between, which are encoded on several
-// threads, some hundred at a time.
+// threads, some hundred at a time. `sink` must outlive it.
 class JsonLines {
  public:
   JsonLines(int num_threads, const ByteSink& sink)
