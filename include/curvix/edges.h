@@ -29,8 +29,8 @@ struct Edge2d {
   // Brightness on the edge, half-way between its sides, grey levels (0..255).
   Eigen::half level{0};
   // How crowded both its sides are with edges: the mean strength of edges per
-  // pixel beside it, on the emptier side, over its own. 0 in images with few
-  // edges, and if it is not known.
+  // pixel beside it, on the emptier side, over its own, if contours are sampled
+  // every half pixel. 0 in images with few edges, and if it is not known.
   Eigen::half crowding{0};
 };
 
@@ -48,7 +48,7 @@ struct EdgeMap {
   std::vector<EdgeNeighbors> neighbors;  // one per edge
   double noise = 0;  // standard deviation of the image noise, grey levels
   // The mean distance between edges along a contour. The detector samples
-  // contours twice a pixel; those of crowded images are thinned. Pixels, > 0.
+  // contours twice a pixel, or less in crowded images. Pixels, > 0.
   double spacing_px = 0.5;
   // Edges that were found and dropped: where View::mask_path is black, in
   // short, weak contours, and in images with more edges than
@@ -59,8 +59,8 @@ struct EdgeMap {
   std::int32_t num_dropped_masked = 0;
 };
 
-// Whether an image had so many edges that contours were thinned, as photographs
-// have: curves then grow (CurveGrowthOptions).
+// Whether an image had more edges than are kept, as photographs have: curves
+// then grow (CurveGrowthOptions).
 inline bool AreCrowded(const std::vector<EdgeMap>& edge_maps) {
   return std::any_of(
       edge_maps.begin(), edge_maps.end(), [](const EdgeMap& map) {

@@ -12,6 +12,11 @@ namespace curvix {
 struct EdgeDetectionOptions {
   // Standard deviation of the Gaussian derivative filters. Pixels, > 0.
   double sigma_px = 1.0;
+  // Images with more edges than `max_edges_per_megapixel` allows are seen at
+  // this many times `sigma_px`, at which texture and noise weigh less. They are
+  // sampled at every pixel instead of every half; >= 1, which sees all images
+  // alike.
+  double crowded_scale = 1.5;
   // Weakest gradient kept, grey levels per pixel; >= 0. Raised by
   // `noise_factor` where the image is noisy.
   double min_gradient = 1.0;
@@ -22,12 +27,13 @@ struct EdgeDetectionOptions {
   double max_neighbor_distance_px = 3.0;
   // Contours, that is chains of mutual neighbours, with fewer edges count as
   // short: they are dropped where they are weak, and first when there are too
-  // many edges. Edges are about half a pixel apart; >= 1, which makes none
-  // short.
+  // many edges. Of edges about half a pixel apart, and half as many of those
+  // about a pixel apart; >= 1, which makes none short.
   int min_contour_edges = 6;
-  // Most edges of an image per million pixels, though any image may have
-  // 10,000. Contours of images with more are thinned, and those that tell most
-  // of structure are kept: strong, straight and not crowded ones; > 0.
+  // Most edges of an image of a million pixels; n^0.8 times as many of n
+  // million pixels, and 10,000 of any image. Contours of images with more are
+  // thinned, and those that tell most of structure are kept: strong, straight
+  // and not crowded ones; > 0.
   double max_edges_per_megapixel = 25000;
   // Parallel edges that blur has moved apart or together are moved back.
   bool separate_edges = true;

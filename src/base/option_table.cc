@@ -72,6 +72,8 @@ class Section {
 void AddRows(EdgeDetectionOptions& o, Section row) {
   row("sigma_px", &o.sigma_px, Between(0.3, 10), "px", "Sec. 3, ref. [15]",
       "sigma of the Gaussian derivatives");
+  row("crowded_scale", &o.crowded_scale, Between(1, 4), "", "",
+      "times sigma_px in images with too many edges; 1: the same in all");
   row("min_gradient", &o.min_gradient, AtLeast(0), "grey levels/px",
       "Sec. 3, ref. [15]",
       "weakest gradient kept");
@@ -83,7 +85,7 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
       "shorter contours are dropped if weak");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
-      "most edges of an image, prominent contours first");
+      "most edges of 1 megapixel, n^0.8 times of n; prominent contours first");
   row.Switch("separate_edges", &o.separate_edges,
       "undo the shift of parallel edges by blur");
 }

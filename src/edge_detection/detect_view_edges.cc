@@ -2,6 +2,9 @@
 #include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,20 +21,47 @@
 namespace curvix {
 namespace {
 
-// The least prominent edges of a crowded image are dropped before they are
-// linked: those beyond so many times what is kept.
-constexpr std::int64_t kCrowd = 2;
-// Contours of crowded images are thinned to one edge a pixel, so that three
-// times as many of them fit into the limit.
-constexpr std::int64_t kThinning = 3;
-constexpr double kThinnedSpacingPx = 1.2;
+// Contours of crowded images are thinned to an edge each 1.4 px, so that more
+// of them fit into the limit.
+constexpr double kThinnedSpacingPx = 1.4;
+// Before that, how many times the limit is kept, counted in edges sampled twice
+// a pixel: of single edges, the most prominent, and of contours.
+constexpr std::int64_t kMaxProminent = 6;
+constexpr std::int64_t kMaxOfContours = 3;
+
+// The image of a view in which edges are sought.
+struct ViewImage {
+  const GrayImage& pixels;
+  const std::optional<GrayImage>& mask;
+  double noise;  // grey levels
+};
+
+struct LocatedContours {
+  EdgeMap map;              // without orientations and neighbors
+  bool is_crowded = false;  // more edges than the limit
+};
+
+Result<std::optional<GrayImage>> LoadMask(const View& view,
+                                          const Camera& camera) {
+  if (view.mask_path.empty()) return std::optional<GrayImage>();
+  Result<GrayImage> mask =
+      LoadGrayImage(view.mask_path, ImageSize{camera.width, camera.height});
+  if (!mask.ok()) return mask.status();
+  return std::optional<GrayImage>(*std::move(mask));
+}
+
+double HalfPixelsPerEdge(const EdgeMap& map) {
+  return map.spacing_px / EdgeMap().spacing_px;
+}
 
 // Drops contours that do not fit.
 void KeepWithinLimit(const EdgeDetectionOptions& options,
                      std::int64_t max_edges,
                      EdgeMap* map) {
-  KeptEdges kept =
-      KeepContours(map->edges, map->neighbors, options, 0, max_edges, {});
+  ContourLimits limits;
+  limits.half_pixels_per_edge = HalfPixelsPerEdge(*map);
+  limits.max_edges = max_edges;
+  KeptEdges kept = KeepContours(map->edges, map->neighbors, options, limits);
   if (kept.num_over_limit == 0) return;
   map->edges = std::move(kept.edges);
   // Breaks beside edges that are gone close.
@@ -39,86 +69,106 @@ void KeepWithinLimit(const EdgeDetectionOptions& options,
   map->num_dropped_over_limit += kept.num_over_limit;
 }
 
-Result<std::int32_t> DropMaskedEdges(const View& view,
-                                     const Camera& camera,
-                                     std::vector<LocatedEdge>* edges) {
-  if (view.mask_path.empty()) return 0;
-  const Result<GrayImage> mask =
-      LoadGrayImage(view.mask_path, ImageSize{camera.width, camera.height});
-  if (!mask.ok()) return mask.status();
-  return DropMaskedEdges(*mask, edges);
-}
+// The edges of contours worth keeping. They are thinned before they are
+// oriented, which takes long. What is dropped is counted and its memory freed.
+LocatedContours LocateContours(const ViewImage& image,
+                               const DetectionScale& scale,
+                               const EdgeDetectionOptions& options) {
+  LocatedContours located;
+  EdgeMap& map = located.map;
+  map.noise = image.noise;
+  map.spacing_px = scale.spacing_px();
+  const double half_pixels = HalfPixelsPerEdge(map);
+  const auto edges_of = [&](std::int64_t sampled_twice_a_pixel) {
+    return std::llround(static_cast<double>(sampled_twice_a_pixel) /
+                        half_pixels);
+  };
+  const std::int64_t limit =
+      MaxEdges(options, image.pixels.width, image.pixels.height);
+  ContourLimits limits;
+  limits.min_gradient = GradientThreshold(options, scale.sigma_px, map.noise);
+  limits.half_pixels_per_edge = half_pixels;
+  limits.max_edges = edges_of(kMaxOfContours * limit);
+  limits.thinning = {edges_of(limit), kThinnedSpacingPx};
 
-// The edges of the view's image that the mask leaves, but for the crowd of the
-// least prominent.
-Result<std::vector<Edge2d>> LocateProminentEdges(
-    const GrayImage& image,
-    const View& view,
-    const Camera& camera,
-    const EdgeDetectionOptions& options,
-    double min_gradient,
-    EdgeMap* map) {
-  std::vector<LocatedEdge> edges = LocateEdges(image, options, min_gradient);
-  const Result<std::int32_t> num_masked = DropMaskedEdges(view, camera, &edges);
-  if (!num_masked.ok()) return num_masked.status();
-  map->num_dropped_masked = *num_masked;
-  const std::int64_t max_edges = MaxEdges(options, image.width, image.height);
-  if (static_cast<std::int64_t>(edges.size()) > max_edges) {
-    MeasureCrowding(&edges);
+  std::vector<LocatedEdge> all =
+      LocateEdges(image.pixels, scale, limits.min_gradient);
+  if (image.mask) map.num_dropped_masked = DropMaskedEdges(*image.mask, &all);
+  if (std::ssize(all) > limits.thinning.max_edges) {
+    MeasureCrowding(half_pixels, &all);
   }
-  map->num_dropped_over_limit =
-      DropLeastProminent(kCrowd * kThinning * max_edges, &edges);
-  return AcrossGradients(edges);
-}
-
-// Of these the edges of contours worth keeping. They are thinned before they
-// are oriented, which takes long. What is dropped is counted and its memory
-// freed.
-Status LocateContours(const GrayImage& image,
-                      const View& view,
-                      const Camera& camera,
-                      const EdgeDetectionOptions& options,
-                      EdgeMap* map) {
-  const double min_gradient = GradientThreshold(options, map->noise);
-  const auto edges =
-      LocateProminentEdges(image, view, camera, options, min_gradient, map);
-  if (!edges.ok()) return edges.status();
-  const std::int64_t max_edges = MaxEdges(options, image.width, image.height);
-  KeptEdges kept = KeepContours(*edges,
-                                LinkNeighbors(*edges, options),
-                                options,
-                                min_gradient,
-                                kThinning * max_edges,
-                                {max_edges, kThinnedSpacingPx});
-  map->num_dropped_isolated = kept.num_isolated;
-  map->num_dropped_over_limit += kept.num_over_limit;
-  map->edges = std::move(kept.edges);
+  map.num_dropped_over_limit =
+      DropLeastProminent(edges_of(kMaxProminent * limit), &all);
+  const std::vector<Edge2d> edges = AcrossGradients(all);
+  KeptEdges kept =
+      KeepContours(edges, LinkNeighbors(edges, options), options, limits);
+  map.num_dropped_isolated = kept.num_isolated;
+  map.num_dropped_over_limit += kept.num_over_limit;
+  map.edges = std::move(kept.edges);
+  located.is_crowded =
+      map.num_dropped_over_limit > 0 || kept.num_thinned_out > 0;
   if (kept.num_thinned_out > 0) {
-    const auto size = static_cast<double>(map->edges.size());
-    map->spacing_px *= (kept.num_thinned_out + size) / size;
+    const auto size = static_cast<double>(map.edges.size());
+    map.spacing_px *= (kept.num_thinned_out + size) / size;
   }
-  return Status();
+  return located;
+}
+
+// The edges of `image`, oriented and linked.
+EdgeMap DetectAtScale(const ViewImage& image,
+                      const DetectionScale& scale,
+                      const EdgeDetectionOptions& options,
+                      LocatedContours located) {
+  EdgeMap map = std::move(located.map);
+  OrientEdges(image.pixels, scale.sigma_px, &map.edges);
+  map.neighbors = LinkNeighbors(map.edges, options);
+  if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);
+  const std::int64_t max_edges =
+      MaxEdges(options, image.pixels.width, image.pixels.height);
+  if (std::ssize(map.edges) > max_edges) {
+    KeepWithinLimit(options, max_edges, &map);
+  }
+  return map;
+}
+
+// Crowded images have their edges at the coarser scale, others at the finer
+// one.
+EdgeMap DetectEdgesIn(const ViewImage& image,
+                      const EdgeDetectionOptions& options) {
+  if (options.crowded_scale > 1) {
+    const DetectionScale coarse = {options.crowded_scale * options.sigma_px, 1};
+    LocatedContours located = LocateContours(image, coarse, options);
+    if (located.is_crowded) {
+      return DetectAtScale(image, coarse, options, std::move(located));
+    }
+  }
+  const DetectionScale fine = {options.sigma_px, 2};
+  return DetectAtScale(
+      image, fine, options, LocateContours(image, fine, options));
 }
 
 }  // namespace
 
-double GradientThreshold(const EdgeDetectionOptions& options, double noise) {
-  return std::max(
-      options.min_gradient,
-      options.noise_factor * noise * GradientNoiseGain(options.sigma_px));
+double GradientThreshold(const EdgeDetectionOptions& options,
+                         double sigma_px,
+                         double noise) {
+  return std::max(options.min_gradient,
+                  options.noise_factor * noise * GradientNoiseGain(sigma_px));
 }
 
 std::int64_t MaxEdges(const EdgeDetectionOptions& options,
                       int width,
                       int height) {
   constexpr double kAlwaysAllowed = 10000;
+  // A finer image shows the same contours, longer, and more of the small ones.
+  constexpr double kGrowth = 0.8;
   // More than any image has, and still an integer.
   constexpr double kUnlimited = 1e15;
   const double megapixels = 1e-6 * width * height;
-  return static_cast<std::int64_t>(
-      std::clamp(options.max_edges_per_megapixel * megapixels,
-                 kAlwaysAllowed,
-                 kUnlimited));
+  return static_cast<std::int64_t>(std::clamp(
+      options.max_edges_per_megapixel * std::pow(megapixels, kGrowth),
+      kAlwaysAllowed,
+      kUnlimited));
 }
 
 Result<EdgeMap> DetectViewEdges(const View& view,
@@ -126,19 +176,9 @@ Result<EdgeMap> DetectViewEdges(const View& view,
                                 const EdgeDetectionOptions& options) {
   const Result<GrayImage> image = LoadGrayImage(view, camera);
   if (!image.ok()) return image.status();
-  EdgeMap map;
-  map.noise = EstimateNoise(*image);
-  if (Status status = LocateContours(*image, view, camera, options, &map);
-      !status.ok()) {
-    return status;
-  }
-  OrientEdges(*image, options, &map.edges);
-  map.neighbors = LinkNeighbors(map.edges, options);
-  if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);
-  const std::int64_t max_edges = MaxEdges(options, image->width, image->height);
-  if (static_cast<std::int64_t>(map.edges.size()) > max_edges) {
-    KeepWithinLimit(options, max_edges, &map);
-  }
+  const Result<std::optional<GrayImage>> mask = LoadMask(view, camera);
+  if (!mask.ok()) return mask.status();
+  EdgeMap map = DetectEdgesIn({*image, *mask, EstimateNoise(*image)}, options);
   return UndistortEdges(std::move(map), camera);
 }
 

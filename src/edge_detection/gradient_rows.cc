@@ -11,8 +11,10 @@
 
 namespace curvix {
 
-GradientRows::GradientRows(const GrayImage& image, double sigma_px)
-    : image_(image), radius_(GaussianRadius(sigma_px)) {
+GradientRows::GradientRows(const GrayImage& image, const DetectionScale& scale)
+    : image_(image),
+      samples_per_px_(scale.samples_per_px),
+      radius_(GaussianRadius(scale.sigma_px)) {
   CURVIX_CHECK(image.width > 0 && image.height > 0, "the image is empty");
   double max_smooth = 0, max_derive = 0;
   for (int phase = 0; phase < 2; ++phase) {
@@ -20,7 +22,7 @@ GradientRows::GradientRows(const GrayImage& image, double sigma_px)
     double smooth = 0, derive = 0;
     for (int k = 0; k <= radius_; ++k) {
       const double distance = k + phase / 2.0;
-      const auto g = GaussianDerivatives(-distance, sigma_px);
+      const auto g = GaussianDerivatives(-distance, scale.sigma_px);
       const double share = distance == 0 ? 0.5 : 1.0;
       taps.smooth.push_back(static_cast<float>(share * g[0]));
       taps.derive.push_back(static_cast<float>(g[1]));
@@ -44,7 +46,8 @@ void GradientRows::Compute(int grid_row,
   CURVIX_CHECK(grid_row >= 0 && grid_row < grid_height(), grid_row);
   CURVIX_CHECK(run.begin >= 0 && run.begin < run.end, run.begin);
   CURVIX_CHECK(run.end <= image_.width, run.end);
-  const std::size_t size = 2 * static_cast<std::size_t>(image_.width);
+  const auto n = static_cast<std::size_t>(samples_per_px_);
+  const std::size_t size = n * static_cast<std::size_t>(image_.width);
   row.x.resize(size);
   row.y.resize(size);
   row.magnitude.resize(size);
@@ -54,8 +57,8 @@ void GradientRows::Compute(int grid_row,
   const float* x = row.x.data();
   const float* y = row.y.data();
   float* magnitude = row.magnitude.data();
-  const auto end = 2 * static_cast<std::size_t>(run.end);
-  for (auto i = 2 * static_cast<std::size_t>(run.begin); i < end; ++i) {
+  const std::size_t end = n * static_cast<std::size_t>(run.end);
+  for (auto i = n * static_cast<std::size_t>(run.begin); i < end; ++i) {
     magnitude[i] = std::sqrt(x[i] * x[i] + y[i] * y[i]);
   }
 }
@@ -88,8 +91,8 @@ void GradientRows::SumPairs(const std::vector<Pair>& pairs,
 }
 
 void GradientRows::FilterColumns(int grid_row, const PixelRun& run) {
-  const int phase = grid_row % 2;
-  const int y = grid_row / 2;
+  const int phase = grid_row % samples_per_px_;
+  const int y = grid_row / samples_per_px_;
   const int begin = std::max(run.begin - reach_px(), 0);
   const int end = std::min(run.end + reach_px(), image_.width);
   const auto pixels = [&](int row) {
@@ -125,13 +128,18 @@ void GradientRows::FilterRow(const std::vector<float>& padded,
   const auto n = static_cast<std::size_t>(run.end - run.begin);
   const float* centre =
       padded.data() + static_cast<std::size_t>(reach_px()) + begin;
-  for (std::size_t phase = 0; phase < 2; ++phase) {
+  const auto num_phases = static_cast<std::size_t>(samples_per_px_);
+  for (std::size_t phase = 0; phase < num_phases; ++phase) {
     const std::vector<float>& taps = taps_[phase].*weights;
     pairs_.clear();
     for (std::size_t k = 0; k < taps.size(); ++k) {
       pairs_.push_back({centre + phase + k, centre - k});
     }
     SumPairs(pairs_, taps, sign, n, phases_[phase].data());
+  }
+  if (num_phases == 1) {
+    std::copy_n(phases_[0].data(), n, &out[begin]);
+    return;
   }
   const float* on_pixels = phases_[0].data();
   const float* between = phases_[1].data();

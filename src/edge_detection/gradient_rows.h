@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Sec. 3, ref. [15]. The gradient of an image at half-pixel sampling.
+// Paper: Sec. 3, ref. [15]. The gradient of an image on a grid.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "edge_detection/detection_scale.h"
 #include "edge_detection/gray_image.h"
 #include "edge_detection/steep_tiles.h"
 
 namespace curvix {
 
-// One row of the half-pixel grid. Grid point (i, j) is the pixel (i / 2, j / 2)
-// counted between pixel centres from (0, 0), that is (i / 2 + 0.5, j / 2 + 0.5)
-// in the library's coordinates. 2 * width points each, of which the last lies
-// beyond the last pixel.
+// One row of a grid with n points per pixel along each axis. Grid point (i, j)
+// is the pixel (i / n, j / n) counted between pixel centres from (0, 0), that
+// is (i / n + 0.5, j / n + 0.5) in the library's coordinates. n * width points
+// each, of which the last n - 1 lie beyond the last pixel.
 struct GradientRow {
   std::vector<float> x;  // grey levels per pixel
   std::vector<float> y;
@@ -27,11 +28,12 @@ struct GradientRow {
 // multiply-adds per grid point for sigma = 1.
 class GradientRows {
  public:
-  // `image` must outlive this object; its size is at least 1 x 1; sigma > 0.
-  GradientRows(const GrayImage& image, double sigma_px);
+  // `image` must outlive this object; its size is at least 1 x 1.
+  GradientRows(const GrayImage& image, const DetectionScale& scale);
 
-  int grid_width() const { return 2 * image_.width - 1; }
-  int grid_height() const { return 2 * image_.height - 1; }
+  int samples_per_px() const { return samples_per_px_; }
+  int grid_width() const { return samples_per_px_ * (image_.width - 1) + 1; }
+  int grid_height() const { return samples_per_px_ * (image_.height - 1) + 1; }
 
   // How many pixels away the furthest pixel is that a gradient depends on.
   int reach_px() const { return radius_ + 1; }
@@ -39,7 +41,7 @@ class GradientRows {
   // depends on. Per pixel.
   double max_gain() const { return max_gain_; }
 
-  // Sets the grid points 2 * run.begin to 2 * run.end - 1 of `row` and leaves
+  // Sets the grid points n * run.begin to n * run.end - 1 of `row` and leaves
   // the others. 0 <= grid_row < grid_height(); the run is not empty and lies
   // within the image.
   void Compute(int grid_row, const PixelRun& run, GradientRow& row);
@@ -71,7 +73,8 @@ class GradientRows {
                  std::vector<float>& out);
 
   const GrayImage& image_;
-  int radius_;  // taps reach up to radius_ + 1 pixels
+  int samples_per_px_;  // 1 or 2
+  int radius_;          // taps reach up to radius_ + 1 pixels
   double max_gain_;
   std::array<Taps, 2> taps_;    // by phase: on a pixel, between two pixels
   std::vector<float> smooth_;   // padded by radius_ + 1 on either side

@@ -74,8 +74,10 @@ std::vector<Contour> Measure(const std::vector<Edge2d>& edges,
 // times the square root of the length of its straight runs. Foliage and gravel
 // are short, bent and crowded.
 std::vector<double> MeasureStructure(const std::vector<Edge2d>& edges,
-                                     const Contours& paths) {
-  const std::vector<double> prominence = Prominence(edges);
+                                     const Contours& paths,
+                                     double half_pixels_per_edge) {
+  const std::vector<double> prominence =
+      Prominence(edges, half_pixels_per_edge);
   std::vector<double> structure(paths.size());
   for (std::size_t c = 0; c < paths.size(); ++c) {
     const std::span<const std::int32_t> path = paths[c];
@@ -110,7 +112,7 @@ std::int64_t NumKept(const std::vector<Contour>& contours) {
 
 // Of the contours that are kept, keeps the first that fit.
 void KeepStructure(const std::vector<double>& structure,
-                   std::int64_t min_contour_edges,
+                   double min_num_edges,
                    std::int64_t max_edges,
                    std::vector<Contour>& contours) {
   using Rank =
@@ -118,7 +120,8 @@ void KeepStructure(const std::vector<double>& structure,
   std::vector<Rank> order;
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (!contours[i].is_kept) continue;
-    const bool is_short = contours[i].num_edges < min_contour_edges;
+    const bool is_short =
+        static_cast<double>(contours[i].num_edges) < min_num_edges;
     order.emplace_back(is_short, -structure[i], i);
   }
   std::sort(order.begin(), order.end());
@@ -130,8 +133,8 @@ void KeepStructure(const std::vector<double>& structure,
   }
 }
 
-// Marks the first edge of a contour, and each next one that is at least
-// `spacing_px` further along it.
+// Marks the first edge of a contour, and then one each `spacing_px` along it,
+// on average.
 void MarkSpaced(const std::vector<Edge2d>& edges,
                 std::span<const std::int32_t> path,
                 double spacing_px,
@@ -144,7 +147,7 @@ void MarkSpaced(const std::vector<Edge2d>& edges,
     before = &edge;
     if (since_marked_px < spacing_px) continue;
     is_marked[static_cast<std::size_t>(i)] = true;
-    since_marked_px = 0;
+    since_marked_px = std::min(since_marked_px - spacing_px, spacing_px);
   }
 }
 
@@ -176,29 +179,29 @@ std::int32_t DropLeastProminent(std::int64_t max_edges,
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,
-                       double min_gradient,
-                       std::int64_t max_edges,
-                       const Thinning& thinning) {
+                       const ContourLimits& limits) {
   CURVIX_CHECK(edges.size() == neighbors.size(), edges.size() << " edges");
   const Contours paths(neighbors);
   std::vector<Contour> contours = Measure(edges, paths);
-  const double weak = kShortContourFactor * min_gradient;
+  const double weak = kShortContourFactor * limits.min_gradient;
+  const double min_num_edges =
+      options.min_contour_edges / limits.half_pixels_per_edge;
   KeptEdges kept;
   for (Contour& contour : contours) {
-    contour.is_kept = contour.num_edges >= options.min_contour_edges ||
+    contour.is_kept = static_cast<double>(contour.num_edges) >= min_num_edges ||
                       contour.strength >= weak;
     if (contour.is_kept) continue;
     kept.num_isolated += static_cast<std::int32_t>(contour.num_edges);
   }
-  if (NumKept(contours) > max_edges) {
-    KeepStructure(MeasureStructure(edges, paths),
-                  options.min_contour_edges,
-                  max_edges,
+  if (NumKept(contours) > limits.max_edges) {
+    KeepStructure(MeasureStructure(edges, paths, limits.half_pixels_per_edge),
+                  min_num_edges,
+                  limits.max_edges,
                   contours);
   }
   const std::int64_t num_kept = NumKept(contours);
   const double spacing_px =
-      num_kept > thinning.max_edges ? thinning.spacing_px : 0;
+      num_kept > limits.thinning.max_edges ? limits.thinning.spacing_px : 0;
   std::vector<bool> is_kept(edges.size());
   for (std::size_t c = 0; c < paths.size(); ++c) {
     if (contours[c].is_kept) MarkSpaced(edges, paths[c], spacing_px, is_kept);

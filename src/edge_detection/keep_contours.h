@@ -19,10 +19,20 @@ std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges);
 
 // Thins contours if more than `max_edges` are kept: of each the first edge
-// stays, and each next one that is at least `spacing_px` further along it.
+// stays, and then one each `spacing_px` along it, on average.
 struct Thinning {
   std::int64_t max_edges = 0;
   double spacing_px = 0;  // 0: no thinning
+};
+
+// Which contours are kept.
+struct ContourLimits {
+  // The weakest gradient that the detector kept, grey levels per pixel.
+  double min_gradient = 0;
+  // How many edges sampled twice a pixel each edge stands for.
+  double half_pixels_per_edge = 1;
+  std::int64_t max_edges = 0;  // before thinning
+  Thinning thinning;
 };
 
 // What KeepContours() keeps, in the order in which it came, and how many edges
@@ -35,18 +45,16 @@ struct KeptEdges {
 };
 
 // Drops isolated edges, which are noise, mostly: contours of fewer than
-// options.min_contour_edges edges whose mean strength is below twice
-// `min_gradient`. (Strong short contours are corners and tight bends.) If more
-// than `max_edges` are left, keeps whole contours up to the first that does not
-// fit, in this order: those of options.min_contour_edges before shorter ones,
-// then by mean Prominence() times the square root of the mean length of their
-// straight segments, then by index. At last thins them. Edges and `neighbors`
-// correspond; `min_gradient` is that of the detector.
+// options.min_contour_edges edges, sampled twice a pixel, whose mean strength
+// is below twice the weakest gradient. (Strong short contours are corners and
+// tight bends.) If more than the limit are left, keeps whole contours up to the
+// first that does not fit, in this order: those of options.min_contour_edges
+// before shorter ones, then by mean Prominence() times the square root of the
+// mean length of their straight segments, then by index. At last thins them.
+// Edges and `neighbors` correspond.
 KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,
-                       double min_gradient,
-                       std::int64_t max_edges,
-                       const Thinning& thinning);
+                       const ContourLimits& limits);
 
 }  // namespace curvix

@@ -69,18 +69,21 @@ cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges,
 }
 
 template <typename Edge>
-std::vector<float> CrowdingOf(const std::vector<Edge>& edges) {
+std::vector<float> CrowdingOf(const std::vector<Edge>& edges,
+                              double half_pixels_per_edge) {
   const cv::Rect pixels = PixelsOf(edges);
   const cv::Mat1f strengths = StrengthPerPixel(edges, pixels);
   const auto strength_at = [&](const Eigen::Vector2d& position) {
     const cv::Point pixel = PixelAt(position);
     return pixels.contains(pixel) ? strengths(pixel - pixels.tl()) : 0.0f;
   };
+  const auto weight = static_cast<float>(half_pixels_per_edge);
   std::vector<float> crowding;
   crowding.reserve(edges.size());
   for (const Edge& edge : edges) {
     const Eigen::Vector2d aside = kDistancePx * Normal(edge);
-    crowding.push_back(std::min(strength_at(edge.position + aside),
+    crowding.push_back(weight *
+                       std::min(strength_at(edge.position + aside),
                                 strength_at(edge.position - aside)) /
                        Strength(edge));
   }
@@ -94,8 +97,9 @@ double Prominence(float strength, float crowding) {
 
 }  // namespace
 
-void MeasureCrowding(std::vector<LocatedEdge>* edges) {
-  const std::vector<float> crowding = CrowdingOf(*edges);
+void MeasureCrowding(double half_pixels_per_edge,
+                     std::vector<LocatedEdge>* edges) {
+  const std::vector<float> crowding = CrowdingOf(*edges, half_pixels_per_edge);
   for (std::size_t i = 0; i < edges->size(); ++i) {
     (*edges)[i].crowding = crowding[i];
   }
@@ -105,8 +109,9 @@ double Prominence(const LocatedEdge& edge) {
   return Prominence(edge.strength(), edge.crowding);
 }
 
-std::vector<double> Prominence(const std::vector<Edge2d>& edges) {
-  const std::vector<float> crowding = CrowdingOf(edges);
+std::vector<double> Prominence(const std::vector<Edge2d>& edges,
+                               double half_pixels_per_edge) {
+  const std::vector<float> crowding = CrowdingOf(edges, half_pixels_per_edge);
   std::vector<double> prominence;
   prominence.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {

@@ -16,11 +16,12 @@
 namespace curvix {
 namespace {
 
-// Three consecutive rows of the half-pixel grid.
+// Three consecutive rows of the grid.
 using RowWindow = std::array<const GradientRow*, 3>;
 
 // Edges nearer to the border of the image are dropped. Pixels.
 constexpr double kBorderPx = 4;
+constexpr double kMaxStepPx = 0.3;
 constexpr float kNoPeak = std::numeric_limits<float>::infinity();
 
 // Sets offsets[i], for points [begin, end) of the middle row, to where the
@@ -89,16 +90,29 @@ Eigen::Vector2d GradientOfF(const Eigen::Matrix4d& d) {
               ix * ix * ixxy + iy * iy * iyyy};
 }
 
-// -I_nnn / I_n along the gradient, n. Of a step blurred by a Gaussian of
-// standard deviation w it is 1 / w^2.
-double Sharpness(const Eigen::Matrix4d& d, const Eigen::Vector2d& gradient) {
-  const double strength = gradient.norm();
-  if (strength == 0) return 0;
-  const double x = gradient.x() / strength;
-  const double y = gradient.y() / strength;
-  const double third = x * x * x * d(0, 3) + 3 * x * x * y * d(1, 2) +
-                       3 * x * y * y * d(2, 1) + y * y * y * d(3, 0);
-  return -third / strength;
+// I_nn and I_nnn, the derivatives along the unit vector n.
+double SecondAlong(const Eigen::Matrix4d& d, const Eigen::Vector2d& n) {
+  const double x = n.x(), y = n.y();
+  return x * x * d(0, 2) + 2 * x * y * d(1, 1) + y * y * d(2, 0);
+}
+double ThirdAlong(const Eigen::Matrix4d& d, const Eigen::Vector2d& n) {
+  const double x = n.x(), y = n.y();
+  return x * x * x * d(0, 3) + 3 * x * x * y * d(1, 2) +
+         3 * x * y * y * d(2, 1) + y * y * y * d(3, 0);
+}
+
+// Along the gradient, of norm `strength` and direction n: the sharpness
+// -I_nnn / I_n, which of a step blurred by a Gaussian of standard deviation w
+// is 1 / w^2, and the position, at which I_nn = 0.
+void RefineAlongGradient(const Eigen::Matrix4d& d,
+                         double strength,
+                         const Eigen::Vector2d& n,
+                         Edge2d& edge) {
+  const double third = ThirdAlong(d, n);
+  edge.sharpness = static_cast<float>(-third / strength);
+  if (!(third < 0)) return;
+  const double step_px = -SecondAlong(d, n) / third;
+  edge.position += std::clamp(step_px, -kMaxStepPx, kMaxStepPx) * n;
 }
 
 // Towards the bright side F falls: the edge's normal is -grad F. Where F is
@@ -110,8 +124,9 @@ void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   if (normal.dot(gradient) < 0) normal = -normal;
   edge.angle = static_cast<float>(std::atan2(-normal.x(), normal.y()));
   edge.strength = static_cast<float>(gradient.norm());
-  edge.sharpness = static_cast<float>(Sharpness(d, gradient));
   edge.level = static_cast<Eigen::half>(d(0, 0));
+  const double strength = gradient.norm();
+  if (strength > 0) RefineAlongGradient(d, strength, gradient / strength, edge);
 }
 
 bool IsOffBorder(const GrayImage& image, const Eigen::Vector2d& p) {
@@ -124,11 +139,11 @@ bool IsOffBorder(const GrayImage& image, const Eigen::Vector2d& p) {
 class EdgeLocator {
  public:
   EdgeLocator(const GrayImage& image,
-              const EdgeDetectionOptions& options,
+              const DetectionScale& scale,
               double min_gradient)
       : image_(image),
         min_gradient_(RoundedDown(min_gradient)),
-        gradients_(image, options.sigma_px),
+        gradients_(image, scale),
         tiles_(image, gradients_.reach_px(), MaxFlatSpan(min_gradient)),
         offsets_(static_cast<std::size_t>(gradients_.grid_width())) {}
 
@@ -139,7 +154,8 @@ class EdgeLocator {
     ComputeRow(1);
     for (int j = 1; j + 1 < gradients_.grid_height(); ++j) {
       ComputeRow(j + 1);
-      for (const PixelRun& run : tiles_.Runs(j / 2)) LocateInRun(j, run);
+      for (const PixelRun& run : tiles_.Runs(j / gradients_.samples_per_px()))
+        LocateInRun(j, run);
     }
     return std::move(edges_);
   }
@@ -168,8 +184,9 @@ class EdgeLocator {
 
   // Where row `grid_row` or one beside it is steep, and a pixel further.
   void ComputeRow(int grid_row) {
-    const int first = (grid_row - 1) / 2;
-    const int last = std::min((grid_row + 1) / 2, image_.height - 1);
+    const int n = gradients_.samples_per_px();
+    const int first = std::max(grid_row - 1, 0) / n;
+    const int last = std::min((grid_row + 1) / n, image_.height - 1);
     const auto compute = [&](const PixelRun& run) {
       gradients_.Compute(
           grid_row,
@@ -184,10 +201,11 @@ class EdgeLocator {
   void LocateInRun(int grid_row, const PixelRun& run) {
     const RowWindow rows = {
         &Row(grid_row - 1), &Row(grid_row), &Row(grid_row + 1)};
+    const auto n = static_cast<std::size_t>(gradients_.samples_per_px());
     const std::size_t begin =
-        std::max<std::size_t>(2 * static_cast<std::size_t>(run.begin), 1);
+        std::max<std::size_t>(n * static_cast<std::size_t>(run.begin), 1);
     const std::size_t end =
-        std::min(2 * static_cast<std::size_t>(run.end), offsets_.size() - 1);
+        std::min(n * static_cast<std::size_t>(run.end), offsets_.size() - 1);
     FindPeaks(rows, min_gradient_, begin, end, offsets_.data());
     for (std::size_t i = begin; i < end; ++i) {
       if (offsets_[i] != kNoPeak) AddEdge(*rows[1], grid_row, i);
@@ -196,10 +214,11 @@ class EdgeLocator {
 
   // The edge next to point `i` of row `grid_row`, which has a peak there.
   void AddEdge(const GradientRow& row, int grid_row, std::size_t i) {
-    const double pixels_per_gradient = offsets_[i] / (2.0 * row.magnitude[i]);
+    const double n = gradients_.samples_per_px();
+    const double pixels_per_gradient = offsets_[i] / (n * row.magnitude[i]);
     const Eigen::Vector2d position(
-        static_cast<double>(i + 1) / 2 + pixels_per_gradient * row.x[i],
-        (grid_row + 1) / 2.0 + pixels_per_gradient * row.y[i]);
+        static_cast<double>(i) / n + 0.5 + pixels_per_gradient * row.x[i],
+        grid_row / n + 0.5 + pixels_per_gradient * row.y[i]);
     if (!IsOffBorder(image_, position)) return;
     edges_.push_back({position, {row.x[i], row.y[i]}});
   }
@@ -216,10 +235,10 @@ class EdgeLocator {
 }  // namespace
 
 std::vector<LocatedEdge> LocateEdges(const GrayImage& image,
-                                     const EdgeDetectionOptions& options,
+                                     const DetectionScale& scale,
                                      double min_gradient) {
   if (image.width < 2 || image.height < 2) return {};
-  return EdgeLocator(image, options, min_gradient).Locate();
+  return EdgeLocator(image, scale, min_gradient).Locate();
 }
 
 std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges) {
@@ -234,9 +253,9 @@ std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges) {
 }
 
 void OrientEdges(const GrayImage& image,
-                 const EdgeDetectionOptions& options,
+                 double sigma_px,
                  std::vector<Edge2d>* edges) {
-  ImageDerivatives derivatives(image, options.sigma_px);
+  ImageDerivatives derivatives(image, sigma_px);
   for (Edge2d& edge : *edges) OrientEdge(derivatives.At(edge.position), edge);
 }
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <curvix/edges.h>
-#include <curvix/options.h>
 
 #include <Eigen/Core>
 #include <cmath>
 #include <vector>
 
+#include "edge_detection/detection_scale.h"
 #include "edge_detection/gray_image.h"
 
 namespace curvix {
@@ -26,16 +26,16 @@ struct LocatedEdge {
 };
 
 // The places of the edges of `image`, in its own (possibly distorted) pixels,
-// row by row on the half-pixel grid. Steps:
-//  1. Gaussian derivatives (options.sigma_px) at half-pixel sampling; gradient
-//     magnitude; points at or below `min_gradient` (grey levels per pixel) are
+// row by row on the grid of `scale`. Steps:
+//  1. Gaussian derivatives on the grid; gradient magnitude; points at or below
+//  `min_gradient` (grey levels per pixel) are
 //     dropped.
 //  2. Non-maximum suppression along the gradient with a parabola through three
 //     values interpolated between grid neighbours: position. Edges nearer than
 //     4 px to the border are dropped.
 // Images below 2 x 2 pixels have no edges.
 std::vector<LocatedEdge> LocateEdges(const GrayImage& image,
-                                     const EdgeDetectionOptions& options,
+                                     const DetectionScale& scale,
                                      double min_gradient);
 
 // The same edges with their strengths, and at right angles to their gradients;
@@ -45,9 +45,10 @@ std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges);
 // Gives edges of `image` from AcrossGradients() their orientation: the
 // tangent of the curve F = g^T H g = 0 (g gradient, H Hessian) at their
 // position, from derivatives up to the third order. Strength and sharpness are
-// those at the position, too.
+// those at the position, too. Then moves them along the gradient to where its
+// magnitude peaks, by Newton's method, at most 0.3 px.
 void OrientEdges(const GrayImage& image,
-                 const EdgeDetectionOptions& options,
+                 double sigma_px,
                  std::vector<Edge2d>* edges);
 
 }  // namespace curvix

@@ -7,6 +7,7 @@ namespace curvix {
 
 Options PaperOptions() {
   Options options;
+  options.edge_detection.crowded_scale = 1;
   options.edge_detection.separate_edges = false;
   options.hypotheses.view_selection = ViewSelection::kUnusedEdges;
   options.hypotheses.location_tolerance_px = 0.3;

@@ -193,10 +193,44 @@ TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
   }
 }
 
+// Across a blurred step the sharpness is 1 / w^2, w^2 the sum of the squares of
+// the blur and of the detector's own scale.
+TEST(DetectViewEdges, SeesCrowdedImagesAtTheCoarserScale) {
+  GrayImage image = RenderDisc(400, {200, 200}, 150);
+  AddNoise(8, 11, image);
+  const ImageFile file(image);
+  EdgeDetectionOptions options;
+  options.noise_factor = 1;
+  const auto sharpness_on_disc = [&] {
+    const auto map =
+        DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+    std::vector<double> sharpness;
+    for (const Edge2d& edge : map->edges) {
+      const double r = (edge.position - Eigen::Vector2d(200, 200)).norm();
+      if (std::abs(r - 150) < 0.5)
+        sharpness.push_back(static_cast<double>(edge.sharpness));
+    }
+    return Median(sharpness);
+  };
+  const auto expected = [](double sigma_px) {
+    return 1 / (sigma_px * sigma_px + kRenderedBlurPx * kRenderedBlurPx);
+  };
+  EXPECT_NEAR(sharpness_on_disc(), expected(1.5), 0.1 * expected(1.5));
+  options.crowded_scale = 2;
+  EXPECT_NEAR(sharpness_on_disc(), expected(2), 0.1 * expected(2));
+  options.crowded_scale = 1;
+  EXPECT_NEAR(sharpness_on_disc(), expected(1), 0.1 * expected(1));
+  options.crowded_scale = 1.5;
+  options.max_edges_per_megapixel = 1e9;
+  EXPECT_NEAR(sharpness_on_disc(), expected(1), 0.1 * expected(1))
+      << "no image is crowded";
+}
+
 TEST(MaxEdges, GrowsWithTheImage) {
   EdgeDetectionOptions options;
   options.max_edges_per_megapixel = 20000;
-  EXPECT_EQ(MaxEdges(options, 2000, 1000), 40000);
+  EXPECT_EQ(MaxEdges(options, 1000, 1000), 20000);
+  EXPECT_EQ(MaxEdges(options, 8000, 4000), 16 * 20000);
   EXPECT_EQ(MaxEdges(options, 100, 100), 10000);
   options.max_edges_per_megapixel = 1e300;
   EXPECT_GT(MaxEdges(options, 2000, 1000), 2000 * 1000);
@@ -206,9 +240,9 @@ TEST(GradientThreshold, IsTheLargerOfTheTwo) {
   EdgeDetectionOptions options;
   options.min_gradient = 2;
   options.noise_factor = 5;
-  EXPECT_EQ(GradientThreshold(options, 0), 2);
-  EXPECT_DOUBLE_EQ(GradientThreshold(options, 10),
-                   50 * GradientNoiseGain(options.sigma_px));
+  EXPECT_EQ(GradientThreshold(options, 1, 0), 2);
+  EXPECT_DOUBLE_EQ(GradientThreshold(options, 1.5, 10),
+                   50 * GradientNoiseGain(1.5));
 }
 
 }  // namespace

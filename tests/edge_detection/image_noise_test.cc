@@ -54,10 +54,12 @@ TEST(EstimateNoise, IsZeroWhereItCannotBeTold) {
 }
 
 TEST(GradientNoiseGain, PredictsTheGradientOfNoise) {
-  for (const double sigma_px : {0.8, 1.0, 2.0}) {
+  for (const DetectionScale& scale : {DetectionScale{0.8, 2},
+                                      DetectionScale{1.0, 2},
+                                      DetectionScale{2.0, 1}}) {
     GrayImage image{300, 300, std::vector<float>(90000, 100)};
     AddNoise(4, 3, image);
-    GradientRows rows(image, sigma_px);
+    GradientRows rows(image, scale);
     GradientRow row;
     double sum = 0;
     int count = 0;
@@ -67,7 +69,7 @@ TEST(GradientNoiseGain, PredictsTheGradientOfNoise) {
         sum += row.x[i] * row.x[i];
       }
     }
-    const double expected = 4 * GradientNoiseGain(sigma_px);
+    const double expected = 4 * GradientNoiseGain(scale.sigma_px);
     EXPECT_NEAR(std::sqrt(sum / count), expected, 0.03 * expected);
   }
 }

@@ -40,7 +40,11 @@ class KeepContoursTest : public ::testing::Test {
   KeptEdges Keep(std::int64_t max_edges, const Thinning& thinning = {}) const {
     EdgeDetectionOptions options;
     options.min_contour_edges = 4;
-    return KeepContours(edges_, neighbors_, options, 10, max_edges, thinning);
+    ContourLimits limits;
+    limits.min_gradient = 10;
+    limits.max_edges = max_edges;
+    limits.thinning = thinning;
+    return KeepContours(edges_, neighbors_, options, limits);
   }
 
   std::vector<Edge2d> edges_;

@@ -9,11 +9,11 @@ namespace curvix {
 
 // All edges of an image, before any are dropped.
 inline std::vector<Edge2d> OrientedEdges(const GrayImage& image,
-                                         const EdgeDetectionOptions& options,
+                                         const DetectionScale& scale,
                                          double min_gradient) {
   std::vector<Edge2d> edges =
-      AcrossGradients(LocateEdges(image, options, min_gradient));
-  OrientEdges(image, options, &edges);
+      AcrossGradients(LocateEdges(image, scale, min_gradient));
+  OrientEdges(image, scale.sigma_px, &edges);
   return edges;
 }
 

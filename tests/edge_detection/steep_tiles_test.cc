@@ -30,8 +30,12 @@ bool Contains(const std::vector<PixelRun>& runs, int x) {
 
 TEST(SteepTiles, HoldEveryGradientAboveTheThreshold) {
   const GrayImage image = MostlyFlat();
-  for (const double sigma_px : {0.6, 1.0, 2.5}) {
-    GradientRows gradients(image, sigma_px);
+  for (const DetectionScale& scale : {DetectionScale{0.6, 2},
+                                      DetectionScale{1.0, 2},
+                                      DetectionScale{1.5, 1},
+                                      DetectionScale{2.5, 2}}) {
+    GradientRows gradients(image, scale);
+    const int n = scale.samples_per_px;
     GradientRow row;
     for (const float span : {0.5f, 20.0f, 150.0f}) {
       const SteepTiles tiles(image, gradients.reach_px(), span);
@@ -39,15 +43,16 @@ TEST(SteepTiles, HoldEveryGradientAboveTheThreshold) {
       for (int j = 0; j < gradients.grid_height(); ++j) {
         gradients.Compute(j, {0, image.width}, row);
         for (int x = 0; x < image.width; ++x) {
-          if (Contains(tiles.Runs(j / 2), x)) continue;
+          if (Contains(tiles.Runs(j / n), x)) continue;
           ++num_flat;
-          const auto i = 2 * static_cast<std::size_t>(x);
+          const auto i = static_cast<std::size_t>(n * x);
           const float steepest =
-              std::max(row.magnitude[i], row.magnitude[i + 1]);
+              std::max(row.magnitude[i],
+                       row.magnitude[i + static_cast<std::size_t>(n) - 1]);
           EXPECT_LE(steepest, span * gradients.max_gain() + 1e-3);
         }
       }
-      EXPECT_GT(num_flat, 1000) << sigma_px << " px, span " << span;
+      EXPECT_GT(num_flat, 1000) << scale.sigma_px << " px, span " << span;
     }
   }
 }
@@ -82,18 +87,20 @@ TEST(SteepTiles, AllAreSteepIfNoneMayBeFlat) {
 TEST(GradientRows, OfPartsAreThoseOfTheWhole) {
   GrayImage image = RenderDisc(60, {33.2, 28.7}, 14.6);
   AddNoise(5, 1, image);
-  GradientRows gradients(image, 1);
-  GradientRow whole, part;
-  for (const int j : {0, 1, 57, 118}) {
-    gradients.Compute(j, {0, 60}, whole);
-    for (const PixelRun run :
-         {PixelRun{0, 1}, {0, 8}, {3, 20}, {30, 47}, {59, 60}}) {
-      gradients.Compute(j, run, part);
-      for (int i = 2 * run.begin; i < 2 * run.end; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        EXPECT_EQ(part.x[k], whole.x[k]);
-        EXPECT_EQ(part.y[k], whole.y[k]);
-        EXPECT_EQ(part.magnitude[k], whole.magnitude[k]);
+  for (const int n : {1, 2}) {
+    GradientRows gradients(image, {1, n});
+    GradientRow whole, part;
+    for (const int j : {0, 1, 57, 59 * n}) {
+      gradients.Compute(j, {0, 60}, whole);
+      for (const PixelRun run :
+           {PixelRun{0, 1}, {0, 8}, {3, 20}, {30, 47}, {59, 60}}) {
+        gradients.Compute(j, run, part);
+        for (int i = n * run.begin; i < n * run.end; ++i) {
+          const auto k = static_cast<std::size_t>(i);
+          EXPECT_EQ(part.x[k], whole.x[k]);
+          EXPECT_EQ(part.y[k], whole.y[k]);
+          EXPECT_EQ(part.magnitude[k], whole.magnitude[k]);
+        }
       }
     }
   }
