@@ -25,8 +25,8 @@ std::vector<EdgeNeighbors> Link(const std::vector<Edge2d>& edges) {
 }
 
 TEST(LinkNeighbors, RunsAlongACircleAllTheWayRoundAndBack) {
-  const std::vector<Edge2d> edges = OrientedEdges(
-      RenderDisc(128, {64.3, 63.8}, 45), EdgeDetectionOptions(), 1);
+  const std::vector<Edge2d> edges =
+      OrientedEdges(RenderDisc(128, {64.3, 63.8}, 45), {}, 1);
   const std::vector<EdgeNeighbors> links = Link(edges);
   ASSERT_GT(edges.size(), 500u);
   ASSERT_EQ(links.size(), edges.size());

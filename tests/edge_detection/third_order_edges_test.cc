@@ -215,11 +215,9 @@ TEST(ThirdOrderEdges, TurnsAtACornerWithoutLosingIt) {
 }
 
 TEST(ThirdOrderEdges, WidensWithSigma) {
-  EdgeDetectionOptions options;
-  options.sigma_px = 2;
   const double angle = DegToRad(33);
   const Eigen::Vector2d normal(-std::sin(angle), std::cos(angle));
-  const auto edges = OrientedEdges(RenderLine(80, {40, 40}, angle), options, 1);
+  const auto edges = OrientedEdges(RenderLine(80, {40, 40}, angle), {2, 2}, 1);
   ASSERT_GT(edges.size(), 80u);
   for (const Edge2d& edge : edges) {
     EXPECT_LT(std::abs(normal.dot(edge.position - Eigen::Vector2d(40, 40))),
