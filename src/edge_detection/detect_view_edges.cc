@@ -120,7 +120,9 @@ EdgeMap DetectAtScale(const ViewImage& image,
                       const EdgeDetectionOptions& options,
                       LocatedContours located) {
   EdgeMap map = std::move(located.map);
-  OrientEdges(image.pixels, scale.sigma_px, &map.edges);
+  const auto orient =
+      options.refine_positions ? OrientAndRefineEdges : OrientEdges;
+  orient(image.pixels, scale.sigma_px, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);
   const std::int64_t max_edges =

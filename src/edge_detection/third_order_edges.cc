@@ -101,18 +101,20 @@ double ThirdAlong(const Eigen::Matrix4d& d, const Eigen::Vector2d& n) {
          3 * x * y * y * d(2, 1) + y * y * y * d(3, 0);
 }
 
-// Along the gradient, of norm `strength` and direction n: the sharpness
-// -I_nnn / I_n, which of a step blurred by a Gaussian of standard deviation w
-// is 1 / w^2, and the position, at which I_nn = 0.
-void RefineAlongGradient(const Eigen::Matrix4d& d,
-                         double strength,
-                         const Eigen::Vector2d& n,
-                         Edge2d& edge) {
+// Along the gradient, -I_nnn / I_n. Of a step blurred by a Gaussian of standard
+// deviation w it is 1 / w^2.
+double Sharpness(const Eigen::Matrix4d& d) {
+  const Eigen::Vector2d gradient(d(0, 1), d(1, 0));
+  const double strength = gradient.norm();
+  return strength > 0 ? -ThirdAlong(d, gradient / strength) / strength : 0;
+}
+
+// From where the derivatives are `d` to where I_nn = 0 along the gradient.
+Eigen::Vector2d StepToPeak(const Eigen::Matrix4d& d) {
+  const Eigen::Vector2d n = Eigen::Vector2d(d(0, 1), d(1, 0)).normalized();
   const double third = ThirdAlong(d, n);
-  edge.sharpness = static_cast<float>(-third / strength);
-  if (!(third < 0)) return;
-  const double step_px = -SecondAlong(d, n) / third;
-  edge.position += std::clamp(step_px, -kMaxStepPx, kMaxStepPx) * n;
+  if (!(third < 0)) return Eigen::Vector2d::Zero();
+  return std::clamp(-SecondAlong(d, n) / third, -kMaxStepPx, kMaxStepPx) * n;
 }
 
 // Towards the bright side F falls: the edge's normal is -grad F. Where F is
@@ -124,9 +126,8 @@ void OrientEdge(const Eigen::Matrix4d& d, Edge2d& edge) {
   if (normal.dot(gradient) < 0) normal = -normal;
   edge.angle = static_cast<float>(std::atan2(-normal.x(), normal.y()));
   edge.strength = static_cast<float>(gradient.norm());
+  edge.sharpness = static_cast<float>(Sharpness(d));
   edge.level = static_cast<Eigen::half>(d(0, 0));
-  const double strength = gradient.norm();
-  if (strength > 0) RefineAlongGradient(d, strength, gradient / strength, edge);
 }
 
 bool IsOffBorder(const GrayImage& image, const Eigen::Vector2d& p) {
@@ -257,6 +258,17 @@ void OrientEdges(const GrayImage& image,
                  std::vector<Edge2d>* edges) {
   ImageDerivatives derivatives(image, sigma_px);
   for (Edge2d& edge : *edges) OrientEdge(derivatives.At(edge.position), edge);
+}
+
+void OrientAndRefineEdges(const GrayImage& image,
+                          double sigma_px,
+                          std::vector<Edge2d>* edges) {
+  ImageDerivatives derivatives(image, sigma_px);
+  for (Edge2d& edge : *edges) {
+    const Eigen::Matrix4d d = derivatives.At(edge.position);
+    OrientEdge(d, edge);
+    edge.position += StepToPeak(d);
+  }
 }
 
 }  // namespace curvix

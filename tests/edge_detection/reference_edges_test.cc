@@ -61,7 +61,9 @@ std::vector<Edge2d> ReadReference(const fs::path& path) {
 
 std::vector<Edge2d> DetectLikeReference(const fs::path& image_path) {
   const GrayImage image = RoundedGrey(image_path);
-  return WithoutBorder(OrientedEdges(image, {}, 1), image, 10);
+  std::vector<Edge2d> edges = AcrossGradients(LocateEdges(image, {}, 1));
+  OrientEdges(image, 1, &edges);
+  return WithoutBorder(std::move(edges), image, 10);
 }
 
 std::optional<std::size_t> Find(const GridIndex& index,
