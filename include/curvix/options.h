@@ -35,8 +35,6 @@ struct EdgeDetectionOptions {
   // thinned, and those that tell most of structure are kept: strong, straight
   // and not crowded ones; > 0.
   double max_edges_per_megapixel = 25000;
-  // Edges are moved to where the gradient peaks along its direction.
-  bool refine_positions = true;
   // Parallel edges that blur has moved apart or together are moved back.
   bool separate_edges = true;
 };

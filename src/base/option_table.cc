@@ -86,8 +86,6 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
       "shorter contours are dropped if weak");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
       "most edges of 1 megapixel, n^0.8 times of n; prominent contours first");
-  row.Switch("refine_positions", &o.refine_positions,
-      "move edges to where the gradient peaks");
   row.Switch("separate_edges", &o.separate_edges,
       "undo the shift of parallel edges by blur");
 }

@@ -120,8 +120,9 @@ EdgeMap DetectAtScale(const ViewImage& image,
                       const EdgeDetectionOptions& options,
                       LocatedContours located) {
   EdgeMap map = std::move(located.map);
+  // Between pixels the parabola is less exact than between half pixels.
   const auto orient =
-      options.refine_positions ? OrientAndRefineEdges : OrientEdges;
+      scale.samples_per_px == 1 ? OrientAndRefineEdges : OrientEdges;
   orient(image.pixels, scale.sigma_px, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);

@@ -8,7 +8,6 @@ namespace curvix {
 Options PaperOptions() {
   Options options;
   options.edge_detection.crowded_scale = 1;
-  options.edge_detection.refine_positions = false;
   options.edge_detection.separate_edges = false;
   options.hypotheses.view_selection = ViewSelection::kUnusedEdges;
   options.hypotheses.location_tolerance_px = 0.3;

@@ -54,7 +54,6 @@ UNDO = [  # what is taken back (docs/paper_map.md, departures), flags
     ('corners of fitted curves',
      ['--CurveRefinement.max_corner_deg', '180']),
     ('response curve', ['--CurveRefinement.undo_response_curve', '0']),
-    ('positions refined', ['--EdgeDetection.refine_positions', '0']),
     ('parallel edges separated', ['--EdgeDetection.separate_edges', '0']),
     ('all refinement', ['--CurveRefinement.enabled', '0']),
     ('exclusive support',
