@@ -2,8 +2,6 @@
 // Paper: Sec. 3, ref. [15]. The scale at which edges of an image are detected.
 #pragma once
 
-#include <curvix/edges.h>
-
 namespace curvix {
 
 struct DetectionScale {
@@ -12,10 +10,6 @@ struct DetectionScale {
 
   // Of edges along a contour.
   double spacing_px() const { return 1.0 / samples_per_px; }
-  // Their length in edges that are sampled twice a pixel.
-  double half_pixels_per_edge() const {
-    return spacing_px() / EdgeMap().spacing_px;
-  }
 };
 
 }  // namespace curvix

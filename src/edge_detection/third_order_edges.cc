@@ -21,6 +21,7 @@ using RowWindow = std::array<const GradientRow*, 3>;
 
 // Edges nearer to the border of the image are dropped. Pixels.
 constexpr double kBorderPx = 4;
+// Longest Newton step.
 constexpr double kMaxStepPx = 0.3;
 constexpr float kNoPeak = std::numeric_limits<float>::infinity();
 

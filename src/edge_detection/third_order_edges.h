@@ -28,8 +28,7 @@ struct LocatedEdge {
 // The places of the edges of `image`, in its own (possibly distorted) pixels,
 // row by row on the grid of `scale`. Steps:
 //  1. Gaussian derivatives on the grid; gradient magnitude; points at or below
-//  `min_gradient` (grey levels per pixel) are
-//     dropped.
+//     `min_gradient` (grey levels per pixel) are dropped.
 //  2. Non-maximum suppression along the gradient with a parabola through three
 //     values interpolated between grid neighbours: position. Edges nearer than
 //     4 px to the border are dropped.
