@@ -15,6 +15,7 @@
 #include "edge_detection/load_image.h"
 #include "edge_detection/prominence.h"
 #include "edge_detection/separate_edges.h"
+#include "edge_detection/smooth_contours.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
 
@@ -120,9 +121,9 @@ EdgeMap DetectAtScale(const ViewImage& image,
                       const EdgeDetectionOptions& options,
                       LocatedContours located) {
   EdgeMap map = std::move(located.map);
+  const bool is_coarse = scale.samples_per_px == 1;
   // Between pixels the parabola is less exact than between half pixels.
-  const auto orient =
-      scale.samples_per_px == 1 ? OrientAndRefineEdges : OrientEdges;
+  const auto orient = is_coarse ? OrientAndRefineEdges : OrientEdges;
   orient(image.pixels, scale.sigma_px, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);
@@ -131,6 +132,7 @@ EdgeMap DetectAtScale(const ViewImage& image,
   if (std::ssize(map.edges) > max_edges) {
     KeepWithinLimit(options, max_edges, &map);
   }
+  if (is_coarse) SmoothContours(map.neighbors, &map.edges);
   return map;
 }
 
