@@ -16,9 +16,8 @@ namespace {
 
 constexpr double kReachPx = 16;
 constexpr double kMinReachPx = 2;
-constexpr double kMaxResidualPx = 0.4;  // root mean square
-constexpr double kMaxShiftPx = 0.5;
-constexpr double kMaxTurnRad = DegToRad(30);
+constexpr double kMaxResidualPx = 0.25;  // root mean square
+constexpr double kMaxBendRad = 1;        // on either side
 
 // A place of the contour, seen from the edge in the middle.
 struct ContourPlace {
@@ -54,6 +53,7 @@ double Walk(const std::vector<Edge2d>& edges,
 struct Parabola {
   double shift = 0;  // at the edge, across its tangent, pixels
   double turn = 0;   // of the tangent, radians
+  double curvature = 0;
   double residual = 0;
 };
 
@@ -82,6 +82,7 @@ Parabola FitParabola(const std::vector<ContourPlace>& places,
   const double rest = std::max(0.0, sum_squares - fit.dot(vector));
   return {fit[0],
           std::atan2(fit[1], sum_along / sum_lengths),
+          2 * std::abs(fit[2]),
           std::sqrt(rest / size)};
 }
 
@@ -93,10 +94,9 @@ Edge2d Smoothed(const Edge2d& edge,
   const Eigen::Vector2d tangent(std::cos(angle), std::sin(angle));
   for (; reach >= kMinReachPx; reach /= 2) {
     const Parabola fit = FitParabola(places, tangent, reach);
-    if (!(fit.residual <= kMaxResidualPx)) continue;
-    if (!(std::abs(fit.shift) < kMaxShiftPx) ||
-        !(std::abs(fit.turn) < kMaxTurnRad)) {
-      return edge;
+    if (!(fit.residual <= kMaxResidualPx) ||
+        !(fit.curvature * reach <= kMaxBendRad)) {
+      continue;
     }
     Edge2d smoothed = edge;
     smoothed.position += fit.shift * Eigen::Vector2d(-tangent.y(), tangent.x());

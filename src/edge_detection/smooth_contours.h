@@ -11,9 +11,9 @@ namespace curvix {
 // Texture and noise scatter the edges of a contour by some tenths of a pixel
 // and some degrees. A parabola is fitted to the contour as far on one side of
 // an edge as on the other, at most 16 px, or less where it leaves the parabola
-// by more than 0.4 px (root mean square). The edge moves onto it, across its
-// tangent, and turns to it. Edges with less than 2 px of contour on either side
-// stay, as do those that would move by 0.5 px or turn by 30 degrees. Edges and
+// by more than 0.25 px (root mean square) or bends by more than a radian. The
+// edge moves onto the parabola, across its tangent, and turns to it. Edges stay
+// that have less than 2 px of such contour on either side. Edges and
 // `neighbors` correspond.
 void SmoothContours(const std::vector<EdgeNeighbors>& neighbors,
                     std::vector<Edge2d>* edges);
