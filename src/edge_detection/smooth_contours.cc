@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kReachPx = 16;
 constexpr double kMinReachPx = 2;
+constexpr int kMinNumPlaces = 5;
 constexpr double kMaxResidualPx = 0.25;  // root mean square
 constexpr double kMaxBendRad = 1;        // on either side
 
@@ -57,10 +58,11 @@ struct Parabola {
   double residual = 0;
 };
 
-// Fitted to the places up to `reach` away, in the frame of the tangent.
-Parabola FitParabola(const std::vector<ContourPlace>& places,
-                     const Eigen::Vector2d& tangent,
-                     double reach) {
+// Fitted to the places up to `reach` away, in the frame of the tangent; nullopt
+// if these are too few.
+std::optional<Parabola> FitParabola(const std::vector<ContourPlace>& places,
+                                    const Eigen::Vector2d& tangent,
+                                    double reach) {
   const Eigen::Vector2d normal(-tangent.y(), tangent.x());
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d vector = Eigen::Vector3d::Zero();
@@ -78,12 +80,13 @@ Parabola FitParabola(const std::vector<ContourPlace>& places,
     sum_lengths += s * s;
     ++size;
   }
+  if (size < kMinNumPlaces) return std::nullopt;
   const Eigen::Vector3d fit = information.ldlt().solve(vector);
   const double rest = std::max(0.0, sum_squares - fit.dot(vector));
-  return {fit[0],
-          std::atan2(fit[1], sum_along / sum_lengths),
-          2 * std::abs(fit[2]),
-          std::sqrt(rest / size)};
+  return Parabola{fit[0],
+                  std::atan2(fit[1], sum_along / sum_lengths),
+                  2 * std::abs(fit[2]),
+                  std::sqrt(rest / size)};
 }
 
 // The edge, moved and turned by a parabola that fits; else as it is.
@@ -93,14 +96,16 @@ Edge2d Smoothed(const Edge2d& edge,
   const double angle = static_cast<double>(edge.angle);
   const Eigen::Vector2d tangent(std::cos(angle), std::sin(angle));
   for (; reach >= kMinReachPx; reach /= 2) {
-    const Parabola fit = FitParabola(places, tangent, reach);
-    if (!(fit.residual <= kMaxResidualPx) ||
-        !(fit.curvature * reach <= kMaxBendRad)) {
+    const auto fit = FitParabola(places, tangent, reach);
+    if (!fit) return edge;
+    if (!(fit->residual <= kMaxResidualPx) ||
+        !(fit->curvature * reach <= kMaxBendRad)) {
       continue;
     }
     Edge2d smoothed = edge;
-    smoothed.position += fit.shift * Eigen::Vector2d(-tangent.y(), tangent.x());
-    smoothed.angle = static_cast<float>(WrapDirected(angle + fit.turn));
+    smoothed.position +=
+        fit->shift * Eigen::Vector2d(-tangent.y(), tangent.x());
+    smoothed.angle = static_cast<float>(WrapDirected(angle + fit->turn));
     return smoothed;
   }
   return edge;

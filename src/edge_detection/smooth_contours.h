@@ -13,8 +13,8 @@ namespace curvix {
 // an edge as on the other, at most 16 px, or less where it leaves the parabola
 // by more than 0.25 px (root mean square) or bends by more than a radian. The
 // edge moves onto the parabola, across its tangent, and turns to it. Edges stay
-// that have less than 2 px of such contour on either side. Edges and
-// `neighbors` correspond.
+// that have less than 2 px of such contour on either side, or five edges in
+// all. Edges and `neighbors` correspond.
 void SmoothContours(const std::vector<EdgeNeighbors>& neighbors,
                     std::vector<Edge2d>* edges);
 

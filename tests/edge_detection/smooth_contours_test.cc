@@ -180,6 +180,19 @@ TEST(SmoothContours, GoesRoundClosedContours) {
   }
 }
 
+// Too few for a parabola.
+TEST(SmoothContours, LeavesEdgesFarApartAsTheyAre) {
+  for (const double ahead : {2.5, 3.0}) {
+    Contour contour;
+    for (const double x : {-3.0, 0.0, ahead}) contour.Add({x, 0.1 * x * x}, 0);
+    const Contour smoothed = contour.Smoothed();
+    for (std::size_t i = 0; i < contour.edges.size(); ++i) {
+      EXPECT_EQ(smoothed.edges[i].position, contour.edges[i].position);
+      EXPECT_EQ(smoothed.edges[i].angle, contour.edges[i].angle);
+    }
+  }
+}
+
 TEST(SmoothContours, TakesNoEdges) {
   std::vector<Edge2d> edges;
   SmoothContours({}, &edges);
