@@ -12,9 +12,9 @@ namespace curvix {
 // and some degrees. A parabola is fitted to the contour as far on one side of
 // an edge as on the other, at most 16 px, or less where it leaves the parabola
 // by more than 0.25 px (root mean square) or bends by more than a radian. The
-// edge moves onto the parabola, across its tangent, and turns to it. Edges stay
-// that have less than 2 px of such contour on either side, or five edges in
-// all. Edges and `neighbors` correspond.
+// edge moves onto the parabola, across its tangent, and turns to it. It stays
+// if there are less than 2 px on either side, or fewer than five edges in all.
+// Edges and `neighbors` correspond.
 void SmoothContours(const std::vector<EdgeNeighbors>& neighbors,
                     std::vector<Edge2d>* edges);
 
