@@ -16,12 +16,13 @@ namespace curvix {
 //                                   4.x; of several the one with most images
 //   <workspace>/dense/<k>/          undistorted images and their model
 // The workspace may also be the folder of the model itself. The scene has the
-// views whose images are there, sorted by name; images are not opened. `notes`
+// views whose images are there, sorted by name. Cameras are scaled to images of
+// another size but the same proportions, of which headers are read. `notes`
 // takes sentences worth telling a user: images that are missing, models that
-// were not taken. Poses are as the model has them: RefinePosesWithCurves
-// (refine_poses.h) refines them.
-// kNotFound: no folder, no model or no images. kDataLoss: a broken model.
-// kUnsupported: its camera model. kInvalidArgument: fewer than three views.
+// were not taken, cameras that were scaled. Poses are as the model has them:
+// RefinePosesWithCurves (refine_poses.h) refines them. kNotFound: no folder, no
+// model or no images. kDataLoss: a broken model. kUnsupported: its camera
+// model. kInvalidArgument: fewer than three views.
 Result<Scene> ReadColmapScene(const std::filesystem::path& workspace_path,
                               const std::filesystem::path& image_path = {},
                               std::vector<std::string>* notes = nullptr);

@@ -13,7 +13,7 @@
 
 #include "base/file_io.h"
 #include "colmap/links.h"
-#include "edge_detection/image_header.h"
+#include "edge_detection/load_image.h"
 #include "plugin/imports/importers.h"
 #include "plugin/imports/projection_matrix.h"
 

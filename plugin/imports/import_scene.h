@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "colmap/colmap_model.h"
-#include "edge_detection/image_header.h"
+#include "edge_detection/load_image.h"
 #include "plugin/imports/projection_matrix.h"
 
 namespace curvix {

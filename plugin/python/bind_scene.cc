@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "colmap/colmap_model_format.h"
-#include "edge_detection/image_header.h"
+#include "edge_detection/load_image.h"
 #include "geometry/camera_of.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"

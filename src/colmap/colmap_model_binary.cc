@@ -63,7 +63,7 @@ Result<std::vector<Item>> ParseAll(std::string_view bytes,
 }
 
 // Sizes beyond int do not make a camera; 0 makes Validate say so.
-int ImageSize(std::uint64_t size) {
+int SideOfImage(std::uint64_t size) {
   return size > std::numeric_limits<int>::max() ? 0 : static_cast<int>(size);
 }
 
@@ -107,8 +107,8 @@ CamerasOrError ParseCamerasBinary(std::string_view bytes,
     ColmapCamera item;
     item.camera_id = reader.Take<std::uint32_t>();
     const int model_id = reader.Take<std::int32_t>();
-    item.camera.width = ImageSize(reader.Take<std::uint64_t>());
-    item.camera.height = ImageSize(reader.Take<std::uint64_t>());
+    item.camera.width = SideOfImage(reader.Take<std::uint64_t>());
+    item.camera.height = SideOfImage(reader.Take<std::uint64_t>());
     const std::optional<CameraModel> model = ModelFromId(model_id);
     if (!model) {
       const std::string name = model_id == 17

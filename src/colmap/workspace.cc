@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/file_io.h"
+#include "colmap/fit_to_images.h"
 #include "colmap/links.h"
 #include "colmap/project_file.h"
 
@@ -339,6 +340,8 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
   if (!model.ok()) return model.status();
   WorkspaceScene result;
   result.model = std::move(model).value();
+  const std::string scaled = FitToImages(workspace.image_path, &result.model);
+  if (!scaled.empty()) result.notes.push_back(scaled);
   result.missing_images = MissingImages(result.model, workspace.image_path);
   result.scene = MakeScene(workspace, result.model, result.missing_images);
   if (result.scene.views.size() < kMinViews) {

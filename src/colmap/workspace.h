@@ -65,8 +65,9 @@ struct WorkspaceScene {
 };
 
 // Reads the model and leaves out the views whose images are not on disk, with a
-// note that names the first five. Images are not opened. Another note counts
-// the views without a mask, if the workspace has masks. Fails if the model
+// note that names the first five. Cameras are scaled to images of another size
+// (fit_to_images.h), with a note. Another note counts the views without a mask,
+// if the workspace has masks. Fails if the model
 // cannot be read or if fewer than three views remain.
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace);
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/file_io.h"
-#include "edge_detection/image_header.h"
+#include "base/image_header.h"
 
 namespace curvix {
 namespace {

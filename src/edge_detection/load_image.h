@@ -7,10 +7,15 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/image_header.h"
 #include "edge_detection/gray_image.h"
-#include "edge_detection/image_header.h"
 
 namespace curvix {
+
+// The size of the image as stored (an EXIF rotation is ignored, as COLMAP
+// does): from the header of PNG, JPEG and TIFF files, by decoding others.
+// kNotFound: no such file. kDataLoss: not an image.
+Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
 // The image in the file, as stored: an EXIF rotation is ignored, as COLMAP
 // does. Grey, colour (0.299 R + 0.587 G + 0.114 B) and either with alpha, 8 or

@@ -414,9 +414,9 @@ def _(w):
     w.write_text()
 
 
-@row('cameras of half the size of the images', '')
+@row('cameras of half the width of the images', '')
 def _(w):
-    w.cameras[0][2:] = [w.cameras[0][2] // 2, w.cameras[0][3] // 2, *(number / 2 for number in w.cameras[0][4:])]
+    w.cameras[0][2] //= 2
     w.write_text()
 
 
@@ -427,6 +427,11 @@ def _(w):
 
 
 # Images.
+
+@row('images of twice the size', '')
+def _(w):
+    w.convert('.png', lambda image, path: image.resize((2 * image.width, 2 * image.height), Image.BICUBIC).save(path))
+
 
 @row('JPEG', '')
 def _(w):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What PNG, JPEG and TIFF files say about themselves. Decoders are OpenCV's.
-#include "edge_detection/image_header.h"
+#include "base/image_header.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>

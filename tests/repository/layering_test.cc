@@ -43,7 +43,7 @@ const std::map<std::string, Rule>& Rules() {
       {"base", {{}, {"malloc.h", "nanoflann.hpp"}}},
       {"model", {{"base"}, {}}},
       {"geometry", {{"base", "model"}, {}}},
-      {"colmap", {{"base"}, {}}},
+      {"colmap", {{"base", "geometry"}, {}}},
       {"edge_detection", Stage({"opencv2"})},
       {"edge_sketch", Stage()},
       {"paper", Stage({}, {"edge_sketch"})},

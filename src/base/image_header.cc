@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/image_header.h"
+#include "base/image_header.h"
 
 #include <cstddef>
 #include <cstdint>

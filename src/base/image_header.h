@@ -3,8 +3,6 @@
 // decoding them.
 #pragma once
 
-#include <curvix/status.h>
-#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -18,11 +16,6 @@ struct ImageSize {
     return a.width == b.width && a.height == b.height;
   }
 };
-
-// The size of the image as stored (an EXIF rotation is ignored, as COLMAP
-// does): from the header of PNG, JPEG and TIFF files, by decoding others.
-// kNotFound: no such file. kDataLoss: not an image.
-Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
 // The size that a PNG, JPEG or TIFF file announces, each side at most a million
 // pixels. nullopt: another format, or no sound header.

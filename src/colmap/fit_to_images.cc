@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colmap/fit_to_images.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "base/image_header.h"
+#include "colmap/links.h"
+#include "geometry/distortion.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Scale {
+  double x = 1;
+  double y = 1;
+};
+
+// From the first bytes, behind which no common file has its size.
+std::optional<ImageSize> SizeOfImage(const fs::path& file) {
+  constexpr std::size_t kMaxBytes = 1 << 18;
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;
+  std::string bytes(kMaxBytes, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return SizeInHeader(bytes);
+}
+
+// By camera_id.
+std::map<std::uint32_t, ImageSize> SizesOfImages(const fs::path& folder,
+                                                 const ColmapModel& model) {
+  std::map<std::uint32_t, ImageSize> sizes;
+  for (const ColmapImage& image : model.images) {
+    if (sizes.count(image.camera_id) > 0) continue;
+    const auto size = SizeOfImage(ImageFile(folder, image.name));
+    if (size) sizes.emplace(image.camera_id, *size);
+  }
+  return sizes;
+}
+
+// nullopt: the camera is to stay as it is, also if a row or column is missing.
+std::optional<Scale> ScaleTo(const ImageSize& size, const Camera& camera) {
+  if (std::abs(size.width - camera.width) <= 1 ||
+      std::abs(size.height - camera.height) <= 1) {
+    return std::nullopt;
+  }
+  const Scale scale = {size.width / static_cast<double>(camera.width),
+                       size.height / static_cast<double>(camera.height)};
+  const bool is_alike = std::abs(scale.x * camera.height - size.height) <= 1 ||
+                        std::abs(scale.y * camera.width - size.width) <= 1;
+  return is_alike ? std::optional(scale) : std::nullopt;
+}
+
+// Distortion is in units of the focal length.
+void Rescale(const Scale& scale, const ImageSize& size, Camera* camera) {
+  std::vector<double>& p = camera->params;
+  if (NumFocalLengths(camera->model) == 1) {
+    p[0] *= (scale.x + scale.y) / 2;
+    p[1] *= scale.x;
+    p[2] *= scale.y;
+  } else {
+    p[0] *= scale.x;
+    p[1] *= scale.y;
+    p[2] *= scale.x;
+    p[3] *= scale.y;
+  }
+  camera->width = size.width;
+  camera->height = size.height;
+}
+
+std::string Sides(const ImageSize& size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+}  // namespace
+
+std::string FitToImages(const fs::path& folder, ColmapModel* model) {
+  const auto sizes = SizesOfImages(folder, *model);
+  std::map<std::uint32_t, Scale> scales;
+  std::string first;
+  for (ColmapCamera& item : model->cameras) {
+    const auto size = sizes.find(item.camera_id);
+    if (size == sizes.end()) continue;
+    const auto scale = ScaleTo(size->second, item.camera);
+    if (!scale) continue;
+    if (scales.empty()) {
+      first = Sides(size->second) + " pixels instead of " +
+              Sides({item.camera.width, item.camera.height});
+    }
+    scales.emplace(item.camera_id, *scale);
+    Rescale(*scale, size->second, &item.camera);
+  }
+  if (scales.empty()) return "";
+  for (ColmapImage& image : model->images) {
+    const auto scale = scales.find(image.camera_id);
+    if (scale == scales.end()) continue;
+    for (ColmapPoint2D& point : image.points2D) {
+      point.x *= scale->second.x;
+      point.y *= scale->second.y;
+    }
+  }
+  for (ColmapPoint3D& point : model->points) point.error = -1;
+  return "The images of " + std::to_string(scales.size()) + " of " +
+         std::to_string(model->cameras.size()) +
+         " cameras have another size than the model says (" + first +
+         "); these cameras are scaled to them.";
+}
+
+}  // namespace curvix

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colmap/fit_to_images.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+
+namespace curvix {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string BigEndian(std::uint32_t number) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) {
+    bytes += static_cast<char>(number >> shift & 0xFF);
+  }
+  return bytes;
+}
+
+// All that a size needs.
+std::string HeaderOfPng(int width, int height) {
+  return "\x89PNG\r\n\x1a\n" + BigEndian(13) + "IHDR" +
+         BigEndian(static_cast<std::uint32_t>(width)) +
+         BigEndian(static_cast<std::uint32_t>(height));
+}
+
+class FitToImagesTest : public ::testing::Test {
+ protected:
+  // A camera with one image a.png and a 2D point at (400, 300).
+  void SetUp() override {
+    AddCamera(1,
+              {CameraModel::kOpenCV,
+               800,
+               600,
+               {700, 710, 410, 290, -0.1, 0.02, 0.001, 0.002}},
+              "a.png");
+    ColmapPoint3D point;
+    point.error = 0.5;
+    model_.points = {point};
+  }
+
+  void AddCamera(std::uint32_t id,
+                 const Camera& camera,
+                 const std::string& image_name) {
+    model_.cameras.push_back({id, camera});
+    ColmapImage image;
+    image.image_id = id;
+    image.camera_id = id;
+    image.name = image_name;
+    image.points2D = {{400, 300, 1}};
+    model_.images.push_back(image);
+  }
+
+  std::string FitTo(int width, int height) {
+    folder_.Write("a.png", HeaderOfPng(width, height));
+    return FitToImages(folder_.path(), &model_);
+  }
+
+  void ExpectUntouched() const {
+    const Camera& camera = model_.cameras[0].camera;
+    EXPECT_EQ(camera.width, 800);
+    EXPECT_EQ(camera.height, 600);
+    EXPECT_EQ(camera.params[0], 700);
+    EXPECT_EQ(model_.images[0].points2D[0].x, 400);
+    EXPECT_EQ(model_.points[0].error, 0.5);
+  }
+
+  TemporaryFolder folder_;
+  ColmapModel model_;
+};
+
+TEST_F(FitToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
+  EXPECT_EQ(FitTo(400, 300),
+            "The images of 1 of 1 cameras have another size than the model "
+            "says (400 x 300 pixels instead of 800 x 600); these cameras are "
+            "scaled to them.");
+  const Camera& camera = model_.cameras[0].camera;
+  EXPECT_EQ(camera.width, 400);
+  EXPECT_EQ(camera.height, 300);
+  EXPECT_THAT(camera.params,
+              ElementsAre(350, 355, 205, 145, -0.1, 0.02, 0.001, 0.002));
+  EXPECT_EQ(model_.images[0].points2D[0].x, 200);
+  EXPECT_EQ(model_.images[0].points2D[0].y, 150);
+  EXPECT_EQ(model_.points[0].error, -1);
+}
+
+TEST_F(FitToImagesTest, ScalesToLargerImages) {
+  EXPECT_THAT(FitTo(1600, 1200), HasSubstr("scaled"));
+  EXPECT_EQ(model_.cameras[0].camera.params[0], 1400);
+}
+
+// 4946 x 3286 pixels, a quarter of which is rounded.
+TEST_F(FitToImagesTest, TakesRoundedSizes) {
+  model_.cameras[0].camera = {
+      CameraModel::kSimpleRadial, 4946, 3286, {4000, 2473, 1643, 0.01}};
+  EXPECT_THAT(FitTo(1237, 822), HasSubstr("scaled"));
+  const std::vector<double>& params = model_.cameras[0].camera.params;
+  EXPECT_NEAR(params[0], 1000, 1);
+  EXPECT_DOUBLE_EQ(params[1], 2473 * (1237 / 4946.0));
+  EXPECT_DOUBLE_EQ(params[2], 1643 * (822 / 3286.0));
+  EXPECT_EQ(params[3], 0.01);
+}
+
+TEST_F(FitToImagesTest, LeavesCamerasOfTheSameSize) {
+  EXPECT_EQ(FitTo(800, 600), "");
+  ExpectUntouched();
+}
+
+TEST_F(FitToImagesTest, LeavesCamerasOfImagesInOtherProportions) {
+  EXPECT_EQ(FitTo(400, 320), "");
+  EXPECT_EQ(FitTo(600, 800), "");
+  ExpectUntouched();
+}
+
+// A row that is cut off moves nothing.
+TEST_F(FitToImagesTest, LeavesCamerasOfImagesThatWereCut) {
+  EXPECT_EQ(FitTo(800, 599), "");
+  EXPECT_EQ(FitTo(799, 599), "");
+  ExpectUntouched();
+}
+
+TEST_F(FitToImagesTest, LeavesCamerasOfImagesThatTellNoSize) {
+  EXPECT_EQ(FitToImages(folder_.path(), &model_), "");
+  folder_.Write("a.png", "");
+  EXPECT_EQ(FitToImages(folder_.path(), &model_), "");
+  ExpectUntouched();
+}
+
+TEST_F(FitToImagesTest, ScalesOnlyTheCamerasThatNeedIt) {
+  AddCamera(
+      2, {CameraModel::kSimplePinhole, 800, 600, {700, 400, 300}}, "b.png");
+  folder_.Write("b.png", HeaderOfPng(200, 150));
+  EXPECT_THAT(FitTo(800, 600), HasSubstr("1 of 2 cameras"));
+  EXPECT_EQ(model_.cameras[0].camera.params[0], 700);
+  EXPECT_EQ(model_.images[0].points2D[0].x, 400);
+  EXPECT_THAT(model_.cameras[1].camera.params, ElementsAre(175, 100, 75));
+  EXPECT_EQ(model_.images[1].points2D[0].x, 100);
+}
+
+}  // namespace
+}  // namespace curvix
