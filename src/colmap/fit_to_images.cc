@@ -18,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// More is a mistake.
+constexpr double kMaxScale = 32;
+
 struct Scale {
   double x = 1;
   double y = 1;
@@ -57,7 +60,8 @@ std::optional<Scale> ScaleTo(const ImageSize& size, const Camera& camera) {
                        size.height / static_cast<double>(camera.height)};
   const bool is_alike = std::abs(scale.x * camera.height - size.height) <= 1 ||
                         std::abs(scale.y * camera.width - size.width) <= 1;
-  return is_alike ? std::optional(scale) : std::nullopt;
+  const bool is_plausible = std::abs(std::log(scale.x)) <= std::log(kMaxScale);
+  return is_alike && is_plausible ? std::optional(scale) : std::nullopt;
 }
 
 // Distortion is in units of the focal length.

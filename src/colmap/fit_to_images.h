@@ -14,8 +14,9 @@ namespace curvix {
 // images/ in many data sets. The size of a camera's images is that in the
 // header of the first of them that has one (PNG, JPEG or TIFF). A camera stays
 // as it is if either side differs by no more than a pixel, and if scaling both
-// alike does not give that size, to a pixel. Errors of points are not known any
-// more (-1). Returns a sentence for the user, "" if nothing was scaled.
+// alike by at most 32 does not give that size, to a pixel. Errors of points are
+// not known any more (-1). Returns a sentence for the user, "" if nothing was
+// scaled.
 std::string FitToImages(const std::filesystem::path& folder,
                         ColmapModel* model);
 

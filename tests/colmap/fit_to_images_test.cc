@@ -119,6 +119,12 @@ TEST_F(FitToImagesTest, LeavesCamerasOfImagesInOtherProportions) {
   ExpectUntouched();
 }
 
+TEST_F(FitToImagesTest, LeavesCamerasOfAbsurdSizes) {
+  EXPECT_EQ(FitTo(20, 15), "");
+  EXPECT_EQ(FitTo(40000, 30000), "");
+  ExpectUntouched();
+}
+
 // A row that is cut off moves nothing.
 TEST_F(FitToImagesTest, LeavesCamerasOfImagesThatWereCut) {
   EXPECT_EQ(FitTo(800, 599), "");
