@@ -204,7 +204,7 @@ const char* OpenedBy(const std::string& file) {
   }
   if (file == "overlays/") return "images with the curves drawn over them";
   if (file == "edges.ply") return "3D edges before grouping, as points";
-  if (file == "sparse/") return "model with the refined poses: COLMAP";
+  if (file == "sparse/") return "model as it was used: COLMAP";
   if (file == "bundle_adjuster.log") return "what COLMAP said";
   if (file == "report.json") return "counts, seconds and memory by stage";
   if (file == "project.ini") return "the options: --project_path repeats them";

@@ -71,7 +71,7 @@ Result<WorkspaceRun> ReconstructWorkspace(const RunSettings& settings,
       stages.Run(input->model, std::move(input->scene), nullptr);
   if (!found.ok()) return found.status();
 
-  if (*is_adjusted || found->refined_model) {
+  if (*is_adjusted || found->refined_model || input->is_scaled) {
     record.result.files.push_back("sparse/");
     Status written = WriteColmapModel(
         found->refined_model ? *found->refined_model : input->model,

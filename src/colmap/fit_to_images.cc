@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colmap/fit_to_images.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <map>
 #include <optional>
+#include <system_error>
 #include <vector>
 
+#include "base/file_io.h"
 #include "base/image_header.h"
 #include "colmap/links.h"
 #include "geometry/distortion.h"
@@ -26,26 +29,28 @@ struct Scale {
   double y = 1;
 };
 
-// From the first bytes, behind which no common file has its size.
+// From the first bytes if these have it, else from all.
 std::optional<ImageSize> SizeOfImage(const fs::path& file) {
-  constexpr std::size_t kMaxBytes = 1 << 18;
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) return std::nullopt;
-  std::string bytes(kMaxBytes, '\0');
+  constexpr std::size_t kFirstBytes = 1 << 16;
+  std::string bytes(kFirstBytes, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return SizeInHeader(bytes);
+  if (const auto size = SizeInHeader(bytes)) return size;
+  const Result<std::string> all = ReadFile(file);
+  return all.ok() ? SizeInHeader(*all) : std::nullopt;
 }
 
-// By camera_id.
-std::map<std::uint32_t, ImageSize> SizesOfImages(const fs::path& folder,
-                                                 const ColmapModel& model) {
-  std::map<std::uint32_t, ImageSize> sizes;
+// By camera_id; nullopt: not known.
+std::map<std::uint32_t, std::optional<ImageSize>> SizesOfImages(
+    const fs::path& folder, const ColmapModel& model) {
+  std::map<std::uint32_t, std::optional<ImageSize>> sizes;
   for (const ColmapImage& image : model.images) {
     if (sizes.count(image.camera_id) > 0) continue;
-    const auto size = SizeOfImage(ImageFile(folder, image.name));
-    if (size) sizes.emplace(image.camera_id, *size);
+    const fs::path file = ImageFile(folder, image.name);
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) continue;
+    sizes.emplace(image.camera_id, SizeOfImage(file));
   }
   return sizes;
 }
@@ -93,15 +98,15 @@ std::string FitToImages(const fs::path& folder, ColmapModel* model) {
   std::string first;
   for (ColmapCamera& item : model->cameras) {
     const auto size = sizes.find(item.camera_id);
-    if (size == sizes.end()) continue;
-    const auto scale = ScaleTo(size->second, item.camera);
+    if (size == sizes.end() || !size->second) continue;
+    const auto scale = ScaleTo(*size->second, item.camera);
     if (!scale) continue;
     if (scales.empty()) {
-      first = Sides(size->second) + " pixels instead of " +
+      first = Sides(*size->second) + " pixels instead of " +
               Sides({item.camera.width, item.camera.height});
     }
     scales.emplace(item.camera_id, *scale);
-    Rescale(*scale, size->second, &item.camera);
+    Rescale(*scale, *size->second, &item.camera);
   }
   if (scales.empty()) return "";
   for (ColmapImage& image : model->images) {

@@ -341,7 +341,8 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
   WorkspaceScene result;
   result.model = std::move(model).value();
   const std::string scaled = FitToImages(workspace.image_path, &result.model);
-  if (!scaled.empty()) result.notes.push_back(scaled);
+  result.is_scaled = !scaled.empty();
+  if (result.is_scaled) result.notes.push_back(scaled);
   result.missing_images = MissingImages(result.model, workspace.image_path);
   result.scene = MakeScene(workspace, result.model, result.missing_images);
   if (result.scene.views.size() < kMinViews) {

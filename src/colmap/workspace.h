@@ -61,6 +61,7 @@ struct WorkspaceScene {
   ColmapModel model;                        // all of it
   Scene scene;                              // the views whose images are there
   std::vector<std::string> missing_images;  // names, sorted
+  bool is_scaled = false;  // cameras are scaled, see FitToImages()
   std::vector<std::string> notes;
 };
 

@@ -82,7 +82,7 @@ std::optional<Parabola> FitParabola(const std::vector<ContourPlace>& places,
   }
   if (size < kMinNumPlaces) return std::nullopt;
   const Eigen::Vector3d fit = information.ldlt().solve(vector);
-  const double rest = std::max(0.0, sum_squares - fit.dot(vector));
+  const double rest = std::max(sum_squares - fit.dot(vector), 0.0);
   return Parabola{fit[0],
                   std::atan2(fit[1], sum_along / sum_lengths),
                   2 * std::abs(fit[2]),

@@ -108,6 +108,23 @@ TEST_F(FitToImagesTest, TakesRoundedSizes) {
   EXPECT_EQ(params[3], 0.01);
 }
 
+TEST_F(FitToImagesTest, ScalesFromRoundedSizes) {
+  model_.cameras[0].camera = {
+      CameraModel::kSimplePinhole, 618, 411, {500, 309, 205.5}};
+  EXPECT_THAT(FitTo(4946, 3286), HasSubstr("scaled"));
+  EXPECT_NEAR(model_.cameras[0].camera.params[0], 4000, 4);
+}
+
+// As behind a large thumbnail.
+TEST_F(FitToImagesTest, FindsSizesFarBehind) {
+  const std::string thumbnail =
+      "\xFF\xE1\xFF\xFF" + std::string(0xFFFF - 2, '\0');
+  folder_.Write("a.png",
+                "\xFF\xD8" + thumbnail + thumbnail +
+                    std::string("\xFF\xC0\x00\x11\x08\x01\x2C\x01\x90", 9));
+  EXPECT_THAT(FitToImages(folder_.path(), &model_), HasSubstr("400 x 300"));
+}
+
 TEST_F(FitToImagesTest, LeavesCamerasOfTheSameSize) {
   EXPECT_EQ(FitTo(800, 600), "");
   ExpectUntouched();
