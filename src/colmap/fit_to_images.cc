@@ -63,8 +63,10 @@ std::optional<Scale> ScaleTo(const ImageSize& size, const Camera& camera) {
   }
   const Scale scale = {size.width / static_cast<double>(camera.width),
                        size.height / static_cast<double>(camera.height)};
-  const bool is_alike = std::abs(scale.x * camera.height - size.height) <= 1 ||
-                        std::abs(scale.y * camera.width - size.width) <= 1;
+  // The sides of the smaller image are rounded.
+  const double max_difference = std::max({1.0, scale.x, scale.y});
+  const bool is_alike =
+      std::abs(scale.x * camera.height - size.height) <= max_difference;
   const bool is_plausible = std::abs(std::log(scale.x)) <= std::log(kMaxScale);
   return is_alike && is_plausible ? std::optional(scale) : std::nullopt;
 }
