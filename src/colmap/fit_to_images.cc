@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// More is a mistake.
+// Images larger or smaller than this are not taken for copies.
 constexpr double kMaxScale = 32;
 
 struct Scale {

@@ -68,8 +68,8 @@ struct WorkspaceScene {
 // Reads the model and leaves out the views whose images are not on disk, with a
 // note that names the first five. Cameras are scaled to images of another size
 // (fit_to_images.h), with a note. Another note counts the views without a mask,
-// if the workspace has masks. Fails if the model
-// cannot be read or if fewer than three views remain.
+// if the workspace has masks. Fails if the model cannot be read or if fewer
+// than three views remain.
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace);
 
 // The scene of a valid model in the folders of the workspace, without the
