@@ -62,8 +62,8 @@ struct CurvePoses {
 // part if a hundred have pixels. Poses may be off by several pixels. The world
 // keeps the unit that samples and points have, and stays where the poses of the
 // scene show it.
-// Cameras change if `refine_intrinsics`, and only those that five views or more
-// share: the first eight parameters of their model, or of a model with more
+// Cameras change if `refine_intrinsics`, all or none, shared or of a single
+// view: the first eight parameters of their model, or of a model with more
 // terms (SIMPLE_RADIAL, RADIAL, OPENCV); none if one of the new cameras cannot
 // be inverted at an edge.
 //

@@ -143,8 +143,7 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
        RowFlag({.name = "refine_intrinsics",
                 .field = &settings->refine_intrinsics,
                 .max = 1,
-                .help = "refine cameras that five views or more share, if "
-                        "held-out errors fall"}),
+                .help = "refine cameras, too, if held-out errors fall"}),
        Advanced(RowFlag({.name = "refiner_timeout_s",
                          .field = &settings->refiner_timeout_s,
                          .min_is_excluded = true,

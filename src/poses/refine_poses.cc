@@ -26,8 +26,6 @@ namespace {
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
-// With fewer views, a lens is hardly distinguishable from poses and structure.
-constexpr int kMinViewsPerLens = 5;
 
 ErrorsOfViews Summarize(const std::vector<double>& errors) {
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
@@ -46,7 +44,7 @@ class Refiner {
         num_threads_(options.runtime.num_threads),
         search_(scene, edge_maps, options, run->Steps()),
         at_sketch_(search_.edges().moved()) {
-    if (refine_intrinsics) shared_lenses_ = SharedLenses();
+    if (refine_intrinsics) free_lenses_ = UsedLenses();
   }
 
   // Searches for better poses without the set of cells that is held out.
@@ -141,33 +139,28 @@ class Refiner {
     SketchAgain();
   }
 
-  // By camera: whether enough views share it.
-  std::vector<bool> SharedLenses() const {
-    std::vector<int> counts(scene_.cameras.size(), 0);
+  // By camera: whether a view has it.
+  std::vector<bool> UsedLenses() const {
+    std::vector<bool> used(scene_.cameras.size(), false);
     for (const View& view : scene_.views) {
-      ++counts[static_cast<std::size_t>(view.camera_idx)];
+      used[static_cast<std::size_t>(view.camera_idx)] = true;
     }
-    std::vector<bool> shared;
-    for (const int count : counts) shared.push_back(count >= kMinViewsPerLens);
-    return shared;
+    return used;
   }
 
-  // The shared cameras by models with more terms.
+  // The free cameras by models with more terms.
   std::vector<Camera> Extended(std::vector<Camera> cameras) const {
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      if (shared_lenses_[i]) cameras[i] = WithMoreTerms(cameras[i]);
+      if (free_lenses_[i]) cameras[i] = WithMoreTerms(cameras[i]);
     }
     return cameras;
   }
 
-  // Refines shared cameras, first by their own terms, then by more. Since all
-  // views share these few parameters, two fifths of space determine them; all
-  // else is test data. Poses are adjusted to it with the old and with the new
+  // Refines cameras, first by their own terms, then by more. Two fifths of space
+  // determine these few parameters; all else is test data. Poses are adjusted to it with the old and with the new
   // cameras, which are kept if that fits better. Whether cameras have changed.
   bool TryLenses() {
-    if (std::count(shared_lenses_.begin(), shared_lenses_.end(), true) == 0) {
-      return false;
-    }
+    if (free_lenses_.empty()) return false;
     PoseObservationSet training = observations_;
     PoseObservationSet test =
         HoldOutMore(cells_, {last_held_out_, held_out_.points}, &training);
@@ -178,7 +171,7 @@ class Refiner {
     std::vector<double> best_losses = search_.LossesOf(test);
     MovedCameras best = before;
     std::vector<Camera> cameras = before.cameras;
-    search_.FreeLenses(shared_lenses_);
+    search_.FreeLenses(free_lenses_);
     while (!search_.is_stopped()) {
       PoseObservationSet adjusted = training;
       search_.Move({before.new_cam_from_cam, cameras});
@@ -338,7 +331,7 @@ class Refiner {
   const Scene& scene_;
   const int num_threads_;
   PoseSearch search_;
-  std::vector<bool> shared_lenses_;  // by camera; empty: none is refined
+  std::vector<bool> free_lenses_;  // by camera; empty: none is refined
   PoseObservationSet observations_;
   PoseObservationSet held_out_;
   MovedCameras at_sketch_;                 // the last

@@ -3,7 +3,7 @@
 """Writes a copy of a workspace whose poses are wrong.
 
 usage: disturb_poses.py WORKSPACE OUTPUT PIXELS [--only N] [--simple_lens]
-                        [--seed N]
+                        [--camera_per_image] [--seed N]
 
 WORKSPACE holds sparse/0 as text, and images/. OUTPUT gets a model with the
 same cameras and disturbed poses, without points, and a link to the images.
@@ -15,6 +15,8 @@ the shifts of the picture is PIXELS. The same seed gives the same poses.
 --simple_lens  a RADIAL camera becomes the SIMPLE_RADIAL one that is most like
                it, with the principal point in the middle, and poses are turned
                by the shift of the principal point
+--camera_per_image
+               each image has a camera of its own, with the same values
 
 Needs Python 3.9 and nothing else.
 """
@@ -102,6 +104,7 @@ def main():
     parser.add_argument('pixels', type=float)
     parser.add_argument('--only', type=int)
     parser.add_argument('--simple_lens', action='store_true')
+    parser.add_argument('--camera_per_image', action='store_true')
     parser.add_argument('--seed', type=int, default=1)
     args = parser.parse_args()
     source = args.workspace / 'sparse' / '0'
@@ -114,8 +117,6 @@ def main():
     if args.simple_lens:
         for i, camera in enumerate(cameras):
             cameras[i], turns[camera[0]] = simplify_lens(camera)
-    (target / 'cameras.txt').write_text(
-        ''.join(' '.join(camera) + '\n' for camera in cameras))
     (target / 'points3D.txt').write_text('')
     generator = random.Random(args.seed)
     images = [line.split(maxsplit=9)
@@ -128,7 +129,14 @@ def main():
         if i in wrong:
             fields = disturb(fields, focal_px[fields[8]], args.pixels,
                              generator)
+        if args.camera_per_image:
+            fields[8] = fields[0]
         lines += [' '.join(fields), '']
+    if args.camera_per_image:
+        cameras = [[image[0], *camera[1:]] for image in images
+                   for camera in cameras if camera[0] == image[8]]
+    (target / 'cameras.txt').write_text(
+        ''.join(' '.join(camera) + '\n' for camera in cameras))
     (target / 'images.txt').write_text('\n'.join(lines) + '\n')
     images = args.output / 'images'
     if not images.exists():

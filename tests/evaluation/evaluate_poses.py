@@ -3,7 +3,7 @@
 """Disturbs the poses of scenes with known curves, and tells what is left.
 
 usage: evaluate_poses.py SCENE... [--pixels 0.5,1,2] [--only N] [--lens]
-                         [--views N] [--seed N]
+                         [--camera_per_image] [--views N] [--seed N]
                          [--program build/bin/colmap_curvix]
 
 Prints a table: for each SCENE, a workspace with gt.txt, and each number of
@@ -16,6 +16,8 @@ the poses as they are.
 
 --only N   only N poses are disturbed
 --lens     images of a RADIAL camera, given as a SIMPLE_RADIAL one
+--camera_per_image
+           each image has a camera of its own
 --views N  N of the images
 
 Needs Debian's python3-numpy and python3-scipy, and for --lens python3-pil.
@@ -49,37 +51,38 @@ def pose_of(numbers):
             np.array(translation))
 
 
-def read_text_poses(path):
-    """{image name: pose_of}."""
-    poses = {}
+def read_text_images(path):
+    """{image name: (pose_of, camera id)}."""
+    images = {}
     for line in data_lines(path)[::2]:
         fields = line.split(maxsplit=9)
-        poses[fields[9]] = pose_of(map(float, fields[1:8]))
-    return poses
+        images[fields[9]] = (pose_of(map(float, fields[1:8])), int(fields[8]))
+    return images
 
 
-def read_binary_poses(path):
-    """{image name: pose_of}."""
+def read_binary_images(path):
+    """{image name: (pose_of, camera id)}."""
     data = path.read_bytes()
-    poses = {}
+    images = {}
     place = 8
     for _ in range(*struct.unpack_from('<Q', data)):
-        numbers = struct.unpack_from('<7d', data, place + 4)
+        *numbers, camera_id = struct.unpack_from('<7di', data, place + 4)
         begin = place + 64
         end = data.index(0, begin)
-        poses[data[begin:end].decode()] = pose_of(numbers)
+        images[data[begin:end].decode()] = (pose_of(numbers), camera_id)
         place = end + 9 + 24 * struct.unpack_from('<Q', data, end + 1)[0]
-    return poses
+    return images
 
 
-def read_poses(model):
-    """{image name: pose_of} of a model as text or binary."""
+def read_images(model):
+    """{image name: (pose_of, camera id)} of a model as text or binary."""
     path = model / 'images.txt'
-    return (read_text_poses(path) if path.exists()
-            else read_binary_poses(model / 'images.bin'))
+    return (read_text_images(path) if path.exists()
+            else read_binary_images(model / 'images.bin'))
 
 
-MODELS = ['SIMPLE_PINHOLE', 'PINHOLE', 'SIMPLE_RADIAL', 'RADIAL', 'OPENCV']
+MODELS = {'SIMPLE_PINHOLE': 3, 'PINHOLE': 4, 'SIMPLE_RADIAL': 4, 'RADIAL': 5,
+          'OPENCV': 8}  # numbers of parameters, in COLMAP's order
 
 
 def lens_of(model, values):
@@ -90,31 +93,52 @@ def lens_of(model, values):
     return values + [0] * (8 - len(values))
 
 
-def read_lens(model):
-    """lens_of the only camera of a model, as text or binary."""
+def read_lenses(model):
+    """{camera id: lens_of} of a model as text or binary."""
+    lenses = {}
     if (model / 'cameras.txt').exists():
-        fields = data_lines(model / 'cameras.txt')[0].split()
-        return lens_of(fields[1], map(float, fields[4:]))
+        for line in data_lines(model / 'cameras.txt'):
+            fields = line.split()
+            lenses[int(fields[0])] = lens_of(fields[1], map(float, fields[4:]))
+        return lenses
     data = (model / 'cameras.bin').read_bytes()
-    num_cameras, _, model_id = struct.unpack_from('<Qii', data)
-    assert num_cameras == 1, 'scenes have one camera'
-    return lens_of(MODELS[model_id],
-                   struct.unpack_from(f'<{(len(data) - 32) // 8}d', data, 32))
+    place = 8
+    for _ in range(*struct.unpack_from('<Q', data)):
+        camera_id, model_id = struct.unpack_from('<ii', data, place)
+        name, count = list(MODELS.items())[model_id]
+        lenses[camera_id] = lens_of(
+            name, struct.unpack_from(f'<{count}d', data, place + 24))
+        place += 24 + 8 * count
+    return lenses
 
 
-def project(poses, lens, points):
-    """Pixels, (views, points, 2), and depths, (views, points)."""
-    rotations = np.array([rotation for rotation, _ in poses])
-    translations = np.array([translation for _, translation in poses])
-    x = np.einsum('vij,pj->vpi', rotations, points) + translations[:, None]
-    fx, fy, cx, cy, k1, k2, p1, p2 = lens
-    u, v = x[..., 0] / x[..., 2], x[..., 1] / x[..., 2]
-    r2 = u ** 2 + v ** 2
-    radial = 1 + k1 * r2 + k2 * r2 ** 2
-    return np.stack([
-        fx * (u * radial + 2 * p1 * u * v + p2 * (r2 + 2 * u ** 2)) + cx,
-        fy * (v * radial + 2 * p2 * u * v + p1 * (r2 + 2 * v ** 2)) + cy],
-        2), x[..., 2]
+class Model:
+    """Poses and lenses of the images of a COLMAP model."""
+
+    def __init__(self, folder):
+        self.images = read_images(folder)
+        self.lenses = read_lenses(folder)
+
+    def project(self, names, points):
+        """Pixels, (images, points, 2), and depths, (images, points)."""
+        images = [self.images[name] for name in names]
+        rotations = np.array([rotation for (rotation, _), _ in images])
+        translations = np.array([translation for (_, translation), _ in images])
+        x = np.einsum('vij,pj->vpi', rotations, points) + translations[:, None]
+        fx, fy, cx, cy, k1, k2, p1, p2 = np.array(
+            [self.lenses[camera_id] for _, camera_id in images]).T[..., None]
+        u, v = x[..., 0] / x[..., 2], x[..., 1] / x[..., 2]
+        r2 = u ** 2 + v ** 2
+        radial = 1 + k1 * r2 + k2 * r2 ** 2
+        return np.stack([
+            fx * (u * radial + 2 * p1 * u * v + p2 * (r2 + 2 * u ** 2)) + cx,
+            fy * (v * radial + 2 * p2 * u * v + p1 * (r2 + 2 * v ** 2)) + cy],
+            2), x[..., 2]
+
+    def principal_points(self, names):
+        """(images, 1, 2)."""
+        return np.array([self.lenses[self.images[name][1]][2:4]
+                         for name in names])[:, None]
 
 
 def moved(points, motion):
@@ -126,17 +150,14 @@ def moved(points, motion):
 def median_shift(model, true_model, points):
     """Pixels, after the similarity that makes the shifts smallest. Of points
     in the images, whose size is twice the principal point."""
-    true_poses, poses = read_poses(true_model), read_poses(model)
-    names = sorted(set(poses) & set(true_poses))
-    true_lens = read_lens(true_model)
-    truth, depths = project([true_poses[n] for n in names], true_lens, points)
-    ours = [poses[n] for n in names]
-    lens = read_lens(model)
-    within = (depths > 0) & (np.abs(truth - true_lens[2:4])
-                             < true_lens[2:4]).all(axis=2)
+    ours, true = Model(model), Model(true_model)
+    names = sorted(set(ours.images) & set(true.images))
+    truth, depths = true.project(names, points)
+    centres = true.principal_points(names)
+    within = (depths > 0) & (np.abs(truth - centres) < centres).all(axis=2)
 
     def shifts(motion):
-        pixels, _ = project(ours, lens, moved(points, motion))
+        pixels, _ = ours.project(names, moved(points, motion))
         return (pixels - truth)[within]
 
     fit = least_squares(lambda motion: shifts(motion).ravel(), np.zeros(7),
@@ -178,6 +199,7 @@ def row(scene, pixels, arguments):
                                  '--views', arguments.views or 0)
         copy = changed('disturb_poses.py', true_scene, folder / 'copy', pixels,
                        *['--simple_lens'] * arguments.lens,
+                       *['--camera_per_image'] * arguments.camera_per_image,
                        '--only', arguments.only or 0,
                        '--seed', arguments.seed)
         truth = true_scene / 'gt.txt'
@@ -207,6 +229,7 @@ def main():
     parser.add_argument('--pixels', default='0,0.5,1,2')
     parser.add_argument('--only', type=int)
     parser.add_argument('--lens', action='store_true')
+    parser.add_argument('--camera_per_image', action='store_true')
     parser.add_argument('--views', type=int)
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--program', type=pathlib.Path,

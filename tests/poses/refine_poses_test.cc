@@ -275,7 +275,7 @@ TEST(RefinePosesWithCurves, LeavesTheLensIfAsked) {
   EXPECT_EQ(refined->cameras, wrong.scene.cameras);
 }
 
-TEST(RefinePosesWithCurves, LeavesLensesAloneThatFewViewsShare) {
+TEST(RefinePosesWithCurves, MendsLensesOfSingleViews) {
   WrongLens wrong;
   const Camera camera = wrong.scene.cameras[0];
   wrong.scene.cameras.assign(wrong.scene.views.size(), camera);
@@ -283,7 +283,13 @@ TEST(RefinePosesWithCurves, LeavesLensesAloneThatFewViewsShare) {
     wrong.scene.views[i].camera_idx = static_cast<int>(i);
   }
   const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
-  EXPECT_EQ(refined.cameras, wrong.scene.cameras);
+  ASSERT_TRUE(refined.accepted) << refined.reason;
+  std::vector<double> errors;  // the true parameter is 0
+  for (const Camera& mended : refined.cameras) {
+    errors.push_back(std::abs(mended.params[3]));
+  }
+  EXPECT_LT(Median(std::move(errors)), 0.05);
+  EXPECT_LE(MedianShift(refined.cam_from_world), 0.3);
 }
 
 TEST(RefinePosesWithCurves, KeepsThePosesWithoutEdges) {
