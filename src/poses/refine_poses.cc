@@ -156,9 +156,10 @@ class Refiner {
     return cameras;
   }
 
-  // Refines cameras, first by their own terms, then by more. Two fifths of space
-  // determine these few parameters; all else is test data. Poses are adjusted to it with the old and with the new
-  // cameras, which are kept if that fits better. Whether cameras have changed.
+  // Refines cameras, first by their own terms, then by more. Two fifths of
+  // space determine these few parameters; all else is test data. Poses are
+  // adjusted to it with the old and with the new cameras, which are kept if
+  // that fits better. Whether cameras have changed.
   bool TryLenses() {
     if (free_lenses_.empty()) return false;
     PoseObservationSet training = observations_;
