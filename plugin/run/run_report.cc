@@ -50,10 +50,8 @@ Json InputJson(const InputSummary& input) {
   json["camera_models"] = input.camera_models;
   json["num_views"] = input.num_views;
   json["num_points"] = input.num_points;
-  json["missing_images"] = Json::array();
-  for (const std::string& name : input.missing_images) {
-    json["missing_images"].push_back(name);
-  }
+  json["missing_images"] = input.missing_images;
+  json["notes"] = input.notes;
   return json;
 }
 

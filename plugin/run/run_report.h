@@ -42,6 +42,7 @@ struct InputSummary {
   std::int64_t num_views = 0;
   std::int64_t num_points = 0;
   std::vector<std::string> missing_images;  // names of the views skipped
+  std::vector<std::string> notes;           // sentences, as the run prints them
 };
 
 struct ResultSummary {

@@ -49,6 +49,9 @@ InputSummary SummarizeInput(const Workspace& workspace,
   summary.num_views = static_cast<std::int64_t>(input.scene.views.size());
   summary.num_points = static_cast<std::int64_t>(input.scene.points.size());
   summary.missing_images = input.missing_images;
+  summary.notes = workspace.notes;
+  summary.notes.insert(
+      summary.notes.end(), input.notes.begin(), input.notes.end());
   return summary;
 }
 
@@ -152,8 +155,7 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
       {"points", record.input.num_points}};
   progress.Finish(GroupDigits(record.input.num_views) + " views, " +
                   GroupDigits(record.input.num_points) + " points");
-  for (const std::string& note : workspace.notes) progress.Note(note);
-  for (const std::string& note : input->notes) progress.Note(note);
+  for (const std::string& note : record.input.notes) progress.Note(note);
   if (record.alignment) {
     progress.Note("The results are in the frame of " +
                   (workspace.output_path / kAlignmentName).string());

@@ -25,6 +25,7 @@ RunRecord Example() {
   record.input.camera_models = {"OPENCV"};
   record.input.num_views = 3;
   record.input.missing_images = {"gone.png"};
+  record.input.notes = {"One of four images is missing."};
   CurveSet curves;
   curves.curves.resize(2);
   curves.curves[0].closed = true;
@@ -72,6 +73,7 @@ TEST(ReportJson, HoldsTheInputTheStagesAndTheResult) {
   EXPECT_EQ(report["input"]["num_views"], 3);
   EXPECT_EQ(report["input"]["camera_models"][0], "OPENCV");
   EXPECT_EQ(report["input"]["missing_images"][0], "gone.png");
+  EXPECT_EQ(report["input"]["notes"][0], "One of four images is missing.");
   EXPECT_EQ(report["stages"][1]["name"], "connect");
   EXPECT_EQ(report["stages"][1]["counts"]["short"], 7);
   EXPECT_EQ(report["result"]["num_curves"], 2);
