@@ -23,7 +23,9 @@ const double kLaplacianGain = std::sqrt(65.0 / 256);
 constexpr double kMedianOfAbsNormal = 0.6744897501960817;
 constexpr float kBlack = 0.5f;
 constexpr float kWhite = 254.5f;
-constexpr std::size_t kStride = 2;  // every second pixel of every second row
+// Of samples: two pixels along either axis, more where so many samples will do.
+constexpr std::size_t kMinStride = 2;
+constexpr double kEnoughSamples = 250000;
 
 struct Sample {
   float steepness;  // squared gradient
@@ -59,9 +61,11 @@ float Apply(const Mask& mask, const float* values) {
   return sum;
 }
 
-void AppendSamples(const Columns& columns, std::vector<Sample>& samples) {
+void AppendSamples(const Columns& columns,
+                   std::size_t stride,
+                   std::vector<Sample>& samples) {
   constexpr std::size_t kSize = kSmooth.size();
-  for (std::size_t x = 0; x + kSize <= columns.low.size(); x += kStride) {
+  for (std::size_t x = 0; x + kSize <= columns.low.size(); x += stride) {
     const float* low = &columns.low[x];
     const float* high = &columns.high[x];
     if (*std::min_element(low, low + kSize) < kBlack) continue;
@@ -96,12 +100,16 @@ float MedianLaplacianOfFlatterHalf(std::vector<Sample> samples) {
 double EstimateNoise(const GrayImage& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
+  const auto stride = std::max(
+      kMinStride,
+      static_cast<std::size_t>(
+          std::sqrt(static_cast<double>(width * height) / kEnoughSamples)));
   std::vector<Sample> samples;
-  samples.reserve((width / kStride + 1) * (height / kStride + 1));
+  samples.reserve((width / stride + 1) * (height / stride + 1));
   Columns columns;
-  for (std::size_t y = 0; y + kSmooth.size() <= height; y += kStride) {
+  for (std::size_t y = 0; y + kSmooth.size() <= height; y += stride) {
     Reduce(&image.pixels[y * width], width, columns);
-    AppendSamples(columns, samples);
+    AppendSamples(columns, stride, samples);
   }
   if (samples.empty()) return 0;
   const double sigma = MedianLaplacianOfFlatterHalf(std::move(samples)) /

@@ -64,27 +64,34 @@ std::optional<Parabola> FitParabola(const std::vector<ContourPlace>& places,
                                     const Eigen::Vector2d& tangent,
                                     double reach) {
   const Eigen::Vector2d normal(-tangent.y(), tangent.x());
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
-  double sum_squares = 0, sum_along = 0, sum_lengths = 0;
+  // Sums of powers of the lengths, and of their products with what is across.
+  double s1 = 0, s2 = 0, s3 = 0, s4 = 0, a0 = 0, a1 = 0, a2 = 0;
+  double sum_squares = 0, sum_along = 0;
   int size = 0;
   for (const ContourPlace& place : places) {
     const double s = place.length;
     if (std::abs(s) > reach) continue;
     const double across = normal.dot(place.offset);
-    const Eigen::Vector3d row(1, s, s * s);
-    information += row * row.transpose();
-    vector += across * row;
+    const double square = s * s;
+    s1 += s;
+    s2 += square;
+    s3 += s * square;
+    s4 += square * square;
+    a0 += across;
+    a1 += across * s;
+    a2 += across * square;
     sum_squares += across * across;
     sum_along += s * tangent.dot(place.offset);
-    sum_lengths += s * s;
     ++size;
   }
   if (size < kMinNumPlaces) return std::nullopt;
+  Eigen::Matrix3d information;
+  information << size, s1, s2, s1, s2, s3, s2, s3, s4;
+  const Eigen::Vector3d vector(a0, a1, a2);
   const Eigen::Vector3d fit = information.ldlt().solve(vector);
   const double rest = std::max(sum_squares - fit.dot(vector), 0.0);
   return Parabola{fit[0],
-                  std::atan2(fit[1], sum_along / sum_lengths),
+                  std::atan2(fit[1], sum_along / s2),
                   2 * std::abs(fit[2]),
                   std::sqrt(rest / size)};
 }
