@@ -96,9 +96,13 @@ std::string ErrorsText(const CurvePoses& poses) {
 
 std::string CamerasText(const std::vector<CameraChange>& cameras) {
   if (cameras.empty()) return "";
+  std::vector<double> shifts_px;
+  for (const CameraChange& camera : cameras) {
+    shifts_px.push_back(camera.median_shift_px);
+  }
   return ", " + Plural(static_cast<std::int64_t>(cameras.size()), "camera") +
          " (" + std::string(ModelName(cameras.front().to.model)) + ", " +
-         FixedText(cameras.front().median_shift_px, 2) + " px)";
+         FixedText(MedianOrNan(std::move(shifts_px)), 2) + " px)";
 }
 
 }  // namespace

@@ -23,8 +23,6 @@ const double kLaplacianGain = std::sqrt(65.0 / 256);
 constexpr double kMedianOfAbsNormal = 0.6744897501960817;
 constexpr float kBlack = 0.5f;
 constexpr float kWhite = 254.5f;
-// Of samples: two pixels along either axis, more where so many samples will do.
-constexpr std::size_t kMinStride = 2;
 constexpr double kEnoughSamples = 250000;
 
 struct Sample {
@@ -95,15 +93,21 @@ float MedianLaplacianOfFlatterHalf(std::vector<Sample> samples) {
   return median->laplacian;
 }
 
+// How many pixels samples are apart along either axis: two, or more if enough
+// are left. Then odd, for samples in all places of JPEG's blocks of 8 x 8.
+std::size_t StrideFor(const GrayImage& image) {
+  const double num_pixels = static_cast<double>(image.width) * image.height;
+  const auto stride =
+      static_cast<std::size_t>(std::sqrt(num_pixels / kEnoughSamples));
+  return stride < 3 ? 2 : stride - (stride + 1) % 2;
+}
+
 }  // namespace
 
 double EstimateNoise(const GrayImage& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
-  const auto stride = std::max(
-      kMinStride,
-      static_cast<std::size_t>(
-          std::sqrt(static_cast<double>(width * height) / kEnoughSamples)));
+  const std::size_t stride = StrideFor(image);
   std::vector<Sample> samples;
   samples.reserve((width / stride + 1) * (height / stride + 1));
   Columns columns;

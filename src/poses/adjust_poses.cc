@@ -24,7 +24,8 @@ namespace {
 // many times the usual.
 constexpr double kPriorLossScale = 3;
 // Prior of each parameter of a camera: standard deviation of its effect on the
-// image. COLMAP's cameras are hardly off by more.
+// image. Cameras that many images share are hardly off by more; with others it
+// damps what a single image does not tell.
 constexpr double kLensPriorPx = 3;
 // Edges are matched again after each solution, so none needs to be exact.
 constexpr int kMaxNumSteps = 25;

@@ -26,11 +26,22 @@ namespace {
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
+// Several for each of the at most eight parameters.
+constexpr int kMinObservationsPerLens = 50;
 
 ErrorsOfViews Summarize(const std::vector<double>& errors) {
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
   const auto num = static_cast<double>(std::max<std::size_t>(1, errors.size()));
   return {.mean_px = sum / num, .median_px = MedianOr(0, errors)};
+}
+
+// The free cameras by models with more terms.
+std::vector<Camera> Extended(std::vector<Camera> cameras,
+                             const std::vector<bool>& free_lenses) {
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (free_lenses[i]) cameras[i] = WithMoreTerms(cameras[i]);
+  }
+  return cameras;
 }
 
 class Refiner {
@@ -41,11 +52,10 @@ class Refiner {
           bool refine_intrinsics,
           RunRecorder* run)
       : scene_(scene),
+        refine_intrinsics_(refine_intrinsics),
         num_threads_(options.runtime.num_threads),
         search_(scene, edge_maps, options, run->Steps()),
-        at_sketch_(search_.edges().moved()) {
-    if (refine_intrinsics) free_lenses_ = UsedLenses();
-  }
+        at_sketch_(search_.edges().moved()) {}
 
   // Searches for better poses without the set of cells that is held out.
   // `cells`: of an earlier search; nullopt: those of the places and points.
@@ -139,29 +149,26 @@ class Refiner {
     SketchAgain();
   }
 
-  // By camera: whether a view has it.
-  std::vector<bool> UsedLenses() const {
-    std::vector<bool> used(scene_.cameras.size(), false);
-    for (const View& view : scene_.views) {
-      used[static_cast<std::size_t>(view.camera_idx)] = true;
+  // By camera: whether enough is observed with it.
+  std::vector<bool> ObservedLenses(
+      const PoseObservationSet& observations) const {
+    std::vector<int> counts(scene_.cameras.size(), 0);
+    VisitSeen(observations, [&](std::size_t i, const Eigen::Vector3d&) {
+      ++counts[static_cast<std::size_t>(scene_.views[i].camera_idx)];
+    });
+    std::vector<bool> observed;
+    for (const int count : counts) {
+      observed.push_back(count >= kMinObservationsPerLens);
     }
-    return used;
-  }
-
-  // The free cameras by models with more terms.
-  std::vector<Camera> Extended(std::vector<Camera> cameras) const {
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      if (free_lenses_[i]) cameras[i] = WithMoreTerms(cameras[i]);
-    }
-    return cameras;
+    return observed;
   }
 
   // Refines cameras, first by their own terms, then by more. Two fifths of
-  // space determine these few parameters; all else is test data. Poses are
-  // adjusted to it with the old and with the new cameras, which are kept if
-  // that fits better. Whether cameras have changed.
+  // space determine them; all else is test data. Poses are adjusted to it with
+  // the old and with the new cameras, which are kept if that fits better.
+  // Whether cameras have changed.
   bool TryLenses() {
-    if (free_lenses_.empty()) return false;
+    if (!refine_intrinsics_) return false;
     PoseObservationSet training = observations_;
     PoseObservationSet test =
         HoldOutMore(cells_, {last_held_out_, held_out_.points}, &training);
@@ -172,7 +179,8 @@ class Refiner {
     std::vector<double> best_losses = search_.LossesOf(test);
     MovedCameras best = before;
     std::vector<Camera> cameras = before.cameras;
-    search_.FreeLenses(free_lenses_);
+    const std::vector<bool> free_lenses = ObservedLenses(training);
+    search_.FreeLenses(free_lenses);
     while (!search_.is_stopped()) {
       PoseObservationSet adjusted = training;
       search_.Move({before.new_cam_from_cam, cameras});
@@ -183,7 +191,7 @@ class Refiner {
         best_losses = std::move(losses);
         best = search_.edges().moved();
       }
-      std::vector<Camera> longer = Extended(cameras);
+      std::vector<Camera> longer = Extended(cameras, free_lenses);
       if (longer == cameras) break;
       cameras = std::move(longer);
     }
@@ -330,9 +338,9 @@ class Refiner {
   }
 
   const Scene& scene_;
+  const bool refine_intrinsics_;
   const int num_threads_;
   PoseSearch search_;
-  std::vector<bool> free_lenses_;  // by camera; empty: none is refined
   PoseObservationSet observations_;
   PoseObservationSet held_out_;
   MovedCameras at_sketch_;                 // the last

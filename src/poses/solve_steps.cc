@@ -96,6 +96,12 @@ class System {
     ParallelFor(samples_.size(), num_threads_, [&](std::size_t i) {
       samples_[i] = NormalOfSample(i);
     });
+    samples_of_camera_.resize(lens_priors_.size());
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      for (const auto& [camera_idx, by_lens] : samples_[i].by_camera) {
+        samples_of_camera_[camera_idx].push_back(i);
+      }
+    }
     std::vector<ViewNormal> views(priors_.size());
     ParallelFor(views.size(), num_threads_, [&](std::size_t i) {
       views[i] = NormalOfView(i);
@@ -214,12 +220,12 @@ class System {
     BlockRow<Matrix8d> cameras(camera_idx + 1);
     CameraNormal normal;
     std::tie(cameras[camera_idx], normal.gradient) = OwnOfCamera(camera_idx);
-    for (const SampleNormal& sample : samples_) {
+    for (const std::size_t i : samples_of_camera_[camera_idx]) {
+      const SampleNormal& sample = samples_[i];
       const auto own = std::find_if(
           sample.by_camera.begin(), sample.by_camera.end(), [&](const auto& b) {
             return b.first == camera_idx;
           });
-      if (own == sample.by_camera.end()) continue;
       const Matrix83d pull = own->second * sample.inverse;
       normal.gradient -= pull * sample.gradient;
       for (const auto& [other_idx, by_lens] : sample.by_camera) {
@@ -231,38 +237,64 @@ class System {
     return normal;
   }
 
-  // The steps of views and cameras, those of views first; all zero if the
-  // equations have no solution.
-  static Steps SolveReduced(const std::vector<ViewNormal>& views,
-                            const std::vector<CameraNormal>& cameras) {
-    const auto row_of_view = [](std::size_t i) {
-      return static_cast<int>(6 * i);
-    };
-    const auto row_of_camera = [&](std::size_t i) {
-      return static_cast<int>(6 * views.size() + 8 * i);
-    };
-    Eigen::VectorXd gradient(row_of_camera(cameras.size()));
-    std::vector<int> first_rows;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      first_rows.push_back(row_of_view(i));
+  // First rows in the reduced equations.
+  struct Rows {
+    std::vector<int> of_view, of_camera;
+    std::vector<int> of_block;  // and the number of rows
+  };
+
+  // A camera of a single view is in one block with it, for nothing depends
+  // more on each other.
+  Rows ChooseRows() const {
+    std::vector<int> num_views(lens_priors_.size(), 0);
+    if (HasLenses()) {
+      for (const std::size_t k : owners_.camera_of_view) ++num_views[k];
     }
-    for (std::size_t i = 0; i <= cameras.size(); ++i) {
-      first_rows.push_back(row_of_camera(i));
+    Rows rows;
+    rows.of_camera.resize(lens_priors_.size());
+    int row = 0;
+    for (std::size_t i = 0; i < priors_.size(); ++i) {
+      rows.of_block.push_back(row);
+      rows.of_view.push_back(std::exchange(row, row + 6));
+      if (!HasLenses()) continue;
+      const std::size_t k = owners_.camera_of_view[i];
+      if (num_views[k] == 1) rows.of_camera[k] = std::exchange(row, row + 8);
     }
-    LowerBlocks lower(std::move(first_rows));
+    for (std::size_t k = 0; k < num_views.size(); ++k) {
+      if (num_views[k] == 1) continue;
+      rows.of_block.push_back(row);
+      rows.of_camera[k] = std::exchange(row, row + 8);
+    }
+    rows.of_block.push_back(row);
+    return rows;
+  }
+
+  // The steps of views and cameras; all zero if the equations have no solution.
+  Steps SolveReduced(const std::vector<ViewNormal>& views,
+                     const std::vector<CameraNormal>& cameras) const {
+    const Rows rows = ChooseRows();
+    Eigen::VectorXd gradient(rows.of_block.back());
+    LowerBlocks lower(rows.of_block);
+    const auto add = [&](int row, int column, const auto& block) {
+      if (row >= column) {
+        lower.Add(row, column, block);
+      } else {
+        lower.Add(column, row, block.transpose());
+      }
+    };
     for (std::size_t i = 0; i < views.size(); ++i) {
-      gradient.segment<6>(row_of_view(i)) = views[i].gradient;
+      gradient.segment<6>(rows.of_view[i]) = views[i].gradient;
       for (const auto& [k, block] : views[i].with_views) {
-        lower.Add(row_of_view(i), row_of_view(k), block);
+        add(rows.of_view[i], rows.of_view[k], block);
       }
       for (const auto& [k, block] : views[i].with_cameras) {
-        lower.Add(row_of_camera(k), row_of_view(i), block);
+        add(rows.of_camera[k], rows.of_view[i], block);
       }
     }
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      gradient.segment<8>(row_of_camera(i)) = cameras[i].gradient;
+      gradient.segment<8>(rows.of_camera[i]) = cameras[i].gradient;
       for (const auto& [k, block] : cameras[i].with_cameras) {
-        lower.Add(row_of_camera(i), row_of_camera(k), block);
+        add(rows.of_camera[i], rows.of_camera[k], block);
       }
     }
     Steps steps;
@@ -271,10 +303,10 @@ class System {
     const Eigen::VectorXd solution = lower.Solve(-gradient);
     if (solution.size() == 0) return steps;
     for (std::size_t i = 0; i < views.size(); ++i) {
-      steps.increments[i] = solution.segment<6>(row_of_view(i));
+      steps.increments[i] = solution.segment<6>(rows.of_view[i]);
     }
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      steps.lenses[i] = solution.segment<8>(row_of_camera(i));
+      steps.lenses[i] = solution.segment<8>(rows.of_camera[i]);
     }
     return steps;
   }
@@ -299,6 +331,7 @@ class System {
   const double damping_;
   const int num_threads_;
   std::vector<SampleNormal> samples_;
+  std::vector<std::vector<std::size_t>> samples_of_camera_;  // ascending
 };
 
 }  // namespace

@@ -32,6 +32,15 @@ TEST(EstimateNoise, FindsTheNoiseBesideEdges) {
   }
 }
 
+TEST(EstimateNoise, NeedsNotAllOfALargeImage) {
+  for (const int size : {1500, 2100}) {
+    const auto num_pixels = static_cast<std::size_t>(size * size);
+    GrayImage image{size, size, std::vector<float>(num_pixels, 100)};
+    AddNoise(3, 7, image);
+    EXPECT_NEAR(EstimateNoise(image), 3, 0.1);
+  }
+}
+
 TEST(EstimateNoise, IsNotFooledByClippedBackground) {
   GrayImage image = RenderDisc(200, {100, 100}, 60);
   for (float& pixel : image.pixels) {

@@ -5,9 +5,9 @@
 usage: disturb_poses.py WORKSPACE OUTPUT PIXELS [--only N] [--simple_lens]
                         [--camera_per_image] [--seed N]
 
-WORKSPACE holds sparse/0 as text, and images/. OUTPUT gets a model with the
-same cameras and disturbed poses, without points, and a link to the images.
-Each camera is turned and shifted at random, each by what moves its picture by
+WORKSPACE holds sparse/0 as text, and images/. OUTPUT gets a model with
+cameras of the same values and disturbed poses, without points, and a link to
+the images. Each camera is turned and shifted at random, each by what moves its picture by
 half of PIXELS (standard deviation, in x and in y): the root mean square of
 the shifts of the picture is PIXELS. The same seed gives the same poses.
 

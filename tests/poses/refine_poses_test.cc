@@ -275,20 +275,23 @@ TEST(RefinePosesWithCurves, LeavesTheLensIfAsked) {
   EXPECT_EQ(refined->cameras, wrong.scene.cameras);
 }
 
+// Cameras in the reverse order of the views, and one that no view has.
 TEST(RefinePosesWithCurves, MendsLensesOfSingleViews) {
   WrongLens wrong;
   const Camera camera = wrong.scene.cameras[0];
-  wrong.scene.cameras.assign(wrong.scene.views.size(), camera);
-  for (std::size_t i = 0; i < wrong.scene.views.size(); ++i) {
-    wrong.scene.views[i].camera_idx = static_cast<int>(i);
+  const std::size_t num_views = wrong.scene.views.size();
+  wrong.scene.cameras.assign(num_views + 1, camera);
+  for (std::size_t i = 0; i < num_views; ++i) {
+    wrong.scene.views[i].camera_idx = static_cast<int>(num_views - 1 - i);
   }
   const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
   ASSERT_TRUE(refined.accepted) << refined.reason;
-  std::vector<double> errors;  // the true parameter is 0
+  EXPECT_EQ(refined.cameras.back(), camera);
+  std::size_t num_mended = 0;  // of a true parameter of 0
   for (const Camera& mended : refined.cameras) {
-    errors.push_back(std::abs(mended.params[3]));
+    num_mended += std::abs(mended.params[3]) < 0.07;
   }
-  EXPECT_LT(Median(std::move(errors)), 0.05);
+  EXPECT_GE(5 * num_mended, 4 * num_views);
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.3);
 }
 

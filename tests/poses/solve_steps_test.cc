@@ -12,11 +12,10 @@ namespace {
 
 constexpr std::size_t kNumViews = 5;
 constexpr std::size_t kNumSamples = 30;
-constexpr std::size_t kNumCameras = 2;
 constexpr double kDamping = 0.1;
 
 // Every sample is seen by four of the views, of which the last sees nothing.
-// Views share two cameras in turns.
+// Views share cameras in turns, from the last camera to the first.
 struct TestProblem {
   EquationOwners owners;
   std::vector<StepEquation> equations;
@@ -30,7 +29,8 @@ Vector8d Vector8(Random& random) {
   return v;
 }
 
-TestProblem MakeProblem(bool with_lenses = false) {
+// Without cameras, these stay.
+TestProblem MakeProblem(std::size_t num_cameras = 0) {
   Random random(7);
   const auto vector6 = [&] {
     Vector6d v;
@@ -51,12 +51,13 @@ TestProblem MakeProblem(bool with_lenses = false) {
     priors[i] = {vector6(), vector6()};
   }
   std::vector<LensPrior> lens_priors;
-  for (std::size_t i = 0; with_lenses && i < kNumCameras; ++i) {
+  for (std::size_t i = 0; i < num_cameras; ++i) {
     lens_priors.push_back({Vector8(random), Vector8(random)});
   }
   std::vector<std::size_t> camera_of_view;
   for (std::size_t i = 0; i < kNumViews; ++i) {
-    camera_of_view.push_back(i % kNumCameras);
+    camera_of_view.push_back(
+        num_cameras == 0 ? 0 : num_cameras - 1 - i % num_cameras);
   }
   return {
       {owners, camera_of_view, kNumSamples}, equations, priors, lens_priors};
@@ -148,8 +149,13 @@ TEST(SolveSteps, AgreesWithTheSolutionOfAllUnknownsAtOnce) {
   ExpectStepsOfAllAtOnce(MakeProblem());
 }
 
-TEST(SolveSteps, AgreesWithItIfLensesChangeToo) {
-  ExpectStepsOfAllAtOnce(MakeProblem(true));
+TEST(SolveSteps, AgreesWithItIfSharedLensesChangeToo) {
+  ExpectStepsOfAllAtOnce(MakeProblem(2));
+}
+
+TEST(SolveSteps, AgreesWithItIfSomeOrAllLensesAreOfOneView) {
+  ExpectStepsOfAllAtOnce(MakeProblem(4));
+  ExpectStepsOfAllAtOnce(MakeProblem(kNumViews));
 }
 
 TEST(SolveSteps, LeavesAViewThatSeesNothingWhereItIs) {
@@ -160,7 +166,7 @@ TEST(SolveSteps, LeavesAViewThatSeesNothingWhereItIs) {
 }
 
 TEST(SolveSteps, IsTheSameForAnyNumberOfThreads) {
-  const TestProblem problem = MakeProblem(true);
+  const TestProblem problem = MakeProblem(4);
   const Steps one = Solve(problem, 1);
   const Steps three = Solve(problem, 3);
   EXPECT_EQ(one.increments, three.increments);

@@ -121,8 +121,8 @@ class Scene:
         ----------
         K : array, (3, 3) or (N, 3, 3)
             Calibration, without skew. Pixels, the centre of the top-left one at
-            (0.5, 0.5). One for all is one camera, which runs may refine if five
-            views or more share it.
+            (0.5, 0.5). One for all is one camera, else each view has its own;
+            runs may refine them.
         R : array, (N, 3, 3)
             Rotations: ``x_camera = R @ x_world + t``.
         t : array, (N, 3)
