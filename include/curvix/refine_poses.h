@@ -62,10 +62,10 @@ struct CurvePoses {
 // part if a hundred have pixels. Poses may be off by several pixels. The world
 // keeps the unit that samples and points have, and stays where the poses of the
 // scene show it.
-// Cameras change if `refine_intrinsics`, shared ones and those of single views,
-// all that are observed or none: the first eight parameters of their model, or
-// of a model with more terms (SIMPLE_RADIAL, RADIAL, OPENCV); none if one of
-// the new cameras cannot be inverted at an edge.
+// Cameras change if `refine_intrinsics`, whether views share them or not: all
+// with enough observations, or none. Their first eight parameters change, or
+// those of a model with more terms (SIMPLE_RADIAL, RADIAL, OPENCV). None change
+// if one of the new cameras cannot be inverted at an edge.
 //
 // Held out are a fifth of space, and of the points every fifth and those that
 // no view needs. A gain of test data is significant if its probability under

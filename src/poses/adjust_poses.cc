@@ -24,8 +24,8 @@ namespace {
 // many times the usual.
 constexpr double kPriorLossScale = 3;
 // Prior of each parameter of a camera: standard deviation of its effect on the
-// image. Cameras that many images share are hardly off by more; with others it
-// damps what a single image does not tell.
+// image. Cameras that many images share are hardly off by more; for those of a
+// single image it fixes what the image does not determine.
 constexpr double kLensPriorPx = 3;
 // Edges are matched again after each solution, so none needs to be exact.
 constexpr int kMaxNumSteps = 25;

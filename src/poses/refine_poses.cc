@@ -149,7 +149,7 @@ class Refiner {
     SketchAgain();
   }
 
-  // By camera: whether enough is observed with it.
+  // By camera: whether it has enough observations.
   std::vector<bool> ObservedLenses(
       const PoseObservationSet& observations) const {
     std::vector<int> counts(scene_.cameras.size(), 0);

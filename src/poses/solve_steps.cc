@@ -243,8 +243,8 @@ class System {
     std::vector<int> of_block;  // and the number of rows
   };
 
-  // A camera of a single view is in one block with it, for nothing depends
-  // more on each other.
+  // A camera of a single view shares a block with the view, since the two are
+  // strongly correlated.
   Rows ChooseRows() const {
     std::vector<int> num_views(lens_priors_.size(), 0);
     if (HasLenses()) {

@@ -29,7 +29,7 @@ Vector8d Vector8(Random& random) {
   return v;
 }
 
-// Without cameras, these stay.
+// With no cameras to solve for, cameras stay.
 TestProblem MakeProblem(std::size_t num_cameras = 0) {
   Random random(7);
   const auto vector6 = [&] {

@@ -98,8 +98,9 @@ class Scene:
         Returns
         -------
         Scene
-            The views whose images are there, sorted by name. Others are told by
-            the logger ``pycurvix``.
+            The views whose images are there, sorted by name. Others, and cameras
+            that were scaled to images of another size, are told by the logger
+            ``pycurvix``.
 
         Raises
         ------
