@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/distortion.h"
 
 namespace curvix {
 namespace {
@@ -40,6 +44,16 @@ Camera WithParams(const Camera& camera,
   result.model = model;
   result.params = std::move(params);
   return result;
+}
+
+// Of two focal lengths the first takes the second along.
+Camera WithStep(Camera camera, std::size_t param_idx, double step) {
+  std::vector<double>& params = camera.params;
+  if (param_idx == 0 && NumFocalLengths(camera.model) == 2) {
+    params[1] *= 1 + step / params[0];
+  }
+  params[param_idx] += step;
+  return camera;
 }
 
 }  // namespace
@@ -92,8 +106,7 @@ std::optional<ImageEdge> CarryEdge(const ImageEdge& edge,
 Lens::Lens(const Camera& start) : start_(start) {
   const std::vector<Eigen::Vector2d> grid = IdealGrid(start);
   for (std::size_t i = 0; i < NumUsed(start); ++i) {
-    Camera changed = start;
-    changed.params[i] += kSmallChange;
+    const Camera changed = WithStep(start, i, kSmallChange);
     double largest_px = 0;
     for (const Eigen::Vector2d& ideal : grid) {
       const Eigen::Vector2d shift =
@@ -106,11 +119,16 @@ Lens::Lens(const Camera& start) : start_(start) {
   }
 }
 
+std::optional<Eigen::Index> Lens::AspectRatioIndex() const {
+  if (NumFocalLengths(start_.model) == 1) return std::nullopt;
+  return 1;
+}
+
 Camera Lens::Changed(const LensChange& change) const {
   Camera camera = start_;
   for (std::size_t i = 0; i < NumUsed(start_); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    camera.params[i] += units_[k] * change[k];
+    camera = WithStep(std::move(camera), i, units_[k] * change[k]);
   }
   return camera;
 }

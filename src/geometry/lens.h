@@ -37,13 +37,17 @@ std::optional<ImageEdge> CarryEdge(const ImageEdge& edge,
 using LensChange = Eigen::Matrix<double, 8, 1>;
 
 // A camera around `start`, by changes of its parameters. Each is measured by
-// what it does to the image: 1 moves the pixel that it moves most by 1 px.
+// what it does to the image: 1 moves the pixel that it moves most by 1 px. Of
+// two focal lengths, the first changes both and the second their ratio.
 class Lens {
  public:
   // `start` must be valid.
   explicit Lens(const Camera& start);
 
   Camera Changed(const LensChange& change) const;
+
+  // Which change is that of the ratio of the focal lengths, if there are two.
+  std::optional<Eigen::Index> AspectRatioIndex() const;
 
  private:
   Camera start_;

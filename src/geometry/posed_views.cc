@@ -37,19 +37,23 @@ double MarginPx(const Camera& camera) {
 
 }  // namespace
 
+PosedView MakePosedView(const Camera& camera, const Rigid3& cam_from_world) {
+  PosedView view;
+  view.calibration = PinholeCalibration(camera);
+  view.rotation = cam_from_world.rotation.toRotationMatrix();
+  view.translation = cam_from_world.translation;
+  view.center = -(view.rotation.transpose() * view.translation);
+  view.width = camera.width;
+  view.height = camera.height;
+  view.margin_px = MarginPx(camera);
+  return view;
+}
+
 std::vector<PosedView> MakePosedViews(const Scene& scene) {
   std::vector<PosedView> posed;
   posed.reserve(scene.views.size());
   for (const View& view : scene.views) {
-    const Camera& camera = CameraOf(scene, view);
-    PosedView& out = posed.emplace_back();
-    out.calibration = PinholeCalibration(camera);
-    out.rotation = view.cam_from_world.rotation.toRotationMatrix();
-    out.translation = view.cam_from_world.translation;
-    out.center = -(out.rotation.transpose() * out.translation);
-    out.width = camera.width;
-    out.height = camera.height;
-    out.margin_px = MarginPx(camera);
+    posed.push_back(MakePosedView(CameraOf(scene, view), view.cam_from_world));
   }
   return posed;
 }

@@ -10,6 +10,9 @@
 
 namespace curvix {
 
+// `camera` must be valid.
+PosedView MakePosedView(const Camera& camera, const Rigid3& cam_from_world);
+
 // One posed view per view of the scene, in order. Cameras must be valid.
 std::vector<PosedView> MakePosedViews(const Scene& scene);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/median.h"
@@ -27,6 +28,9 @@ constexpr double kPriorLossScale = 3;
 // image. Cameras that many images share are hardly off by more; for those of a
 // single image it fixes what the image does not determine.
 constexpr double kLensPriorPx = 3;
+// The same of the ratio of two focal lengths: pixels are square, or as the
+// input says. Upright images do not determine it: the world stretches.
+constexpr double kAspectRatioPriorPx = 0.15;
 // Edges are matched again after each solution, so none needs to be exact.
 constexpr int kMaxNumSteps = 25;
 constexpr double kFirstDamping = 1e-4;
@@ -87,6 +91,15 @@ std::vector<Rigid3> RigidIncrements(const State& state) {
   return increments;
 }
 
+// What a change of a lens is multiplied by to give the residuals of its prior.
+LensChange LensPriorFactors(const Lens& lens) {
+  LensChange factors = LensChange::Constant(1 / kLensPriorPx);
+  if (const std::optional<Eigen::Index> i = lens.AspectRatioIndex()) {
+    factors[*i] = 1 / kAspectRatioPriorPx;
+  }
+  return factors;
+}
+
 class PoseAdjuster {
  public:
   PoseAdjuster(const PoseProblem& problem,
@@ -109,8 +122,9 @@ class PoseAdjuster {
     const std::vector<bool>& is_free = problem.free_lenses;
     if (std::find(is_free.begin(), is_free.end(), true) != is_free.end()) {
       is_free_ = is_free;
-      lens_factors_.assign(lenses_.size(),
-                           LensChange::Constant(1 / kLensPriorPx));
+      for (const Lens& lens : lenses_) {
+        lens_factors_.push_back(LensPriorFactors(lens));
+      }
     }
   }
 

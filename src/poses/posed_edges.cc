@@ -77,12 +77,7 @@ Rigid3 PosedEdges::PoseOf(std::size_t view_idx) const {
 void PosedEdges::Move(const MovedCameras& moved) {
   moved_ = moved;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    const Rigid3 pose = PoseOf(i);
-    PosedView& view = views_[i];
-    view.calibration = PinholeCalibration(CameraOf(i));
-    view.rotation = pose.rotation.toRotationMatrix();
-    view.translation = pose.translation;
-    view.center = -(view.rotation.transpose() * view.translation);
+    views_[i] = MakePosedView(CameraOf(i), PoseOf(i));
   }
 }
 

@@ -4,6 +4,9 @@
 #include <curvix/scene.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace curvix {
 namespace {
 
@@ -36,23 +39,43 @@ TEST(EdgeInImage, HasTheTangentOfTheDistortedLine) {
 }
 
 TEST(Lens, MovesThePixelThatItMovesMostByOne) {
-  const Lens lens(kRadial);
-  for (int i = 0; i < 5; ++i) {
-    const Camera changed = lens.Changed(0.01 * LensChange::Unit(i));
-    double largest = 0;
-    for (int y = 0; y <= 4; ++y) {
-      for (int x = 0; x <= 4; ++x) {
-        const auto ideal =
-            IdealFromImage(kRadial, Eigen::Vector2d(300 * x, 225 * y));
-        ASSERT_TRUE(ideal);
-        largest = std::max(
-            largest,
-            (ImageFromIdeal(changed, *ideal) - ImageFromIdeal(kRadial, *ideal))
-                .norm());
+  for (const Camera& camera : {kRadial, kOpenCV}) {
+    const Lens lens(camera);
+    for (int i = 0; i < static_cast<int>(camera.params.size()); ++i) {
+      const Camera changed = lens.Changed(0.01 * LensChange::Unit(i));
+      double largest = 0;
+      for (int y = 0; y <= 4; ++y) {
+        for (int x = 0; x <= 4; ++x) {
+          const auto ideal =
+              IdealFromImage(camera, Eigen::Vector2d(300 * x, 225 * y));
+          ASSERT_TRUE(ideal);
+          largest = std::max(
+              largest,
+              (ImageFromIdeal(changed, *ideal) - ImageFromIdeal(camera, *ideal))
+                  .norm());
+        }
       }
+      EXPECT_NEAR(largest, 0.01, 1e-4) << i;
     }
-    EXPECT_NEAR(largest, 0.01, 1e-4) << i;
   }
+}
+
+TEST(Lens, ChangesTheRatioOfFocalLengthsByOneChangeOnly) {
+  const auto ratio = [](const Camera& camera) {
+    return camera.params[1] / camera.params[0];
+  };
+  const Lens lens(kOpenCV);
+  ASSERT_EQ(lens.AspectRatioIndex(), 1);
+  for (int i = 0; i < 8; ++i) {
+    const Camera changed = lens.Changed(5 * LensChange::Unit(i));
+    const double difference = std::abs(ratio(changed) - ratio(kOpenCV));
+    if (i == 1) {
+      EXPECT_GT(difference, 1e-3);
+    } else {
+      EXPECT_LT(difference, 1e-12) << i;
+    }
+  }
+  EXPECT_FALSE(Lens(kRadial).AspectRatioIndex());
 }
 
 TEST(Lens, LeavesWhatTheModelDoesNotHave) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <cmath>
 
+#include "base/angles.h"
+#include "geometry/directions.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 
@@ -171,6 +173,8 @@ TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
 }
 
 // Random points before a ring of views that share a camera, and their pixels.
+// Every other view is turned about its axis by 90 degrees: if all are upright,
+// another ratio of focal lengths is a stretch of the world.
 struct PointScene {
   Scene scene;
   std::vector<PointSample> points;
@@ -180,7 +184,14 @@ PointScene PointsSeenBy(const Camera& camera) {
   PointScene made;
   made.scene = SceneOf(RingOfViews(12));
   made.scene.cameras = {camera};
-  for (View& view : made.scene.views) view.camera_idx = 0;
+  for (std::size_t v = 0; v < made.scene.views.size(); ++v) {
+    View& view = made.scene.views[v];
+    view.camera_idx = 0;
+    const Rigid3 turn{
+        RotationBy((v % 2 == 0 ? 0 : kPi / 2) * Eigen::Vector3d::UnitZ()),
+        Eigen::Vector3d::Zero()};
+    view.cam_from_world = turn * view.cam_from_world;
+  }
   Random random(3);
   for (int i = 0; i < 300; ++i) {
     PointSample& point = made.points.emplace_back();
@@ -229,6 +240,29 @@ TEST(AdjustPoses, FindsTheLensFromPoints) {
   EXPECT_NEAR(params[2], truth.params[2], 0.3);
   EXPECT_NEAR(params[3], truth.params[3], 2e-3);
   EXPECT_NEAR(params[4], truth.params[4], 5e-3);
+}
+
+// The ratio of focal lengths that AdjustPoses() finds, starting at 1, if it is
+// 1.01 in fact.
+double RatioFoundFrom(std::size_t num_points, double sigma_px) {
+  const Camera square = SceneOf(RingOfViews(1)).cameras[0];
+  Camera truth = square;
+  truth.params[1] *= 1.01;
+  PointScene made = PointsSeenBy(truth);
+  made.points.resize(num_points);
+  const std::vector<double> sigmas(made.scene.views.size(), sigma_px);
+  const AdjustedPoses adjusted =
+      AdjustPoses({made.scene, {}, made.points, sigmas, sigma_px, 50, {true}},
+                  {std::vector<Rigid3>(made.scene.views.size()), {square}},
+                  1,
+                  KeepGoing);
+  const std::vector<double>& params = adjusted.moved.cameras[0].params;
+  return params[1] / params[0];
+}
+
+TEST(AdjustPoses, TakesPixelsForSquareUnlessMuchSaysOtherwise) {
+  EXPECT_NEAR(RatioFoundFrom(300, 0.1), 1.01, 1e-3);
+  EXPECT_NEAR(RatioFoundFrom(5, 2), 1, 1e-3);
 }
 
 TEST(AdjustPoses, LeavesCamerasAloneThatAreNotFree) {

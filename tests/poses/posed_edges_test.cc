@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "geometry/lens.h"
 #include "tests/support/wire_scene.h"
 
 namespace curvix {
@@ -66,6 +67,18 @@ TEST_F(PosedEdgesTest, AsksFortyOfManyFromAllSides) {
     }
     EXPECT_LE(distance, least + 1e-9) << "view " << i;
   }
+}
+
+// The ideal image of a distorted camera reaches beyond its frame.
+TEST_F(PosedEdgesTest, MoveToTheFramesOfNewCameras) {
+  PosedEdges edges(wires_.scene, wires_.edge_maps, options_);
+  MovedCameras moved = edges.moved();
+  for (Camera& camera : moved.cameras) {
+    camera = WithMoreTerms(camera);
+    camera.params[4] = -0.1;
+  }
+  edges.Move(moved);
+  for (const PosedView& view : edges.views()) EXPECT_GT(view.margin_px, 5);
 }
 
 TEST_F(PosedEdgesTest, AreCarriedToAtLeastAsManyCameras) {
