@@ -13,6 +13,7 @@
 namespace curvix {
 namespace {
 
+namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
 using Values = std::map<std::string, std::string>;
@@ -138,7 +139,7 @@ Result<Values> Collect(std::vector<ProjectEntry> entries,
   return values;
 }
 
-Result<Values> ReadProjectFile(const std::filesystem::path& path,
+Result<Values> ReadProjectFile(const fs::path& path,
                                const std::vector<FlagSection>& sections) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
@@ -147,6 +148,22 @@ Result<Values> ReadProjectFile(const std::filesystem::path& path,
                                        : Result<Values>(entries.status());
   if (values.ok()) return values;
   return BadArgument(values.status().message() + " (in " + path.string() + ")");
+}
+
+// A workspace that is given wins over that of a project file, whose paths in
+// its own workspace are then the same places in the given one: results move
+// with their workspace.
+void MoveIntoWorkspace(const fs::path& given, Values* project) {
+  const auto workspace = project->find("workspace_path");
+  if (workspace == project->end()) return;
+  const fs::path own = fs::path(workspace->second).lexically_normal();
+  for (auto& [name, value] : *project) {
+    if (!name.ends_with("_path")) continue;
+    const fs::path place =
+        fs::path(value).lexically_normal().lexically_relative(own);
+    if (!place.empty() && *place.begin() != "..")
+      value = (given / place).string();
+  }
 }
 
 Status SetFlags(const std::vector<FlagSection>& sections,
@@ -200,7 +217,7 @@ std::string WithoutSection(const std::string& name) {
 
 }  // namespace
 
-Flag PathFlag(std::string name, std::filesystem::path* path, std::string help) {
+Flag PathFlag(std::string name, fs::path* path, std::string help) {
   Flag flag;
   flag.name = std::move(name);
   flag.help = std::move(help);
@@ -310,6 +327,10 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
   if (project != values->end()) {
     Result<Values> more = ReadProjectFile(project->second, sections);
     if (!more.ok()) return more.status();
+    const auto workspace = values->find("workspace_path");
+    if (workspace != values->end()) {
+      MoveIntoWorkspace(workspace->second, &*more);
+    }
     values->merge(*more);  // keeps what is there already
   }
   Status missing = CheckRequired(sections, *values);

@@ -76,7 +76,9 @@ std::vector<FlagSection> OptionSections(Options& options);
 enum class Request { kRun, kHelp, kHelpAll };
 
 // Sets the flags from `arguments` and from the project file that a flag named
-// project_path points to; where both name a flag, `arguments` win. Flags are
+// project_path points to; where both name a flag, `arguments` win. Their
+// workspace_path takes those paths of the file with it that lie in its own
+// workspace_path. Flags are
 // set in the order of `sections`, whatever the order of the arguments: a preset
 // comes before what may change it. kHelp or kHelpAll, with nothing set, if -h,
 // --help or --help_all is among the arguments. Errors name the flag, and for an

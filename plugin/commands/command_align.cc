@@ -96,21 +96,25 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
   return sections;
 }
 
-// The run that wrote the results, once more: it goes on from its stages.
+// The run that wrote the results, once more, with the paths that are given: it
+// goes on from its stages.
 ExitCode WriteResultsAgain(const AlignSettings& settings,
                            const fs::path& folder) {
   if (!fs::exists(folder / "project.ini")) {
     std::cout << "The next run of 'colmap_curvix reconstruct' uses it.\n";
     return kExitSuccess;
   }
-  const std::string project = (folder / "project.ini").string();
-  return RunProgram({AreMerged(folder) ? "merge" : "reconstruct",
-                     "--project_path",
-                     project,
-                     "--workspace_path",
-                     settings.run.workspace_path.string(),
-                     "--output_path",
-                     folder.string()});
+  Arguments again = {AreMerged(folder) ? "merge" : "reconstruct"};
+  for (const auto& [name, path] :
+       {std::pair("--project_path", folder / "project.ini"),
+        {"--workspace_path", settings.run.workspace_path},
+        {"--input_path", settings.run.input_path},
+        {"--image_path", settings.run.image_path},
+        {"--mask_path", settings.run.mask_path},
+        {"--output_path", folder}}) {
+    if (!path.empty()) again.insert(again.end(), {name, path.string()});
+  }
+  return RunProgram(again);
 }
 
 // Brings the older alignment back, if any, unless Keep() is called: one that

@@ -104,6 +104,16 @@ TEST_F(Align, WritesAgainWhatReconstructWroteBesideAPlanOfParts) {
   EXPECT_TRUE(Curves().contains("alignment"));
 }
 
+TEST_F(Align, WorkspacesMayMove) {
+  const fs::path moved = folder_.path() / "moved";
+  fs::rename(workspace_, moved);
+  const Outcome outcome =
+      RunProgram("align --axes auto --workspace_path " + Quoted(moved));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_FALSE(fs::exists(workspace_));
+  EXPECT_THAT(Read(moved / "curvix/0/curves.json"), HasSubstr("\"alignment\""));
+}
+
 TEST_F(Align, StaysAsItWasIfTheResultsCannotBeWrittenAgain) {
   const fs::path alignment = results_ / "alignment.json";
   const fs::path image = workspace_ / "images/view_003.png";

@@ -111,6 +111,25 @@ TEST_F(CommandLine, ArgumentsWinOverTheProjectFile) {
   }
 }
 
+TEST_F(CommandLine, AWorkspaceTakesThePathsOfTheProjectFileWithIt) {
+  std::filesystem::path input_path;
+  sections_.front().flags.push_back(PathFlag("input_path", &input_path, ""));
+  for (const auto& [written, read] :
+       {std::pair("/old/./sparse/0", "new/sparse/0"),
+        std::pair("/old", "new/."),
+        std::pair("/older/sparse", "/older/sparse"),
+        std::pair("/old/../x", "/old/../x")}) {
+    const std::string path = ProjectFile(
+        std::string("workspace_path=/old/.\ninput_path=") + written);
+    ASSERT_TRUE(
+        Parse({"--project_path", path, "--workspace_path", "new"}).ok());
+    EXPECT_EQ(workspace_path_, "new");
+    EXPECT_EQ(input_path, read);
+    ASSERT_TRUE(Parse({"--project_path", path}).ok());
+    EXPECT_EQ(input_path, written);
+  }
+}
+
 TEST_F(CommandLine, AProjectFileMayHaveFormerOptionsAtTheirConstants) {
   const std::string path = ProjectFile(
       "workspace_path=w\n[EdgeDetection]\nborder_px=4\nsigma_px=2\n");
