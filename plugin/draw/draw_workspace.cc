@@ -25,6 +25,7 @@
 #include "plugin/draw/drawn_views.h"
 #include "plugin/draw/map_file.h"
 #include "plugin/draw/rectified_photograph.h"
+#include "plugin/export/drawing_files.h"
 #include "plugin/export/write_results.h"
 #include "plugin/run/run_steps.h"
 
@@ -63,7 +64,6 @@ class Drafter {
   Status TakeName();
   Status TakePhotograph();
   Status LayOut();
-  std::vector<fs::path> Obsolete() const;
   Status Write();
   std::string Subtitle() const;
 
@@ -273,23 +273,6 @@ Status Drafter::LayOut() {
   return {};
 }
 
-// What earlier drawings of this name wrote, unless this one does. Other files
-// of the name are the user's.
-std::vector<fs::path> Drafter::Obsolete() const {
-  const fs::path& folder = workspace_.output_path;
-  std::vector<fs::path> files;
-  for (const char* ending : {".gpkg", ".geojson"}) {
-    if (IsMapOfDrawing(folder / (name_ + ending))) {
-      files.emplace_back(name_ + ending);
-    }
-  }
-  const Result<std::string> svg = ReadFile(folder / (name_ + ".svg"));
-  if (svg.ok() && svg->find("<image ") != std::string::npos) {
-    files.emplace_back(name_ + ".jpg");
-  }
-  return files;
-}
-
 Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   if (!output.ok()) return output.status();
@@ -310,7 +293,7 @@ Status Drafter::Write() {
                                  &text_);
   if (!written.ok()) return written;
   text_ += "\n";
-  return output->Publish(Obsolete());
+  return output->Publish(FilesOfDrawing(workspace_.output_path, name_));
 }
 
 Result<std::string> Drafter::Run() {

@@ -8,8 +8,7 @@
 #include <memory>
 #endif
 #include <utility>
-
-#include "base/file_io.h"
+#include <vector>
 
 namespace curvix {
 namespace {
@@ -96,13 +95,6 @@ Status WriteMapFiles(const std::filesystem::path& dxf,
     text->append(" ").append(map.string());
   }
   return {};
-}
-
-bool IsMapOfDrawing(const std::filesystem::path& path) {
-  const Result<std::string> bytes = ReadFile(path);
-  // The layer, and a field that GDAL makes of a DXF.
-  return bytes.ok() && bytes->find("\"curves\"") != std::string::npos &&
-         bytes->find("EntityHandle") != std::string::npos;
 }
 
 }  // namespace curvix

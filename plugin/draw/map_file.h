@@ -23,7 +23,4 @@ Status WriteMapFiles(const std::filesystem::path& dxf,
                      const WantedMaps& wanted,
                      std::string* text);
 
-// Whether WriteMapFiles wrote the file, by its content.
-bool IsMapOfDrawing(const std::filesystem::path& path);
-
 }  // namespace curvix

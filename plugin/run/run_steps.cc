@@ -14,6 +14,7 @@
 #include "measuring/moved_curves.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
+#include "plugin/export/drawing_files.h"
 #include "plugin/export/write_results.h"
 
 namespace curvix {
@@ -105,6 +106,14 @@ Status WriteCurveFiles(const CurveRecord& curves,
   files.push_back("project.ini");
   return WriteFileAtomically(folder / "project.ini",
                              ProjectFile(record.settings));
+}
+
+void NoteRemoved(const std::vector<fs::path>& drawings, RunProgress& progress) {
+  if (drawings.empty()) return;
+  std::string names;
+  for (const fs::path& file : drawings) names += " " + file.string();
+  progress.Note("Removed, as drawings of the results before:" + names +
+                "; 'colmap_curvix draw' draws these results");
 }
 
 }  // namespace
@@ -219,7 +228,12 @@ Status FinishRun(const Stopwatch& since_start,
       WriteFileAtomically(output.folder() / "report.json", ReportJson(record));
   if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   if (!status.ok()) return status;
-  return output.Publish(FilesOfEarlierRun(output.output_path()));
+  std::vector<fs::path> obsolete = FilesOfEarlierRun(output.output_path());
+  const auto drawings = FilesOfDrawings(output.output_path());
+  obsolete.insert(obsolete.end(), drawings.begin(), drawings.end());
+  status = output.Publish(obsolete);
+  if (status.ok()) NoteRemoved(drawings, progress);
+  return status;
 }
 
 }  // namespace curvix

@@ -63,8 +63,8 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
                                    RunRecord& record);
 
 // Writes report.json of a run that began with `since_start`, and publishes its
-// files, in place of those of the run before in this folder. kCancelled, and
-// nothing is published, if the run is to stop.
+// files, in place of those of the run before in this folder and of drawings of
+// its curves. kCancelled, and nothing is published, if the run is to stop.
 Status FinishRun(const Stopwatch& since_start,
                  StagedOutput& output,
                  RunProgress& progress,

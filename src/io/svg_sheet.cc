@@ -189,4 +189,9 @@ std::string EncodeSvgSheet(const Sheet& sheet) {
   return out + FrameText(sheet, page) + "</svg>\n";
 }
 
+bool IsSvgSheet(std::string_view text) {
+  return text.starts_with("<svg ") &&
+         text.find(BeginLayer("FRAME", kFrameWidth)) != text.npos;
+}
+
 }  // namespace curvix

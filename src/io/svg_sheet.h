@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "drawing/sheet.h"
 
@@ -14,5 +15,8 @@ namespace curvix {
 // (drawing_layers.h), which sets the width of lines; frame and texts in
 // another, and the picture, pale, beneath.
 std::string EncodeSvgSheet(const Sheet& sheet);
+
+// Whether EncodeSvgSheet wrote it, and no other program since.
+bool IsSvgSheet(std::string_view text);
 
 }  // namespace curvix

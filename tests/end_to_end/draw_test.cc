@@ -207,6 +207,23 @@ TEST_F(Draw, RemovesNoFileThatIsNotOfADrawing) {
   }
 }
 
+TEST_F(Draw, OtherResultsTakeDrawingsAway) {
+  std::ofstream(results_ / "mine.svg") << "<svg></svg>";
+  std::ofstream(results_ / "mine.dxf") << "mine";
+  const auto before = Contents(results_);
+  ASSERT_EQ(Run("draw --name facade --photograph auto").exit_code, 0);
+  ASSERT_EQ(Run("draw --plane xz").exit_code, 0);
+  const Outcome outcome = Run("align --axes auto");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("drawing_xz.dxf drawing_xz.svg facade.dxf facade.svg "
+                        "facade.jpg;"));
+  auto after = Contents(results_);
+  EXPECT_EQ(after.erase("alignment.json"), 1u);
+  for (const auto& [name, bytes] : after) EXPECT_TRUE(before.contains(name));
+  EXPECT_EQ(after.size(), before.size());
+}
+
 TEST_F(Draw, SeveralViewsAreDrawnWholeOnRequest) {
   const Outcome outcome = Run("draw --plane xz,xy --crop all");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
