@@ -247,6 +247,11 @@ Result<AlignSummary> Aligner::Run() {
   Result<AlignmentResult> result = EstimateAlignment(input_);
   if (!result.ok()) return result.status();
   WorldAlignment& alignment = result->alignment;
+  if (settings_.unit != "none" && !alignment.has_scale) {
+    return Status(StatusCode::kInvalidArgument,
+                  "--unit needs a scale, which nothing that is given tells: "
+                  "add --distance, --markers or --positions");
+  }
   if (settings_.unit != "none") alignment.unit = settings_.unit;
   if (!settings_.epsg.empty()) alignment.crs = "EPSG:" + settings_.epsg;
   if (alignment.has_scale) DescribeScale(*result);

@@ -199,6 +199,7 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
         std::pair("--distance 0 100000 3", "no node 100000"),
         std::pair("--markers 4x4_50", "--marker_size"),
         std::pair("--positions none.txt", "none.txt"),
+        std::pair("--axes auto --unit mm", "--unit needs a scale"),
         std::pair("--up 0,0,1", "--axes auto"),
         std::pair("--axes auto --up 0,0,0", "no direction"),
         std::pair("--distance 0 1 1 --epsg 1", "--positions")}) {
