@@ -11,6 +11,7 @@
 #include "base/angles.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
+#include "plugin/align/epsg.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
@@ -56,10 +57,7 @@ Status CheckSettings(const AlignSettings& s) {
   if (!s.epsg.empty() && s.positions_path.empty()) {
     return bad("--epsg needs --positions, whose coordinates it names");
   }
-  if (s.epsg.find_first_not_of("0123456789") != std::string::npos) {
-    return bad("--epsg is " + s.epsg + "; it takes a number, as 25832");
-  }
-  return {};
+  return s.epsg.empty() ? Status() : CheckEpsg(s.epsg);
 }
 
 class Aligner {

@@ -172,6 +172,13 @@ TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
               HasSubstr("less " + std::to_string(offset[0].get<int>()) + " "));
 }
 
+#ifdef CURVIX_HAS_GDAL
+TEST_F(Align, CodesOfDegreesAndOfNothingAreRefused) {
+  ExpectError("align --positions x --epsg 4326", "degrees");
+  ExpectError("align --positions x --epsg 1025", "GDAL does not know");
+}
+#endif
+
 TEST_F(Align, AxesOfABlockAreItsEdges) {
   const Outcome outcome = RunAlign("--axes auto");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -202,7 +209,9 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
         std::pair("--axes auto --unit mm", "--unit needs a scale"),
         std::pair("--up 0,0,1", "--axes auto"),
         std::pair("--axes auto --up 0,0,0", "no direction"),
-        std::pair("--distance 0 1 1 --epsg 1", "--positions")}) {
+        std::pair("--distance 0 1 1 --epsg 1", "--positions"),
+        std::pair("--positions x --epsg 99999999", "no code of EPSG"),
+        std::pair("--positions x --epsg utm", "no code of EPSG")}) {
     ExpectError(std::string("align ") + words, why);
   }
   EXPECT_EQ(Read(results_ / "curves.json"), curves);

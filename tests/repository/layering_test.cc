@@ -76,6 +76,7 @@ const std::map<std::string, Rule>& Rules() {
          "gdal_utils.h",
          "glog",
          "nlohmann",
+         "ogr_srs_api.h",
          "opencv2",
          "pybind11",
          "zip.h"}}},
