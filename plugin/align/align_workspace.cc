@@ -27,6 +27,12 @@ namespace fs = std::filesystem;
 // Above it, something that is given is wrong.
 constexpr double kLargeMisfit = 3;
 
+// Positions whose coordinates are off by more than this share of the distance
+// of cameras from their middle (standard deviation, and root mean square) are
+// not those of the cameras. 3 m of GPS around a house are 0.15 of it, mirrored
+// positions all around 0.8, whatever their number.
+constexpr double kLargeShareOff = 0.3;
+
 std::string Text(double value) { return ShortText(value, 6); }
 
 // Two digits, or all before the point.
@@ -76,6 +82,9 @@ class Aligner {
   Status TakeAll();
   Status Write(const AlignmentResult& result);
   void DescribeScale(const AlignmentResult& result);
+  // kInvalidArgument: they tell little more than noise. With standard
+  // deviations of their own they may.
+  Status CheckPositions(const AlignmentResult& result) const;
   void DescribePositions(const AlignmentResult& result);
   void Say(const std::string& line) { text_ += line + "\n"; }
 
@@ -216,6 +225,41 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
   }
 }
 
+// Of the position that is furthest off; there is one.
+std::size_t WorstOf(const AlignmentResult& result) {
+  const auto& left = result.position_residuals;
+  const auto worst =
+      std::max_element(left.begin(), left.end(), [](auto& a, auto& b) {
+        return a.norm() < b.norm();
+      });
+  return static_cast<std::size_t>(worst - left.begin());
+}
+
+Status Aligner::CheckPositions(const AlignmentResult& result) const {
+  if (input_.positions.empty()) return {};
+  const auto n = static_cast<double>(input_.positions.size());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const KnownPosition& p : input_.positions) mean += p.model / n;
+  double squares = 0;
+  for (const KnownPosition& p : input_.positions) {
+    squares += (p.model - mean).squaredNorm();
+  }
+  const double extent =
+      result.alignment.world_from_model.scale * std::sqrt(squares / n);
+  if (!(result.position_sigma > kLargeShareOff * extent)) return {};
+  const std::size_t worst = WorstOf(result);
+  return {StatusCode::kInvalidArgument,
+          "The positions do not fit the cameras: each coordinate is " +
+              SigmaText(result.position_sigma) +
+              " off (standard deviation), and the cameras are " +
+              SigmaText(extent) + " from their middle. " +
+              input_.positions[worst].name + " fits worst, by " +
+              SigmaText(result.position_residuals[worst].norm()) +
+              ". Look for a wrong number, degrees or a mirrored axis; if "
+              "positions are that uncertain, give a standard deviation after "
+              "each"};
+}
+
 void Aligner::DescribePositions(const AlignmentResult& result) {
   double squares = 0;
   for (std::size_t i = 0; i < input_.positions.size(); ++i) {
@@ -226,8 +270,11 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
          {"residual", {left.x(), left.y(), left.z()}}});
   }
   const double n = static_cast<double>(input_.positions.size());
+  const std::size_t worst = WorstOf(result);
   Say(std::to_string(input_.positions.size()) + " positions, " +
-      SigmaText(std::sqrt(squares / n)) + " off (root mean square)");
+      SigmaText(std::sqrt(squares / n)) + " off (root mean square), " +
+      input_.positions[worst].name +
+      " most: " + SigmaText(result.position_residuals[worst].norm()));
 }
 
 Status Aligner::Write(const AlignmentResult& result) {
@@ -244,6 +291,8 @@ Result<AlignSummary> Aligner::Run() {
   if (!taken.ok()) return taken;
   Result<AlignmentResult> result = EstimateAlignment(input_);
   if (!result.ok()) return result.status();
+  Status fits = CheckPositions(*result);
+  if (!fits.ok()) return fits;
   WorldAlignment& alignment = result->alignment;
   if (settings_.unit != "none" && !alignment.has_scale) {
     return Status(StatusCode::kInvalidArgument,

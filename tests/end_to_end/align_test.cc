@@ -162,6 +162,38 @@ TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
   }
 }
 
+TEST_F(Align, PositionsThatAreNotOfTheCamerasAreRefused) {
+  const fs::path path = PositionsFrom(1000);
+  const std::string right = Read(path);
+  const std::string command = "--positions " + Quoted(path);
+  EXPECT_THAT(RunAlign(command).output, HasSubstr("12 positions, "));
+
+  // The first number of the sixth image has one digit more.
+  std::string mistyped = right;
+  mistyped.insert(mistyped.find("view_005.png ") + 13, "1");
+  std::ofstream(path) << mistyped;
+  ExpectError("align " + command, "view_005.png fits worst, by ");
+  // The y axis, which is the model's x, the other way.
+  std::istringstream words(right);
+  std::string name, mirrored;
+  for (double x, y, z; words >> name >> x >> y >> z;) {
+    for (const auto& word : {name, std::to_string(x), std::to_string(-y)}) {
+      mirrored += word + " ";
+    }
+    mirrored += std::to_string(z) + "\n";
+  }
+  std::ofstream(path) << mirrored;
+  ExpectError("align " + command, "do not fit the cameras");
+  // Whoever says how uncertain they are is believed.
+  std::string uncertain = mirrored;
+  for (std::size_t at = 0; (at = uncertain.find('\n', at)) != uncertain.npos;
+       at += 4) {
+    uncertain.insert(at, " 9");
+  }
+  std::ofstream(path) << uncertain;
+  EXPECT_EQ(RunAlign(command).exit_code, 0);
+}
+
 TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
   const Outcome outcome =
       RunAlign("--positions " + Quoted(PositionsFrom(5812350)));
