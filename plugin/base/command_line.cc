@@ -122,16 +122,20 @@ bool IsFlag(const std::string& name, const std::vector<FlagSection>& sections) {
 }
 
 // The entries as one value per name, without former options that have their
-// constants.
+// constants and flags of others.
 Result<Values> Collect(std::vector<ProjectEntry> entries,
-                       const std::vector<FlagSection>& sections) {
+                       const std::vector<FlagSection>& sections,
+                       const std::vector<FlagSection>& of_others) {
   Values values;
   for (ProjectEntry& entry : entries) {
     const auto former = FormerOptions().find(entry.name);
     if (former != FormerOptions().end() && entry.value == former->second) {
       continue;
     }
-    if (!IsFlag(entry.name, sections)) return UnknownFlag(entry.name, sections);
+    if (!IsFlag(entry.name, sections)) {
+      if (IsFlag(entry.name, of_others)) continue;
+      return UnknownFlag(entry.name, sections);
+    }
     if (!values.emplace(entry.name, std::move(entry.value)).second) {
       return GivenTwice(entry.name);
     }
@@ -140,12 +144,14 @@ Result<Values> Collect(std::vector<ProjectEntry> entries,
 }
 
 Result<Values> ReadProjectFile(const fs::path& path,
-                               const std::vector<FlagSection>& sections) {
+                               const std::vector<FlagSection>& sections,
+                               const std::vector<FlagSection>& of_others) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
   Result<std::vector<ProjectEntry>> entries = ParseProjectFile(*text);
-  Result<Values> values = entries.ok() ? Collect(*std::move(entries), sections)
-                                       : Result<Values>(entries.status());
+  Result<Values> values =
+      entries.ok() ? Collect(*std::move(entries), sections, of_others)
+                   : Result<Values>(entries.status());
   if (values.ok()) return values;
   return BadArgument(values.status().message() + " (in " + path.string() + ")");
 }
@@ -316,7 +322,8 @@ std::vector<FlagSection> OptionSections(Options& options) {
 }
 
 Result<Request> ParseFlags(const std::vector<std::string>& arguments,
-                           const std::vector<FlagSection>& sections) {
+                           const std::vector<FlagSection>& sections,
+                           const std::vector<FlagSection>& of_others) {
   for (const std::string& token : arguments) {
     if (token == "--help_all") return Request::kHelpAll;
     if (token == "-h" || token == "--help") return Request::kHelp;
@@ -325,7 +332,7 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
   if (!values.ok()) return values.status();
   const auto project = values->find("project_path");
   if (project != values->end()) {
-    Result<Values> more = ReadProjectFile(project->second, sections);
+    Result<Values> more = ReadProjectFile(project->second, sections, of_others);
     if (!more.ok()) return more.status();
     const auto workspace = values->find("workspace_path");
     if (workspace != values->end()) {

@@ -84,8 +84,10 @@ enum class Request { kRun, kHelp, kHelpAll };
 // --help or --help_all is among the arguments. Errors name the flag, and for an
 // unknown one the nearest that exists: kInvalidArgument, and kNotFound for a
 // project file that is not there.
+// The project file may have flags of `of_others`, too, which are not set.
 Result<Request> ParseFlags(const std::vector<std::string>& arguments,
-                           const std::vector<FlagSection>& sections);
+                           const std::vector<FlagSection>& sections,
+                           const std::vector<FlagSection>& of_others = {});
 
 // The candidate nearest to `name`, or "" if none is near. Case does not count,
 // nor does the section: "sigma" is near to "EdgeDetection.sigma_px".

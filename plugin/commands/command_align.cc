@@ -93,6 +93,7 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
                  .field = write_results,
                  .max = 1,
                  .help = "write the results again, in the new frame"})}});
+  sections.push_back(RuntimeSection(&s->run));
   return sections;
 }
 
@@ -113,6 +114,10 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
         {"--mask_path", settings.run.mask_path},
         {"--output_path", folder}}) {
     if (!path.empty()) again.insert(again.end(), {name, path.string()});
+  }
+  const int num_threads = settings.run.options.runtime.num_threads;
+  if (num_threads != RuntimeOptions().num_threads) {
+    again.insert(again.end(), {"--num_threads", std::to_string(num_threads)});
   }
   return RunProgram(again);
 }

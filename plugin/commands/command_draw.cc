@@ -54,7 +54,8 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
         TextFlag("name",
                  &s->name,
                  "of the files; default: drawing_ and the plane, with "
-                 "_section and _from_behind where they apply")}}};
+                 "_section and _from_behind where they apply")}},
+      RuntimeSection(&s->run)};
 }
 
 }  // namespace

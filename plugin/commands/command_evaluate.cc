@@ -61,13 +61,9 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
                  .help = "reconstruct the workspace without one of N views "
                          "and look there for its curves, or for those of "
                          "--curves_path; 2 or more"})}}};
-  // Project files of runs name poses and outputs, which have no use here.
   for (FlagSection& section : ReconstructSections(&settings->run)) {
-    const bool is_used = section.title != "Poses" && section.title != "Output";
-    for (Flag& flag : section.flags) {
-      flag.is_required = false;
-      flag.is_advanced |= !is_used;
-    }
+    if (section.title == "Poses" || section.title == "Output") continue;
+    for (Flag& flag : section.flags) flag.is_required = false;
     sections.push_back(std::move(section));
   }
   return sections;

@@ -81,6 +81,10 @@ FlagSection PathsSection(RunSettings* settings) {
                     "black do not count")}};
 }
 
+FlagSection RuntimeSection(RunSettings* settings) {
+  return OptionSections(settings->options).back();
+}
+
 std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
   std::vector<FlagSection> sections = {PathsSection(settings),
                                        {"Method", {PresetFlag(settings)}},

@@ -193,7 +193,10 @@ std::optional<ExitCode> ParseCommand(const std::string& name,
                                      std::vector<FlagSection> sections) {
   CommonSettings settings;
   sections.insert(sections.begin() + 1, CommonSection(&settings));
-  const Result<Request> request = ParseFlags(arguments, sections);
+  // The project.ini of a run serves all commands.
+  RunSettings run;
+  const Result<Request> request =
+      ParseFlags(arguments, sections, ReconstructSections(&run));
   if (!request.ok()) {
     const bool is_file = request.status().code() == StatusCode::kNotFound;
     const ExitCode code =

@@ -43,6 +43,9 @@ ExitCode RunEvaluate(const Arguments& arguments);
 // Where things are.
 FlagSection PathsSection(RunSettings* settings);
 
+// The number of threads.
+FlagSection RuntimeSection(RunSettings* settings);
+
 // What `reconstruct` can be told; the preset comes before what it changes.
 std::vector<FlagSection> ReconstructSections(RunSettings* settings);
 

@@ -96,6 +96,18 @@ TEST_F(Align, AKnownDistanceScalesAllResults) {
   EXPECT_EQ(Curves(), before_);
 }
 
+TEST_F(Align, TheProjectFileOfARunServesAllThatFollow) {
+  const std::string project =
+      " --project_path " + Quoted(results_ / "project.ini");
+  for (const char* words : {"align --axes auto --num_threads 1",
+                            "draw --num_threads 1",
+                            "partition",
+                            "evaluate --holdout_every 4"}) {
+    const Outcome outcome = RunProgram(words + project);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+}
+
 TEST_F(Align, WritesAgainWhatReconstructWroteBesideAPlanOfParts) {
   ASSERT_EQ(Run("partition").exit_code, 0);
   ASSERT_TRUE(fs::exists(results_ / "parts"));

@@ -141,6 +141,20 @@ TEST_F(CommandLine, AProjectFileMayHaveFormerOptionsAtTheirConstants) {
       AllOf(HasSubstr("EdgeDetection.border_px"), HasSubstr("it is always 4")));
 }
 
+TEST_F(CommandLine, AProjectFileMayHaveFlagsOfOthers) {
+  std::filesystem::path input_path;
+  const std::vector<FlagSection> others = {
+      {"Paths", {PathFlag("input_path", &input_path, "")}}};
+  const std::string path = ProjectFile("workspace_path=w\ninput_path=x\n");
+  EXPECT_TRUE(ParseFlags({"--project_path", path}, sections_, others).ok());
+  EXPECT_EQ(workspace_path_, "w");
+  EXPECT_EQ(input_path, "");
+  EXPECT_FALSE(Parse({"--project_path", path}).ok());
+  EXPECT_FALSE(
+      ParseFlags({"--workspace_path=w", "--input_path=x"}, sections_, others)
+          .ok());
+}
+
 TEST_F(CommandLine, ErrorsInTheProjectFileNameIt) {
   const std::string unknown = ProjectFile("[Validation]\nmax_angel_deg=7\n");
   EXPECT_THAT(Error({"--project_path", unknown}),
