@@ -264,11 +264,13 @@ Status Drafter::LayOut() {
   Result<Sheet> laid = LaySheet(sheet, std::move(curves), picture_);
   if (!laid.ok()) return laid.status();
   sheet_ = *std::move(laid);
-  for (const DrawnView& view : views_) {
-    if (view.measured.empty()) continue;
-    PlaceDimensions(ChooseDimensions(view.measured),
-                    BoundsOf(view.curves).center(),
-                    sheet_);
+  std::vector<Eigen::AlignedBox2d> bounds;
+  for (const DrawnView& view : views_) bounds.push_back(BoundsOf(view.curves));
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    std::vector<Eigen::AlignedBox2d> others = bounds;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    PlaceDimensions(
+        ChooseDimensions(views_[i].measured), bounds[i], others, sheet_);
   }
   return {};
 }

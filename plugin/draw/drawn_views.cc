@@ -14,6 +14,7 @@ namespace {
 
 // Between views on one sheet, of the extent of the largest.
 constexpr double kGapOfViews = 0.15;
+constexpr double kGapForDimensions = 0.35;
 
 DrawRange Shifted(const DrawRange& range, double by) {
   return {range.from + by, range.to + by};
@@ -92,7 +93,8 @@ void PlaceViews(const DrawnContent& content, std::vector<DrawnView>& views) {
     const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
     if (!bounds.isEmpty()) extent = std::max(extent, bounds.sizes().maxCoeff());
   }
-  const double gap = kGapOfViews * extent;
+  const double gap =
+      (content.has_dimensions ? kGapForDimensions : kGapOfViews) * extent;
   for (std::size_t i = 1; i < views.size(); ++i) {
     DrawnView& view = views[i];
     const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);

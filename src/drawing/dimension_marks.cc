@@ -58,6 +58,20 @@ bool AreInOnePlace(const SheetDimension& a,
          a_low < b_high && b_low < a_high;
 }
 
+// What holds its line and its text, drawing units.
+Eigen::AlignedBox2d PlaceOf(const SheetDimension& dimension,
+                            const Sheet& sheet) {
+  const DimensionMarks marks = MarksOf(dimension, sheet);
+  Eigen::AlignedBox2d place;
+  for (const Eigen::Vector2d& mm :
+       {marks.lines[0].start, marks.lines[0].end, marks.text.start}) {
+    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(kDimensionText);
+    place.extend(sheet.FromPaper(mm - beyond));
+    place.extend(sheet.FromPaper(mm + beyond));
+  }
+  return place;
+}
+
 }  // namespace
 
 DimensionMarks MarksOf(const SheetDimension& dimension, const Sheet& sheet) {
@@ -86,19 +100,26 @@ DimensionMarks MarksOf(const SheetDimension& dimension, const Sheet& sheet) {
 }
 
 void PlaceDimensions(std::vector<SheetDimension> dimensions,
-                     const Eigen::Vector2d& middle,
+                     const Eigen::AlignedBox2d& view,
+                     const std::vector<Eigen::AlignedBox2d>& other_views,
                      Sheet& sheet) {
   for (SheetDimension& d : dimensions) {
     const double length = sheet.scale * (d.b - d.a).norm();
     if (length < (d.is_radius ? kLeastRadius : kLeastLength)) continue;
-    const bool is_out = Left(d.b - d.a).dot((d.a + d.b) / 2 - middle) >= 0;
+    const bool is_out =
+        Left(d.b - d.a).dot((d.a + d.b) / 2 - view.center()) >= 0;
     const auto is_taken = [&](const SheetDimension& other) {
       return AreInOnePlace(d, other, sheet);
     };
     for (int step = 0; step <= kMostSteps; ++step) {
       d.shift = (is_out ? 1 : -1) * (kFirstShift + step * kStep);
+      const Eigen::AlignedBox2d place = PlaceOf(d, sheet);
       if (std::none_of(
-              sheet.dimensions.begin(), sheet.dimensions.end(), is_taken)) {
+              sheet.dimensions.begin(), sheet.dimensions.end(), is_taken) &&
+          std::none_of(
+              other_views.begin(), other_views.end(), [&](const auto& other) {
+                return other.intersects(place);
+              })) {
         sheet.dimensions.push_back(std::move(d));
         break;
       }

@@ -2,6 +2,7 @@
 // Paper: none (engineering). Lengths and radii written into a drawing.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "drawing/sheet.h"
@@ -19,10 +20,12 @@ struct DimensionMarks {
 DimensionMarks MarksOf(const SheetDimension& dimension, const Sheet& sheet);
 
 // Those of `dimensions` that are large enough on paper go onto the sheet, in
-// their order, each on the side of its line that is away from `middle`, drawing
-// units, and further away where another one is in its place.
+// their order, each on the side of its line that is away from the middle of
+// `view`, and further away where another one is in its place. None goes where
+// the other views on the sheet are, all in drawing units.
 void PlaceDimensions(std::vector<SheetDimension> dimensions,
-                     const Eigen::Vector2d& middle,
+                     const Eigen::AlignedBox2d& view,
+                     const std::vector<Eigen::AlignedBox2d>& other_views,
                      Sheet& sheet);
 
 }  // namespace curvix

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gmock/gmock.h"
@@ -25,6 +26,10 @@ SheetDimension Dimension(const Vector2d& a, const Vector2d& b) {
   return dimension;
 }
 
+Eigen::AlignedBox2d BoxFrom(const Vector2d& low, const Vector2d& high) {
+  return {low, high};
+}
+
 // 2 mm on the paper for each unit.
 Sheet MadeSheet() {
   Sheet sheet;
@@ -39,7 +44,8 @@ TEST(PlaceDimensions, GoOutwardsAndBesideEachOther) {
                    Dimension({100, 0}, {20, 0}),  // at the same place
                    Dimension({0, 40}, {100, 40}),
                    Dimension({0, 0}, {1, 0})},  // too short for its text
-                  {50, 20},
+                  BoxFrom({0, 0}, {100, 40}),
+                  {},
                   sheet);
   ASSERT_EQ(sheet.dimensions.size(), 3u);
   std::vector<double> heights;  // of the dimension lines, mm
@@ -54,10 +60,32 @@ TEST(PlaceDimensions, GoOutwardsAndBesideEachOther) {
   EXPECT_NEAR(heights[2], 2 * 40 + 8, 1e-9);
 }
 
+TEST(PlaceDimensions, GoNowhereIntoOtherViews) {
+  SheetDimension radius = Dimension({50, 10}, {50, 0});
+  radius.is_radius = true;
+  const std::vector<SheetDimension> dimensions = {
+      Dimension({0, 0}, {100, 0}), Dimension({0, 40}, {100, 40}), radius};
+  const auto view = BoxFrom({0, 0}, {100, 40});
+  // Beneath it, 1.5 to 40 units off.
+  for (const auto& [off, num_placed] :
+       {std::pair(1.5, 1u), std::pair(5.0, 1u), std::pair(40.0, 3u)}) {
+    const auto other = BoxFrom({0, -60 - off}, {100, -off});
+    Sheet sheet = MadeSheet();
+    PlaceDimensions(dimensions, view, {other}, sheet);
+    EXPECT_EQ(sheet.dimensions.size(), num_placed) << off;
+    for (const SheetDimension& dimension : sheet.dimensions) {
+      for (const SheetLine& line : MarksOf(dimension, sheet).lines) {
+        EXPECT_FALSE(other.contains(sheet.FromPaper(line.end)));
+      }
+    }
+  }
+}
+
 TEST(MarksOf, UprightTextIsReadFromTheRight) {
   Sheet sheet = MadeSheet();
   PlaceDimensions({Dimension({0, 0}, {1e-4, -50}), Dimension({9, 0}, {9, 50})},
-                  {4, 0},
+                  BoxFrom({0, 0}, {8, 0}),
+                  {},
                   sheet);
   for (const SheetDimension& dimension : sheet.dimensions) {
     EXPECT_NEAR(MarksOf(dimension, sheet).angle, 1.5708, 1e-3);
@@ -69,7 +97,10 @@ TEST(EncodeDxfSheet, DimensionsAreEntitiesWithBlocks) {
   SheetDimension radius = Dimension({30, 30}, {60, 70});
   radius.is_radius = true;
   radius.text = "R50.0";
-  PlaceDimensions({Dimension({0, 0}, {100, 0}), radius}, {50, 20}, sheet);
+  PlaceDimensions({Dimension({0, 0}, {100, 0}), radius},
+                  BoxFrom({0, 0}, {100, 40}),
+                  {},
+                  sheet);
   const std::string dxf = EncodeDxfSheet(sheet);
   EXPECT_THAT(dxf, HasSubstr("\n2\n*D2\n70\n1\n"));
   EXPECT_THAT(dxf, HasSubstr("$DIMTXT\n40\n1.25\n"));
