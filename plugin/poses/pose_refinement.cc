@@ -73,8 +73,8 @@ void KeepAfterFailure(const std::string& reason,
                               ? "; see " + log_path.filename().string()
                               : "";
   Keep(reason + log,
-       "WARNING: Poses are used as they are: " + RefinerName(result->record) +
-           " failed: ",
+       "WARNING: Bundle adjustment is left out: " +
+           RefinerName(result->record) + " failed: ",
        result);
 }
 
@@ -103,8 +103,7 @@ void Conclude(const ColmapModel& model,
   record.accepted = judgement.accepted;
   if (!judgement.accepted) {
     Keep(judgement.reason,
-         "Poses are used as they are, not as refined by " +
-             RefinerName(record) + ": ",
+         "Bundle adjustment by " + RefinerName(record) + " is left out: ",
          result);
     return;
   }
@@ -173,9 +172,9 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   if (record.num_points < kMinPointsToRefine || record.num_views < 3) {
     Keep("the model has " +
              GroupDigits(static_cast<std::int64_t>(record.num_points)) +
-             " points to refine them with, and at least " +
-             std::to_string(kMinPointsToRefine) + " in 3 views are needed",
-         "Poses are used as they are: ",
+             " points, and at least " + std::to_string(kMinPointsToRefine) +
+             " in 3 views are needed",
+         "Bundle adjustment is left out: ",
          &result);
     return result;
   }

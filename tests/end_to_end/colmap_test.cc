@@ -196,7 +196,7 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   fs::permissions(broken, fs::perms::owner_all);
   EXPECT_EQ(
       Curvix(by_points + "--colmap_path '" + broken.string() + "'", &said), 0);
-  EXPECT_THAT(said, HasSubstr("WARNING: Poses are used as they are"));
+  EXPECT_THAT(said, HasSubstr("WARNING: Bundle adjustment is left out"));
   EXPECT_FALSE(fs::exists(output / "sparse"));  // of the run before
 }
 

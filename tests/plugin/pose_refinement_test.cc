@@ -129,7 +129,8 @@ class FakeColmap : public testing::Test {
     EXPECT_EQ(result.record.refiner, "colmap");
     EXPECT_THAT(result.record.reason, HasSubstr(reason));
     EXPECT_THAT(result.notes,
-                ElementsAre(AllOf(HasSubstr("Poses are used as they are"),
+                ElementsAre(AllOf(HasSubstr("Bundle adjustment"),
+                                  HasSubstr("is left out: "),
                                   HasSubstr(reason))));
   }
 

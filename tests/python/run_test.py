@@ -43,13 +43,13 @@ class Reconstruct(WorkspaceTest):
         # Without logging, as with it where nobody has set it up.
         with_logging = subprocess.run([sys.executable, '-c', '\n'.join(('import logging', *lines))], check=True,
                                       capture_output=True, text=True)
-        self.assertIn('Poses are used as they are', said.stderr)
+        self.assertIn('Bundle adjustment is left out', said.stderr)
         self.assertEqual(with_logging.stderr, said.stderr)
 
     def test_tells_the_logger(self):
         with self.assertLogs('pycurvix', 'WARNING') as logs:
             pycurvix.reconstruct(self.workspace, output_path=self.folder)
-        self.assertTrue(logs.records[0].getMessage().startswith('Poses are used as they are'))
+        self.assertTrue(logs.records[0].getMessage().startswith('Bundle adjustment is left out'))
 
     def test_curves_write_the_same_bytes_in_every_format(self):
         for name, file in FORMATS.items():
