@@ -277,7 +277,10 @@ Status Drafter::LayOut() {
 
 Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
-  if (!output.ok()) return output.status();
+  // --output_path is also where the curves are read.
+  if (!output.ok()) {
+    return BadDrawing(output.status().message() + ", a copy of this one");
+  }
   std::vector<std::pair<std::string, std::string>> files = {
       {name_ + ".dxf", EncodeDxfSheet(sheet_)},
       {name_ + ".svg", EncodeSvgSheet(sheet_)}};

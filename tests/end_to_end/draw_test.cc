@@ -12,6 +12,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "plugin/base/staged_output.h"
 #include "tests/end_to_end/block_test.h"
 
 namespace curvix {
@@ -263,6 +264,12 @@ TEST_F(Draw, SectionsAndBacksReplaceNoOtherDrawing) {
   EXPECT_EQ(Read(results_ / "drawing_xz.dxf"), front);
   EXPECT_NE(Read(results_ / "drawing_xz_from_behind.dxf"), front);
   EXPECT_TRUE(fs::exists(results_ / "drawing_xz_section_from_behind.svg"));
+}
+
+TEST_F(Draw, AFolderThatCannotBeWrittenToMayBeCopied) {
+  const auto lock = FolderLock::Take(results_);
+  ASSERT_TRUE(lock);
+  ExpectError("draw", "with --output_path, a copy of this one");
 }
 
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
