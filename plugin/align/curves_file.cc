@@ -180,7 +180,7 @@ Result<CurvesFile> ReadCurvesFile(const fs::path& folder, bool with_samples) {
     }
   } catch (const nlohmann::json::exception& error) {
     return Status(StatusCode::kDataLoss,
-                  path.string() + " lacks something: " + error.what() + advice);
+                  path.string() + " is broken: " + WhatOf(error) + advice);
   }
   return Status(StatusCode::kDataLoss, path.string() + " is not JSON" + advice);
 }

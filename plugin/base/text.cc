@@ -2,8 +2,10 @@
 #include "plugin/base/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "base/text_fields.h"
 
@@ -35,6 +37,18 @@ std::string GroupDigits(std::int64_t number) {
 
 std::string Plural(std::int64_t count, const std::string& noun) {
   return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string ShellWord(const std::string& text) {
+  const bool is_plain =
+      !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               std::string_view("/._-+:@%,").find(c) != std::string_view::npos;
+      });
+  if (is_plain) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
 }
 
 std::string DurationText(double seconds) {

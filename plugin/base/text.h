@@ -23,6 +23,9 @@ std::string GroupDigits(std::int64_t number);
 // "1 view", "1 200 views".
 std::string Plural(std::int64_t count, const std::string& noun);
 
+// `text` as one word of a shell: in quotes, unless it needs none.
+std::string ShellWord(const std::string& text);
+
 // "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
 std::string DurationText(double seconds);
 

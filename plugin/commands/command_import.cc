@@ -158,7 +158,8 @@ ExitCode ImportDataSet(const ImportSettings& settings) {
             << ", " << Plural(std::ssize(scene->model.cameras), "camera")
             << " and " << Plural(std::ssize(scene->model.points), "point")
             << " to " << path << "\nTry: colmap_curvix --workspace_path "
-            << path << (has_links ? " --image_path " + path + "/images" : "")
+            << ShellWord(path)
+            << (has_links ? " --image_path " + ShellWord(path + "/images") : "")
             << std::endl;
   return kExitSuccess;
 }

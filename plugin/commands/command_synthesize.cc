@@ -12,6 +12,7 @@
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/image_file.h"
+#include "plugin/base/text.h"
 #include "plugin/commands/commands.h"
 #include "plugin/imports/new_workspace.h"
 
@@ -187,7 +188,8 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   const std::string path = settings.workspace_path.string();
   std::cout << "Wrote " << settings.options.num_views
             << " images and their poses to " << path
-            << "\nTry: colmap_curvix --workspace_path " << path << std::endl;
+            << "\nTry: colmap_curvix --workspace_path " << ShellWord(path)
+            << std::endl;
   return kExitSuccess;
 }
 

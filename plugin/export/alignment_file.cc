@@ -105,7 +105,7 @@ Result<WorldAlignment> AlignmentFromJson(const Json& json) {
       return BrokenAlignment("\"covariance\" is not a 7 x 7 covariance");
     }
   } catch (const nlohmann::json::exception& error) {
-    return BrokenAlignment(error.what());
+    return BrokenAlignment(WhatOf(error));
   }
   return a;
 }

@@ -39,7 +39,9 @@ Eigen::Vector2d PaperSize(const std::string& name) {
   return {size[0], size[1]};
 }
 
-std::string Short(double value) { return ShortText(value, 6); }
+std::string Short(double value) {
+  return value < 1e5 ? ShortText(value, 6) : FixedText(value, 0);
+}
 
 std::string ScaleText(double denominator) {
   return denominator >= 1 ? "1:" + Short(denominator)

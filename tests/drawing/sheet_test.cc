@@ -71,6 +71,14 @@ TEST(Sheet, TheLargestRoundScaleThatFitsIsChosen) {
   EXPECT_LT((sheet->FromPaper(low) - Eigen::Vector2d(100, 7)).norm(), 1e-9);
 }
 
+TEST(Sheet, ScalesHaveNoExponents) {
+  SheetSettings settings = InMetres();
+  settings.denominator = 1000000;
+  const auto sheet = LaySheet(settings, Front(), std::nullopt);
+  ASSERT_TRUE(sheet.ok()) << sheet.status().message();
+  EXPECT_EQ(sheet->scale_text, "1:1000000 on A4");
+}
+
 TEST(Sheet, SaysWhatCannotBe) {
   SheetSettings settings = InMetres();
   settings.denominator = 10;

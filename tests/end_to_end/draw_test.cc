@@ -272,6 +272,11 @@ TEST_F(Draw, AFolderThatCannotBeWrittenToMayBeCopied) {
   ExpectError("draw", "with --output_path, a copy of this one");
 }
 
+TEST_F(Draw, CurvesOfOtherProgramsAreNamed) {
+  std::ofstream(results_ / "curves.json") << "{}";
+  ExpectError("draw", "curves.json is broken: key 'nodes' not found; run");
+}
+
 TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
   const auto before = Contents(results_);
   for (const auto& [words, why] :

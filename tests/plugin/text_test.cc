@@ -47,6 +47,13 @@ TEST(Plural, HasAnSUnlessItIsOne) {
   EXPECT_EQ(Plural(1200, "view"), "1 200 views");
 }
 
+TEST(ShellWord, IsQuotedIfItMust) {
+  EXPECT_EQ(ShellWord("/tmp/a-b_1.x"), "/tmp/a-b_1.x");
+  EXPECT_EQ(ShellWord("sy 3/\xc3\xa4"), "'sy 3/\xc3\xa4'");
+  EXPECT_EQ(ShellWord("it's"), "'it'\\''s'");
+  EXPECT_EQ(ShellWord(""), "''");
+}
+
 TEST(DurationText, ChoosesTheUnitsThatMatter) {
   EXPECT_EQ(DurationText(0), "0.0 s");
   EXPECT_EQ(DurationText(-1), "0.0 s");
