@@ -2,12 +2,14 @@
 #include "plugin/commands/command_synthesize.h"
 
 #include <curvix/scene.h>
+#include <algorithm>
 #include <iostream>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "base/check.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
@@ -72,37 +74,21 @@ std::vector<std::string> CameraModels() {
   return names;
 }
 
+Flag NumberFlag(const char* name, SynthesizeSettings* settings) {
+  const std::vector<OptionRow> rows = OptionTable(settings->options);
+  const auto row = std::find_if(
+      rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
+  CURVIX_CHECK(row != rows.end(), "no option " << name);
+  return RowFlag(*row);
+}
+
 FlagSection ImageFlags(SynthesizeSettings* settings) {
-  SyntheticOptions& o = settings->options;
-  return {
-      "Images",
-      {RowFlag({.name = "num_views",
-                .field = &o.num_views,
-                .min = 3,
-                .max = 999,
-                .help = "images: all around, along a facade, or in a room"}),
-       RowFlag({.name = "width",
-                .field = &o.width,
-                .min = 16,
-                .max = 10000,
-                .unit = "px",
-                .help = "width of an image"}),
-       RowFlag({.name = "height",
-                .field = &o.height,
-                .min = 16,
-                .max = 10000,
-                .unit = "px",
-                .help = "height of an image"}),
-       RowFlag({.name = "noise",
-                .field = &o.noise,
-                .max = 255,
-                .unit = "grey levels",
-                .help = "standard deviation of the image noise"}),
-       RowFlag({.name = "texture",
-                .field = &o.texture,
-                .max = 255,
-                .unit = "grey levels",
-                .help = "contrast of the texture on the surfaces"})}};
+  FlagSection section = {"Images", {}};
+  for (const char* name :
+       {"num_views", "width", "height", "noise", "texture"}) {
+    section.flags.push_back(NumberFlag(name, settings));
+  }
+  return section;
 }
 
 FlagSection CameraFlags(SynthesizeSettings* settings) {
@@ -114,19 +100,12 @@ FlagSection CameraFlags(SynthesizeSettings* settings) {
                     "COLMAP's name of the camera model"),
            RowFlag({.name = "distortion",
                     .field = &o.distortion,
-                    .min = -1,
-                    .max = 1,
+                    .min = -0.5,
+                    .max = 0.9,
                     .help = "first radial coefficient, where the model has "
                             "one"}),
-           RowFlag({.name = "pose_error_px",
-                    .field = &o.pose_error_px,
-                    .max = 100,
-                    .unit = "px",
-                    .help = "disturbs the poses that are written"}),
-           RowFlag({.name = "points_per_view",
-                    .field = &o.points_per_view,
-                    .max = 10000,
-                    .help = "sparse points that each image finds"})}};
+           NumberFlag("pose_error_px", settings),
+           NumberFlag("points_per_view", settings)}};
 }
 
 std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
@@ -158,11 +137,7 @@ std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
             RowFlag({.name = "reflections",
                      .field = &o.reflections,
                      .help = "1: lamps are mirrored in the surfaces"}),
-            RowFlag({.name = "scale",
-                     .field = &o.scale,
-                     .min_is_excluded = true,
-                     .unit = "world units",
-                     .help = "longest side of the solid, height of a facade"}),
+            NumberFlag("scale", settings),
             RowFlag({.name = "seed",
                      .field = &settings->seed,
                      .help = "of the noise, the texture and the pose errors"}),
@@ -183,6 +158,8 @@ ExitCode RunSynthesize(const Arguments& arguments) {
       ParseCommand("synthesize", arguments, Sections(&settings));
   if (code) return *code;
   settings.options.seed = static_cast<std::uint64_t>(settings.seed);
+  const Status valid = Validate(settings.options);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
   const Status status = Synthesize(settings.options, settings.workspace_path);
   if (!status.ok()) return Fail(status);
   const std::string path = settings.workspace_path.string();

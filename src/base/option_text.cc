@@ -141,12 +141,16 @@ Status SetFromText(const OptionRow& row, const std::string& text) {
   return is_read ? Status() : OutOfRange(row, text.empty() ? "empty" : text);
 }
 
+Status CheckRange(const OptionRow& row) {
+  if (IsInRange(row, NumberOf(row))) return {};
+  return OutOfRange(row, NumberText(NumberOf(row)));
+}
+
 Status Validate(const Options& options) {
   Options copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
-    if (!IsInRange(row, NumberOf(row))) {
-      return OutOfRange(row, NumberText(NumberOf(row)));
-    }
+    Status status = CheckRange(row);
+    if (!status.ok()) return status;
   }
   if (copy.hypotheses.min_ray_angle_deg > copy.hypotheses.max_ray_angle_deg) {
     return {StatusCode::kInvalidArgument,

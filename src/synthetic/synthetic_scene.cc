@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "base/parallel.h"
@@ -20,35 +19,6 @@ namespace {
 
 // Independent streams of random numbers out of one seed.
 enum Stream : std::uint64_t { kPoses, kTexture, kNoise, kPoseError, kPoints };
-
-// "noise is -1; it must be >= 0" unless min <= value <= max.
-Status CheckRange(const char* name, double value, double min, double max) {
-  if (value >= min && value <= max) return {};
-  std::ostringstream text;
-  text << name << " is " << value << "; it must be between " << min << " and "
-       << max;
-  return {StatusCode::kInvalidArgument, text.str()};
-}
-
-Status Check(const SyntheticOptions& options) {
-  constexpr int kMaxSide = 8192;      // pixels
-  constexpr double kMaxPixels = 1e9;  // of all images
-  const double num_pixels =
-      1.0 * options.num_views * options.width * options.height;
-  for (const Status& status :
-       {CheckRange("num_views", options.num_views, 3, 999),
-        CheckRange("width", options.width, 16, kMaxSide),
-        CheckRange("height", options.height, 16, kMaxSide),
-        CheckRange("noise", options.noise, 0, 255),
-        CheckRange("texture", options.texture, 0, 255),
-        CheckRange("pose_error_px", options.pose_error_px, 0, 100),
-        CheckRange("scale", options.scale, 1e-6, 1e6),
-        CheckRange("points_per_view", options.points_per_view, 0, 10000),
-        CheckRange("num_views * width * height", num_pixels, 0, kMaxPixels)}) {
-    if (!status.ok()) return status;
-  }
-  return {};
-}
 
 std::string ViewName(std::size_t i) {
   std::string number = std::to_string(i);
@@ -112,10 +82,67 @@ std::vector<TrueSample> SampleTruth(const Solid& solid,
 
 }  // namespace
 
+std::vector<OptionRow> OptionTable(SyntheticOptions& options) {
+  return {{.name = "num_views",
+           .field = &options.num_views,
+           .min = 3,
+           .max = 999,
+           .help = "images: all around, along a facade, or in a room"},
+          {.name = "width",
+           .field = &options.width,
+           .min = 16,
+           .max = 8192,
+           .unit = "px",
+           .help = "width of an image"},
+          {.name = "height",
+           .field = &options.height,
+           .min = 16,
+           .max = 8192,
+           .unit = "px",
+           .help = "height of an image"},
+          {.name = "noise",
+           .field = &options.noise,
+           .max = 255,
+           .unit = "grey levels",
+           .help = "standard deviation of the image noise"},
+          {.name = "texture",
+           .field = &options.texture,
+           .max = 255,
+           .unit = "grey levels",
+           .help = "contrast of the texture on the surfaces"},
+          {.name = "pose_error_px",
+           .field = &options.pose_error_px,
+           .max = 100,
+           .unit = "px",
+           .help = "disturbs the poses that are written"},
+          {.name = "scale",
+           .field = &options.scale,
+           .min = 1e-6,
+           .max = 1e6,
+           .help = "longest side of the solid, height of a facade; world "
+                   "units"},
+          {.name = "points_per_view",
+           .field = &options.points_per_view,
+           .max = 10000,
+           .help = "sparse points that each image finds"}};
+}
+
+Status Validate(const SyntheticOptions& options) {
+  SyntheticOptions copy = options;
+  for (const OptionRow& row : OptionTable(copy)) {
+    if (Status status = CheckRange(row); !status.ok()) return status;
+  }
+  constexpr double kMaxPixels = 1e9;
+  if (1.0 * options.num_views * options.width * options.height > kMaxPixels) {
+    return {StatusCode::kInvalidArgument,
+            "num_views * width * height is more than 1e9"};
+  }
+  return MakeCamera(options).status();
+}
+
 Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
-  if (Status status = Check(options); !status.ok()) return status;
-  Result<Camera> camera = MakeCamera(options);
-  if (!camera.ok()) return camera.status();
+  if (Status status = Validate(options); !status.ok()) return status;
+  const Result<Camera> camera = MakeCamera(options);
 
   const Solid solid = MakeSolid(
       options.solid, options.scale, options.num_views, options.pattern);

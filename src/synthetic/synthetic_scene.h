@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/option_table.h"
 #include "synthetic/primitive.h"
 
 namespace curvix {
@@ -29,12 +30,12 @@ enum class SyntheticSolid {
 
 struct SyntheticOptions {
   SyntheticSolid solid = SyntheticSolid::kPart;
-  int num_views = 24;  // 3 to 999
-  int width = 480;     // pixels, 16 to 8192
-  int height = 480;    // pixels, 16 to 8192
-  double noise = 0;    // standard deviation, grey levels, 0 to 255
-  double texture = 0;  // contrast of surface texture, grey levels, 0 to 255:
-                       // spots, whose outlines are not part of the truth
+  int num_views = 24;
+  int width = 480;     // pixels
+  int height = 480;    // pixels
+  double noise = 0;    // standard deviation, grey levels
+  double texture = 0;  // contrast of surface texture, grey levels: spots,
+                       // whose outlines are not part of the truth
   // Painted on the surfaces; its outlines are part of the truth.
   SurfacePattern pattern = SurfacePattern::kNone;
   bool shadows = false;      // the sun casts shadows, with hard edges
@@ -44,11 +45,11 @@ struct SyntheticOptions {
   // to 0.9; 0 for models that have none.
   double distortion = 0;
   // Root mean square by which the projections of the truth move when the
-  // written poses replace those that the images were rendered with, 0 to 100.
+  // written poses replace those that the images were rendered with.
   double pose_error_px = 0;
-  // Longest side of the solid, height of the facade; world units, 1e-6 to 1e6.
+  // Longest side of the solid, height of the facade; world units.
   double scale = 1;
-  int points_per_view = 0;  // sparse points found by each view, 0 to 10000
+  int points_per_view = 0;  // sparse points found by each view
   std::uint64_t seed = 1;
   int num_threads = 0;  // 0: all cores; the result does not depend on it
 };
@@ -79,8 +80,14 @@ struct SyntheticScene {
   std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
 };
 
-// Deterministic for equal options. kInvalidArgument if an option is out of
-// range.
+// The numbers with their ranges, but for `distortion`, whose range depends on
+// the camera model. The pointers lead into `options`.
+std::vector<OptionRow> OptionTable(SyntheticOptions& options);
+
+// kInvalidArgument if an option is out of range.
+Status Validate(const SyntheticOptions& options);
+
+// Deterministic for equal options. Errors of Validate.
 Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options);
 
 }  // namespace curvix

@@ -363,7 +363,11 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
        "Hypotheses.min_ray_angle_deg"},
       {"evaluate --json", "either --curves_path and --truth_path, or"},
       {"evaluate --workspace_path x", "--holdout_every"},
-      {"synthesize --workspace_path x --num_views 2", "num_views is 2"}};
+      {"synthesize --workspace_path x --num_views 2", "num_views is 2"},
+      {"synthesize --workspace_path x --width 9000", "width is 9000"},
+      {"synthesize --workspace_path x --scale 1e-20", "scale is 1e-20"},
+      {"synthesize --workspace_path x --camera_model PINHOLE --distortion 0.1",
+       "PINHOLE has no radial coefficient"}};
   for (const auto& [words, hint] : cases) {
     const Outcome outcome = RunProgram(words);
     EXPECT_EQ(outcome.exit_code, 2) << words;

@@ -314,7 +314,7 @@ TEST(SyntheticSceneTest, RefusesOptionsOutOfRangeByName) {
   };
   using Options = SyntheticOptions;
   EXPECT_THAT(message([](Options& o) { o.num_views = 2; }),
-              HasSubstr("num_views is 2; it must be between 3 and"));
+              HasSubstr("num_views is 2; it must be >= 3 and"));
   EXPECT_THAT(message([](Options& o) { o.width = 15; }), HasSubstr("width"));
   EXPECT_THAT(message([](Options& o) { o.height = 1 << 30; }),
               HasSubstr("height"));
