@@ -44,26 +44,10 @@ std::string WithSigma(double value, double sigma) {
   return Text(value) + " +- " + SigmaText(sigma);
 }
 
-Status CheckSettings(const AlignSettings& s) {
-  const auto bad = [](std::string message) {
-    return Status(StatusCode::kInvalidArgument, std::move(message));
-  };
-  if (s.distances.empty() && s.markers.empty() && s.positions_path.empty() &&
-      s.axes == "none") {
-    return bad(
-        "align needs something that is known: --distance, --markers, "
-        "--positions or --axes auto");
-  }
-  if (!s.markers.empty() && !(s.marker_size > 0)) {
-    return bad("--markers needs --marker_size, the side of the black square");
-  }
-  if (!s.up.empty() && s.axes == "none") {
-    return bad("--up needs --axes auto, which it corrects");
-  }
-  if (!s.epsg.empty() && s.positions_path.empty()) {
-    return bad("--epsg needs --positions, whose coordinates it names");
-  }
-  return s.epsg.empty() ? Status() : CheckEpsg(s.epsg);
+Status CheckUp(const std::string& text) {
+  const Result<Eigen::Vector3d> up = ParseVector("--up", text);
+  if (!up.ok() || up->norm() > 0) return up.status();
+  return {StatusCode::kInvalidArgument, "--up has no direction"};
 }
 
 class Aligner {
@@ -154,12 +138,8 @@ Status Aligner::TakeAxes() {
   if (settings_.axes == "none") return {};
   Eigen::Vector3d up = MeanUp(scene_.views);
   if (!settings_.up.empty()) {
-    const Result<Eigen::Vector3d> given = ParseVector("--up", settings_.up);
-    if (!given.ok()) return given.status();
-    up = structures_.model_from_world.rotation * *given;
-  }
-  if (!(up.norm() > 0)) {
-    return {StatusCode::kInvalidArgument, "--up has no direction"};
+    up = structures_.model_from_world.rotation *
+         *ParseVector("--up", settings_.up);
   }
   const Result<MainAxes> axes =
       FindMainAxes(structures_.fitted, up, MeanViewDirection(scene_.views));
@@ -332,10 +312,34 @@ Result<AlignSummary> Aligner::Run() {
 
 }  // namespace
 
+Status Check(const AlignSettings& s) {
+  const auto bad = [](std::string message) {
+    return Status(StatusCode::kInvalidArgument, std::move(message));
+  };
+  if (s.distances.empty() && s.markers.empty() && s.positions_path.empty() &&
+      s.axes == "none") {
+    return bad(
+        "align needs something that is known: --distance, --markers, "
+        "--positions or --axes auto");
+  }
+  if (!s.markers.empty() && !(s.marker_size > 0)) {
+    return bad("--markers needs --marker_size, the side of the black square");
+  }
+  if (!s.up.empty() && s.axes == "none") {
+    return bad("--up needs --axes auto, which it corrects");
+  }
+  if (!s.epsg.empty() && s.positions_path.empty()) {
+    return bad("--epsg needs --positions, whose coordinates it names");
+  }
+  Status status;
+  if (!s.distances.empty()) status = CheckDistances(s.distances);
+  if (status.ok() && !s.up.empty()) status = CheckUp(s.up);
+  if (status.ok() && !s.epsg.empty()) status = CheckEpsg(s.epsg);
+  return status;
+}
+
 Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
                                     ProgressPrinter& progress) {
-  Status usable = CheckSettings(settings);
-  if (!usable.ok()) return usable;
   return CatchFileErrors(StatusCode::kInvalidArgument,
                          [&] { return Aligner(settings, progress).Run(); });
 }

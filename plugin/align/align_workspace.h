@@ -28,9 +28,12 @@ struct AlignSummary {
   std::string text;  // what was found, for people
 };
 
+// kInvalidArgument: settings that cannot work, whatever the results.
+Status Check(const AlignSettings& settings);
+
 // The model is that with refined poses, if a run has left one.
-// kInvalidArgument: settings that cannot work; errors of what is read;
-// kInvalidArgument: the folder cannot be written to.
+// `settings` are as Check() wants them. kInvalidArgument: they do not suit the
+// results, or the folder cannot be written to; errors of what is read.
 Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
                                     ProgressPrinter& progress);
 

@@ -33,55 +33,93 @@ CurveNode UsualPoint(const KnownStructures& structures) {
   return point;
 }
 
-Result<CurveNode> FindPoint(std::string_view word,
-                            const KnownStructures& structures,
-                            const std::string& text) {
+// "12" or "0,0,0".
+struct GivenPoint {
+  std::string word;
+  std::optional<std::size_t> node;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+struct GivenDistance {
+  std::string text;
+  GivenPoint a, b;
+  double length = 0;
+  double sigma = 0;
+};
+
+Result<GivenPoint> ReadPoint(std::string_view word, const std::string& text) {
+  GivenPoint point;
+  point.word = word;
   if (word.find(',') != std::string_view::npos) {
     const Result<Eigen::Vector3d> position = ParseVector("the point", word);
     if (!position.ok()) return BadDistance(text, position.status().message());
-    CurveNode point = UsualPoint(structures);
-    point.position = structures.model_from_world * *position;
+    point.position = *position;
     return point;
   }
-  const std::optional<std::size_t> id = ParseNumber<std::size_t>(word);
-  if (!id) {
-    return BadDistance(text,
-                       "\"" + std::string(word) +
-                           "\" is no number of a "
-                           "node and no point x,y,z");
-  }
-  const std::vector<CurveNode>& nodes = structures.fitted.nodes;
-  if (*id < nodes.size()) return nodes[*id];
-  return BadDistance(text, NoSuchNode(word, structures.fitted));
+  point.node = ParseNumber<std::size_t>(word);
+  if (point.node) return point;
+  return BadDistance(
+      text, "\"" + point.word + "\" is no number of a node and no point x,y,z");
 }
 
-Result<KnownDistance> ParseDistance(const std::string& text,
-                                    const KnownStructures& structures) {
+Result<GivenDistance> ReadDistance(std::string_view text) {
+  GivenDistance given;
+  given.text = text;
   std::string_view rest = text;
   const std::string_view first = TakeWord(rest);
   const std::string_view second = TakeWord(rest);
   const std::string_view length = TakeWord(rest);
   const std::string_view sigma = TakeWord(rest);
   if (length.empty() || !TakeWord(rest).empty()) {
-    return BadDistance(text,
-                       "it is not three words, or four with a "
-                       "standard deviation");
+    return BadDistance(given.text,
+                       "it is not three words, or four with a standard "
+                       "deviation");
   }
-  const Result<CurveNode> a = FindPoint(first, structures, text);
+  Result<GivenPoint> a = ReadPoint(first, given.text);
   if (!a.ok()) return a.status();
-  const Result<CurveNode> b = FindPoint(second, structures, text);
+  Result<GivenPoint> b = ReadPoint(second, given.text);
   if (!b.ok()) return b.status();
-  const std::optional<double> value = ParseNumber<double>(length);
-  const std::optional<double> error =
-      sigma.empty() ? 0 : ParseNumber<double>(sigma);
-  if (!value || !(*value > 0) || !std::isfinite(*value)) {
-    return BadDistance(text, "the distance is not a number above 0");
+  given.a = *std::move(a);
+  given.b = *std::move(b);
+  given.length = ParseNumber<double>(length).value_or(0);
+  given.sigma = sigma.empty() ? 0 : ParseNumber<double>(sigma).value_or(-1);
+  if (!(given.length > 0) || !std::isfinite(given.length)) {
+    return BadDistance(given.text, "the distance is not a number above 0");
   }
-  if (!error || !(*error >= 0) || !std::isfinite(*error)) {
-    return BadDistance(text, "the standard deviation is not a number from 0");
+  if (!(given.sigma >= 0) || !std::isfinite(given.sigma)) {
+    return BadDistance(given.text,
+                       "the standard deviation is not a number from 0");
   }
-  return KnownDistance{
-      a->position, b->position, a->covariance, b->covariance, *value, *error};
+  return given;
+}
+
+Result<CurveNode> FindPoint(const GivenPoint& given,
+                            const KnownStructures& structures,
+                            const std::string& text) {
+  if (!given.node) {
+    CurveNode point = UsualPoint(structures);
+    point.position = structures.model_from_world * given.position;
+    return point;
+  }
+  const std::vector<CurveNode>& nodes = structures.fitted.nodes;
+  if (*given.node < nodes.size()) return nodes[*given.node];
+  return BadDistance(text, NoSuchNode(given.word, structures.fitted));
+}
+
+Result<KnownDistance> ParseDistance(std::string_view text,
+                                    const KnownStructures& structures) {
+  const Result<GivenDistance> given = ReadDistance(text);
+  if (!given.ok()) return given.status();
+  const Result<CurveNode> a = FindPoint(given->a, structures, given->text);
+  if (!a.ok()) return a.status();
+  const Result<CurveNode> b = FindPoint(given->b, structures, given->text);
+  if (!b.ok()) return b.status();
+  return KnownDistance{a->position,
+                       b->position,
+                       a->covariance,
+                       b->covariance,
+                       given->length,
+                       given->sigma};
 }
 
 }  // namespace
@@ -97,12 +135,19 @@ Result<KnownStructures> ReadStructures(const fs::path& folder) {
   return result;
 }
 
+Status CheckDistances(const std::string& text) {
+  for (const std::string_view part : SplitAt(text, ';')) {
+    Status status = ReadDistance(part).status();
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
 Result<std::vector<KnownDistance>> ParseDistances(
     const std::string& text, const KnownStructures& structures) {
   std::vector<KnownDistance> distances;
   for (const std::string_view part : SplitAt(text, ';')) {
-    Result<KnownDistance> distance =
-        ParseDistance(std::string(part), structures);
+    Result<KnownDistance> distance = ParseDistance(part, structures);
     if (!distance.ok()) return distance.status();
     distances.push_back(*std::move(distance));
   }

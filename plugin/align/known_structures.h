@@ -31,6 +31,9 @@ Result<KnownStructures> ReadStructures(const std::filesystem::path& folder);
 Result<std::vector<KnownDistance>> ParseDistances(
     const std::string& text, const KnownStructures& structures);
 
+// kInvalidArgument as of ParseDistances, but for nodes that are not there.
+Status CheckDistances(const std::string& text);
+
 // "x,y,z" to three finite numbers. kInvalidArgument: `what` is no such.
 Result<Eigen::Vector3d> ParseVector(const std::string& what,
                                     std::string_view text);

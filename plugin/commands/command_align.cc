@@ -174,6 +174,8 @@ ExitCode RunAlign(const Arguments& arguments) {
                    WithDistancesJoined(arguments),
                    Sections(&settings, &write_results));
   if (code) return *code;
+  const Status valid = Check(settings);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
   const auto workspace = CatchFileErrors(
       StatusCode::kInvalidArgument, [&] { return FindInput(settings.run); });
   if (!workspace.ok()) return Fail(workspace.status());

@@ -65,6 +65,8 @@ ExitCode RunDraw(const Arguments& arguments) {
   const std::optional<ExitCode> code =
       ParseCommand("draw", arguments, Sections(&settings));
   if (code) return *code;
+  const Status valid = Check(settings);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
   const auto summary = WithProgress([&](ProgressPrinter& progress) {
     return DrawWorkspace(settings, progress);
   });

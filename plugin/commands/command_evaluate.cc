@@ -53,14 +53,16 @@ FlagSection TruthSection(EvaluateSettings* settings) {
 }
 
 std::vector<FlagSection> Sections(EvaluateSettings* settings) {
+  Flag every = RowFlag({.name = "holdout_every",
+                        .field = &settings->holdout_every,
+                        .min = 2,
+                        .help = "reconstruct the workspace without one of N "
+                                "views and look there for its curves, or for "
+                                "those of --curves_path"});
+  every.default_value = "";
   std::vector<FlagSection> sections = {
       TruthSection(settings),
-      {"Against images held out, with a workspace",
-       {RowFlag({.name = "holdout_every",
-                 .field = &settings->holdout_every,
-                 .help = "reconstruct the workspace without one of N views "
-                         "and look there for its curves, or for those of "
-                         "--curves_path; 2 or more"})}}};
+      {"Against images held out, with a workspace", {std::move(every)}}};
   for (FlagSection& section : ReconstructSections(&settings->run)) {
     if (section.title == "Poses" || section.title == "Output") continue;
     for (Flag& flag : section.flags) flag.is_required = false;

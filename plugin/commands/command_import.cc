@@ -174,6 +174,13 @@ ExitCode RunImport(const Arguments& arguments) {
                                                      WorkspaceFlags(&settings),
                                                      ResultFlags(&settings)});
   if (code) return *code;
+  if (settings.format == "colmap_images" &&
+      settings.options.image_path.empty()) {
+    return Fail({StatusCode::kInvalidArgument,
+                 "The option '--image_path' is required with --format "
+                 "colmap_images"},
+                kExitCommandLine);
+  }
   const Status status = CheckInput(settings);
   if (!status.ok()) return Fail(status);
   for (const LineFormat& format : kLineFormats) {

@@ -44,14 +44,9 @@ Result<DrawingPlane> PlaneOfNodes(const std::string& text,
   const std::vector<CurveNode>& nodes = curves.fitted.nodes;
   for (std::string_view word = TakeWord(rest); !word.empty();
        word = TakeWord(rest)) {
-    const auto id = ParseNumber<std::size_t>(word);
-    if (!id || *id >= nodes.size()) {
-      return BadPlane(NoSuchNode(word, curves.fitted));
-    }
-    points.push_back(nodes[*id].position);
-  }
-  if (points.size() != 3) {
-    return BadPlane("it takes three nodes, as in --plane \"nodes 12 31 7\"");
+    const std::size_t id = *ParseNumber<std::size_t>(word);
+    if (id >= nodes.size()) return BadPlane(NoSuchNode(word, curves.fitted));
+    points.push_back(nodes[id].position);
   }
   Result<DrawingPlane> plane = PlaneThrough(
       points[0], points[1], points[2], up, MeanViewDirection(scene.views));
@@ -65,15 +60,33 @@ Result<DrawingPlane> ChoosePlane(const std::string& name,
                                  const Scene& scene) {
   if (name == "auto") return AutoPlane(curves, scene);
   if (name.starts_with("nodes")) return PlaneOfNodes(name, curves, scene);
-  std::optional<DrawingPlane> plane = AxisPlane(name);
-  if (plane) return *std::move(plane);
-  return BadPlane("\"" + name +
-                  "\" is no plane; it takes xy, xz, yz, several of these with "
-                  "commas between, "
-                  "auto, or three nodes, as in \"nodes 12 31 7\"");
+  return *AxisPlane(name);
+}
+
+// "nodes 12 31 7".
+bool IsThreeNodes(std::string_view text) {
+  if (TakeWord(text) != "nodes") return false;
+  int count = 0;
+  for (auto word = TakeWord(text); !word.empty(); word = TakeWord(text)) {
+    if (!ParseNumber<std::size_t>(word)) return false;
+    ++count;
+  }
+  return count == 3;
 }
 
 }  // namespace
+
+Status CheckPlanes(const std::string& text) {
+  for (const std::string_view part : SplitAt(text, ',')) {
+    const std::string name(part);
+    if (name == "auto" || AxisPlane(name) || IsThreeNodes(name)) continue;
+    return BadPlane("\"" + name +
+                    "\" is no plane; it takes xy, xz, yz, several of these "
+                    "with commas between, auto, or three nodes, as in \"nodes "
+                    "12 31 7\"");
+  }
+  return {};
+}
 
 Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
                                                const CurvesFile& curves,

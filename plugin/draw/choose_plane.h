@@ -12,9 +12,13 @@
 
 namespace curvix {
 
+// kInvalidArgument: it is no text for ChoosePlanes, whatever nodes there are.
+Status CheckPlanes(const std::string& text);
+
 // "xy", "xz", "yz", "auto" (MainPlane, of the axes of the alignment or else of
 // those that lines share), "nodes A B C", or several with commas between.
-// `scene` is in the frame of the curves. kInvalidArgument: it is none of these;
+// `scene` is in the frame of the curves. CheckPlanes() accepts `text`.
+// kInvalidArgument: there is no such node, or nodes are on a line;
 // kUnsupported: "auto", and no two directions are perpendicular.
 Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
                                                const CurvesFile& curves,

@@ -49,10 +49,37 @@ std::string ViewName(const std::string& plane) {
   return name + " (" + plane + ")";
 }
 
+// Of the files.
+std::string NameOf(const DrawSettings& settings) {
+  std::string name = settings.name;
+  if (name.empty()) {
+    name = "drawing_" + settings.plane;
+    if (!settings.slice.empty()) name += "_section";
+    if (settings.from_behind) name += "_from_behind";
+  }
+  for (char& c : name) c = c == ' ' || c == ',' ? '_' : c;
+  return name;
+}
+
+Status CheckName(const std::string& name) {
+  if (fs::path(name).filename() != name || name.front() == '.') {
+    return BadDrawing("--name is \"" + name +
+                      "\"; it takes the name of a file, without folders");
+  }
+  for (const OutputFormat& format : OutputFormats()) {
+    for (const char* ending : {".dxf", ".svg", ".jpg", ".gpkg", ".geojson"}) {
+      if (name + ending != format.file) continue;
+      return BadDrawing("--name is \"" + name + "\", but " + format.file +
+                        " is a file of the curves; choose another name");
+    }
+  }
+  return {};
+}
+
 class Drafter {
  public:
   Drafter(const DrawSettings& settings, ProgressPrinter& progress)
-      : settings_(settings), progress_(progress) {}
+      : settings_(settings), progress_(progress), name_(NameOf(settings)) {}
 
   Result<std::string> Run();
 
@@ -61,7 +88,6 @@ class Drafter {
   Status TakePlanes();
   // kInvalidArgument, with the depths of all curves.
   Status NothingInSlice(const DrawingPlane& plane) const;
-  Status TakeName();
   Status TakePhotograph();
   Status LayOut();
   Status Write();
@@ -69,12 +95,12 @@ class Drafter {
 
   const DrawSettings& settings_;
   ProgressPrinter& progress_;
+  const std::string name_;  // of the files
   Workspace workspace_;
   Scene scene_;  // in the frame of the curves
   CurvesFile curves_;
   DrawWindow window_;
   std::vector<DrawnView> views_;
-  std::string name_;
   std::string photograph_;  // its name
   std::string jpeg_;
   std::optional<SheetPicture> picture_;
@@ -96,10 +122,7 @@ Status Drafter::Read() {
   if (curves_.alignment) {
     scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
   }
-  const Result<DrawWindow> window =
-      ParseWindow(settings_.slice, settings_.crop);
-  if (!window.ok()) return window.status();
-  window_ = *window;
+  window_ = *ParseWindow(settings_.slice, settings_.crop);
   return {};
 }
 
@@ -107,11 +130,6 @@ Status Drafter::TakePlanes() {
   Result<std::vector<DrawingPlane>> planes =
       ChoosePlanes(settings_.plane, curves_, scene_);
   if (!planes.ok()) return planes.status();
-  const bool is_cropped = !settings_.crop.empty() && settings_.crop != "all";
-  if (planes->size() > 1 && (is_cropped || !settings_.slice.empty() ||
-                             !settings_.photograph.empty())) {
-    return BadDrawing("--slice, --crop and --photograph need a single --plane");
-  }
   for (DrawingPlane& plane : *planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
     if (curves_.alignment && AxisPlane(plane.name)) {
@@ -155,28 +173,6 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
       "There is nothing to draw from " + Short(window_.depth.from) + " to " +
       Short(window_.depth.to) + "; " + plane.depth_name +
       " of the curves is from " + Short(low) + " to " + Short(high));
-}
-
-Status Drafter::TakeName() {
-  name_ = settings_.name;
-  if (name_.empty()) {
-    name_ = "drawing_" + settings_.plane;
-    if (!settings_.slice.empty()) name_ += "_section";
-    if (settings_.from_behind) name_ += "_from_behind";
-  }
-  for (char& c : name_) c = c == ' ' || c == ',' ? '_' : c;
-  if (fs::path(name_).filename() != name_ || name_.front() == '.') {
-    return BadDrawing("--name is \"" + name_ +
-                      "\"; it takes the name of a file, without folders");
-  }
-  for (const OutputFormat& format : OutputFormats()) {
-    for (const char* ending : {".dxf", ".svg", ".jpg", ".gpkg", ".geojson"}) {
-      if (name_ + ending != format.file) continue;
-      return BadDrawing("--name is \"" + name_ + "\", but " + format.file +
-                        " is a file of the curves; choose another name");
-    }
-  }
-  return {};
 }
 
 Status Drafter::TakePhotograph() {
@@ -250,12 +246,7 @@ Status Drafter::LayOut() {
   if (curves_.alignment) sheet.unit = curves_.alignment->unit;
   sheet.millimetres = MillimetresPer(sheet.unit).value_or(0);
   if (!settings_.scale.empty()) {
-    const std::optional<double> denominator = ParseScale(settings_.scale);
-    if (!denominator) {
-      return BadDrawing("--scale is \"" + settings_.scale +
-                        "\"; it takes a scale such as 1:50 or 2:1");
-    }
-    sheet.denominator = *denominator;
+    sheet.denominator = *ParseScale(settings_.scale);
   }
   std::vector<SheetCurve> curves;
   for (const DrawnView& view : views_) {
@@ -304,7 +295,6 @@ Status Drafter::Write() {
 Result<std::string> Drafter::Run() {
   for (const auto step : {&Drafter::Read,
                           &Drafter::TakePlanes,
-                          &Drafter::TakeName,
                           &Drafter::TakePhotograph,
                           &Drafter::LayOut}) {
     Status status = (this->*step)();
@@ -340,6 +330,23 @@ Result<std::string> Drafter::Run() {
 }
 
 }  // namespace
+
+Status Check(const DrawSettings& s) {
+  Status status = CheckPlanes(s.plane);
+  if (status.ok()) status = ParseWindow(s.slice, s.crop).status();
+  if (status.ok()) status = CheckName(NameOf(s));
+  if (!status.ok()) return status;
+  if (!s.scale.empty() && !ParseScale(s.scale)) {
+    return BadDrawing("--scale is \"" + s.scale +
+                      "\"; it takes a scale such as 1:50 or 2:1");
+  }
+  const bool is_cropped = !s.crop.empty() && s.crop != "all";
+  if (s.plane.find(',') != s.plane.npos &&
+      (is_cropped || !s.slice.empty() || !s.photograph.empty())) {
+    return BadDrawing("--slice, --crop and --photograph need a single --plane");
+  }
+  return {};
+}
 
 Result<std::string> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress) {

@@ -31,10 +31,14 @@ struct DrawSettings {
   std::string name;
 };
 
+// kInvalidArgument: settings that cannot work, whatever the curves.
+Status Check(const DrawSettings& settings);
+
 // Writes <name>.dxf and <name>.svg, and <name>.jpg, <name>.gpkg and
 // <name>.geojson if they are asked for, into the folder of results, all or
-// none. Returns what was drawn and where it is, for people. kInvalidArgument:
-// settings that cannot work; errors of what is read.
+// none. Returns what was drawn and where it is, for people. `settings` are as
+// Check() wants them. kInvalidArgument: they do not suit the curves; errors of
+// what is read.
 Result<std::string> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress);
 

@@ -30,11 +30,6 @@ Status CheckSize(const fs::path& file, const Camera& camera) {
 }  // namespace
 
 Result<ImportedScene> ImportColmapImages(const ImportOptions& options) {
-  if (options.image_path.empty()) {
-    return Status(StatusCode::kInvalidArgument,
-                  "The option '--image_path' is required with --format "
-                  "colmap_images.");
-  }
   const auto folder = FindImageFolder(options.image_path, {}, "");
   if (!folder.ok()) return folder.status();
   Result<ColmapModel> model = ReadColmapModel(options.input_path);

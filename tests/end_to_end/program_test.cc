@@ -363,11 +363,22 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
        "Hypotheses.min_ray_angle_deg"},
       {"evaluate --json", "either --curves_path and --truth_path, or"},
       {"evaluate --workspace_path x", "--holdout_every"},
+      {"evaluate --workspace_path x --holdout_every 1", "must be >= 2"},
       {"synthesize --workspace_path x --num_views 2", "num_views is 2"},
       {"synthesize --workspace_path x --width 9000", "width is 9000"},
       {"synthesize --workspace_path x --scale 1e-20", "scale is 1e-20"},
       {"synthesize --workspace_path x --camera_model PINHOLE --distortion 0.1",
-       "PINHOLE has no radial coefficient"}};
+       "PINHOLE has no radial coefficient"},
+      {"import --workspace_path x --input_path y --format colmap_images",
+       "'--image_path' is required"},
+      {"align --workspace_path x --distance 0 1 nan", "not a number above 0"},
+      {"align --workspace_path x --axes auto --up 0,0,0", "no direction"},
+      {"align --workspace_path x", "something that is known"},
+      {"draw --workspace_path x --plane zx", "is no plane"},
+      {"draw --workspace_path x --plane 'nodes 1 2'", "three nodes"},
+      {"draw --workspace_path x --slice 2,1", "lower and the higher"},
+      {"draw --workspace_path x --name a/b", "without folders"},
+      {"draw --workspace_path x --scale 1:0", "such as 1:50"}};
   for (const auto& [words, hint] : cases) {
     const Outcome outcome = RunProgram(words);
     EXPECT_EQ(outcome.exit_code, 2) << words;
