@@ -50,8 +50,11 @@ std::string SetText(const OptionRow& row, const CurveKindSet& kinds) {
 }
 
 Status OutOfRange(const OptionRow& row, const std::string& text) {
+  const bool is_part =
+      std::holds_alternative<int*>(row.field) && !ParseNumber<int>(text);
   return {StatusCode::kInvalidArgument,
-          row.name + " is " + text + "; it must be " + RangeText(row)};
+          row.name + " is " + text + "; it must be " +
+              (is_part ? "a whole number " : "") + RangeText(row)};
 }
 
 // Also catches NaN.

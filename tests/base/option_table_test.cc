@@ -188,6 +188,14 @@ TEST(OptionTable, ErrorsNameTheFieldItsValueAndTheRange) {
       "Hypotheses.view_selection is all; it must be unused_edges or "
       "every_view");
 
+  for (const char* text : {"1.5", "two", "1e3"}) {
+    EXPECT_EQ(SetFromText(Find(rows, "num_threads"), text).message(),
+              std::string("num_threads is ") + text +
+                  "; it must be a whole number >= -1 and <= 4096");
+  }
+  EXPECT_EQ(SetFromText(Find(rows, "num_threads"), "-2").message(),
+            "num_threads is -2; it must be >= -1 and <= 4096");
+
   options.validation.max_angle_deg = std::numeric_limits<double>::quiet_NaN();
   const Status status = Validate(options);
   EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
