@@ -3,6 +3,7 @@
 
 #include <curvix/curve_io.h>
 #include <cmath>
+#include <filesystem>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -10,12 +11,16 @@
 
 #include "base/text_fields.h"
 #include "colmap/workspace.h"
+#include "measuring/moved_curves.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
 #include "plugin/base/text.h"
+#include "plugin/export/alignment_file.h"
 
 namespace curvix {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Nine columns wide, or more if need be.
 std::string Column(double value, int num_decimals) {
@@ -161,27 +166,72 @@ void PrintJson(const Evaluation& e, std::ostream& out) {
   out << json.dump() << '\n';
 }
 
+// What curves are compared with.
+struct HoldoutScene {
+  Scene scene;
+  fs::path model_path;
+  fs::path alignment_path;  // of the frame of the scene; "": the model's
+};
+
+// The workspace; for curves of a file, with the cameras that their run refined,
+// if these lie beside them and no model is given, and in their frame.
+Result<HoldoutScene> ReadHoldoutScene(const RunSettings& settings,
+                                      const fs::path& curves_path,
+                                      RunProgress& progress) {
+  Result<Workspace> workspace = FindWorkspace(settings);
+  if (!workspace.ok()) return workspace.status();
+  const bool has_curves = !curves_path.empty();
+  const fs::path folder = curves_path.parent_path();
+  const bool has_model = FindColmapFormat(folder / "sparse").ok();
+  if (has_curves && has_model && settings.input_path.empty()) {
+    workspace->model_path = folder / "sparse";
+  }
+  Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
+  if (!input.ok()) return input.status();
+  for (const std::string& note : input->notes) progress.Note(note);
+  HoldoutScene result{std::move(input->scene), workspace->model_path, ""};
+  if (!has_curves) return result;
+  const auto alignment = ReadAlignment(folder);
+  if (!alignment.ok()) return alignment.status();
+  if (!*alignment) return result;
+  result.scene = MoveScene((*alignment)->world_from_model, result.scene);
+  result.alignment_path = folder / kAlignmentName;
+  return result;
+}
+
 struct HoldoutResult {
+  HoldoutScene input;
   int num_held_out = 0;  // views
   ResultSummary curves;
   ImageAgreement agreement;
 };
 
 void PrintRow(std::string name,
-              const ShareAboveChance& share,
+              const std::optional<ShareAboveChance>& share,
               std::ostream& out) {
   name.resize(40, ' ');
-  out << name << Column(100 * share.share, 1) << Column(100 * share.chance, 1)
-      << Column(100 * share.Lift(), 1) << '\n';
+  out << name;
+  if (share) {
+    out << Column(100 * share->share, 1) << Column(100 * share->chance, 1)
+        << Column(100 * share->Lift(), 1) << '\n';
+  } else {
+    out << "        -        -        -\n";
+  }
 }
 
 void PrintTable(const HoldoutResult& result, std::ostream& out) {
   const ImageAgreement& agreement = result.agreement;
+  const fs::path& alignment_path = result.input.alignment_path;
   std::string head = "in the images held out, %";
   head.resize(40, ' ');
   out << result.num_held_out << " views held out, "
       << GroupDigits(result.curves.num_curves) << " curves of total length "
-      << result.curves.total_length << "\n\n"
+      << result.curves.total_length << "\nmodel "
+      << result.input.model_path.string()
+      << (alignment_path.empty()
+              ? ""
+              : ", in the frame of " + alignment_path.string())
+      << "\n\n"
       << head << "    share   chance     lift\n";
   PrintRow("curves on a contour (precision)", agreement.precision, out);
   PrintRow(
@@ -202,11 +252,14 @@ void PrintJson(const HoldoutResult& result, std::ostream& out) {
   json["curves"] = result.curves.num_curves;
   json["length"] = result.curves.total_length;
   json["piece_px"] = agreement.median_piece_px;
+  json["model"] = result.input.model_path.string();
+  json["alignment"] = result.input.alignment_path.string();
   const auto add = [&json](const std::string& name,
-                           const ShareAboveChance& share) {
-    json[name] = 100 * share.share;
-    json[name + "_chance"] = 100 * share.chance;
-    json[name + "_lift"] = 100 * share.Lift();
+                           const std::optional<ShareAboveChance>& share) {
+    if (!share) return;
+    json[name] = 100 * share->share;
+    json[name + "_chance"] = 100 * share->chance;
+    json[name + "_lift"] = 100 * share->Lift();
   };
   add("precision", agreement.precision);
   add("expected_precision", agreement.expected_precision);
@@ -241,15 +294,13 @@ Status EvaluateHoldout(const RunSettings& settings,
                        EvaluationFormat format,
                        RunProgress& progress,
                        std::ostream& out) {
-  const Result<Workspace> workspace = FindWorkspace(settings);
-  if (!workspace.ok()) return workspace.status();
-  const Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
+  Result<HoldoutScene> input =
+      ReadHoldoutScene(settings, curves_path, progress);
   if (!input.ok()) return input.status();
   const Scene& scene = input->scene;
   const Result<std::vector<int>> view_idxs =
       ViewsHeldOut(scene.views.size(), every);
   if (!view_idxs.ok()) return view_idxs.status();
-  for (const std::string& note : input->notes) progress.Note(note);
   const Result<CurveSet> curves =
       curves_path.empty()
           ? ReconstructOthers(scene, settings.options, every, progress)
@@ -259,7 +310,8 @@ Status EvaluateHoldout(const RunSettings& settings,
       curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
   if (!agreement.ok()) return agreement.status();
   progress.Finish();
-  PrintHoldout({static_cast<int>(view_idxs->size()),
+  PrintHoldout({*std::move(input),
+                static_cast<int>(view_idxs->size()),
                 SummarizeCurves(*curves),
                 *agreement},
                format,

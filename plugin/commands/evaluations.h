@@ -35,12 +35,15 @@ Status EvaluateFiles(const std::filesystem::path& curves_path,
 
 // Reads the workspace, reconstructs without one of `every` views, compares with
 // the images of these, and prints a table for people, or one JSON object:
-// held_out, curves, length, piece_px, and in percent precision,
-// precision_chance, precision_lift, the same of expected_precision, strong and
+// held_out, curves, length, piece_px, model, alignment ("": none), and in
+// percent precision, precision_chance, precision_lift, the same of
+// expected_precision (absent: no curve says which images show it), strong and
 // lines. Poses are taken as they are. With a `curves_path`, these curves are
-// compared, whoever made them, and nothing is reconstructed. Nothing is written
-// to disk. Fails as RunWorkspace, ReconstructWithHoldout, ReadCurves and
-// CompareWithImages do.
+// compared, whoever made them, and nothing is reconstructed; the sparse/ beside
+// them comes before the workspace's model, but not before the input_path of
+// `settings`, and the alignment.json beside them is their frame. Nothing is
+// written to disk. Fails as RunWorkspace, ReconstructWithHoldout, ReadCurves
+// and CompareWithImages do.
 Status RunHoldout(const RunSettings& settings,
                   const std::filesystem::path& curves_path,
                   int every,

@@ -10,6 +10,7 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace curvix {
@@ -35,8 +36,8 @@ struct ImageAgreement {
   // least one, those that lie on a contour: within 1.5 pixels and 15 degrees.
   ShareAboveChance precision;
   // The same of those samples only that should be seen: of the other views, the
-  // two in most like direction support it. 0 if there are none.
-  ShareAboveChance expected_precision;
+  // two in most like direction support it. nullopt: there are none.
+  std::optional<ShareAboveChance> expected_precision;
   // Of the strongest fifth of all contours, what lies within 2 pixels and 15
   // degrees of a curve.
   ShareAboveChance strong_contours;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "base/angles.h"
 #include "base/grid_index.h"
@@ -192,7 +193,9 @@ void ImageTally::Add(const ImageTally& other) {
 
 ImageAgreement ImageTally::Summarize() const {
   return {precision.Summarize(),
-          expected_precision.Summarize(),
+          expected_precision.amount > 0
+              ? std::optional(expected_precision.Summarize())
+              : std::nullopt,
           strong_contours.Summarize(),
           long_lines.Summarize(),
           MedianOr(0, pieces_px)};

@@ -82,8 +82,8 @@ TEST_F(WallTest, ALineElsewhereIsOnNoContour) {
 
 TEST_F(WallTest, SamplesAreExpectedIfTheNextViewsSupportThem) {
   const Curve line = Line({0, -3, 0}, {0, 3, 0});
-  EXPECT_EQ(Compare(line, {2}).expected_precision.share, 1);
-  EXPECT_EQ(Compare(line, {1}).expected_precision.share, 0)
+  EXPECT_EQ(Compare(line, {2}).expected_precision->share, 1);
+  EXPECT_FALSE(Compare(line, {1}).expected_precision.has_value())
       << "view 2 does not support the line";
 }
 

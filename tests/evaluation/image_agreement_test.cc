@@ -47,7 +47,7 @@ TEST(CompareWithImage, WhatIsDrawnWhereAContourIsCounts) {
   const std::vector<Edge2d> contour = PlacesOnLine(0, 100, 50);
   const ImageAgreement exact = Compare({Drawn(contour)}, contour, contour);
   for (const ShareAboveChance& share : {exact.precision,
-                                        exact.expected_precision,
+                                        *exact.expected_precision,
                                         exact.strong_contours,
                                         exact.long_lines}) {
     EXPECT_EQ(share.share, 1);
@@ -108,7 +108,7 @@ TEST(CompareWithImage, ExpectedPlacesAreCountedApart) {
   const ImageAgreement agreement = Compare(
       {Drawn(contour, true), Drawn(PlacesOnLine(0, 300, 70), false)}, contour);
   EXPECT_EQ(agreement.precision.share, 0.25);
-  EXPECT_EQ(agreement.expected_precision.share, 1);
+  EXPECT_EQ(agreement.expected_precision->share, 1);
 }
 
 TEST(CompareWithImage, StepsCountNotPlaces) {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Results against images held out: with which cameras, and in which frame.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "colmap/colmap_model.h"
+#include "gmock/gmock.h"
+#include "gtest/gtest.h"
+#include "plugin/export/alignment_file.h"
+#include "tests/end_to_end/block_test.h"
+
+namespace curvix {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Evaluate : public BlockTest {
+ protected:
+  json Holdout(const std::string& file, const std::string& more = "") {
+    const Outcome outcome =
+        Run("evaluate --json --holdout_every 4 --curves_path " +
+            Quoted(results_ / file) + " " + more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return json::parse(outcome.output.substr(outcome.output.find('{')));
+  }
+  // As bundle adjustment leaves it: the cameras of the curves beside these, and
+  // others in the workspace.
+  void MoveCamerasOfWorkspace() {
+    const fs::path given = workspace_ / "sparse/0";
+    const fs::path refined = results_ / "sparse";
+    ColmapModel model = *ReadColmapModel(fs::exists(refined) ? refined : given);
+    fs::remove_all(refined);
+    ASSERT_TRUE(WriteColmapModel(model, refined).ok());
+    for (ColmapImage& image : model.images) {
+      image.cam_from_world.translation.x() += 0.05;
+    }
+    fs::remove_all(given);
+    ASSERT_TRUE(WriteColmapModel(model, given).ok());
+  }
+};
+
+TEST_F(Evaluate, ResultsAreComparedWithTheCamerasBesideThem) {
+  MoveCamerasOfWorkspace();
+  const json refined = Holdout("curves.ply");
+  EXPECT_EQ(refined["model"], (results_ / "sparse").string());
+  EXPECT_GT(refined["precision"], 50);
+  const fs::path given = workspace_ / "sparse/0";
+  const json moved = Holdout("curves.ply", "--input_path " + Quoted(given));
+  EXPECT_EQ(moved["model"], given.string());
+  EXPECT_LT(moved["precision"], 30);
+}
+
+TEST_F(Evaluate, ResultsAreComparedInTheirFrame) {
+  const json before = Holdout("curves.ply");
+  EXPECT_EQ(before["alignment"], "");
+  WorldAlignment alignment;
+  alignment.has_scale = true;
+  alignment.world_from_model.scale = 1000;
+  const fs::path file = folder_.Write("proj/curvix/0/alignment.json",
+                                      AlignmentJson(alignment).dump());
+  ASSERT_EQ(Run("").exit_code, 0);
+  const json after = Holdout("curves.ply");
+  EXPECT_EQ(after["alignment"], file.string());
+  EXPECT_GT(after["length"], 100 * before["length"].get<double>());
+  EXPECT_NEAR(after["precision"], before["precision"], 1);
+}
+
+TEST_F(Evaluate, WithoutImagesOfCurvesNothingIsExpected) {
+  EXPECT_GT(Holdout("curves.txt")["expected_precision"], 0);
+  EXPECT_FALSE(Holdout("curves.obj").contains("expected_precision"));
+  const Outcome outcome = Run("evaluate --holdout_every 4 --curves_path " +
+                              Quoted(results_ / "curves.ply"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("the same where they should be seen              -"));
+  EXPECT_THAT(outcome.output, HasSubstr("\nmodel "));
+}
+
+}  // namespace
+}  // namespace curvix
