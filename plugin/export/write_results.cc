@@ -25,22 +25,29 @@ namespace fs = std::filesystem;
 constexpr std::string_view kAlignedFrame =
     "coordinates are those of alignment.json";
 
-Status WriteSvg(const CurveRecord& record,
-                const std::string& image,
-                const fs::path& path) {
-  const std::vector<View>& views = record.scene.views;
+// Index of the view that curves.svg is to show.
+Result<int> ViewOfSvg(const std::string& image,
+                      const std::vector<View>& views) {
   const auto view =
       std::find_if(views.begin(), views.end(), [&](const View& candidate) {
         return image.empty() || candidate.name == image;
       });
-  if (view == views.end()) {
-    return {StatusCode::kInvalidArgument,
-            "svg_image is " + image + ", which is no image of the model"};
-  }
-  return WriteProjection(path,
-                         record.curves,
-                         record.scene,
-                         static_cast<int>(view - views.begin()));
+  if (view != views.end()) return static_cast<int>(view - views.begin());
+  return Status(StatusCode::kInvalidArgument,
+                "svg_image is " + image + ", which is no image of the model");
+}
+
+Status WriteSvg(const CurveRecord& record,
+                const std::string& image,
+                const fs::path& path) {
+  const Result<int> view_idx = ViewOfSvg(image, record.scene.views);
+  if (!view_idx.ok()) return view_idx.status();
+  return WriteProjection(path, record.curves, record.scene, *view_idx);
+}
+
+bool AsksFor(const OutputSettings& settings, const std::string& format) {
+  return std::find(settings.formats.begin(), settings.formats.end(), format) !=
+         settings.formats.end();
 }
 
 // A file of what `encode` gives, if all curves can be read.
@@ -200,6 +207,11 @@ FlagSection OutputFlags(OutputSettings* settings) {
                             "images, into overlays/"})}};
 }
 
+Status CheckOutput(const OutputSettings& settings, const Scene& scene) {
+  if (!AsksFor(settings, "svg")) return {};
+  return ViewOfSvg(settings.svg_image, scene.views).status();
+}
+
 Status WriteFormat(const CurveRecord& record,
                    const OutputSettings& settings,
                    int num_threads,
@@ -241,11 +253,7 @@ Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
                                               const fs::path& folder) {
   std::vector<std::string> files;
   for (const OutputFormat& format : OutputFormats()) {
-    if (std::find(settings.formats.begin(),
-                  settings.formats.end(),
-                  format.name) == settings.formats.end()) {
-      continue;
-    }
+    if (!AsksFor(settings, format.name)) continue;
     Status status = WriteFormat(
         record, settings, num_threads, format.name, folder / format.file);
     if (!status.ok()) return status;

@@ -33,6 +33,10 @@ const std::vector<OutputFormat>& OutputFormats();
 // The flags that change `settings`, which must outlive them.
 FlagSection OutputFlags(OutputSettings* settings);
 
+// kInvalidArgument: curves.svg is asked for, and svg_image is not the name of a
+// view. Known before any curve.
+Status CheckOutput(const OutputSettings& settings, const Scene& scene);
+
 // Writes one of OutputFormats(), by its name, to `path`. Errors as
 // WriteResults.
 Status WriteFormat(const CurveRecord& record,

@@ -177,6 +177,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   if (!status.ok()) return status;
   workspace->output_path = folder;
   RunRecord record = RecordOf(settings);
+  record.settings.output.formats.clear();  // parts have none of them
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
   status = CheckImagesAreThere(*input);

@@ -142,6 +142,8 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   progress.Update("read_model", 0, 0);
   Result<WorkspaceScene> input = LoadWorkspaceScene(workspace);
   if (!input.ok()) return input.status();
+  Status usable = CheckOutput(record.settings.output, input->scene);
+  if (!usable.ok()) return usable;
 
   Result<std::optional<WorldAlignment>> alignment =
       ReadAlignment(workspace.output_path);

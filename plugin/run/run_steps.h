@@ -32,7 +32,7 @@ Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress);
 
 // Reads the model of `workspace`, and alignment.json if the folder of results
 // has one; puts into `record` which folders and what they hold. Errors of
-// LoadWorkspaceScene and ReadAlignment.
+// LoadWorkspaceScene, CheckOutput and ReadAlignment.
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunProgress& progress,
                                  RunRecord& record);

@@ -118,6 +118,19 @@ TEST_F(Formats, JsonKeepsToItsSchema) {
   EXPECT_EQ(count, NumCurves());
 }
 
+TEST_F(Formats, AWrongImageOfTheSvgIsFoundBeforeTheRun) {
+  const fs::path output = folder_->path() / "no_image";
+  const std::string words = "--workspace_path " +
+                            Quoted(folder_->path() / "proj") +
+                            " --output_path " + Quoted(output) +
+                            " --svg_image none.png --refiner none";
+  const Outcome outcome = RunProgram(words + " --output_formats ply,svg");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("svg_image is none.png"));
+  EXPECT_FALSE(fs::exists(output)) << "stages/ of a run";
+  EXPECT_EQ(RunProgram(words + " --output_formats ply").exit_code, 0);
+}
+
 TEST_F(Formats, PythonExampleListsTheCurves) {
   if (RunInShell("/usr/bin/python3 -c 'import numpy' 2>&1").exit_code != 0) {
     GTEST_SKIP() << "no python3-numpy";

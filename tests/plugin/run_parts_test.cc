@@ -188,6 +188,17 @@ TEST_F(RunParts, NeedTheModelAndTheImagesThatWereDivided) {
   MergeAll();
 }
 
+TEST_F(RunParts, NeedNotHaveTheImageOfTheSvg) {
+  MakeStreet(80);
+  settings_.output.formats = {"svg"};
+  settings_.output.svg_image = "view_000.png";
+  ReconstructAll();
+  MergeAll();
+  EXPECT_TRUE(fs::exists(parts_ / "curves.svg"));
+  settings_.output.svg_image = "none.png";
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("svg_image is none.png"));
+}
+
 TEST_F(RunParts, ThatShareMostOfTheirViewsAreNoted) {
   MakeStreet(120);
   EXPECT_THAT(text_.str(), testing::Not(HasSubstr("share most")));
