@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/image_header.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -92,6 +94,12 @@ std::optional<ImageSize> SizeOfTiff(std::string_view bytes, bool is_big) {
 }
 
 }  // namespace
+
+bool HaveSameShape(const ImageSize& a, const ImageSize& b) {
+  const double x = a.width / static_cast<double>(b.width);
+  const double y = a.height / static_cast<double>(b.height);
+  return std::abs(x * b.height - a.height) <= std::max({1.0, x, y});
+}
 
 std::optional<ImageSize> SizeInHeader(std::string_view bytes) {
   using std::string_view_literals::operator""sv;

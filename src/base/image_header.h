@@ -17,6 +17,10 @@ struct ImageSize {
   }
 };
 
+// Whether one is the other, enlarged alike in both directions, to a pixel of
+// the smaller one.
+bool HaveSameShape(const ImageSize& a, const ImageSize& b);
+
 // The size that a PNG, JPEG or TIFF file announces, each side at most a million
 // pixels. nullopt: another format, or no sound header.
 std::optional<ImageSize> SizeInHeader(std::string_view bytes);

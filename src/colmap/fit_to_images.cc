@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colmap/fit_to_images.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -63,10 +62,7 @@ std::optional<Scale> ScaleTo(const ImageSize& size, const Camera& camera) {
   }
   const Scale scale = {size.width / static_cast<double>(camera.width),
                        size.height / static_cast<double>(camera.height)};
-  // The sides of the smaller image are rounded.
-  const double max_difference = std::max({1.0, scale.x, scale.y});
-  const bool is_alike =
-      std::abs(scale.x * camera.height - size.height) <= max_difference;
+  const bool is_alike = HaveSameShape(size, {camera.width, camera.height});
   const bool is_plausible = std::abs(std::log(scale.x)) <= std::log(kMaxScale);
   return is_alike && is_plausible ? std::optional(scale) : std::nullopt;
 }

@@ -42,15 +42,6 @@ struct LocatedContours {
   bool is_crowded = false;  // more edges than the limit
 };
 
-Result<std::optional<GrayImage>> LoadMask(const View& view,
-                                          const Camera& camera) {
-  if (view.mask_path.empty()) return std::optional<GrayImage>();
-  Result<GrayImage> mask =
-      LoadGrayImage(view.mask_path, ImageSize{camera.width, camera.height});
-  if (!mask.ok()) return mask.status();
-  return std::optional<GrayImage>(*std::move(mask));
-}
-
 double HalfPixelsPerEdge(const EdgeMap& map) {
   return map.spacing_px / EdgeMap().spacing_px;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -19,25 +20,24 @@
 namespace curvix {
 namespace {
 
-Result<std::string> ReadImageFile(const std::filesystem::path& path) {
+// `name`: as messages begin, "Image a.png" or "Mask a.png.png".
+Result<std::string> ReadImageFile(const std::filesystem::path& path,
+                                  const std::string& name) {
   std::error_code error;
   const std::filesystem::file_status file =
       std::filesystem::status(path, error);
   if (!std::filesystem::exists(file)) {
     return Status(StatusCode::kNotFound,
-                  "Image " + path.string() +
-                      " does not exist. Check the folder of images.");
+                  name + " does not exist. Check its folder.");
   }
   if (!std::filesystem::is_regular_file(file)) {
-    return Status(
-        StatusCode::kNotFound,
-        "Image " + path.string() + " is a folder or a device, not a file.");
+    return Status(StatusCode::kNotFound,
+                  name + " is a folder or a device, not a file.");
   }
   Result<std::string> bytes = ReadFile(path);
   if (bytes.ok() && bytes->empty()) {
-    return Status(
-        StatusCode::kDataLoss,
-        "Image " + path.string() + " is an empty file. Copy it again.");
+    return Status(StatusCode::kDataLoss,
+                  name + " is an empty file. Copy it again.");
   }
   return bytes;
 }
@@ -117,7 +117,7 @@ Status WrongSize(const std::string& name,
                  const ImageSize& size,
                  const ImageSize& expected) {
   std::ostringstream message;
-  message << "Image " << name << " is " << size.width << " x " << size.height
+  message << name << " is " << size.width << " x " << size.height
           << " pixels, but its camera in the model is " << expected.width
           << " x " << expected.height
           << ". Give the images from which the model was made, or export the "
@@ -125,49 +125,88 @@ Status WrongSize(const std::string& name,
   return {StatusCode::kInvalidArgument, message.str()};
 }
 
-Status Broken(const std::filesystem::path& path, const std::string& bytes) {
+Status WrongShape(const std::string& name,
+                  const ImageSize& size,
+                  const ImageSize& expected) {
+  std::ostringstream message;
+  message << name << " is " << size.width << " x " << size.height
+          << " pixels, and its image " << expected.width << " x "
+          << expected.height
+          << ". A mask may be larger or smaller than its image, but has the "
+             "same shape.";
+  return {StatusCode::kInvalidArgument, message.str()};
+}
+
+Status Broken(const std::string& name, const std::string& bytes) {
   if (IsHeif(bytes)) {
     return {StatusCode::kUnsupported,
-            "Image " + path.string() +
+            name +
                 " is HEIF or AVIF, which is not read here. Convert all images "
                 "to JPEG or PNG, and make the model of these."};
   }
   return {StatusCode::kDataLoss,
-          "Image " + path.string() +
+          name +
               " is broken, cut short or in an unknown format. Copy it "
               "again, or convert it to PNG or JPEG."};
+}
+
+std::string ImageNamed(const std::filesystem::path& path) {
+  return "Image " + path.string();
+}
+
+// `check(size)` is OK for the sizes that will do.
+template <typename CheckSize>
+Result<GrayImage> LoadFile(const std::filesystem::path& path,
+                           const std::string& name,
+                           const CheckSize& check) {
+  const Result<std::string> bytes = ReadImageFile(path, name);
+  if (!bytes.ok()) return bytes.status();
+  if (const auto announced = SizeInHeader(*bytes)) {
+    Status status = check(*announced);
+    if (!status.ok()) return status;
+  }
+  const cv::Mat image = Decode(*bytes);
+  if (image.empty() || IsTruncatedJpeg(*bytes)) return Broken(name, *bytes);
+  Status status = check(ImageSize{image.cols, image.rows});
+  if (!status.ok()) return status;
+  if (std::optional<GrayImage> gray = ToGrey(image)) return *std::move(gray);
+  return Status(StatusCode::kUnsupported,
+                name +
+                    " has neither 8 nor 16 bits per channel, or an unusual "
+                    "number of channels. Convert it to an 8-bit PNG.");
+}
+
+GrayImage Resized(GrayImage image, const ImageSize& size) {
+  const cv::Mat from(image.height, image.width, CV_32F, image.pixels.data());
+  cv::Mat1f to;
+  cv::resize(from,
+             to,
+             cv::Size(size.width, size.height),
+             0,
+             0,
+             cv::INTER_NEAREST_EXACT);
+  return {size.width, size.height, std::vector<float>(to.begin(), to.end())};
 }
 
 }  // namespace
 
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
-  const Result<std::string> bytes = ReadImageFile(path);
+  const std::string name = ImageNamed(path);
+  const Result<std::string> bytes = ReadImageFile(path, name);
   if (!bytes.ok()) return bytes.status();
   if (const auto size = SizeInHeader(*bytes)) return *size;
   const cv::Mat image = Decode(*bytes);
-  if (image.empty()) return Broken(path, *bytes);
+  if (image.empty()) return Broken(name, *bytes);
   return ImageSize{image.cols, image.rows};
 }
 
 Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
                                 const std::optional<ImageSize>& expected) {
-  const Result<std::string> bytes = ReadImageFile(path);
-  if (!bytes.ok()) return bytes.status();
-  const std::optional<ImageSize> announced = SizeInHeader(*bytes);
-  if (expected && announced && *announced != *expected) {
-    return WrongSize(path.string(), *announced, *expected);
-  }
-  const cv::Mat image = Decode(*bytes);
-  if (image.empty() || IsTruncatedJpeg(*bytes)) return Broken(path, *bytes);
-  const ImageSize size = {image.cols, image.rows};
-  if (expected && size != *expected) {
-    return WrongSize(path.string(), size, *expected);
-  }
-  if (std::optional<GrayImage> gray = ToGrey(image)) return *std::move(gray);
-  return Status(StatusCode::kUnsupported,
-                "Image " + path.string() +
-                    " has neither 8 nor 16 bits per channel, or an unusual "
-                    "number of channels. Convert it to an 8-bit PNG.");
+  const std::string name = ImageNamed(path);
+  return LoadFile(path, name, [&](const ImageSize& size) {
+    return !expected || size == *expected ? Status()
+                                          : WrongSize(name, size, *expected);
+  });
 }
 
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
@@ -175,7 +214,7 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   if (!view.image) return LoadGrayImage(view.image_path, expected);
   const ImageInMemory& image = *view.image;
   const ImageSize size = {image.width, image.height};
-  if (size != expected) return WrongSize(view.name, size, expected);
+  if (size != expected) return WrongSize("Image " + view.name, size, expected);
   constexpr int kRed = 0;
   std::optional<GrayImage> gray = std::visit(
       [&](const auto& values) -> std::optional<GrayImage> {
@@ -188,6 +227,22 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
                 "Image " + view.name +
                     " in memory has no values, or a number of channels other "
                     "than 1, 3 and 4.");
+}
+
+Result<std::optional<GrayImage>> LoadMask(const View& view,
+                                          const Camera& camera) {
+  if (view.mask_path.empty()) return std::optional<GrayImage>();
+  const ImageSize expected = {camera.width, camera.height};
+  const std::string name = "Mask " + view.mask_path.string();
+  Result<GrayImage> mask =
+      LoadFile(view.mask_path, name, [&](const ImageSize& size) {
+        return HaveSameShape(size, expected) ? Status()
+                                             : WrongShape(name, size, expected);
+      });
+  if (!mask.ok()) return mask.status();
+  const bool fits = ImageSize{mask->width, mask->height} == expected;
+  return std::optional(fits ? *std::move(mask)
+                            : Resized(*std::move(mask), expected));
 }
 
 }  // namespace curvix

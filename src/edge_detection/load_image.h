@@ -37,4 +37,10 @@ Result<GrayImage> LoadGrayImage(
 // number of channels other than 1, 3 and 4.
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera);
 
+// The mask of a view, if it has one, as its image would be read. One in another
+// size takes that of the camera: each pixel the value of the nearest. Errors as
+// above; kInvalidArgument: it has another shape than the camera.
+Result<std::optional<GrayImage>> LoadMask(const View& view,
+                                          const Camera& camera);
+
 }  // namespace curvix

@@ -84,11 +84,11 @@ TEST(DetectViewEdges, KeepsNoiseOut) {
 }
 
 // A view of the disc whose mask is black left of `x`.
-Result<EdgeMap> DetectMasked(int x, int mask_size) {
+Result<EdgeMap> DetectMasked(int x, const cv::Size& mask_size) {
   const ImageFile file(RenderDisc(100, {50, 50}, 30));
   const TemporaryFolder folder;
   const fs::path mask_path = folder.path() / "mask.png";
-  cv::Mat mask(mask_size, mask_size, CV_8UC1, cv::Scalar(255));
+  cv::Mat mask(mask_size, CV_8UC1, cv::Scalar(255));
   mask.colRange(0, x).setTo(0);
   EXPECT_TRUE(cv::imwrite(mask_path.string(), mask));
   View view = file.view();
@@ -97,8 +97,8 @@ Result<EdgeMap> DetectMasked(int x, int mask_size) {
 }
 
 TEST(DetectViewEdges, LeavesOutWhatTheMaskBlackens) {
-  const Result<EdgeMap> all = DetectMasked(0, 100);
-  const Result<EdgeMap> half = DetectMasked(50, 100);
+  const Result<EdgeMap> all = DetectMasked(0, {100, 100});
+  const Result<EdgeMap> half = DetectMasked(50, {100, 100});
   ASSERT_TRUE(all.ok() && half.ok());
   EXPECT_EQ(all->num_dropped_masked, 0);
   EXPECT_GT(half->edges.size(), 100u);
@@ -108,10 +108,20 @@ TEST(DetectViewEdges, LeavesOutWhatTheMaskBlackens) {
   for (const Edge2d& edge : half->edges) EXPECT_GE(edge.position.x(), 50);
 }
 
-TEST(DetectViewEdges, RefusesAMaskOfAnotherSize) {
-  const Result<EdgeMap> map = DetectMasked(0, 50);
+TEST(DetectViewEdges, TakesAMaskInAnotherSize) {
+  const Result<EdgeMap> expected = DetectMasked(50, {100, 100});
+  for (const int percent : {50, 200, 300}) {
+    const Result<EdgeMap> map = DetectMasked(percent / 2, {percent, percent});
+    ASSERT_TRUE(map.ok()) << map.status().message();
+    EXPECT_EQ(map->edges.size(), expected->edges.size()) << percent;
+  }
+}
+
+TEST(DetectViewEdges, RefusesAMaskOfAnotherShape) {
+  const Result<EdgeMap> map = DetectMasked(0, {50, 52});
   EXPECT_EQ(map.status().code(), StatusCode::kInvalidArgument);
-  EXPECT_THAT(map.status().message(), HasSubstr("mask.png is 50 x 50"));
+  EXPECT_THAT(map.status().message(),
+              testing::ContainsRegex("^Mask .*mask.png is 50 x 52 pixels"));
 }
 
 TEST(DetectViewEdges, NamesBothSizesWhereTheyDiffer) {

@@ -152,14 +152,14 @@ TEST(BadMasks, AreRefused) {
                   3,
                   argument + no_folder}});
   for (const auto& [name, mask, says] : std::vector<std::array<std::string, 3>>{
-           {"wrong size", Pgm(3, 3), "3 x 3"},
-           {"broken", "mask", "view_000.png.png"},
-           {"empty", "", "view_000.png.png"}}) {
+           {"wrong shape", Pgm(64, 60), " is 64 x 60 pixels"},
+           {"broken", "mask", " is broken"},
+           {"empty", "", " is an empty file"}}) {
     const TemporaryFolder masks;
-    masks.Write("view_000.png.png", mask);
+    const fs::path file = masks.Write("view_000.png.png", mask);
     ExpectOutcome({{name + " mask",
                     [](auto&) {},
-                    says,
+                    "Mask " + file.string() + says,
                     3,
                     argument + Quoted(masks.path())}});
   }

@@ -514,11 +514,11 @@ def _(w):
     file.write_bytes(file.read_bytes()[:file.stat().st_size // 2])
 
 
-def make_masks(w, shrink=1):
+def make_masks(w, shrink_x=1, shrink_y=None):
     (w.path / 'masks').mkdir()
     for file in w.files():
         width, height = Image.open(file).size
-        Image.new('L', (width // shrink, height // shrink), 255).save(w.path / 'masks' / (file.name + '.png'))
+        Image.new('L', (width // shrink_x, height // (shrink_y or shrink_x)), 255).save(w.path / 'masks' / (file.name + '.png'))
     return ['--mask_path', w.path / 'masks']
 
 
@@ -537,6 +537,11 @@ def _(w):
 @row('masks of half the size', '')
 def _(w):
     return make_masks(w, 2)
+
+
+@row('masks of another shape', '')
+def _(w):
+    return make_masks(w, 1, 2)
 
 
 # Models of other programs.
