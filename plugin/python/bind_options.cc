@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "base/option_table.h"
@@ -69,18 +70,20 @@ py::dict About(const Flag& flag) {
   return about;
 }
 
-// All at once, in the order of the command line: a preset comes before what may
-// change it. Nothing is set if one cannot be.
+// With all that was set before, as if on one command line: a preset changes
+// nothing that was ever given. Nothing is set if one cannot be.
 void SetAll(PythonOptions& options,
             const std::vector<std::pair<std::string, std::string>>& values) {
-  RunSettings settings = options.settings;
-  for (const auto& [name, text] : values) FlagNamed(name, settings);
-  for (const Flag& flag : FlagsOf(settings)) {
-    for (const auto& [name, text] : values) {
-      if (name == flag.name) Check(flag.set(text));
-    }
+  PythonOptions changed{{}, options.given};
+  for (const auto& [name, text] : values) {
+    FlagNamed(name, changed.settings);
+    changed.given[name] = text;
   }
-  options.settings = settings;
+  for (const Flag& flag : FlagsOf(changed.settings)) {
+    const auto value = changed.given.find(flag.name);
+    if (value != changed.given.end()) Check(flag.set(value->second));
+  }
+  options = std::move(changed);
 }
 
 }  // namespace
@@ -101,6 +104,7 @@ void BindOptions(py::module_& module) {
              return ValueOf(FlagNamed(name, options.settings));
            })
       .def("set", SetAll)
+      .def_readonly("given", &PythonOptions::given)
       .def_static("about", [](const std::string& name) {
         RunSettings settings;
         return About(FlagNamed(name, settings));

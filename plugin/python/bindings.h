@@ -10,6 +10,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -31,6 +32,7 @@ struct PythonScene {
 // The options of a run, without its paths.
 struct PythonOptions {
   RunSettings settings;
+  std::map<std::string, std::string> given = {};  // what was set, by name
 };
 
 // Curves and what is known about them.

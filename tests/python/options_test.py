@@ -60,17 +60,22 @@ class Options(unittest.TestCase):
 
     def test_every_value_can_be_set_to_itself(self):
         options = pycurvix.Options(preset='paper')
-        again = pycurvix.Options(options)
-        self.assertEqual(again, options)
-        self.assertNotEqual(again, pycurvix.Options())
+        for again in pycurvix.Options(options), pycurvix.Options(dict(options.items())):
+            self.assertEqual(again, options)
+            self.assertNotEqual(again, pycurvix.Options())
 
-    def test_a_preset_comes_before_what_changes_it(self):
-        options = pycurvix.Options({'Consolidation.max_turn_deg': 3, 'preset': 'paper'})
-        self.assertEqual(options['Consolidation.max_turn_deg'], 3)
-        paper = pycurvix.Options(preset='paper')
-        self.assertEqual(options['Hypotheses.view_selection'], paper['Hypotheses.view_selection'])
+    def test_a_preset_keeps_what_is_given(self):
+        given = {'Consolidation.max_turn_deg': 3, 'CurveFilter.kinds': 'crease'}
+        paper = pycurvix.Options({**given, 'preset': 'paper'})
+        self.assertEqual(paper['Consolidation.max_turn_deg'], 3)
+        self.assertEqual(paper['Hypotheses.view_selection'],
+                         pycurvix.Options(preset='paper')['Hypotheses.view_selection'])
+        options = pycurvix.Options(given)
+        for copy in options, pycurvix.Options(options):
+            copy['preset'] = 'paper'
+            self.assertEqual(copy, paper)
         options['preset'] = 'default'
-        self.assertEqual(options, pycurvix.Options())
+        self.assertEqual(options, pycurvix.Options(given))
 
     def test_repr_shows_what_differs_and_can_be_read_back(self):
         self.assertEqual(repr(pycurvix.Options()), 'Options()')

@@ -54,7 +54,8 @@ class Options:
     Parameters
     ----------
     values : mapping of str to value, optional
-        What is not left at its default. The preset is set first.
+        What is not left at its default, or options to copy. As on the command
+        line, a preset changes no value that is given, before or after it.
     **named : value
         Options whose names are identifiers: ``preset='paper'``.
 
@@ -70,14 +71,15 @@ class Options:
     >>> options['CurveFilter.min_num_views']
     4
     >>> print(options.about('CurveFilter.min_num_views'))
-    >>> options['preset'] = 'paper'  # resets what it sets
+    >>> options['preset'] = 'paper'  # keeps what was set
     """
 
     __slots__ = ('_core',)
 
     def __init__(self, values: Mapping[str, Any] | Options | None = None, **named: Any) -> None:
         self._core = _core.Options()
-        self.update({**(dict(values.items()) if values is not None else {}), **named})
+        given = values._core.given if isinstance(values, Options) else values or {}
+        self.update({**given, **named})
 
     def update(self, values: Mapping[str, Any]) -> None:
         """Set several options, or, if one of them cannot be set, none.
