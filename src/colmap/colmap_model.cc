@@ -43,10 +43,7 @@ ImagesOrError ReadImages(const fs::path& folder, ColmapFormat format) {
 
 PointsOrError ReadPoints(const fs::path& path, ColmapFormat format) {
   std::error_code error;
-  const bool is_there = fs::exists(path, error);
-  if (!is_there || (IsFile(path) && fs::file_size(path, error) == 0)) {
-    return std::vector<ColmapPoint3D>();
-  }
+  if (!fs::exists(path, error)) return std::vector<ColmapPoint3D>();
   return ReadList<std::vector<ColmapPoint3D>>(
       path,
       format == ColmapFormat::kBinary ? ParsePointsBinary : ParsePointsText);

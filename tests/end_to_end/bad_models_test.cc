@@ -40,9 +40,9 @@ TEST(BadModels, FilesThatAreNotThereOrNoFiles) {
       cases.push_back({"no " + list,
                        [=](auto& w) { fs::remove(w.At(file)); },
                        "No COLMAP model"});
-      cases.push_back(
-          {"empty " + list, [=](auto& w) { w.Write(file, ""); }, file});
     }
+    cases.push_back(
+        {"empty " + list, [=](auto& w) { w.Write(file, ""); }, file});
     cases.push_back({list + " is a folder",
                      [=](auto& w) {
                        fs::remove(w.At(file));
