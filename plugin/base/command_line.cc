@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
+#include <cctype>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -198,18 +199,14 @@ Status CheckRequired(const std::vector<FlagSection>& sections,
   return {};
 }
 
-// Levenshtein's distance, blind to case.
+// Levenshtein's distance.
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::size_t diagonal = std::exchange(row[0], i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const auto lower = [](char c) {
-        return std::tolower(static_cast<unsigned char>(c));
-      };
-      const bool differs = lower(a[i - 1]) != lower(b[j - 1]);
-      const std::size_t replaced = diagonal + (differs ? 1 : 0);
+      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
       diagonal = row[j];
       row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
     }
@@ -217,9 +214,19 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-std::string WithoutSection(const std::string& name) {
-  return name.substr(name.find('.') + 1);
-}
+// "Section.name" in lower case; "section." and "name" of it.
+struct SplitName {
+  std::string whole, section, field;
+
+  explicit SplitName(const std::string& name) {
+    for (const char c : name) {
+      whole += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    const std::size_t begin = whole.find('.') + 1;
+    section = whole.substr(0, begin);
+    field = whole.substr(begin);
+  }
+};
 
 }  // namespace
 
@@ -350,18 +357,21 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
 std::string NearestName(const std::string& name,
                         const std::vector<std::string>& candidates) {
   std::string nearest;
+  const SplitName wanted(name);
   // At most a third of the letters may differ.
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  std::pair<std::size_t, std::size_t> least(
+      std::max<std::size_t>(2, name.size() / 3) + 1, 0);
   for (const std::string& candidate : candidates) {
-    std::size_t distance = EditDistance(name, candidate);
-    const std::string field = WithoutSection(candidate);
-    const std::string start = WithoutSection(name);
-    distance = std::min(distance, EditDistance(start, field));
-    if (start.size() > 2 && field.starts_with(start)) {
+    const SplitName known(candidate);
+    std::size_t distance = std::min(EditDistance(wanted.whole, known.whole),
+                                    EditDistance(wanted.field, known.field));
+    if (wanted.field.size() > 2 && known.field.starts_with(wanted.field)) {
       distance = std::min<std::size_t>(distance, 1);
     }
-    if (distance < least) {
-      least = distance;
+    const std::pair rating(distance,
+                           EditDistance(wanted.section, known.section));
+    if (rating < least) {
+      least = rating;
       nearest = candidate;
     }
   }

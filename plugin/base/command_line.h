@@ -90,7 +90,8 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
                            const std::vector<FlagSection>& of_others = {});
 
 // The candidate nearest to `name`, or "" if none is near. Case does not count,
-// nor does the section: "sigma" is near to "EdgeDetection.sigma_px".
+// and the section only between names that are as near: "sigma" is near to
+// "EdgeDetection.sigma_px".
 std::string NearestName(const std::string& name,
                         const std::vector<std::string>& candidates);
 

@@ -184,6 +184,17 @@ TEST_F(CommandLine, SuggestsTheNearestName) {
                     Not(HasSubstr("did you mean"))));
 }
 
+TEST_F(CommandLine, SuggestsANameOfTheSameSection) {
+  for (const std::string name : {"CurveFilter.min_length",
+                                 "curvefilter.min_length_px",
+                                 "CurveFiltr.MIN_LENGHT_PX"}) {
+    EXPECT_THAT(Error({"--" + name, "3"}),
+                HasSubstr("did you mean '--CurveFilter.min_length_px'?"));
+  }
+  EXPECT_THAT(Error({"--CurveRefinement.max_gap", "3"}),
+              HasSubstr("did you mean '--CurveRefinement.max_gap_px'?"));
+}
+
 TEST_F(CommandLine, DoesNotGuessAbbreviations) {
   EXPECT_THAT(Error({"--num_thread", "2"}), HasSubstr("'--num_threads'"));
   EXPECT_THAT(Error({"-w", "2"}), HasSubstr("'-w'"));
