@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <iostream>
+#include <system_error>
 
 #include "plugin/commands/help_text.h"
 #include "plugin/run/run_report.h"
@@ -142,10 +143,11 @@ ExitCode UnknownCommand(const std::string& name) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.push_back(command.name);
   const std::string nearest = NearestName(name, names);
-  if (!nearest.empty()) {
-    message += "; did you mean '" + nearest + "'?";
-  } else if (std::filesystem::exists(name)) {
+  std::error_code error;
+  if (std::filesystem::is_directory(name, error)) {
     message += "; did you mean '--workspace_path " + name + "'?";
+  } else if (!nearest.empty()) {
+    message += "; did you mean '" + nearest + "'?";
   } else {
     message += "; 'colmap_curvix help' lists all";
   }

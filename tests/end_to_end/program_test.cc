@@ -386,6 +386,16 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
   }
 }
 
+TEST(ProgramAlone, AFolderInPlaceOfACommandIsAWorkspace) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.path() / "part");
+  const Outcome outcome = RunInShell("cd " + Quoted(folder.path()) + " && '" +
+                                     CURVIX_PROGRAM + "' part 2>&1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output,
+              HasSubstr("did you mean '--workspace_path part'?"));
+}
+
 TEST(ProgramAlone, AMissingWorkspaceIsBadInput) {
   const Outcome outcome = RunProgram("--workspace_path /no/such/folder");
   EXPECT_EQ(outcome.exit_code, 3);
