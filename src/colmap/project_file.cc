@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colmap/project_file.h"
 
-#include "base/text_fields.h"
+#include "base/line_reader.h"
 
 namespace curvix {
 
 Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text) {
   std::vector<ProjectEntry> entries;
   std::string section;
-  for (int number = 1; !text.empty(); ++number) {
-    const std::string_view line = Trimmed(TakeLine(text));
-    if (line.empty() || line.front() == '#') continue;
+  LineReader lines(text);
+  while (const auto next = lines.NextFilled()) {
+    const std::string_view line = *next;
+    if (line.front() == ';') continue;
     if (line.front() == '[' && line.back() == ']') {
       section = Trimmed(line.substr(1, line.size() - 2));
       if (!section.empty()) section += '.';
@@ -20,7 +21,7 @@ Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text) {
     const std::string name(Trimmed(line.substr(0, equals)));
     if (equals == std::string_view::npos || name.empty()) {
       return Status(StatusCode::kInvalidArgument,
-                    "line " + std::to_string(number) +
+                    "line " + std::to_string(lines.line_number()) +
                         " is neither name=value nor [Section]");
     }
     entries.push_back(

@@ -15,9 +15,10 @@ struct ProjectEntry {
 };
 
 // The lines `name = value` and `[Section]` of `text`, in order. Lines that
-// begin with '#' are comments; elsewhere '#' is part of the value, as paths may
-// hold it. Space around names and values does not count. kInvalidArgument, with
-// the number of the line, for any other line.
+// begin with '#' or ';' are comments; elsewhere these are part of the value, as
+// paths may hold them. A byte order mark is left out. Space around names and
+// values does not count. kInvalidArgument, with the number of the line, for any
+// other line.
 Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text);
 
 }  // namespace curvix

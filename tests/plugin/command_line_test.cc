@@ -88,6 +88,15 @@ TEST_F(CommandLine, ReadsAProjectFileWithSections) {
   EXPECT_EQ(options_.edge_detection.sigma_px, 2);
 }
 
+TEST_F(CommandLine, AProjectFileMayHaveAByteOrderMarkAndOtherComments) {
+  const std::string path = ProjectFile(
+      "\xEF\xBB\xBFworkspace_path=w\n; comment\n  ;color=red\ncolor=blue\n");
+  const auto request = Parse({"--project_path", path});
+  ASSERT_TRUE(request.ok()) << request.status().message();
+  EXPECT_EQ(workspace_path_, "w");
+  EXPECT_EQ(color_, "blue");
+}
+
 TEST_F(CommandLine, PathsInAProjectFileMayHoldAnything) {
   const std::string path =
       ProjectFile("  # comment = 1\nworkspace_path = /a #1/b=c [d]\t\n");
