@@ -119,8 +119,14 @@ Status WrongSize(const std::string& name,
   std::ostringstream message;
   message << name << " is " << size.width << " x " << size.height
           << " pixels, but its camera in the model is " << expected.width
-          << " x " << expected.height
-          << ". Give the images from which the model was made, or export the "
+          << " x " << expected.height;
+  if (size == ImageSize{expected.height, expected.width}) {
+    message << ". Images are taken as they are stored, as COLMAP does, "
+               "whatever the orientation in their EXIF data.";
+  } else {
+    message << ".";
+  }
+  message << " Give the images from which the model was made, or export the "
              "model at the size of these images.";
   return {StatusCode::kInvalidArgument, message.str()};
 }

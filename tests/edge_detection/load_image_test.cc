@@ -212,6 +212,9 @@ TEST_F(LoadGrayImageTest, RefusesOtherSizesBeforeItDecodes) {
     const Status status = LoadGrayImage(path, ImageSize{60, 80}).status();
     EXPECT_EQ(status.code(), StatusCode::kInvalidArgument) << name;
     EXPECT_THAT(status.message(), HasSubstr("is 80 x 60 pixels"));
+    EXPECT_THAT(status.message(), HasSubstr("EXIF")) << "the sides are swapped";
+    EXPECT_THAT(LoadGrayImage(path, ImageSize{60, 81}).status().message(),
+                ::testing::Not(HasSubstr("EXIF")));
   }
   // A head without a body, of an image of a terabyte.
   Bytes head = Contents(folder_.path() / "a.png");
