@@ -303,6 +303,14 @@ Status TooFewViews(const Workspace& workspace,
                 " images, and curves need at least three; register more "
                 "images."};
   }
+  std::error_code error;
+  const fs::path file = ImageFile(workspace.image_path, missing.front());
+  if (!fs::exists(file, error) && error == std::errc::permission_denied) {
+    return NotFound(workspace.image_path.string() + " may not be read (" +
+                    error.message() +
+                    "); change its permissions, or name another folder with "
+                    "--image_path.");
+  }
   return NotFound("Only " + std::to_string(num_views) + " of the " +
                   std::to_string(num_views + missing.size()) +
                   " images of the model " + workspace.model_path.string() +

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/support/temporary_folder.h"
 
@@ -288,6 +289,17 @@ TEST_F(WorkspaceTest, FindsMasksAsColmapNamesThem) {
   const Status status = FindWorkspace(paths).status();
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_THAT(status.message(), HasSubstr("no_masks is not a folder"));
+}
+
+TEST_F(WorkspaceTest, FoldersThatMayNotBeReadAreNamed) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  MakeModel("proj/sparse/0", 4);
+  MakeImages("proj/images", 4);
+  fs::permissions(At("proj/images"), fs::perms::none);
+  const Status status = LoadWorkspaceScene(*FindWorkspace(Root())).status();
+  fs::permissions(At("proj/images"), fs::perms::owner_all);
+  EXPECT_EQ(status.code(), StatusCode::kNotFound);
+  EXPECT_THAT(status.message(), HasSubstr("images may not be read (Perm"));
 }
 
 TEST_F(WorkspaceTest, FewerThanThreeViewsAreAnError) {
