@@ -139,6 +139,15 @@ class Words {
   Status status_;
 };
 
+// The lines of a file, at least one.
+Result<Lines> SomeLines(const fs::path& path, Lines lines) {
+  if (!lines.empty()) return lines;
+  return Status(StatusCode::kUnsupported,
+                path.string() +
+                    " holds no lines; name the right file with "
+                    "--input_path.");
+}
+
 // What `read` finds in a file, at least one line.
 template <typename Read>
 Result<Lines> ReadWords(const fs::path& path, const Read& read) {
@@ -148,11 +157,7 @@ Result<Lines> ReadWords(const fs::path& path, const Read& read) {
   Lines lines;
   read(words, lines);
   if (!words.ok()) return words.status();
-  if (!lines.empty()) return lines;
-  return Status(StatusCode::kUnsupported,
-                path.string() +
-                    " holds no lines; name the right file with "
-                    "--input_path.");
+  return SomeLines(path, std::move(lines));
 }
 
 Result<Lines> ReadObj(const fs::path& path) {
@@ -169,7 +174,7 @@ Result<Lines> ReadObj(const fs::path& path) {
           {curve.samples.back().position, curve.samples.front().position, {}});
     }
   }
-  return lines;
+  return SomeLines(path, std::move(lines));
 }
 
 // Per row: a count and as many segments of one line in space; a count and as

@@ -169,6 +169,19 @@ TEST(CurvesOfLines, ViewsSupportWhatTheyShow) {
   }
 }
 
+TEST_F(ReadLines, FilesWithoutLinesAreRefused) {
+  for (const char* name : {"empty.obj", "empty.txt"}) {
+    const fs::path path = folder_.Write(name, "");
+    for (const auto read : {ReadLine3dppLines, ReadLimapLines}) {
+      const Status status = read(path).status();
+      EXPECT_FALSE(status.ok()) << name;
+      EXPECT_THAT(status.message(), HasSubstr(name));
+    }
+    EXPECT_THAT(ReadLine3dppLines(path).status().message(),
+                HasSubstr("holds no lines"));
+  }
+}
+
 TEST(CurvesOfLines, PointsAreLeftOutAndOtherWorldsRefused) {
   const Scene scene = TestScene();
   const ImportedLine line = {{0, 0, 0}, {0, 0, 1}, {}};
