@@ -78,7 +78,12 @@ Status Check(const CurveSet& curves,
   if (truth.samples.empty()) {
     return bad("There is no ground truth to compare with.");
   }
-  if (!(CountSteps(curves, options.step) <= kMaxNumSteps)) {
+  const double num_steps = CountSteps(curves, options.step);
+  if (num_steps > 0 && num_steps < 1) {
+    return bad("The step of the evaluation is longer than all curves " +
+               std::string("together; choose a shorter one."));
+  }
+  if (!(num_steps <= kMaxNumSteps)) {
     return bad("The curves are too long for this step of the evaluation; " +
                std::string("choose a longer one."));
   }

@@ -180,7 +180,7 @@ TEST(EvaluateCurves, UnusableInputIsRefused) {
   EvaluationOptions options;
   EXPECT_EQ(code({}, options), StatusCode::kInvalidArgument);
   for (const double step :
-       {0.0, -1.0, 1e-12, std::numeric_limits<double>::quiet_NaN()}) {
+       {0.0, -1.0, 1e-12, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
     options.step = step;
     EXPECT_EQ(code(OneLine(), options), StatusCode::kInvalidArgument) << step;
   }
