@@ -44,7 +44,7 @@ Status CheckRange(const OptionRow& row);
 std::string RangeText(const OptionRow& row);
 
 // kInvalidArgument, naming the field, its value and the range, if any is
-// outside.
+// outside, or two that contradict each other.
 Status Validate(const Options& options);
 
 }  // namespace curvix

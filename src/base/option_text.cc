@@ -63,6 +63,13 @@ bool IsInRange(const OptionRow& row, double value) {
          (row.min_is_excluded ? value > row.min : value >= row.min);
 }
 
+bool HasAllKinds(const CurveKindSet& kinds) {
+  for (int i = 0; i < kNumCurveKinds; ++i) {
+    if (!kinds.Has(static_cast<CurveKind>(i))) return false;
+  }
+  return true;
+}
+
 // Text into a field; false if the text is none of the field's values.
 struct FieldReader {
   const OptionRow& row;
@@ -159,6 +166,11 @@ Status Validate(const Options& options) {
     return {StatusCode::kInvalidArgument,
             "Hypotheses.min_ray_angle_deg is larger than "
             "Hypotheses.max_ray_angle_deg"};
+  }
+  if (!copy.curve_kinds.enabled && !HasAllKinds(copy.curve_filter.kinds)) {
+    return {StatusCode::kInvalidArgument,
+            "CurveFilter.kinds leaves out kinds of curves, which are not told "
+            "apart; set CurveKinds.enabled to 1"};
   }
   return {};
 }

@@ -209,6 +209,17 @@ TEST(OptionTable, RefusesAnEmptyRangeOfRayAngles) {
   EXPECT_EQ(Validate(options).code(), StatusCode::kInvalidArgument);
 }
 
+TEST(OptionTable, RefusesAFilterOfKindsThatAreNotToldApart) {
+  Options options;
+  options.curve_filter.kinds = CurveKindSet::None();
+  options.curve_filter.kinds.Add(CurveKind::kCrease);
+  EXPECT_TRUE(Validate(options).ok());
+  options.curve_kinds.enabled = false;
+  EXPECT_THAT(Validate(options).message(),
+              AllOf(HasSubstr("CurveFilter.kinds"),
+                    HasSubstr("CurveKinds.enabled to 1")));
+}
+
 TEST(OptionTable, ReadsSwitchesInEveryUsualSpelling) {
   Options options;
   const auto rows = OptionTable(options);
