@@ -14,8 +14,8 @@ namespace curvix {
 enum class StatusCode {
   kOk,
   kInvalidArgument,  // an option or an argument that cannot work
-  kNotFound,         // a file, folder or program that is not there
-  kDataLoss,         // a file that is there but broken or truncated
+  kNotFound,         // a file, folder or program that cannot be opened
+  kDataLoss,         // a file that is broken, truncated or cannot be written
   kUnsupported,      // valid input that this program does not handle
   kExternalTool,     // a child process failed
   kCancelled,        // the user asked to stop

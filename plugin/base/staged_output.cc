@@ -54,7 +54,7 @@ void RemoveEmptyFolders(fs::path path, const fs::path& first_created) {
 }
 
 Status CannotWrite(const fs::path& path, const std::string& reason) {
-  return {StatusCode::kInvalidArgument,
+  return {StatusCode::kNotFound,
           "cannot write to " + path.string() + " (" + reason +
               "); choose another folder with --output_path"};
 }

@@ -39,8 +39,8 @@ class FolderLock {
 // Create() removes it, or finishes moving the files if Publish() had begun.
 class StagedOutput {
  public:
-  // kInvalidArgument if the output folder cannot be made or written to, or if
-  // another run is writing to it.
+  // kNotFound if the output folder cannot be made or written to,
+  // kInvalidArgument if another run is writing to it.
   static Result<StagedOutput> Create(const std::filesystem::path& output_path);
 
   StagedOutput(StagedOutput&& other) noexcept;

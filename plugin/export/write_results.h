@@ -47,8 +47,8 @@ Status WriteFormat(const CurveRecord& record,
 
 // Writes the files that `settings` ask for into `folder`, each whole or not at
 // all, and returns their names. Overlays go to overlays/<image name>.png.
-// kInvalidArgument: svg_image is not the name of a view, or a file cannot be
-// written; kNotFound: an image for an overlay cannot be read.
+// kInvalidArgument: svg_image is not the name of a view; kNotFound: an image
+// for an overlay cannot be read; errors of FileWriter.
 Result<std::vector<std::string>> WriteResults(
     const CurveRecord& record,
     const OutputSettings& settings,

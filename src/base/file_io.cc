@@ -21,7 +21,7 @@ std::string Reason(int error) {
 }
 
 Status CannotWrite(const fs::path& path, int error) {
-  return {StatusCode::kInvalidArgument,
+  return {StatusCode::kDataLoss,
           "Cannot write to " + path.string() + Reason(error) +
               "; check the free space of the disk and its quota."};
 }
@@ -37,7 +37,7 @@ FileWriter::FileWriter(fs::path path)
   // "x": fails if anything is there, so that no link is followed.
   file_.reset(std::fopen(temporary_.c_str(), "wbx"));
   if (file_ == nullptr) {
-    status_ = {StatusCode::kInvalidArgument,
+    status_ = {StatusCode::kNotFound,
                "Cannot create " + temporary_.string() + Reason(errno) +
                    "; check that the folder exists and may be written."};
   }
@@ -69,7 +69,7 @@ Status FileWriter::Finish() {
   if (status_.ok()) {
     fs::rename(temporary_, path_, error);
     if (!error) return {};
-    status_ = {StatusCode::kInvalidArgument,
+    status_ = {StatusCode::kDataLoss,
                "Cannot rename " + temporary_.string() + " to " +
                    path_.string() + " (" + error.message() +
                    "); check that the target is not a folder and may be " +

@@ -34,8 +34,8 @@ class FileWriter {
     return [this](std::string_view bytes) { Append(bytes); };
   }
 
-  // Once, at last. kInvalidArgument, with the system's reason, if the file
-  // cannot be written.
+  // Once, at last. With the system's reason: kNotFound if the file cannot be
+  // created, kDataLoss if it cannot be written.
   Status Finish();
 
  private:

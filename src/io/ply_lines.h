@@ -31,7 +31,7 @@ Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink);
 
 // Writes the edges of several such files, one after the other, as one, which
 // appears whole or not at all. kNotFound, kDataLoss: a file is missing or is no
-// such file; kUnsupported as above; kInvalidArgument: `path` cannot be written.
+// such file, or `path` cannot be written; kUnsupported as above.
 Status ConcatenatePlyEdges(const std::filesystem::path& path,
                            const std::vector<std::filesystem::path>& parts);
 

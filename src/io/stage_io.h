@@ -21,7 +21,7 @@
 namespace curvix {
 
 // `key` stands for all that the result depends on; the caller chooses it. The
-// file appears whole or not at all. kInvalidArgument if it cannot be written.
+// file appears whole or not at all; errors of FileWriter.
 Status WriteEdgeMaps(const std::filesystem::path& path,
                      std::uint64_t key,
                      const std::vector<EdgeMap>& edge_maps);

@@ -63,7 +63,7 @@ TEST_F(FileIo, AFullDiskLeavesTheTargetAsItWas) {
   setrlimit(RLIMIT_FSIZE, &old_limit);
   std::signal(SIGXFSZ, old_handler);
 
-  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(status.code(), StatusCode::kDataLoss);
   EXPECT_THAT(status.message(), HasSubstr("free space"));
   EXPECT_EQ(*ReadFile(Target()), "old");
   EXPECT_EQ(Names(), "target.bin ");
@@ -95,14 +95,14 @@ TEST_F(FileIo, AReadOnlyFolderLeavesTheTargetAsItWas) {
                   fs::perms::owner_read | fs::perms::owner_exec);
   const Status status = WriteFileAtomically(Target(), "new");
   fs::permissions(folder_.path(), fs::perms::owner_all);
-  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_EQ(*ReadFile(Target()), "old");
 }
 
 TEST_F(FileIo, AMissingFolderIsNamed) {
   const Status status =
       WriteFileAtomically(folder_.path() / "none" / "a.ply", "new");
-  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_THAT(status.message(), HasSubstr("none/a.ply"));
   EXPECT_THAT(status.message(), HasSubstr("No such file"));
 }
@@ -110,7 +110,7 @@ TEST_F(FileIo, AMissingFolderIsNamed) {
 TEST_F(FileIo, AFolderIsNotReplacedByAFile) {
   fs::create_directories(Target() / "inside");
   const Status status = WriteFileAtomically(Target(), "new");
-  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(status.code(), StatusCode::kDataLoss);
   EXPECT_EQ(Names(), "target.bin ");
   EXPECT_TRUE(fs::is_directory(Target() / "inside"));
 }

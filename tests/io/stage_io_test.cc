@@ -302,8 +302,7 @@ TEST_F(StageIo, TakesNoMemoryOnTheWordOfACount) {
 
 TEST_F(StageIo, SaysThatItCannotWrite) {
   const auto nowhere = folder_.path() / "no folder" / "stage.bin";
-  EXPECT_EQ(WriteEdgeMaps(nowhere, kKey, {}).code(),
-            StatusCode::kInvalidArgument);
+  EXPECT_EQ(WriteEdgeMaps(nowhere, kKey, {}).code(), StatusCode::kNotFound);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(StagedOutput, OlderFilesComeBackWhenOneCannotBeMoved) {
     Write(output->folder() / "b.txt", "new");
     // Something stands where the older b.txt is to be kept.
     fs::create_directories(output->folder() / ".older/b.txt/x");
-    EXPECT_EQ(output->Publish().code(), StatusCode::kInvalidArgument);
+    EXPECT_EQ(output->Publish().code(), StatusCode::kNotFound);
   }
   EXPECT_EQ(Read(folder.path() / "out/a.txt"), "old");
   EXPECT_EQ(Read(folder.path() / "out/b.txt"), "old");
@@ -144,7 +144,7 @@ TEST(StagedOutput, SaysWhereItCannotWrite) {
   const TemporaryFolder folder;
   const fs::path file = folder.Write("file", "text");
   const auto output = StagedOutput::Create(file / "out");
-  EXPECT_EQ(output.status().code(), StatusCode::kInvalidArgument);
+  EXPECT_EQ(output.status().code(), StatusCode::kNotFound);
   EXPECT_THAT(output.status().message(),
               testing::AllOf(testing::HasSubstr(file.string()),
                              testing::HasSubstr("--output_path")));

@@ -244,8 +244,13 @@ class Failures(WorkspaceTest):
                 curves.write(self.folder / name)
         with self.assertRaisesRegex(pycurvix.ArgumentError, 'ply, obj'):
             curves.write(self.folder / 'a.stl')
-        with self.assertRaises(pycurvix.ArgumentError):
-            curves.write(self.folder / 'no' / 'such' / 'folder' / 'a.ply')
+        (self.folder / 'folder.ply' / 'inside').mkdir(parents=True)
+        for path in (self.folder / 'no' / 'such' / 'folder' / 'a.ply', self.folder / 'folder.ply'):
+            with self.assertRaises(OSError) as caught:
+                curves.write(path)
+            self.assertIsInstance(caught.exception, pycurvix.Error)
+        with self.assertRaises(OSError):
+            pycurvix.reconstruct(self.workspace, output_path=self.folder / 'a.obj' / 'out')
 
     def test_arguments(self):
         with self.assertRaisesRegex(pycurvix.ArgumentError, 'either'):
@@ -254,6 +259,8 @@ class Failures(WorkspaceTest):
             pycurvix.reconstruct(self.workspace, no_such_argument=1)
         with self.assertRaisesRegex(pycurvix.ArgumentError, 'must be'):
             pycurvix.reconstruct(self.workspace, options={'CurveFilter.min_num_views': -1})
+        with self.assertRaisesRegex(TypeError, 'Scene, not int'):
+            pycurvix.reconstruct(scene=42)
         scene = pycurvix.Scene.from_colmap(self.workspace)
         with self.assertRaisesRegex(pycurvix.ArgumentError, 'paths'):
             pycurvix.reconstruct(scene=scene, output_path=self.folder)

@@ -7,7 +7,7 @@ import os
 
 from . import _core
 from ._lazy import TYPE_CHECKING, np
-from ._scene import Scene
+from ._scene import Scene, core_scene
 
 if TYPE_CHECKING:
     from typing import Any, Iterator, Sequence
@@ -264,7 +264,7 @@ class Curves:
         seen_by = scene or self.scene
         if seen_by is None:
             raise _core.ArgumentError('these curves have no views; give a scene')
-        return self._core.project(seen_by._core, seen_by.view_idx(view))
+        return self._core.project(core_scene(seen_by), seen_by.view_idx(view))
 
     def write(self, path: Path, format: str | None = None, *, svg_image: str = '') -> None:
         """Write a file that appears whole or not at all.
@@ -283,8 +283,9 @@ class Curves:
         Raises
         ------
         ArgumentError
-            There is no such format, the path cannot be written, or the format
-            needs views and the curves have none.
+            There is no such format, or it needs views and the curves have none.
+        NotFoundError, DataError
+            The path cannot be written.
         """
         name = format or os.path.splitext(os.fspath(path))[1].lstrip('.').lower()
         known = [known for known, _ in _core.FORMATS]
@@ -319,5 +320,5 @@ def read(path: Path, scene: Scene | None = None) -> Curves:
     ------
     NotFoundError, DataError, UnsupportedError, ArgumentError
     """
-    core = _core.read(os.fspath(path), None if scene is None else scene._core)
+    core = _core.read(os.fspath(path), None if scene is None else core_scene(scene))
     return Curves(_core=core, _scene=scene)

@@ -8,7 +8,7 @@ from . import _core
 from ._curves import Curves, read
 from ._lazy import TYPE_CHECKING
 from ._options import Options, core_options
-from ._scene import Scene
+from ._scene import Scene, core_scene
 
 if TYPE_CHECKING:
     from typing import Any, Callable, Mapping, Optional, Union
@@ -59,6 +59,8 @@ def reconstruct(workspace_path: Path = '', *, input_path: Path = '', image_path:
     ------
     ArgumentError, NotFoundError, DataError, UnsupportedError
         As the program would say it.
+    TypeError
+        `scene` is something else.
     CancelledError
         `progress` returned False. Results are as they were, and the stages that
         had ended are resumed by the next run.
@@ -79,9 +81,10 @@ def reconstruct(workspace_path: Path = '', *, input_path: Path = '', image_path:
         raise _core.ArgumentError('give either workspace_path or scene')
     core = core_options(options)
     if scene is not None:
+        of_scene = core_scene(scene)
         if any(os.fspath(path) for path in (input_path, image_path, output_path, mask_path)):
             raise _core.ArgumentError('paths belong to a workspace; a scene takes none')
-        return Curves(_core=_core.reconstruct_scene(scene._core, core, progress))
+        return Curves(_core=_core.reconstruct_scene(of_scene, core, progress))
     paths = _paths(workspace_path, input_path, image_path, output_path, mask_path)
     return Curves(_core=_core.reconstruct_workspace(paths, core, progress))
 

@@ -360,3 +360,10 @@ def _observed_points(reconstruction: Any, images: Sequence[Any]) -> tuple[Any, A
             positions.append(point.xyz)
     return (np.reshape(positions, (-1, 3)).astype(float), np.reshape(observations, (-1, 2)).astype(np.int64),
             np.reshape(pixels, (-1, 2)).astype(float))
+
+
+def core_scene(scene: Scene) -> _core.Scene:
+    """What functions take as a scene."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f'a scene is a pycurvix.Scene, not {type(scene).__name__}')
+    return scene._core
