@@ -133,6 +133,19 @@ Camera Lens::Changed(const LensChange& change) const {
   return camera;
 }
 
+LensChange Lens::ChangeTo(const Camera& camera) const {
+  LensChange change = LensChange::Zero();
+  Camera changed = start_;
+  for (std::size_t i = 0; i < NumUsed(start_); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (!(units_[k] > 0)) continue;
+    const double step = camera.params[i] - changed.params[i];
+    change[k] = step / units_[k];
+    changed = WithStep(std::move(changed), i, step);
+  }
+  return change;
+}
+
 Camera WithMoreTerms(const Camera& camera) {
   const std::vector<double>& p = camera.params;
   switch (camera.model) {

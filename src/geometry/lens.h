@@ -46,6 +46,9 @@ class Lens {
 
   Camera Changed(const LensChange& change) const;
 
+  // The change that makes `camera`, which has the model of `start`, of it.
+  LensChange ChangeTo(const Camera& camera) const;
+
   // Which change is that of the ratio of the focal lengths, if there are two.
   std::optional<Eigen::Index> AspectRatioIndex() const;
 

@@ -21,16 +21,16 @@
 namespace curvix {
 namespace {
 
-// Scale of the robust loss of the prior: it hardly pulls poses that are off by
-// many times the usual.
+// Scale of the robust loss of the priors: they hardly pull poses and cameras
+// that are off by many times the usual.
 constexpr double kPriorLossScale = 3;
 // Prior of each parameter of a camera: standard deviation of its effect on the
-// image. Cameras that many images share are hardly off by more; for those of a
-// single image it fixes what the image does not determine.
+// image, about the start or, of cameras that are alike, about their median.
 constexpr double kLensPriorPx = 3;
 // The same of the ratio of two focal lengths: pixels are square, or as the
 // input says. Upright images do not determine it: the world stretches.
 constexpr double kAspectRatioPriorPx = 0.15;
+constexpr std::size_t kMinAlikeCameras = 3;
 // Edges are matched again after each solution, so none needs to be exact.
 constexpr int kMaxNumSteps = 25;
 constexpr double kFirstDamping = 1e-4;
@@ -100,6 +100,32 @@ LensChange LensPriorFactors(const Lens& lens) {
   return factors;
 }
 
+bool AreAlike(const Camera& a, const Camera& b) {
+  return a.model == b.model && a.width == b.width && a.height == b.height;
+}
+
+// By camera: the median of the free ones of its model and size, which are
+// likely the same camera, if it is one of several; else itself.
+std::vector<Camera> TypicalCameras(const std::vector<Camera>& cameras,
+                                   const std::vector<bool>& is_free) {
+  std::vector<Camera> typical = cameras;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    std::vector<const Camera*> alike;
+    for (std::size_t k = 0; k < cameras.size(); ++k) {
+      if (is_free[i] && is_free[k] && AreAlike(cameras[i], cameras[k])) {
+        alike.push_back(&cameras[k]);
+      }
+    }
+    if (alike.size() < kMinAlikeCameras) continue;
+    for (std::size_t p = 0; p < typical[i].params.size(); ++p) {
+      std::vector<double> values;
+      for (const Camera* camera : alike) values.push_back(camera->params[p]);
+      typical[i].params[p] = Median(std::move(values));
+    }
+  }
+  return typical;
+}
+
 class PoseAdjuster {
  public:
   PoseAdjuster(const PoseProblem& problem,
@@ -122,8 +148,11 @@ class PoseAdjuster {
     const std::vector<bool>& is_free = problem.free_lenses;
     if (std::find(is_free.begin(), is_free.end(), true) != is_free.end()) {
       is_free_ = is_free;
-      for (const Lens& lens : lenses_) {
-        lens_factors_.push_back(LensPriorFactors(lens));
+      const std::vector<Camera> typical =
+          TypicalCameras(start.cameras, is_free);
+      for (std::size_t i = 0; i < lenses_.size(); ++i) {
+        lens_factors_.push_back(LensPriorFactors(lenses_[i]));
+        typical_lenses_.push_back(lenses_[i].ChangeTo(typical[i]));
       }
     }
   }
@@ -197,6 +226,12 @@ class PoseAdjuster {
     return factors;
   }
 
+  // Of the prior of a camera.
+  LensChange LensResiduals(const State& state, std::size_t camera_idx) const {
+    return lens_factors_[camera_idx].cwiseProduct(state.lenses[camera_idx] -
+                                                  typical_lenses_[camera_idx]);
+  }
+
   bool IsFree(std::size_t camera_idx) const {
     return !is_free_.empty() && is_free_[camera_idx];
   }
@@ -229,7 +264,7 @@ class PoseAdjuster {
           prior_factors_[i].cwiseProduct(state.increments[i]).squaredNorm());
     }
     for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
-      sum += lens_factors_[i].cwiseProduct(state.lenses[i]).squaredNorm();
+      sum += kPriorLoss(LensResiduals(state, i).squaredNorm());
     }
     return sum;
   }
@@ -244,8 +279,9 @@ class PoseAdjuster {
     });
     std::vector<LensPrior> lens_priors;
     for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
-      lens_priors.push_back(
-          {lens_factors_[i], lens_factors_[i].cwiseProduct(state_.lenses[i])});
+      const LensChange residuals = LensResiduals(state_, i);
+      const double root = kPriorLoss.RootOfWeight(residuals.squaredNorm());
+      lens_priors.push_back({root * lens_factors_[i], root * residuals});
     }
     const Steps steps = SolveSteps(
         owners_, equations, priors, lens_priors, damping, num_threads_);
@@ -315,6 +351,7 @@ class PoseAdjuster {
   std::vector<Vector6d> prior_factors_;      // by view
   std::vector<bool> is_free_;                // by camera; empty if none is
   std::vector<LensChange> lens_factors_;     // by camera; none if cameras stay
+  std::vector<LensChange> typical_lenses_;   // likewise
   State state_;
 };
 

@@ -78,6 +78,17 @@ TEST(Lens, ChangesTheRatioOfFocalLengthsByOneChangeOnly) {
   EXPECT_FALSE(Lens(kRadial).AspectRatioIndex());
 }
 
+TEST(Lens, FindsTheChangeToACamera) {
+  for (const Camera& camera : {kRadial, kOpenCV}) {
+    const Lens lens(camera);
+    LensChange change = LensChange::Zero();
+    for (int i = 0; i < static_cast<int>(camera.params.size()); ++i) {
+      change[i] = i - 2.5;
+    }
+    EXPECT_LT((lens.ChangeTo(lens.Changed(change)) - change).norm(), 1e-9);
+  }
+}
+
 TEST(Lens, LeavesWhatTheModelDoesNotHave) {
   const Lens lens(kRadial);
   EXPECT_EQ(lens.Changed(LensChange::Unit(7)), kRadial);

@@ -3,6 +3,7 @@
 
 #include <curvix/scene.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
@@ -263,6 +264,54 @@ double RatioFoundFrom(std::size_t num_points, double sigma_px) {
 TEST(AdjustPoses, TakesPixelsForSquareUnlessMuchSaysOtherwise) {
   EXPECT_NEAR(RatioFoundFrom(300, 0.1), 1.01, 1e-3);
   EXPECT_NEAR(RatioFoundFrom(5, 2), 1, 1e-3);
+}
+
+// Images with few observations and a camera each. All are of one camera in
+// fact, but for the last, whose focal length is twice as long.
+TEST(AdjustPoses, BringsCamerasTogetherThatAreAlike) {
+  Camera camera{CameraModel::kSimplePinhole, 640, 480, {600, 320, 240}};
+  PointScene made = PointsSeenBy(camera);
+  camera.params[0] = 1200;
+  const PointScene near = PointsSeenBy(camera);
+  const std::size_t num_views = made.scene.views.size();
+  const auto last = static_cast<std::int32_t>(num_views - 1);
+  made.points.resize(8);
+  Random random(7);
+  for (std::size_t k = 0; k < made.points.size(); ++k) {
+    auto& observations = made.points[k].observations;
+    std::erase_if(observations,
+                  [&](const auto& seen) { return seen.view_idx == last; });
+    for (const auto& seen : near.points[k].observations) {
+      if (seen.view_idx == last) observations.push_back(seen);
+    }
+    for (auto& seen : observations) {
+      seen.pixel += 2 * random.NormalVector().head<2>();
+    }
+  }
+  made.scene.cameras.clear();
+  for (std::size_t i = 0; i < num_views; ++i) {
+    camera.params[0] = i + 1 == num_views ? 1200 : i % 2 == 0 ? 580 : 620;
+    made.scene.cameras.push_back(camera);
+    made.scene.views[i].camera_idx = static_cast<std::int32_t>(i);
+  }
+  const std::vector<bool> all_free(num_views, true);
+  const std::vector<double> sigmas(num_views, 2);
+  MovedCameras moved{std::vector<Rigid3>(num_views), made.scene.cameras};
+  for (int i = 0; i < 5; ++i) {
+    moved = AdjustPoses({made.scene, {}, made.points, sigmas, 2, 50, all_free},
+                        moved,
+                        1,
+                        KeepGoing)
+                .moved;
+  }
+  double least = 1e3;
+  double largest = 0;
+  for (std::size_t i = 0; i + 1 < num_views; ++i) {
+    least = std::min(least, moved.cameras[i].params[0]);
+    largest = std::max(largest, moved.cameras[i].params[0]);
+  }
+  EXPECT_LT(largest - least, 10);
+  EXPECT_NEAR(moved.cameras.back().params[0], 1200, 50);
 }
 
 TEST(AdjustPoses, LeavesCamerasAloneThatAreNotFree) {
