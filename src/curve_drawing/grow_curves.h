@@ -18,7 +18,8 @@ namespace curvix {
 // From the seed, in both directions, the curve steps along its tangent
 // (CurveTip): by one pixel of the supporting view that sees the step largest,
 // but at most by four times the seed's PixelSize(). Each view is queried for
-// the nearest edge at the projection, among those that no earlier curve has.
+// the nearest edge at the projection, within the same bounds as for a 3D edge
+// (WidestGate()), among those that no earlier curve has.
 // Views that support the curve three times in a row correct the tip, until they
 // miss it three times in a row; views in which the prediction is too uncertain
 // count neither way. A sample is supported if at least three such views support

@@ -10,7 +10,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/angles.h"
 #include "curve_drawing/curve_tip.h"
 #include "curve_drawing/grown_path.h"
 #include "edge_sketch/visible_side.h"
@@ -26,11 +25,6 @@ namespace {
 // so many where all see them foreshortened.
 constexpr double kStepPx = 1;
 constexpr double kMaxForeshortening = 4;
-// Where a view's edge may be, as for 3D edges (track_support.h).
-constexpr double kMaxNormalPx = 1;
-constexpr double kGateSigmas = 4;
-constexpr double kMaxTangentialPx = 1;
-constexpr double kMaxAngleDeg = 15;
 // Views in which the prediction is less certain are not queried.
 constexpr double kMaxPredictedSigmaPx = 0.7;
 // Least log-likelihood ratio (evidence.h) of a supported sample, as a share of
@@ -80,7 +74,9 @@ std::vector<EdgeRef> FreeOf(std::vector<EdgeRef> refs,
 class Grower {
  public:
   Grower(const GrowthInput& input, const UsedEdges& claimed)
-      : input_(input), claimed_(claimed) {}
+      : input_(input),
+        claimed_(claimed),
+        widest_(WidestGate(input.validation)) {}
 
   Growth Grow(const Edge3d& seed) {
     const std::vector<EdgeRef> support = FreeOf(seed.support, claimed_);
@@ -146,9 +142,7 @@ class Grower {
     const auto nearest =
         NearestEdge(index.grid,
                     *projected,
-                    {std::min(kMaxNormalPx, kGateSigmas * expected_px),
-                     kMaxTangentialPx,
-                     std::cos(DegToRad(kMaxAngleDeg))},
+                    NarrowGate(widest_, expected_px),
                     [&](std::int32_t i) {
                       return !claimed_.Contains({view_idx, i}) &&
                              !own_.Contains({view_idx, i});
@@ -305,6 +299,7 @@ class Grower {
 
   const GrowthInput& input_;
   const UsedEdges& claimed_;
+  const Gate widest_;
   OwnEdges own_;
   std::optional<Eigen::Vector3d> facing_;  // of the curve, see VisibleSide
   std::vector<EdgeRef> found_;

@@ -33,6 +33,7 @@ struct GrowthInput {
   const std::vector<std::vector<ViewNeighbor>>& neighbors;
   double edge_sigma_px = 0;
   const CurveGrowthOptions& options;
+  const ValidationOptions& validation;  // which edges are near enough
 };
 
 // Grows a curve from `seed` over edges that are not `claimed`, and claims none.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/angles.h"
 #include "edge_sketch/visible_side.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/image_edge.h"
@@ -22,19 +21,11 @@ constexpr double kMaxPredictedSigmas = 4.6;
 constexpr std::size_t kFewestSupports = 3;
 // Of the first views: fewer are hardly ever followed by enough of all.
 constexpr std::size_t kFewestToGoOn = 4;
-constexpr double kGateSigmas = 4;
 
 struct Search {
   double sigma_px = 0;
-  double max_distance_px = 0;
-  double min_cosine = 0;
+  Gate widest;
 };
-
-Search MakeSearch(double sigma_px, const ValidationOptions& options) {
-  return {sigma_px,
-          options.max_distance_px,
-          std::cos(DegToRad(options.max_angle_deg))};
-}
 
 // False only if no edge can be found for `edge`.
 bool MayShow(const ViewIndex& view, const SpaceEdge& edge) {
@@ -66,11 +57,7 @@ std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
   const auto expected_px = ExpectedDistance(estimate, projected, view, search);
   if (!expected_px) return std::nullopt;
   return NearestEdge(
-      view.grid,
-      projected,
-      {std::min(search.max_distance_px, kGateSigmas * *expected_px),
-       kMaxSupportSlidePx,
-       search.min_cosine});
+      view.grid, projected, NarrowGate(search.widest, *expected_px));
 }
 
 std::size_t FewestToGoOn(const QueryViews& to_ask) {
@@ -191,7 +178,7 @@ std::optional<TrackedEdge> TrackSupport(
     const QueryViews& to_ask,
     double sigma_px,
     const ValidationOptions& options) {
-  const Search search = MakeSearch(sigma_px, options);
+  const Search search{sigma_px, WidestGate(options)};
   auto support =
       FindSupport(start, views, to_ask.first, FewestToGoOn(to_ask), search);
   if (!support) return std::nullopt;
@@ -228,7 +215,8 @@ std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
                                      const std::vector<std::int32_t>& asked,
                                      double sigma_px,
                                      const ValidationOptions& options) {
-  return *FindSupport(tracked, views, asked, 0, MakeSearch(sigma_px, options));
+  return *FindSupport(
+      tracked, views, asked, 0, {sigma_px, WidestGate(options)});
 }
 
 }  // namespace curvix

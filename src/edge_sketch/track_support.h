@@ -36,10 +36,6 @@ struct QueryViews {
   bool from_one_side = false;
 };
 
-// Largest distance of a support from the projected edge along the tangent;
-// across it options.max_distance_px. Also the reach of each view's `presence`.
-inline constexpr double kMaxSupportSlidePx = 1;
-
 // Fewest supporting views of an edge: options.min_num_support_views and the two
 // hypothesis views, but at most just over half of `num_on_this_side`, and at
 // least three. `num_on_this_side`: number of views that look from nearly the

@@ -8,7 +8,6 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "edge_sketch/track_support.h"
 #include "geometry/image_edge.h"
 
 namespace curvix {
@@ -18,6 +17,8 @@ namespace {
 constexpr double kNeighborAngleDeg = 25;
 constexpr std::size_t kMaxNumNeighbors = 4;
 constexpr double kGridCellPx = 8;
+constexpr double kMaxSlidePx = 1;
+constexpr double kGateSigmas = 4;
 
 // The nearest views in direction, nearest first.
 std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps) {
@@ -46,6 +47,18 @@ PlaneMeasurement MeasurePlane(const EdgeRef& ref,
                               const std::vector<ViewIndex>& views) {
   return MeasurePlane(*views[static_cast<std::size_t>(ref.view_idx)].view,
                       ToImageEdge(EdgeOf(ref, views)));
+}
+
+Gate WidestGate(const ValidationOptions& options) {
+  return {options.max_distance_px,
+          kMaxSlidePx,
+          std::cos(DegToRad(options.max_angle_deg))};
+}
+
+Gate NarrowGate(const Gate& widest, double expected_px) {
+  Gate gate = widest;
+  gate.normal_px = std::min(gate.normal_px, kGateSigmas * expected_px);
+  return gate;
 }
 
 double VoteWithSupport(const ViewIndex& view,
@@ -84,7 +97,7 @@ void AddPresence(const ValidationOptions& options,
                                   index.view->width,
                                   index.view->height,
                                   options.max_distance_px,
-                                  kMaxSupportSlidePx,
+                                  kMaxSlidePx,
                                   DegToRad(options.max_angle_deg));
   });
 }

@@ -12,6 +12,7 @@
 #include "edge_sketch/view_overlap.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
+#include "geometry/nearest_edge.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -29,6 +30,13 @@ struct ViewIndex {
 const Edge2d& EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views);
 PlaneMeasurement MeasurePlane(const EdgeRef& ref,
                               const std::vector<ViewIndex>& views);
+
+// Where a view may show the edge that supports a 3D edge, relative to the
+// projection of the 3D edge. Also the reach of each view's `presence`.
+Gate WidestGate(const ValidationOptions& options);
+
+// `widest`, but at most four times `expected_px` (VoteWithSupport()) across.
+Gate NarrowGate(const Gate& widest, double expected_px);
 
 // The vote of a view (evidence.h) in which a 3D edge projects to `projected`
 // and the edge `support` supports it. `expected_px` is the expected standard

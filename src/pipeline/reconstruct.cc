@@ -157,7 +157,8 @@ Reconstruction Connect(const Scene& scene,
                                        distinct.are_repeated,
                                        neighbors,
                                        sketch.edge_sigma_px,
-                                       options.curve_growth},
+                                       options.curve_growth,
+                                       options.validation},
                                       num_threads);
     run.End(CountsOf(result.curves));
   } else {

@@ -68,7 +68,8 @@ class Seen {
 
   std::vector<Curve> Grow(const std::vector<Edge3d>& seeds,
                           const CurveGrowthOptions& options = {},
-                          int num_threads = 1) const {
+                          int num_threads = 1,
+                          const ValidationOptions& validation = {}) const {
     std::vector<ViewIndex> indices;
     for (std::size_t i = 0; i < views_.size(); ++i) {
       indices.push_back({&views_[i],
@@ -76,10 +77,16 @@ class Seen {
                          GridIndex(maps_[i].edges, 4),
                          EdgeDensity(maps_[i], 800, 800)});
     }
-    return GrowCurves(
-        seeds,
-        {views_, maps_, indices, are_repeated_, neighbors_, kSigmaPx, options},
-        num_threads);
+    return GrowCurves(seeds,
+                      {views_,
+                       maps_,
+                       indices,
+                       are_repeated_,
+                       neighbors_,
+                       kSigmaPx,
+                       options,
+                       validation},
+                      num_threads);
   }
 
   // The length of a step at the sample, which is a pixel in an image.
@@ -292,6 +299,23 @@ TEST(GrowCurves, WhatIsTooShortLeavesItsEdgesToOthers) {
   const std::vector<Curve> curves = seen.Grow({wrong, seen.Seed(0, 0.3)});
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_NEAR(Length(curves[0]), kLine.length, 4 * kPixel);
+}
+
+TEST(GrowCurves, TakesEdgesAsNearAsTheOptionsOfValidationSay) {
+  Seen seen({kLine});
+  for (EdgeMap& map : seen.maps()) {
+    for (Edge2d& edge : map.edges) edge.angle += 0.2f;  // 11 degrees
+  }
+  ValidationOptions strict;
+  strict.max_angle_deg = 5;
+  EXPECT_EQ(seen.Grow({seen.Seed(0, 0.3)}).size(), 1u);
+  EXPECT_TRUE(seen.Grow({seen.Seed(0, 0.3)}, {}, 1, strict).empty());
+
+  Seen rough({kLine}, 0.2);
+  ValidationOptions near;
+  near.max_distance_px = 0.02;
+  EXPECT_EQ(rough.Grow({rough.Seed(0, 0.3)}).size(), 1u);
+  EXPECT_TRUE(rough.Grow({rough.Seed(0, 0.3)}, {}, 1, near).empty());
 }
 
 TEST(GrowCurves, AsksForThreeViews) {
