@@ -34,18 +34,23 @@
 namespace curvix {
 namespace {
 
+std::int64_t NumEdges(const std::vector<EdgeMap>& edge_maps) {
+  std::int64_t num_edges = 0;
+  for (const EdgeMap& map : edge_maps) {
+    num_edges += static_cast<std::int64_t>(map.edges.size());
+  }
+  return num_edges;
+}
+
 // At which stage everything was lost, and what may help: one or two sentences.
 // `num_curves`: before the filters.
 std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
                      const EdgeSketch& sketch,
                      std::size_t num_curves,
                      const Options& options) {
-  std::size_t num_edges = 0;
   std::int64_t num_masked = 0;
-  for (const EdgeMap& map : edge_maps) {
-    num_edges += map.edges.size();
-    num_masked += map.num_dropped_masked;
-  }
+  for (const EdgeMap& map : edge_maps) num_masked += map.num_dropped_masked;
+  const std::int64_t num_edges = NumEdges(edge_maps);
   const SketchCounts& counts = sketch.counts;
   std::ostringstream text;
   if (num_edges == 0 && num_masked > 0) {
@@ -133,17 +138,17 @@ void GroupIntoCurves(const std::vector<PosedView>& views,
   run.End(CountsOf(result.curves));
 }
 
-// Unfinished if the run is cancelled.
-Reconstruction Connect(const Scene& scene,
-                       const std::vector<PosedView>& views,
-                       const std::vector<EdgeMap>& edge_maps,
-                       const EdgeSketch& sketch,
-                       const Options& options,
-                       RunRecorder& run) {
+// Secs. 5 and 6, and what follows beyond the paper.
+Result<Reconstruction> Connect(const Scene& scene,
+                               const std::vector<PosedView>& views,
+                               const std::vector<EdgeMap>& edge_maps,
+                               const EdgeSketch& sketch,
+                               const Options& options,
+                               RunRecorder& run) {
   const int num_threads = options.runtime.num_threads;
   Reconstruction result;
   if (CurvesGrow(edge_maps, options)) {
-    if (!run.Begin("grow_curves")) return result;
+    if (!run.Begin("grow_curves")) return CancelledStatus();
     result.edges = sketch.edges;
     const std::vector<ViewIndex> indices =
         IndexViews(views, edge_maps, num_threads);
@@ -166,7 +171,7 @@ Reconstruction Connect(const Scene& scene,
   }
 
   // Beyond the paper.
-  if (!run.Begin("refine_curves")) return result;
+  if (!run.Begin("refine_curves")) return CancelledStatus();
   result.curves.curves = RefineCurves(result.curves.curves,
                                       {views,
                                        edge_maps,
@@ -176,7 +181,7 @@ Reconstruction Connect(const Scene& scene,
   run.End(CountsOf(result.curves));
 
   if (options.curve_kinds.enabled) {
-    if (!run.Begin("classify_curves")) return result;
+    if (!run.Begin("classify_curves")) return CancelledStatus();
     LabelRoundBars(views,
                    edge_maps,
                    sketch.edge_sigma_px,
@@ -188,7 +193,7 @@ Reconstruction Connect(const Scene& scene,
 
   // What the user wants to see of them.
   const std::size_t num_refined = result.curves.curves.size();
-  if (!run.Begin("filter_curves")) return result;
+  if (!run.Begin("filter_curves")) return CancelledStatus();
   result.curves.curves = FilterCurves(
       std::move(result.curves.curves), views, edge_maps, options.curve_filter);
   IndexJunctions(result.curves);
@@ -211,14 +216,11 @@ Status Check(const Scene& scene,
   return Validate(options);
 }
 
-}  // namespace
-
-Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
-                                         const Options& options,
-                                         const Progress& progress) {
+Result<std::vector<EdgeMap>> Detect(const Scene& scene,
+                                    const Options& options,
+                                    RunRecorder& run) {
   if (Status status = CheckScene(scene); !status.ok()) return status;
   if (Status status = Validate(options); !status.ok()) return status;
-  RunRecorder run(progress);
   if (!run.Begin("detect_edges")) return CancelledStatus();
   std::vector<EdgeMap> edge_maps(scene.views.size());
   Status status = run.ForEach(
@@ -231,7 +233,29 @@ Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
         return Status();
       });
   if (!status.ok()) return status;
+  run.End({{"edges", NumEdges(edge_maps)}});
   return edge_maps;
+}
+
+Result<Reconstruction> Reconstruct(const Scene& scene,
+                                   const std::vector<EdgeMap>& edge_maps,
+                                   const Options& options,
+                                   RunRecorder& run) {
+  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
+    return status;
+  }
+  const std::vector<PosedView> views = MakePosedViews(scene);
+  const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
+  return Connect(scene, views, edge_maps, sketch, options, run);
+}
+
+}  // namespace
+
+Result<std::vector<EdgeMap>> DetectEdges(const Scene& scene,
+                                         const Options& options,
+                                         const Progress& progress) {
+  RunRecorder run(progress);
+  return Detect(scene, options, run);
 }
 
 Result<EdgeSketch> SketchEdges(const Scene& scene,
@@ -260,34 +284,24 @@ Result<Reconstruction> CurvesFromSketch(const Scene& scene,
     return status;
   }
   RunRecorder run(progress);
-  Reconstruction result =
-      Connect(scene, MakePosedViews(scene), edge_maps, sketch, options, run);
-  if (run.cancelled()) return CancelledStatus();
-  return result;
+  return Connect(scene, MakePosedViews(scene), edge_maps, sketch, options, run);
 }
 
 Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const std::vector<EdgeMap>& edge_maps,
                                          const Options& options,
                                          const Progress& progress) {
-  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
-    return status;
-  }
   RunRecorder run(progress);
-  const std::vector<PosedView> views = MakePosedViews(scene);
-  const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
-  Reconstruction result =
-      Connect(scene, views, edge_maps, sketch, options, run);
-  if (run.cancelled()) return CancelledStatus();
-  return result;
+  return Reconstruct(scene, edge_maps, options, run);
 }
 
 Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const Options& options,
                                          const Progress& progress) {
-  auto edge_maps = DetectEdges(scene, options, progress);
+  RunRecorder run(progress);
+  const auto edge_maps = Detect(scene, options, run);
   if (!edge_maps.ok()) return edge_maps.status();
-  return ReconstructCurves(scene, *edge_maps, options, progress);
+  return Reconstruct(scene, *edge_maps, options, run);
 }
 
 }  // namespace curvix

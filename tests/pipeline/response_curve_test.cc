@@ -65,6 +65,8 @@ double ErrorUnder(const Response& response) {
   WritePictures(response, folder.path(), made);
   const auto result = ReconstructCurves(made.scene, Options());
   EXPECT_TRUE(result.ok()) << result.status().message();
+  EXPECT_EQ(result->report.stages.front().name, "detect_edges");
+  EXPECT_FALSE(result->report.stages.front().counts.empty());
   std::vector<double> distances;
   for (const Curve& curve : result->curves.curves) {
     for (std::size_t k = 0; k < curve.samples.size(); k += 5) {
