@@ -5,20 +5,20 @@
 
 #include <curvix/options.h>
 #include <curvix/status.h>
-#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "base/infinity.h"
 
 namespace curvix {
 
 struct OptionRow {
   std::string name;  // "Validation.min_num_support_views": the flag without --
   std::variant<bool*, int*, double*, ViewSelection*, CurveKindSet*> field;
-  double min = 0;  // smallest value allowed
-  double max =
-      std::numeric_limits<double>::infinity();  // largest value allowed
-  bool min_is_excluded = false;                 // "> min" instead of ">= min"
+  double min = 0;                         // smallest value allowed
+  double max = kInfinity;                 // largest value allowed
+  bool min_is_excluded = false;           // "> min" instead of ">= min"
   std::vector<std::string> choices = {};  // of an enum, by value, or a set
   std::string unit = {};                  // "px", "deg", or ""
   std::string symbol = {};  // of the paper: "Delta gamma, Sec. 3", or ""

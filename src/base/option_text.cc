@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Values of the option table as text and back.
-#include <limits>
 #include <optional>
 #include <string_view>
 
 #include "base/check.h"
+#include "base/infinity.h"
 #include "base/option_table.h"
 #include "base/text_fields.h"
 
@@ -140,7 +140,7 @@ std::string RangeText(const OptionRow& row) {
   }
   const std::string sign = row.min_is_excluded ? "> " : ">= ";
   std::string text = sign + NumberText(row.min);
-  if (row.max < std::numeric_limits<double>::infinity()) {
+  if (row.max < kInfinity) {
     text += " and <= " + NumberText(row.max);
   }
   return text;

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <limits>
 
 #include "base/check.h"
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "curve_drawing/build_graph.h"
 
@@ -97,7 +97,7 @@ double ProjectedDistance(const PosedView& view,
   const Eigen::Vector3d a_cam = view.InCamera(a);
   const Eigen::Vector3d b_cam = view.InCamera(b);
   if (!(a_cam.z() > 0) || !(b_cam.z() > 0)) {
-    return std::numeric_limits<double>::infinity();
+    return kInfinity;
   }
   return (view.Pixel(a_cam) - view.Pixel(b_cam)).norm();
 }

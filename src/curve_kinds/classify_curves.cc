@@ -11,6 +11,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_kinds/blurred_images.h"
@@ -99,7 +100,7 @@ class MeanFactor {
   }
   // Minus infinity without any.
   double Log() const {
-    if (logs_.empty()) return -std::numeric_limits<double>::infinity();
+    if (logs_.empty()) return -kInfinity;
     const double largest = *std::max_element(logs_.begin(), logs_.end());
     double sum = 0;
     for (double log : logs_) sum += std::exp(log - largest);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "base/angles.h"
+#include "base/infinity.h"
 
 namespace curvix {
 namespace {
@@ -67,7 +67,7 @@ CurveDistances DistancesByDirection(const StripPlace& place,
                                     double pixel,
                                     const std::vector<Vector3d>& positions) {
   CurveDistances distances;
-  distances.fill(std::numeric_limits<double>::infinity());
+  distances.fill(kInfinity);
   for (const Vector3d& position : positions) {
     const Vector3d offset = (position - place.position) / pixel;
     const double distance = DistanceAcross(offset, place);

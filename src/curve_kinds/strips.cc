@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/angles.h"
 #include "base/median.h"
 #include "geometry/lens.h"
 
@@ -267,7 +267,7 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
   const double step = Median(std::move(sizes)) / seen.front().image->scale;
   std::array<StripSet, 2> sides;
   for (int d = 0; d < kNumDirections; ++d) {
-    const double angle = d * 2 * std::numbers::pi / kNumDirections;
+    const double angle = d * 2 * kPi / kNumDirections;
     for (StripSet& side : sides) side.Clear();
     for (const LocalView& view : seen) {
       const double sine = std::sin(angle - view.azimuth);

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include "base/angles.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -214,7 +214,7 @@ double EndFit::ArcLengthTo(const Eigen::Vector3d& point) const {
   if (!(curvature * offset.norm() > 1e-6)) return ahead;
   const double towards = 1 / curvature - offset.dot(bend) / curvature;
   const double turn = std::atan2(ahead, towards);
-  constexpr double kMaxTurn = std::numbers::pi / 2;
+  constexpr double kMaxTurn = kPi / 2;
   return std::clamp(turn, -kMaxTurn, kMaxTurn) / curvature;
 }
 

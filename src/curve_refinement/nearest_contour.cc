@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "base/angles.h"
+#include "base/infinity.h"
 
 namespace curvix {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kEdgesPerContour = 2;
 }  // namespace
 
 double NearestResidual(const std::vector<double>& edges_px, double at_px) {
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (const double edge_px : edges_px) {
     if (std::abs(edge_px - at_px) < std::abs(nearest)) {
       nearest = edge_px - at_px;
@@ -34,7 +35,7 @@ double LogLikelihoodOfContour(double residual_px,
   if (!std::isfinite(residual_px)) return 0;
   const double r = residual_px / sigma_px;
   const double of_contour =
-      std::exp(-0.5 * r * r) / (std::sqrt(2 * std::numbers::pi) * sigma_px);
+      std::exp(-0.5 * r * r) / (std::sqrt(2 * kPi) * sigma_px);
   return std::log(1 - kShown + kShown * of_contour / density);
 }
 

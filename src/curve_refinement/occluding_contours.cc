@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
+#include "base/infinity.h"
 #include "curve_refinement/nearest_contour.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
@@ -169,7 +169,7 @@ Contour Refine(const Place& place, const Contour& contour) {
 }
 
 double LogLikelihoodRatio(const Place& place, double edge_sigma_px) {
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -kInfinity;
   Contour best_contour = Contour::Zero();
   for (const PlaceInView& seen : place.views) {
     if (seen.turn < kMinTurn || seen.turn > kMaxTurn) continue;

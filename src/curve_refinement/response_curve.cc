@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "curve_refinement/curve_ends.h"
 #include "geometry/adjust_edge.h"
@@ -77,7 +77,7 @@ Eigen::Vector2d ResponseShift(const Edge2d& edge) {
   const double level = static_cast<double>(edge.level) / kWhite;
   const double half_contrast =
       static_cast<double>(edge.strength) / kWhite *
-      std::sqrt(std::numbers::pi / 2 / static_cast<double>(edge.sharpness));
+      std::sqrt(kPi / 2 / static_cast<double>(edge.sharpness));
   const bool is_clipped = level - half_contrast < kMinLevel ||
                           level + half_contrast > 1 - kMinLevel;
   if (is_clipped) return Eigen::Vector2d::Zero();

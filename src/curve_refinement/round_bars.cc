@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
+#include "base/infinity.h"
 #include "base/median.h"
 #include "base/parallel.h"
 #include "curve_refinement/image_support.h"
@@ -238,7 +238,7 @@ double LogLikelihoodRatio(const std::vector<BarPlace>& places,
     }
   }
   if (num_both < kMinShareOfBoth * num_views) {
-    return -std::numeric_limits<double>::infinity();
+    return -kInfinity;
   }
   return ratio / static_cast<double>(places.size());
 }
@@ -248,7 +248,7 @@ double LogLikelihoodRatio(const std::vector<BarPlace>& places,
                           double start_radius_px,
                           double side,
                           double edge_sigma_px) {
-  constexpr double kNoBar = -std::numeric_limits<double>::infinity();
+  constexpr double kNoBar = -kInfinity;
   Bar bar{start_radius_px, {}};
   for (const BarPlace& place : places) {
     bar.axis.push_back(-side * start_radius_px * place.outward);
@@ -273,7 +273,7 @@ double LogLikelihoodRatio(const std::vector<BarPlace>& places,
 // Of the likeliest bar; minus infinity without any.
 double LogLikelihoodRatio(const std::vector<BarPlace>& places,
                           double edge_sigma_px) {
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -kInfinity;
   if (places.empty()) return best;
   for (const double radius_px : kStartRadiiPx) {
     for (const double side : {1.0, -1.0}) {

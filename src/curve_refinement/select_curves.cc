@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "base/infinity.h"
 #include "base/median.h"
 #include "base/parallel.h"
 #include "curve_refinement/occluding_contours.h"
@@ -63,7 +63,7 @@ double LeastDilution(const CurveSample& sample,
     const auto projected = ProjectInto(view, edge);
     if (projected) measurements.push_back(MeasurePlane(view, *projected));
   }
-  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
+  if (measurements.size() < 2) return kInfinity;
   const double pixel = PixelSize(sample.position, sample.support, views);
   const Eigen::Matrix2d covariance =
       AdjustEdge(edge, measurements, 1).covariance;
@@ -106,7 +106,7 @@ double SharpDilution(const CurveSample& sample,
     measurements.push_back(
         MeasurePlane(views[v], ToImageEdge(EdgeOf(ref, edge_maps))));
   }
-  if (measurements.size() < 2) return std::numeric_limits<double>::infinity();
+  if (measurements.size() < 2) return kInfinity;
   const Eigen::Matrix2d covariance =
       AdjustEdge({sample.position, sample.tangent}, measurements, edge_sigma_px)
           .covariance;

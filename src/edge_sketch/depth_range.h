@@ -4,9 +4,9 @@
 #pragma once
 
 #include <curvix/scene.h>
-#include <limits>
 #include <vector>
 
+#include "base/infinity.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -14,7 +14,7 @@ namespace curvix {
 // Depths along a view's optical axis, world units. The default is all of them.
 struct DepthRange {
   double nearest = 0;
-  double farthest = std::numeric_limits<double>::infinity();
+  double farthest = kInfinity;
 };
 
 // For each view, by view_idx, the depths at which edges are searched: those of

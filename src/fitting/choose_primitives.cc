@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -245,7 +244,7 @@ class Choice {
 
  private:
   double parameter_cost_;
-  double cost_ = std::numeric_limits<double>::infinity();
+  double cost_ = kInfinity;
   std::vector<Primitive> best_;
 };
 

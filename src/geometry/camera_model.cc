@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/angles.h"
 #include "base/check.h"
 #include "geometry/distortion.h"
 
@@ -153,8 +153,7 @@ std::string WrongParameter(const Camera& camera) {
   if (!(PinholeOf(camera).focal > 0).all()) {
     return "the focal length is not positive";
   }
-  if (camera.model == CameraModel::kFov &&
-      std::abs(params[4]) >= std::numbers::pi) {
+  if (camera.model == CameraModel::kFov && std::abs(params[4]) >= kPi) {
     return "omega is not between -pi and pi";
   }
   if (camera.model == CameraModel::kEucm &&
@@ -230,7 +229,7 @@ Eigen::Vector2d ImageFromIdeal(const Camera& camera,
 
 std::optional<Eigen::Vector2d> IdealFromImage(const Camera& camera,
                                               const Eigen::Vector2d& pixel) {
-  const double max_radius = std::tan(80 * std::numbers::pi / 180);
+  const double max_radius = std::tan(DegToRad(80));
   const Pinhole pinhole = PinholeOf(camera);
   Eigen::Vector2d uv = (pixel.array() - pinhole.center) / pinhole.focal;
   if (!uv.allFinite()) return std::nullopt;

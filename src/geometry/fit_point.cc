@@ -3,8 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <limits>
 
+#include "base/infinity.h"
 #include "geometry/lens.h"
 
 namespace curvix {
@@ -16,7 +16,7 @@ double Cost(const Eigen::Vector3d& position,
   double sum = 0;
   for (const PointInImage& at : seen) {
     const auto pixel = Project(*at.camera, at.cam_from_world, position);
-    if (!pixel) return std::numeric_limits<double>::infinity();
+    if (!pixel) return kInfinity;
     sum += std::log1p((*pixel - at.pixel).squaredNorm());
   }
   return sum;

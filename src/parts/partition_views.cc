@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "base/infinity.h"
 #include "geometry/directions.h"
 #include "geometry/image_edge.h"
 #include "model/sample_ranges.h"
@@ -234,7 +234,7 @@ std::vector<std::vector<Border>> CoresOf(const ScenePartition& partition) {
 
 double DistanceBeyond(const std::vector<Border>& core,
                       const Eigen::Vector3d& position) {
-  double farthest = -std::numeric_limits<double>::infinity();
+  double farthest = -kInfinity;
   for (const Border& border : core) {
     const double above = border.normal.dot(position) - border.offset;
     farthest = std::max(farthest, border.is_above ? -above : above);

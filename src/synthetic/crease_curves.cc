@@ -3,11 +3,11 @@
 #include "synthetic/synthetic_truth.h"
 
 #include "base/angles.h"
+#include "base/infinity.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -63,8 +63,8 @@ std::optional<TrueCurve> PlanePlane(const Face& a,
   const Vector3d nearest =
       ((to_a - to_b * cosine) * a.axis + (to_b - to_a * cosine) * b.axis) /
       (1 - cosine * cosine);
-  double begin = -std::numeric_limits<double>::infinity();
-  double end = std::numeric_limits<double>::infinity();
+  double begin = -kInfinity;
+  double end = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
     const double step = line.along[axis];
     const double to_low = box.min()[axis] - nearest[axis];

@@ -6,9 +6,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <limits>
 #include <optional>
 #include <vector>
+
+#include "base/infinity.h"
 
 namespace curvix {
 
@@ -63,8 +64,8 @@ double OwnFaceValue(const SolidPrimitive& primitive,
 
 // The part of a ray's line inside a body, and the faces at both ends.
 struct RayInterval {
-  double enter = -std::numeric_limits<double>::infinity();
-  double exit = std::numeric_limits<double>::infinity();
+  double enter = -kInfinity;
+  double exit = kInfinity;
   int enter_face = 0;
   int exit_face = 0;
   bool IsEmpty() const { return !(enter < exit); }

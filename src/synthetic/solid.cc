@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "base/check.h"
+#include "base/infinity.h"
 #include "synthetic/scenes.h"
 #include "synthetic/walks.h"
 
@@ -115,7 +115,7 @@ std::optional<Hit> Solid::Trace(const Ray& ray) const {
   const std::vector<Span> spans = Spans(ray);
   // The solid can begin only where a body is entered or a hole is left.
   Hit hit;
-  hit.t = std::numeric_limits<double>::infinity();
+  hit.t = kInfinity;
   for (const Span& span : spans) {
     const bool is_added =
         primitives_[static_cast<std::size_t>(span.primitive_idx)].is_added;
@@ -126,7 +126,7 @@ std::optional<Hit> Solid::Trace(const Ray& ray) const {
     hit.face_idx = is_added ? span.enter_face : span.exit_face;
   }
   TraceSheets(ray, spans, hit);
-  if (hit.t == std::numeric_limits<double>::infinity()) return std::nullopt;
+  if (hit.t == kInfinity) return std::nullopt;
   hit.normal = Normal(hit, ray.origin + hit.t * ray.direction);
   return hit;
 }
