@@ -112,10 +112,8 @@ class Grower {
  private:
   std::vector<PlaneMeasurement> MeasureAll(
       const std::vector<EdgeRef>& refs) const {
-    std::vector<PlaneMeasurement> measurements;
-    for (const EdgeRef& ref : refs) {
-      measurements.push_back(MeasurePlane(ref, input_.indices));
-    }
+    std::vector<PlaneMeasurement> measurements =
+        MeasurePlanes(refs, input_.indices);
     // Sums must not depend on the order of views.
     std::sort(
         measurements.begin(),

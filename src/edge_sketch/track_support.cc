@@ -105,16 +105,6 @@ std::optional<std::vector<EdgeRef>> FindSupport(
   return support;
 }
 
-std::vector<PlaneMeasurement> Measure(const std::vector<EdgeRef>& support,
-                                      const std::vector<ViewIndex>& views) {
-  std::vector<PlaneMeasurement> measurements;
-  measurements.reserve(support.size());
-  for (const EdgeRef& ref : support) {
-    measurements.push_back(MeasurePlane(ref, views));
-  }
-  return measurements;
-}
-
 // The vote of a view with this support, if any; nullopt if the estimate is too
 // uncertain in it.
 std::optional<double> VoteOf(const ViewIndex& view,
@@ -189,7 +179,7 @@ std::optional<TrackedEdge> TrackSupport(
     tracked.support = *std::move(support);
     asked = tracked.estimate;
     tracked.estimate = AdjustEdge(
-        tracked.estimate.edge, Measure(tracked.support, views), sigma_px);
+        tracked.estimate.edge, MeasurePlanes(tracked.support, views), sigma_px);
     if (round == kNumRounds) break;
     support = FindSupport(
         tracked.estimate, views, to_ask.all, to_ask.fewest_supports, search);

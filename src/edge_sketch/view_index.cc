@@ -43,10 +43,16 @@ const Edge2d& EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views) {
   return map.edges[static_cast<std::size_t>(ref.edge_idx)];
 }
 
-PlaneMeasurement MeasurePlane(const EdgeRef& ref,
-                              const std::vector<ViewIndex>& views) {
-  return MeasurePlane(*views[static_cast<std::size_t>(ref.view_idx)].view,
-                      ToImageEdge(EdgeOf(ref, views)));
+std::vector<PlaneMeasurement> MeasurePlanes(
+    const std::vector<EdgeRef>& support, const std::vector<ViewIndex>& views) {
+  std::vector<PlaneMeasurement> measurements;
+  measurements.reserve(support.size());
+  for (const EdgeRef& ref : support) {
+    measurements.push_back(
+        MeasurePlane(*views[static_cast<std::size_t>(ref.view_idx)].view,
+                     ToImageEdge(EdgeOf(ref, views))));
+  }
+  return measurements;
 }
 
 Gate WidestGate(const ValidationOptions& options) {

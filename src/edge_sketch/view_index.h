@@ -28,8 +28,8 @@ struct ViewIndex {
 
 // `views` by view index.
 const Edge2d& EdgeOf(const EdgeRef& ref, const std::vector<ViewIndex>& views);
-PlaneMeasurement MeasurePlane(const EdgeRef& ref,
-                              const std::vector<ViewIndex>& views);
+std::vector<PlaneMeasurement> MeasurePlanes(
+    const std::vector<EdgeRef>& support, const std::vector<ViewIndex>& views);
 
 // Where a view may show the edge that supports a 3D edge, relative to the
 // projection of the 3D edge. Also the reach of each view's `presence`.
