@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,10 @@ class PointTree {
   };
 
   explicit PointTree(std::vector<Eigen::Vector3d> points);
+  // The points are point(item) of the items, or a member of theirs.
+  template <typename Items, typename Point>
+  PointTree(const Items& items, const Point& point)
+      : PointTree(PointsOf(items, point)) {}
   ~PointTree();
 
   // The nearest point; any one of them if several are equally near. There must
@@ -29,6 +34,15 @@ class PointTree {
                                   double radius) const;
 
  private:
+  template <typename Items, typename Point>
+  static std::vector<Eigen::Vector3d> PointsOf(const Items& items,
+                                               const Point& point) {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(items.size());
+    for (const auto& item : items) points.push_back(std::invoke(point, item));
+    return points;
+  }
+
   class Index;
   std::unique_ptr<const Index> index_;
 };

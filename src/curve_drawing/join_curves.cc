@@ -64,9 +64,7 @@ std::optional<double> JoinCost(const CurveEnd& a,
 
 std::vector<EndPair> FindPairs(const std::vector<CurveEnd>& ends,
                                const ConnectivityOptions& options) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const CurveEnd& end : ends) positions.push_back(end.position);
-  const PointTree tree(std::move(positions));
+  const PointTree tree(ends, &CurveEnd::position);
   std::vector<EndPair> pairs;
   for (EndIdx a = 0; a < ends.size(); ++a) {
     const double radius = options.max_gap_px * ends[a].pixel_size;

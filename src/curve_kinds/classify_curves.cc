@@ -206,12 +206,6 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
   return places;
 }
 
-std::vector<Vector3d> PositionsOf(const std::vector<ScenePoint>& points) {
-  std::vector<Vector3d> positions;
-  for (const ScenePoint& point : points) positions.push_back(point.position);
-  return positions;
-}
-
 class Classifier {
  public:
   Classifier(const Scene& scene,
@@ -223,7 +217,7 @@ class Classifier {
         places_(ChoosePlaces(curves, views)),
         places_tree_(places_.positions),
         points_(scene.points),
-        points_tree_(PositionsOf(scene.points)) {
+        points_tree_(scene.points, &ScenePoint::position) {
     for (const View& view : scene.views) {
       cameras_.push_back(&CameraOf(scene, view));
     }

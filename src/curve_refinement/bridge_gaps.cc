@@ -53,9 +53,7 @@ class GapFinder {
       : curves_(curves), ends_(ends), images_(images), options_(options) {}
 
   std::vector<EndPair> Pairs(int num_threads) const {
-    std::vector<Eigen::Vector3d> positions;
-    for (const EndFit& end : ends_) positions.push_back(end.position);
-    const PointTree tree(std::move(positions));
+    const PointTree tree(ends_, &EndFit::position);
     std::vector<std::vector<EndPair>> pairs(ends_.size());
     ParallelFor(ends_.size(), num_threads, [&](EndIdx a) {
       if (!(ends_[a].length > 0)) return;

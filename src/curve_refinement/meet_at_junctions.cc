@@ -161,9 +161,8 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
 std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
                                 const CurveRefinementOptions& options,
                                 int num_threads) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const CurveEnd& end : ends) positions.push_back(end.fit.position);
-  const PointTree tree(std::move(positions));
+  const PointTree tree(ends,
+                       [](const CurveEnd& end) { return end.fit.position; });
   std::vector<std::vector<Junction>> pairs_of(ends.size());
   ParallelFor(ends.size(), num_threads, [&](std::size_t i) {
     const EndFit& a = ends[i].fit;

@@ -93,9 +93,7 @@ class MeetingFinder {
   }
 
   std::vector<Meeting> Find() const {
-    std::vector<Eigen::Vector3d> positions;
-    for (const OpenEnd& end : ends_) positions.push_back(end.position);
-    const PointTree tree(std::move(positions));
+    const PointTree tree(ends_, &OpenEnd::position);
     std::vector<Meeting> meetings;
     for (EndIdx a = 0; a < ends_.size(); ++a) {
       const double reach = kMaxGapPx * ends_[a].pixel;

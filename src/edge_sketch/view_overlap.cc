@@ -53,7 +53,7 @@ std::optional<double> DepthNearestTo(const PosedView& view,
 class NearestCameras {
  public:
   explicit NearestCameras(const std::vector<PosedView>& views)
-      : views_(views), tree_(Centers(views)) {
+      : views_(views), tree_(views, &PosedView::center) {
     Eigen::AlignedBox3d box;
     for (const PosedView& view : views) box.extend(view.center);
     size_ = box.isEmpty() ? 0 : box.diagonal().norm();
@@ -83,13 +83,6 @@ class NearestCameras {
   }
 
  private:
-  static std::vector<Eigen::Vector3d> Centers(
-      const std::vector<PosedView>& views) {
-    std::vector<Eigen::Vector3d> centers;
-    for (const PosedView& view : views) centers.push_back(view.center);
-    return centers;
-  }
-
   const std::vector<PosedView>& views_;
   PointTree tree_;
   double size_ = 0;  // no two cameras are further apart

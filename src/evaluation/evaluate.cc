@@ -90,22 +90,14 @@ Status Check(const CurveSet& curves,
   return {};
 }
 
-template <typename Samples>
-std::vector<Eigen::Vector3d> Positions(const Samples& samples) {
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve(samples.size());
-  for (const auto& sample : samples) positions.push_back(sample.position);
-  return positions;
-}
-
 void CompareNearest(Comparison& c) {
-  const PointTree truth_index(Positions(c.truth));
+  const PointTree truth_index(c.truth, &TrueSample::position);
   for (const CurveStep& step : c.predicted) {
     const auto nearest = truth_index.Nearest(step.position);
     c.predicted_mm.push_back(nearest.distance * c.unit_mm);
     c.true_idxs.push_back(nearest.index);
   }
-  const PointTree predicted_index(Positions(c.predicted));
+  const PointTree predicted_index(c.predicted, &CurveStep::position);
   for (const TrueSample& sample : c.truth) {
     const auto nearest = predicted_index.Nearest(sample.position);
     c.true_mm.push_back(nearest.distance * c.unit_mm);
@@ -193,7 +185,7 @@ void MeasureWhole(const Comparison& c,
                   const std::vector<int>& groups,
                   double spacing,
                   Evaluation& result) {
-  const PointTree index(Positions(c.predicted));
+  const PointTree index(c.predicted, &CurveStep::position);
   std::map<int, std::vector<std::size_t>> visible_of_curve;
   for (std::size_t i = 0; i < c.truth.size(); ++i) {
     if (c.visible[i]) visible_of_curve[c.truth[i].curve_id].push_back(i);
@@ -225,7 +217,7 @@ void MeasureWhole(const Comparison& c,
 
 std::optional<double> MeasurePure(const Comparison& c,
                                   const std::vector<int>& groups) {
-  const PointTree index(Positions(c.truth));
+  const PointTree index(c.truth, &TrueSample::position);
   // Per predicted curve, votes for the groups of true curves that it touches.
   std::map<std::size_t, std::map<std::size_t, std::size_t>> votes_of_curve;
   std::size_t num_near = 0;

@@ -14,19 +14,11 @@ std::vector<SamplePlace> PlacesOf(const std::vector<Curve>& curves) {
   return places;
 }
 
-std::vector<Eigen::Vector3d> PositionsOf(const std::vector<Curve>& curves) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const Curve& curve : curves) {
-    for (const CurveSample& sample : curve.samples) {
-      positions.push_back(sample.position);
-    }
-  }
-  return positions;
-}
-
 }  // namespace
 
 SampleTree::SampleTree(const std::vector<Curve>& curves)
-    : places_(PlacesOf(curves)), tree_(PositionsOf(curves)) {}
+    : places_(PlacesOf(curves)), tree_(places_, [&](const SamplePlace& place) {
+        return curves[place.curve_idx].samples[place.sample_idx].position;
+      }) {}
 
 }  // namespace curvix

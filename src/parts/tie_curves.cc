@@ -58,15 +58,6 @@ std::vector<SampleRef> AllOf(const std::vector<PartCurve>& curves) {
   return refs;
 }
 
-std::vector<Eigen::Vector3d> Positions(const std::vector<PartCurve>& curves,
-                                       const std::vector<SampleRef>& refs) {
-  std::vector<Eigen::Vector3d> positions;
-  for (const SampleRef& ref : refs) {
-    positions.push_back(At(curves, ref).position);
-  }
-  return positions;
-}
-
 }  // namespace
 
 DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
@@ -77,7 +68,8 @@ DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
     duplicates_.emplace_back(curve.border_samples.size());
   }
   const std::vector<SampleRef> refs = AllOf(curves);
-  const PointTree tree(Positions(curves, refs));
+  const PointTree tree(
+      refs, [&](const SampleRef& ref) { return At(curves, ref).position; });
   const double min_cosine = std::cos(DegToRad(options.max_angle_deg));
   for (const SampleRef& ref : refs) {
     const BorderSample& sample = At(curves, ref);
