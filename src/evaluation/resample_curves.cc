@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/angles.h"
+#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -51,32 +52,26 @@ std::vector<CurveStep> Resample(const CurveSet& curves, double step) {
 
 namespace {
 
-struct CurveEnd {
+struct TrueEnd {
   int curve_id = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d outward = Eigen::Vector3d::Zero();  // unit, or zero
 };
 
-struct EndPair {
-  double cosine = 0;  // of the outward directions; -1 goes straight on
-  std::size_t first = 0;
-  std::size_t second = 0;
-};
-
-CurveEnd MakeEnd(int curve_id,
-                 const Eigen::Vector3d& end,
-                 const Eigen::Vector3d& inside) {
+TrueEnd MakeEnd(int curve_id,
+                const Eigen::Vector3d& end,
+                const Eigen::Vector3d& inside) {
   const Eigen::Vector3d outward = end - inside;
   return {curve_id, end, outward / std::max(outward.norm(), 1e-15)};
 }
 
 // Both ends of each curve of at least three samples, by curve id.
-std::vector<CurveEnd> FindEnds(const std::vector<TrueSample>& truth) {
+std::vector<TrueEnd> FindEnds(const std::vector<TrueSample>& truth) {
   std::map<int, std::vector<Eigen::Vector3d>> curves;
   for (const TrueSample& sample : truth) {
     curves[sample.curve_id].push_back(sample.position);
   }
-  std::vector<CurveEnd> ends;
+  std::vector<TrueEnd> ends;
   for (const auto& [id, points] : curves) {
     const std::size_t n = points.size();
     if (n < 3) continue;
@@ -86,51 +81,43 @@ std::vector<CurveEnd> FindEnds(const std::vector<TrueSample>& truth) {
   return ends;
 }
 
-// Pairs of ends that continue each other, the straightest first.
-std::vector<EndPair> FindPairs(const std::vector<CurveEnd>& ends,
+// Pairs of ends that continue each other; straight ones cost least.
+std::vector<EndPair> FindPairs(const std::vector<TrueEnd>& ends,
                                double max_gap) {
   const double min_cosine = std::cos(DegToRad(15));
   std::vector<EndPair> pairs;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    for (std::size_t j = i + 1; j < ends.size(); ++j) {
+  for (EndIdx i = 0; i < ends.size(); ++i) {
+    for (EndIdx j = i + 1; j < ends.size(); ++j) {
       if ((ends[i].position - ends[j].position).norm() >= max_gap) continue;
       const double cosine = ends[i].outward.dot(ends[j].outward);
       if (-cosine > min_cosine) pairs.push_back({cosine, i, j});
     }
   }
-  const auto straighter = [](const EndPair& a, const EndPair& b) {
-    return a.cosine < b.cosine;
-  };
-  std::stable_sort(pairs.begin(), pairs.end(), straighter);
   return pairs;
-}
-
-int FindRoot(const std::map<int, int>& parent, int id) {
-  while (parent.at(id) != id) id = parent.at(id);
-  return id;
 }
 
 }  // namespace
 
 std::vector<int> SmoothGroups(const std::vector<TrueSample>& truth,
                               double max_gap) {
-  std::map<int, int> parent;
-  for (const TrueSample& sample : truth) {
-    parent[sample.curve_id] = sample.curve_id;
-  }
-  const std::vector<CurveEnd> ends = FindEnds(truth);
-  std::vector<char> used(ends.size(), 0);
-  for (const EndPair& pair : FindPairs(ends, max_gap)) {
-    if (used[pair.first] || used[pair.second]) continue;
-    used[pair.first] = used[pair.second] = 1;
-    const int a = FindRoot(parent, ends[pair.first].curve_id);
-    const int b = FindRoot(parent, ends[pair.second].curve_id);
-    parent[std::max(a, b)] = std::min(a, b);
+  const std::vector<TrueEnd> ends = FindEnds(truth);
+  std::map<int, int> group_of;
+  for (const EndChain& chain : FollowEnds(
+           TieCheapestFirst(FindPairs(ends, max_gap), ends.size() / 2))) {
+    int group = ends[2 * chain.items.front().item].curve_id;
+    for (const ChainItem& link : chain.items) {
+      group = std::min(group, ends[2 * link.item].curve_id);
+    }
+    for (const ChainItem& link : chain.items) {
+      group_of[ends[2 * link.item].curve_id] = group;
+    }
   }
   std::vector<int> groups;
   groups.reserve(truth.size());
   for (const TrueSample& sample : truth) {
-    groups.push_back(FindRoot(parent, sample.curve_id));
+    // Short curves have no ends.
+    groups.push_back(
+        group_of.emplace(sample.curve_id, sample.curve_id).first->second);
   }
   return groups;
 }
