@@ -20,15 +20,15 @@ namespace {
 // Samples at an end whose mean tangent is its direction.
 constexpr std::size_t kNumEndSamples = 3;
 
-struct CurveEnd {
+struct JoinableEnd {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d outward = Eigen::Vector3d::UnitX();  // unit
   double pixel_size = 0;  // 0: closed, no end at all
 };
 
-CurveEnd EndOf(const Curve& curve,
-               bool front,
-               const std::vector<PosedView>& views) {
+JoinableEnd EndOf(const Curve& curve,
+                  bool front,
+                  const std::vector<PosedView>& views) {
   const std::vector<CurveSample>& samples = curve.samples;
   const CurveSample& last = front ? samples.back() : samples.front();
   const std::size_t num_used = std::min(kNumEndSamples, samples.size());
@@ -43,8 +43,8 @@ CurveEnd EndOf(const Curve& curve,
 }
 
 // The cost of joining two ends; nullopt if they do not continue each other.
-std::optional<double> JoinCost(const CurveEnd& a,
-                               const CurveEnd& b,
+std::optional<double> JoinCost(const JoinableEnd& a,
+                               const JoinableEnd& b,
                                const ConnectivityOptions& options) {
   const double unit = std::min(a.pixel_size, b.pixel_size);
   const Eigen::Vector3d offset = b.position - a.position;
@@ -62,9 +62,9 @@ std::optional<double> JoinCost(const CurveEnd& a,
   return gap + normal;
 }
 
-std::vector<EndPair> FindPairs(const std::vector<CurveEnd>& ends,
+std::vector<EndPair> FindPairs(const std::vector<JoinableEnd>& ends,
                                const ConnectivityOptions& options) {
-  const PointTree tree(ends, &CurveEnd::position);
+  const PointTree tree(ends, &JoinableEnd::position);
   std::vector<EndPair> pairs;
   for (EndIdx a = 0; a < ends.size(); ++a) {
     const double radius = options.max_gap_px * ends[a].pixel_size;
@@ -83,7 +83,7 @@ std::vector<Curve> JoinCurves(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
                               const ConnectivityOptions& options) {
   if (!(options.max_gap_px > 0)) return curves;
-  std::vector<CurveEnd> ends;
+  std::vector<JoinableEnd> ends;
   for (const Curve& curve : curves) {
     ends.push_back(EndOf(curve, true, views));
     ends.push_back(EndOf(curve, false, views));

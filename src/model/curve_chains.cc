@@ -17,9 +17,9 @@ void Append(std::vector<CurveSample> samples, Curve& curve) {
   std::move(samples.begin(), samples.end(), std::back_inserter(curve.samples));
 }
 
-Curve Concatenate(const EndChain& chain,
-                  std::vector<Curve>& curves,
-                  const FillGap& fill) {
+Curve StringOne(const EndChain& chain,
+                std::vector<Curve>& curves,
+                const FillGap& fill) {
   Curve whole;
   whole.closed = chain.closed || curves[chain.items.front().item].closed;
   for (const ChainItem& link : chain.items) {
@@ -49,7 +49,7 @@ std::vector<Curve> StringTogether(std::vector<Curve> curves,
                                   const FillGap& fill) {
   std::vector<Curve> strung;
   for (const EndChain& chain : FollowEnds(ties)) {
-    strung.push_back(Concatenate(chain, curves, fill));
+    strung.push_back(StringOne(chain, curves, fill));
   }
   return strung;
 }
