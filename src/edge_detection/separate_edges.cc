@@ -10,6 +10,7 @@
 
 #include "base/grid_index.h"
 #include "base/median.h"
+#include "geometry/image_edge.h"
 
 namespace curvix {
 namespace {
@@ -100,8 +101,7 @@ class Neighborhood {
   // Appends edge `i` with the nearest parallel edge on either side.
   void AppendPairs(std::size_t i, std::vector<PeakPair>& pairs) const {
     const Edge2d& edge = edges_[i];
-    const auto angle = static_cast<double>(edge.angle);
-    const Eigen::Vector2d tangent(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d tangent = TangentAt(edge.angle);
     const Eigen::Vector2d normal(-tangent.y(), tangent.x());
     const double reach = kReachBlurs * blur_;
     double ahead = reach, behind = -reach;

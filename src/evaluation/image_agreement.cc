@@ -12,6 +12,7 @@
 #include "base/angles.h"
 #include "base/grid_index.h"
 #include "base/median.h"
+#include "geometry/image_edge.h"
 
 namespace curvix {
 namespace {
@@ -111,8 +112,7 @@ class Counterparts {
 ShareTally Look(const Edge2d& place,
                 const Counterparts& counterparts,
                 double amount = 1) {
-  const double angle = static_cast<double>(place.angle);
-  const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+  const Eigen::Vector2d direction = TangentAt(place.angle);
   const Eigen::Vector2d across =
       kShiftPx * Eigen::Vector2d(-direction.y(), direction.x());
   ShareTally tally;

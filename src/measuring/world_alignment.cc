@@ -26,15 +26,9 @@ Status Unusable(std::string message) {
 
 // A step by (s, w, t) of WorldAlignment::covariance.
 Similarity3 Moved(const Similarity3& from, const Vector7d& step) {
-  const Eigen::Vector3d turn = step.segment<3>(1);
-  const double angle = turn.norm();
   Similarity3 to = from;
   to.scale *= std::exp(step(0));
-  if (angle > 0) {
-    to.rotation = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) *
-                   from.rotation)
-                      .normalized();
-  }
+  to.rotation = (RotationBy(step.segment<3>(1)) * from.rotation).normalized();
   to.translation += step.tail<3>();
   return to;
 }
