@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/angles.h"
 #include "base/check.h"
 #include "base/parallel.h"
 #include "geometry/edge_geometry.h"
@@ -14,8 +13,6 @@ namespace curvix {
 namespace {
 
 constexpr double kCellPx = 4;
-constexpr double kMaxTangentialPx = 1;
-constexpr double kMaxEdgeAngleDeg = 15;
 
 }  // namespace
 
@@ -42,8 +39,7 @@ ImageSupport::ImageSupport(const std::vector<PosedView>& views,
 std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
                                         const Eigen::Vector3d& tangent,
                                         double max_distance_px) const {
-  const Gate gate{
-      max_distance_px, kMaxTangentialPx, std::cos(DegToRad(kMaxEdgeAngleDeg))};
+  const Gate gate{max_distance_px};
   std::vector<EdgeRef> support;
   for (std::size_t v = 0; v < views_.size(); ++v) {
     const auto projected = ProjectInto(views_[v], {position, tangent});
@@ -57,20 +53,20 @@ std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
 std::vector<double> ImageSupport::Beside(std::size_t view_idx,
                                          const ImageEdge& projected,
                                          double max_distance_px) const {
-  const double min_cosine = std::cos(DegToRad(kMaxEdgeAngleDeg));
+  const Gate gate{max_distance_px};
   std::vector<double> distances;
   grids_[view_idx].VisitAround(
       projected.position, max_distance_px, [&](const IndexedEdge& edge) {
         Eigen::Vector2d tangent = edge.tangent.cast<double>();
         const double cosine = tangent.dot(projected.tangent);
-        if (std::abs(cosine) < min_cosine) return;
+        if (std::abs(cosine) < gate.min_cosine) return;
         if (cosine < 0) tangent = -tangent;
         const Eigen::Vector2d offset =
             edge.position.cast<double>() - projected.position;
         const double across =
             offset.y() * tangent.x() - offset.x() * tangent.y();
-        if (std::abs(offset.dot(tangent)) > kMaxTangentialPx ||
-            std::abs(across) > max_distance_px) {
+        if (std::abs(offset.dot(tangent)) > gate.tangential_px ||
+            std::abs(across) > gate.normal_px) {
           return;
         }
         distances.push_back(across);

@@ -17,7 +17,6 @@ namespace {
 constexpr double kNeighborAngleDeg = 25;
 constexpr std::size_t kMaxNumNeighbors = 4;
 constexpr double kGridCellPx = 8;
-constexpr double kMaxSlidePx = 1;
 constexpr double kGateSigmas = 4;
 
 // The nearest views in direction, nearest first.
@@ -56,9 +55,9 @@ std::vector<PlaneMeasurement> MeasurePlanes(
 }
 
 Gate WidestGate(const ValidationOptions& options) {
-  return {options.max_distance_px,
-          kMaxSlidePx,
-          std::cos(DegToRad(options.max_angle_deg))};
+  Gate gate{options.max_distance_px};
+  gate.min_cosine = std::cos(DegToRad(options.max_angle_deg));
+  return gate;
 }
 
 Gate NarrowGate(const Gate& widest, double expected_px) {
@@ -103,7 +102,7 @@ void AddPresence(const ValidationOptions& options,
                                   index.view->width,
                                   index.view->height,
                                   options.max_distance_px,
-                                  kMaxSlidePx,
+                                  Gate().tangential_px,
                                   DegToRad(options.max_angle_deg));
   });
 }

@@ -6,17 +6,18 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/angles.h"
 #include "base/grid_index.h"
 #include "geometry/edge_geometry.h"
 
 namespace curvix {
 
 // Bounds on where an edge may be, relative to a place and direction in the
-// image.
+// image. The defaults are those of an edge that a view shows.
 struct Gate {
-  double normal_px = 1;      // distance from the tangent line
-  double tangential_px = 1;  // distance along it
-  double min_cosine = 0;     // of the angle between the directions
+  double normal_px = 1;                        // distance from the tangent line
+  double tangential_px = 1;                    // distance along it
+  double min_cosine = std::cos(DegToRad(15));  // between the directions
 };
 
 // The edge of `grid` inside `gate` that is nearest to `expected`, distances
