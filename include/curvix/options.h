@@ -83,9 +83,11 @@ struct ConsolidationOptions {
 
 // Sec. 3, Fig. 3(c)-(e).
 struct ValidationOptions {
-  // Largest normal distance of a supporting edge, with kEveryView. Pixels, > 0.
+  // Largest normal distance of a supporting edge, with kEveryView and of curves
+  // that grow. Pixels, > 0.
   double max_distance_px = 1.0;
-  // Delta theta_p: largest angle of a supporting edge. Degrees, > 0.
+  // Delta theta_p: largest angle of a supporting edge, also of curves that
+  // grow. Degrees, > 0.
   double max_angle_deg = 15.0;
   // M: fewest supporting validation views; >= 1. With kEveryView, more than
   // half of the views on one side will do, hypothesis views included.

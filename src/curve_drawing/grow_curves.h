@@ -16,16 +16,14 @@ namespace curvix {
 // most of its 2D edges.
 //
 // From the seed, in both directions, the curve steps along its tangent
-// (CurveTip): by one pixel of the supporting view that sees the step largest,
-// but at most by four times the seed's PixelSize(). Each view is queried for
-// the nearest edge at the projection, within the same bounds as for a 3D edge
-// (WidestGate()), among those that no earlier curve has.
-// Views that support the curve three times in a row correct the tip, until they
-// miss it three times in a row; views in which the prediction is too uncertain
-// count neither way. A sample is supported if at least three such views support
-// it and its log-likelihood ratio (evidence.h) is at least 0.3 times the mean
-// of the curve so far. A curve ends at its last supported sample before a gap
-// of more than 10 px; it is closed where it returns to its seed.
+// (CurveTip) by about a pixel. Each view is queried for the nearest edge at the
+// projection, within the same bounds as for a 3D edge (WidestGate()), among
+// those that no earlier curve has. Views that show the curve steadily correct
+// the tip; views in which the prediction is too uncertain do not count. A
+// sample is supported if enough such views show it and its log-likelihood ratio
+// (evidence.h) is a fair share of the mean of the curve so far. A curve ends at
+// its last supported sample before a long gap; it is closed where it returns to
+// its seed.
 //
 // Curves that KeepSignificant() drops keep their edges from other curves. The
 // uncertainty of a position does not matter: a curve goes on where images show

@@ -218,8 +218,8 @@ class Grower {
     return grown;
   }
 
-  // That of a 3D edge with this support, as the selection of curves expects;
-  // that of the tip is smaller.
+  // The sigma of a 3D edge with this support, as the selection of curves
+  // expects; the tip has a smaller one.
   double SigmaOf(const GrownSample& grown, const CurveTip& tip) const {
     if (grown.hits.size() < 2) return tip.Sigma();
     const EdgeEstimate estimate =

@@ -12,13 +12,12 @@ namespace curvix {
 
 // Cuts curves where they turn by more than options.max_corner_deg in one place.
 // The turn at a sample is the angle between the mean directions of two
-// branches, 3 to 9 px ahead of it and behind it (pixel_size.h), less what a
-// curve that bends as evenly as the straighter branch would turn in between: a
-// circle of any radius has no corners. A corner is the sharpest turn within 9
-// px along the curve; the cut is where directions change most within 3 px of
-// it. Ties go to the smaller index. Samples whose branches do not both hold
-// four samples are no corners. Pieces come in the order of the curves; a closed
-// curve with corners falls into open pieces.
+// branches, ahead of it and behind it, less what a curve that bends as evenly
+// as the straighter branch would turn in between: a circle of any radius has no
+// corners. A corner is the sharpest turn nearby; the cut is where directions
+// change most. Ties go to the smaller index. Samples with too short a branch
+// are no corners. Pieces come in the order of the curves; a closed curve with
+// corners falls into open pieces.
 //
 // Deviation: an edge detector rounds corners by its own width, and traces
 // follow it round those of less than about 70 degrees.

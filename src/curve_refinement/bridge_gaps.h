@@ -11,19 +11,14 @@
 
 namespace curvix {
 
-// Joins open ends that continue each other at their own curvature: an arc
-// (curve_ends.h) is fitted to the last 15 to 60 px before each end, as far as
-// it fits, and carried on over the gap it must come within 1 px plus a tenth of
-// the gap of the other end, at less than 15 degrees from its direction; from
-// both sides. Gaps are no longer than what was fitted, nor than
-// options.max_gap_px, except where the images show the curve in the gap: four
-// fifths of the samples that would fill it have at least half as many 2D edges
-// as the worse supported end. The ends that are missed least come first, 20 px
-// of gap counting as one of miss; ties by the order of curves. Bent last
-// samples and overlaps of up to 6 px are cut off. The gap is filled with
-// samples on the cubic that fits both ends; they have the sigma and evidence of
-// the weaker end, and the 2D edges within 1 px. Curves whose own ends meet so
-// become closed. Pixels as in pixel_size.h.
+// Joins open ends that continue each other at their own curvature: the arcs
+// that fit before the two ends (curve_ends.h), carried on over the gap, arrive
+// at each other's ends. Gaps are no longer than what was fitted, nor than
+// options.max_gap_px, except where the images show the curve in the gap. The
+// ends that are missed least come first; ties by the order of curves. Bent last
+// samples and overlaps are cut off. The gap is filled with samples on the cubic
+// that fits both ends; they have the sigma and evidence of the weaker end, and
+// the 2D edges nearby. A curve whose own ends meet becomes closed.
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
                               const ImageSupport& images,

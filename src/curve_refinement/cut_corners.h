@@ -10,12 +10,12 @@
 
 namespace curvix {
 
-// Cuts curves at corners of more than options.max_corner_deg: where lines or
-// arcs fit the 20 px before a sample and the 20 px behind it, 2.5 px aside, to
-// 0.2 px and three times as well as one parabola fits both, and meet at a
-// larger angle than either of them turns by; of samples within 12 px the one
-// where they fit best, ties by their order. It is in both pieces. Bends have no
-// such place. In the order of the curves. Pixels as in pixel_size.h.
+// Cuts curves at corners of more than options.max_corner_deg: samples where a
+// line or arc fits before and another behind, much better than one parabola
+// fits both, and the two meet at a larger angle than either of them turns by.
+// Bends have no such sample. Of samples near each other the one with the best
+// fit is cut, ties by their order, and is in both pieces. The pieces are in the
+// order of the curves.
 std::vector<Curve> CutCorners(const std::vector<Curve>& curves,
                               const std::vector<PosedView>& views,
                               const CurveRefinementOptions& options,

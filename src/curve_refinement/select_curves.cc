@@ -70,7 +70,7 @@ double LeastDilution(const CurveSample& sample,
   return std::sqrt(covariance.trace() / 2) / pixel;
 }
 
-// Of each view, whether the curve is not blurred in it.
+// Whether the curve is not blurred, by view.
 std::vector<bool> AreSharp(const Support& support,
                            const std::vector<double>& least_sharpness) {
   std::vector<bool> are_sharp(least_sharpness.size(), true);
@@ -93,8 +93,8 @@ double BlurredShare(const Support& support,
   return num_edges > 0 ? num_blurred / num_edges : 0;
 }
 
-// Of the place that the edges of sharp views alone determine; infinite without
-// two of them.
+// The dilution of the place that the edges of sharp views alone determine;
+// infinite without two of them.
 double SharpDilution(const CurveSample& sample,
                      const RefinementInput& input,
                      const std::vector<bool>& are_sharp) {

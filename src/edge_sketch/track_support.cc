@@ -19,7 +19,7 @@ constexpr double kMaxPredictedSigmaPx = 0.7;
 constexpr double kMaxPredictedSigmas = 4.6;
 // The hypothesis views and one more.
 constexpr std::size_t kFewestSupports = 3;
-// Of the first views: fewer are hardly ever followed by enough of all.
+// Fewer supports in the first views are hardly ever followed by enough in all.
 constexpr std::size_t kFewestToGoOn = 4;
 
 struct Search {

@@ -56,8 +56,8 @@ void AddPresence(const ValidationOptions& options,
                  int num_threads,
                  std::vector<ViewIndex>& indices);
 
-// Of each view the nearest in direction, nearest first, with the weights of
-// their votes.
+// The views nearest in direction to each view, nearest first, with the weights
+// of their votes.
 std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
     const std::vector<std::vector<ViewOverlap>>& overlaps);
 

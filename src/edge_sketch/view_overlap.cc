@@ -49,7 +49,8 @@ std::optional<double> DepthNearestTo(const PosedView& view,
   return depth;
 }
 
-// Of the cameras, the nearest to one of them, nearest first; none in its place.
+// Finds the cameras nearest to one of them, nearest first, without those in its
+// place.
 class NearestCameras {
  public:
   explicit NearestCameras(const std::vector<PosedView>& views)

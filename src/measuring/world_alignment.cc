@@ -15,7 +15,8 @@ namespace {
 constexpr int kNumSteps = 20;
 constexpr double kLargeCoordinate = 10000;
 constexpr double kOffsetStep = 100;
-// Of the extent of positions across the line that they are on, as a share.
+// Positions are on a line if their extent across it is a smaller share of that
+// along it.
 constexpr double kOnALine = 1e-3;
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
