@@ -277,9 +277,7 @@ class Grower {
       if (*closed) ahead.clear();
     }
     path.push_back(first);
-    path.insert(path.end(),
-                std::make_move_iterator(ahead.begin()),
-                std::make_move_iterator(ahead.end()));
+    std::ranges::move(ahead, std::back_inserter(path));
     return path;
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -156,9 +157,7 @@ std::vector<Curve> SplitCorners(const std::vector<Curve>& curves,
   for (const Curve& curve : curves) {
     const auto corners =
         CornerFinder(curve, views).Corners(DegToRad(options.max_corner_deg));
-    for (Curve& piece : CutAfter(curve, corners)) {
-      split.push_back(std::move(piece));
-    }
+    std::ranges::move(CutAfter(curve, corners), std::back_inserter(split));
   }
   return split;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -157,9 +158,8 @@ std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
   }
   std::vector<Curve> pieces;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    for (Curve& piece : CutAt(curves[i], {cuts[i].begin(), cuts[i].end()})) {
-      pieces.push_back(std::move(piece));
-    }
+    std::ranges::move(CutAt(curves[i], {cuts[i].begin(), cuts[i].end()}),
+                      std::back_inserter(pieces));
   }
   return pieces;
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -127,11 +126,7 @@ std::vector<Curve> CutCorners(const std::vector<Curve>& curves,
         CutAt(curves[i],
               CornersOf(curves[i], DegToRad(options.max_corner_deg), views));
   });
-  std::vector<Curve> cut;
-  for (std::vector<Curve>& some : pieces) {
-    std::move(some.begin(), some.end(), std::back_inserter(cut));
-  }
-  return cut;
+  return Concatenate(std::move(pieces));
 }
 
 }  // namespace curvix

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "base/median.h"
@@ -66,9 +67,8 @@ std::vector<Curve> KeepKinds(std::vector<Curve> curves,
     for (const CurveSample& sample : curve.samples) {
       kept.push_back(kinds.Has(sample.kind));
     }
-    for (Curve& piece : KeepRanges(std::move(curve), std::move(kept))) {
-      pieces.push_back(std::move(piece));
-    }
+    std::ranges::move(KeepRanges(std::move(curve), std::move(kept)),
+                      std::back_inserter(pieces));
   }
   return pieces;
 }

@@ -253,9 +253,8 @@ std::vector<Curve> CutCurves(const std::vector<Curve>& curves,
     std::vector<bool> kept(curve.samples.size());
     std::transform(
         curve.samples.begin(), curve.samples.end(), kept.begin(), is_near);
-    for (Curve& piece : KeepRanges(std::move(curve), std::move(kept))) {
-      pieces.push_back(std::move(piece));
-    }
+    std::ranges::move(KeepRanges(std::move(curve), std::move(kept)),
+                      std::back_inserter(pieces));
   }
   return pieces;
 }
