@@ -16,6 +16,7 @@
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
 #include "plugin/base/file_errors.h"
+#include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/run/run_steps.h"
 
@@ -23,6 +24,9 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Two axes that no more directions share may be those of a detail.
+constexpr int kFewDirections = 3;
 
 // Above it, something that is given is wrong.
 constexpr double kLargeMisfit = 3;
@@ -160,10 +164,11 @@ Status Aligner::TakeAxes() {
   Say("Axes shared by " + counts +
       " lines, axes of arcs and rows of circles (x, y, z)");
   const auto& num = axes->num_directions;
-  if (std::accumulate(num.begin(), num.end(), 0) ==
-      *std::max_element(num.begin(), num.end()) + 1) {
-    Say("  Only one of these is not along the axis that most share: look "
-        "whether the axes are right.");
+  const int num_others = std::accumulate(num.begin(), num.end(), 0) -
+                         *std::max_element(num.begin(), num.end());
+  if (num_others <= kFewDirections) {
+    Say("  Only " + Plural(num_others, "direction") +
+        " along the other two axes: look whether they are right.");
   }
   if (!angles.empty()) Say("  angles, fitted one by one, deg: " + angles);
   return {};

@@ -240,6 +240,24 @@ TEST_F(Align, AxesOfABlockAreItsEdges) {
   }
   EXPECT_EQ(num_axes, 3);
   EXPECT_GT(turn(2, 2), 0);
+  EXPECT_THAT(outcome.output, Not(HasSubstr("look whether they are right")));
+}
+
+// Of five lines, three at most leave the axis that most share.
+TEST_F(Align, AxesOfFewLinesAreDoubted) {
+  json curves = Curves();
+  json few = json::array();
+  for (const json& curve : curves["curves"]) {
+    const json& fits = curve["fits"];
+    if (few.size() < 5 && fits.size() == 1 && fits[0]["kind"] == "line") {
+      few.push_back(curve);
+    }
+  }
+  ASSERT_EQ(few.size(), 5u);
+  curves["curves"] = few;
+  std::ofstream(results_ / "curves.json") << curves;
+  const Outcome outcome = RunAlign("--axes auto");
+  EXPECT_THAT(outcome.output, HasSubstr("look whether they are right"));
 }
 
 TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
