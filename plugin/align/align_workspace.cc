@@ -70,8 +70,7 @@ class Aligner {
   Status TakeAll();
   Status Write(const AlignmentResult& result);
   void DescribeScale(const AlignmentResult& result);
-  // kInvalidArgument: they tell little more than noise. With standard
-  // deviations of their own they may.
+  // kInvalidArgument: positions without standard deviations are far off.
   Status CheckPositions(const AlignmentResult& result) const;
   void DescribePositions(const AlignmentResult& result);
   void Say(const std::string& line) { text_ += line + "\n"; }
@@ -210,7 +209,7 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
   }
 }
 
-// Of the position that is furthest off; there is one.
+// Index of the position that is furthest off, of one or more.
 std::size_t WorstOf(const AlignmentResult& result) {
   const auto& left = result.position_residuals;
   const auto worst =

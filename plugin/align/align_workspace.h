@@ -33,7 +33,7 @@ Status Check(const AlignSettings& settings);
 
 // The model is that with refined poses, if a run has left one.
 // `settings` are as Check() wants them. kInvalidArgument: they do not suit the
-// results, or the folder cannot be written to; errors of what is read.
+// results. Errors of what is read and written.
 Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
                                     ProgressPrinter& progress);
 

@@ -168,8 +168,9 @@ void MoveIntoWorkspace(const fs::path& given, Values* project) {
     if (!name.ends_with("_path")) continue;
     const fs::path place =
         fs::path(value).lexically_normal().lexically_relative(own);
-    if (!place.empty() && *place.begin() != "..")
+    if (!place.empty() && *place.begin() != "..") {
       value = (given / place).string();
+    }
   }
 }
 

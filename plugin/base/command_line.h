@@ -76,15 +76,14 @@ std::vector<FlagSection> OptionSections(Options& options);
 enum class Request { kRun, kHelp, kHelpAll };
 
 // Sets the flags from `arguments` and from the project file that a flag named
-// project_path points to; where both name a flag, `arguments` win. Their
-// workspace_path takes those paths of the file with it that lie in its own
-// workspace_path. Flags are
-// set in the order of `sections`, whatever the order of the arguments: a preset
-// comes before what may change it. kHelp or kHelpAll, with nothing set, if -h,
-// --help or --help_all is among the arguments. Errors name the flag, and for an
-// unknown one the nearest that exists: kInvalidArgument, and kNotFound for a
-// project file that is not there.
-// The project file may have flags of `of_others`, too, which are not set.
+// project_path points to; where both name a flag, `arguments` win. If
+// `arguments` have a workspace_path, paths of the file that lie in its own
+// workspace move into that one. Flags of `of_others` in the file are passed
+// over. Flags are set in the order of `sections`, whatever the order of the
+// arguments: a preset comes before what may change it. kHelp or kHelpAll, with
+// nothing set, if -h, --help or --help_all is among the arguments. Errors name
+// the flag, and for an unknown one the nearest that exists: kInvalidArgument,
+// and kNotFound for a project file that is not there.
 Result<Request> ParseFlags(const std::vector<std::string>& arguments,
                            const std::vector<FlagSection>& sections,
                            const std::vector<FlagSection>& of_others = {});

@@ -49,7 +49,7 @@ std::string ViewName(const std::string& plane) {
   return name + " (" + plane + ")";
 }
 
-// Of the files.
+// The name of the files, without extension.
 std::string NameOf(const DrawSettings& settings) {
   std::string name = settings.name;
   if (name.empty()) {

@@ -9,12 +9,12 @@
 
 namespace curvix {
 
-// Those of the drawing `name` in `folder`: paths in it. None if <name>.svg is
-// not one of ours, as it is not once another program has saved it.
+// The files of the drawing `name`, relative to `folder`. None if <name>.svg is
+// not as `draw` wrote it: another program has saved it.
 std::vector<std::filesystem::path> FilesOfDrawing(
     const std::filesystem::path& folder, const std::string& name);
 
-// Those of all drawings in `folder`.
+// The files of all drawings in `folder`, relative to it.
 std::vector<std::filesystem::path> FilesOfDrawings(
     const std::filesystem::path& folder);
 

@@ -37,7 +37,7 @@ std::vector<OptionRow> OptionTable(Options& options);
 std::string ValueText(const OptionRow& row);
 Status SetFromText(const OptionRow& row, const std::string& text);
 
-// The same error if the field is out of the row's range.
+// kInvalidArgument, as by SetFromText(), if the field is out of range.
 Status CheckRange(const OptionRow& row);
 
 // What a row allows: "> 0", ">= 0 and <= 1", "0 or 1", "a or b or c".

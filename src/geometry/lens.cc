@@ -46,7 +46,7 @@ Camera WithParams(const Camera& camera,
   return result;
 }
 
-// Of two focal lengths the first takes the second along.
+// One parameter changed. The second focal length keeps its ratio to the first.
 Camera WithStep(Camera camera, std::size_t param_idx, double step) {
   std::vector<double>& params = camera.params;
   if (param_idx == 0 && NumFocalLengths(camera.model) == 2) {

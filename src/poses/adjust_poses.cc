@@ -27,8 +27,9 @@ constexpr double kPriorLossScale = 3;
 // Prior of each parameter of a camera: standard deviation of its effect on the
 // image, about the start or, of cameras that are alike, about their median.
 constexpr double kLensPriorPx = 3;
-// The same of the ratio of two focal lengths: pixels are square, or as the
-// input says. Upright images do not determine it: the world stretches.
+// Standard deviation of the effect of another ratio of two focal lengths:
+// pixels are square, or as the input says. Upright images do not determine the
+// ratio, since the world can stretch.
 constexpr double kAspectRatioPriorPx = 0.15;
 constexpr std::size_t kMinAlikeCameras = 3;
 // Edges are matched again after each solution, so none needs to be exact.
@@ -107,20 +108,24 @@ bool AreAlike(const Camera& a, const Camera& b) {
 // By camera: the median of the free ones of its model and size, which are
 // likely the same camera, if it is one of several; else itself.
 std::vector<Camera> TypicalCameras(const std::vector<Camera>& cameras,
-                                   const std::vector<bool>& is_free) {
+                                   std::vector<bool> is_free) {
   std::vector<Camera> typical = cameras;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    std::vector<const Camera*> alike;
-    for (std::size_t k = 0; k < cameras.size(); ++k) {
-      if (is_free[i] && is_free[k] && AreAlike(cameras[i], cameras[k])) {
-        alike.push_back(&cameras[k]);
-      }
+    std::vector<std::size_t> alike;
+    for (std::size_t k = i; k < cameras.size(); ++k) {
+      if (!is_free[i] || !is_free[k]) continue;
+      if (AreAlike(cameras[i], cameras[k])) alike.push_back(k);
     }
     if (alike.size() < kMinAlikeCameras) continue;
-    for (std::size_t p = 0; p < typical[i].params.size(); ++p) {
+    Camera median = cameras[i];
+    for (std::size_t p = 0; p < median.params.size(); ++p) {
       std::vector<double> values;
-      for (const Camera* camera : alike) values.push_back(camera->params[p]);
-      typical[i].params[p] = Median(std::move(values));
+      for (const std::size_t k : alike) values.push_back(cameras[k].params[p]);
+      median.params[p] = Median(std::move(values));
+    }
+    for (const std::size_t k : alike) {
+      typical[k] = median;
+      is_free[k] = false;  // done
     }
   }
   return typical;
@@ -226,7 +231,7 @@ class PoseAdjuster {
     return factors;
   }
 
-  // Of the prior of a camera.
+  // Residuals of the prior of a camera.
   LensChange LensResiduals(const State& state, std::size_t camera_idx) const {
     return lens_factors_[camera_idx].cwiseProduct(state.lenses[camera_idx] -
                                                   typical_lenses_[camera_idx]);

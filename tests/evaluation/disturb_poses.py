@@ -7,9 +7,10 @@ usage: disturb_poses.py WORKSPACE OUTPUT PIXELS [--only N] [--simple_lens]
 
 WORKSPACE holds sparse/0 as text, and images/. OUTPUT gets a model with
 cameras of the same values and disturbed poses, without points, and a link to
-the images. Each camera is turned and shifted at random, each by what moves its picture by
-half of PIXELS (standard deviation, in x and in y): the root mean square of
-the shifts of the picture is PIXELS. The same seed gives the same poses.
+the images. Each camera is turned and shifted at random, each by what moves its
+picture by half of PIXELS (standard deviation, in x and in y): the root mean
+square of the shifts of the picture is PIXELS. The same seed gives the same
+poses.
 
 --only N       N of the poses, evenly spaced
 --simple_lens  a RADIAL camera becomes the SIMPLE_RADIAL one that is most like
