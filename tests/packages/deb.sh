@@ -40,6 +40,11 @@ packages=(build-deb/colmap-curvix_*.deb build-deb/python3-curvix_*.deb)
 # Who builds the package for others names an address.
 lintian --allow-root --fail-on error,warning \
   --suppress-tags malformed-contact "${packages[@]}"
+# With another BLAS it runs, too.
+if dpkg-deb --field "${packages[0]}" Depends | grep --fixed-strings atlas; then
+  echo "The package needs ATLAS" >&2
+  exit 1
+fi
 
 step "2 of 5: a clean $suite"
 if [[ ! -e "$root/var/lib/apt/lists" ]]; then
