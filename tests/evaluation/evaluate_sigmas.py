@@ -59,9 +59,9 @@ def main():
         positions, sigmas, covariances = samples_of(curves)
         errors, counts = errors_of(positions, np.loadtxt(truth), args.distance)
         errors, sigmas = errors[counts], sigmas[counts]
-        # Of rank two: the pseudo-inverse takes the direction along the curve out.
-        inverses = np.linalg.pinv(covariances[counts], rcond=1e-9, hermitian=True)
-        squares = np.einsum('ij,ijk,ik->i', errors, inverses, errors)
+        # Of rank two, but for rounding: the direction along the curve is left out.
+        variances, axes = np.linalg.eigh(covariances[counts])
+        squares = (np.einsum('ij,ijk->ik', errors, axes)[:, 1:]**2 / variances[:, 1:]).sum(1)
         distances = np.linalg.norm(errors, axis=1)
         print(f'{truth}: {counts.sum()}, {np.median(distances):.6f}, '
               f'{spread(distances / sigmas):.2f}, {spread(np.sqrt(squares)):.2f}')
