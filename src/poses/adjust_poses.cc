@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poses/adjust_poses.h"
 
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 #include <curvix/scene.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "base/median.h"
-#include "base/parallel.h"
 #include "geometry/camera_of.h"
 #include "geometry/directions.h"
 #include "geometry/lens.h"
+#include "poses/pose_equations.h"
 #include "poses/pose_observations.h"
-#include "poses/solve_steps.h"
 
 namespace curvix {
 namespace {
@@ -34,63 +35,19 @@ constexpr double kAspectRatioPriorPx = 0.15;
 constexpr std::size_t kMinAlikeCameras = 3;
 // Edges are matched again after each solution, so none needs to be exact.
 constexpr int kMaxNumSteps = 25;
-constexpr double kFirstDamping = 1e-4;
-constexpr double kDampingFactor = 10;
-
-// A small increment of a camera in its own frame: rotation vector, translation.
-using PoseIncrement = Vector6d;
-
-PoseIncrement ToIncrement(const Rigid3& rigid) {
-  const Eigen::AngleAxisd turn(rigid.rotation);
-  PoseIncrement increment;
-  increment << turn.angle() * turn.axis(), rigid.translation;
-  return increment;
-}
-
-Rigid3 FromIncrement(const PoseIncrement& increment) {
-  return {RotationBy(increment.head<3>()), increment.tail<3>()};
-}
-
-// J for which a turn by `turn` + d, both small, is one by `turn` and then one
-// by J d.
-Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& turn) {
-  const double angle2 = turn.squaredNorm();
-  const Eigen::Matrix3d cross = CrossMatrix(turn);
-  if (angle2 < 1e-8) return Eigen::Matrix3d::Identity() + cross / 2;
-  const double angle = std::sqrt(angle2);
-  return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / angle2 * cross +
-         (angle - std::sin(angle)) / (angle2 * angle) * cross * cross;
-}
-
-// Cauchy's: grows with the logarithm of squares beyond `scale2`.
-struct CauchyLoss {
-  double scale2 = 1;
-
-  double operator()(double square) const {
-    return scale2 * std::log1p(square / scale2);
-  }
-  double RootOfWeight(double square) const {
-    return 1 / std::sqrt(1 + square / scale2);
-  }
-};
-constexpr CauchyLoss kLoss{1};
-constexpr CauchyLoss kPriorLoss{kPriorLossScale * kPriorLossScale};
-
-// The state of the search.
-struct State {
-  std::vector<PoseIncrement> increments;  // by view
-  std::vector<LensChange> lenses;         // by camera
-  // By sample: of the axis across itself, and of the radius. Then by point.
-  std::vector<Eigen::Vector3d> offsets;
-};
-
-std::vector<Rigid3> RigidIncrements(const State& state) {
-  std::vector<Rigid3> increments;
-  for (const PoseIncrement& increment : state.increments) {
-    increments.push_back(FromIncrement(increment));
-  }
-  return increments;
-}
+// Wide: priors fix what observations leave free, so steps need little damping.
+constexpr double kTrustRegionRadius = 1e8;
+// Weight of the prior of a radius, about the start, as a share of the weights
+// of its sample: radii that are nearly unobservable stay.
+constexpr double kRadiusWeight = 1e-9;
+// Larger systems are solved by conjugate gradients, since the time of the exact
+// solution is cubic.
+constexpr int kMaxExactUnknowns = 600;  // of views and cameras
+constexpr int kMaxNumGradients = 200;
+constexpr double kGradientsTolerance = 1e-3;
+// Of unknowns. The first is eliminated; in each, the order is that of
+// addresses, so each must be in one vector.
+enum Group { kSamples, kViews, kCameras };
 
 // What a change of a lens is multiplied by to give the residuals of its prior.
 LensChange LensPriorFactors(const Lens& lens) {
@@ -131,233 +88,221 @@ std::vector<Camera> TypicalCameras(const std::vector<Camera>& cameras,
   return typical;
 }
 
+PoseUnknowns UnknownsOf(const PoseProblem& problem, const MovedCameras& start) {
+  PoseUnknowns unknowns;
+  for (const Rigid3& increment : start.new_cam_from_cam) {
+    unknowns.increments.push_back(ToIncrement(increment));
+  }
+  unknowns.lenses.assign(start.cameras.size(), LensChange::Zero());
+  unknowns.offsets.assign(problem.samples.size() + problem.points.size(),
+                          Eigen::Vector3d::Zero());
+  return unknowns;
+}
+
+// Ends the search after a step of small gain. Ceres' own tolerance would undo
+// that step.
+class EndOfSearch : public ceres::IterationCallback {
+ public:
+  EndOfSearch(double min_gain, const std::function<bool()>& keep_going)
+      : min_gain_(min_gain), keep_going_(keep_going) {}
+
+  ceres::CallbackReturnType operator()(
+      const ceres::IterationSummary& step) override {
+    const bool is_settled =
+        step.iteration > 0 && step.step_is_successful &&
+        step.cost_change < min_gain_ * (step.cost + step.cost_change);
+    return is_settled || !keep_going_() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                        : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const double min_gain_;
+  const std::function<bool()>& keep_going_;
+};
+
+ceres::Problem::Options ProblemOptions(PoseEquations* equations) {
+  ceres::Problem::Options options;
+  options.disable_all_safety_checks = true;
+  options.evaluation_callback = equations;
+  return options;
+}
+
+std::vector<bool> FreeLenses(const PoseProblem& problem,
+                             std::size_t num_cameras) {
+  std::vector<bool> is_free = problem.free_lenses;
+  is_free.resize(num_cameras, false);
+  return is_free;
+}
+
+// Of the parameters of a camera, those that are unknowns if it is free.
+int NumUnknowns(const Camera& camera) {
+  return std::min(static_cast<int>(camera.params.size()),
+                  static_cast<int>(LensChange::SizeAtCompileTime));
+}
+
+// Ceres' problem, from which samples and points are eliminated.
 class PoseAdjuster {
  public:
   PoseAdjuster(const PoseProblem& problem,
                const MovedCameras& start,
                int num_threads)
-      : num_threads_(num_threads),
-        min_gain_(problem.min_gain),
-        owners_(OwnersOf(problem)),
-        seen_(ObservationsOf(problem)) {
-    for (const Rigid3& increment : start.new_cam_from_cam) {
-      state_.increments.push_back(ToIncrement(increment));
-    }
-    for (const Camera& camera : start.cameras) lenses_.emplace_back(camera);
-    state_.lenses.assign(lenses_.size(), LensChange::Zero());
-    state_.offsets.assign(problem.samples.size() + problem.points.size(),
-                          Eigen::Vector3d::Zero());
-    for (std::size_t i = 0; i < problem.scene.views.size(); ++i) {
-      prior_factors_.push_back(PriorFactors(problem, i));
-    }
-    const std::vector<bool>& is_free = problem.free_lenses;
-    if (std::find(is_free.begin(), is_free.end(), true) != is_free.end()) {
-      is_free_ = is_free;
-      const std::vector<Camera> typical =
-          TypicalCameras(start.cameras, is_free);
-      for (std::size_t i = 0; i < lenses_.size(); ++i) {
-        lens_factors_.push_back(LensPriorFactors(lenses_[i]));
-        typical_lenses_.push_back(lenses_[i].ChangeTo(typical[i]));
-      }
-    }
+      : is_free_(FreeLenses(problem, start.cameras.size())),
+        unknowns_(UnknownsOf(problem, start)),
+        equations_(ObservationsOf(problem),
+                   start.cameras,
+                   is_free_,
+                   unknowns_,
+                   num_threads),
+        ceres_(ProblemOptions(&equations_)) {
+    AddObservations(start.cameras);
+    AddRadiusPriors(problem.samples.size());
+    AddPosePriors(problem);
+    AddLensPriors(start.cameras);
   }
 
   // False, and nothing moves, if a sample is behind a camera.
-  bool Run(const std::function<bool()>& keep_going) {
-    double cost = Cost(state_);
-    if (!std::isfinite(cost)) return false;
-    double damping = kFirstDamping;
-    for (int i = 0; i < kMaxNumSteps && keep_going(); ++i) {
-      State next = Next(damping);
-      const double next_cost = Cost(next);
-      if (!(next_cost < cost)) {
-        damping *= kDampingFactor;
-        continue;
-      }
-      damping /= kDampingFactor;
-      const bool is_settled = cost - next_cost < min_gain_ * cost;
-      state_ = std::move(next);
-      cost = next_cost;
-      if (is_settled) break;
-    }
-    return true;
+  bool Run(double min_gain, const std::function<bool()>& keep_going) {
+    if (ceres_.NumResidualBlocks() == 0) return true;
+    EndOfSearch end(min_gain, keep_going);
+    ceres::Solver::Options options;
+    options.callbacks = {&end};
+    const int num_exact =
+        ceres_.NumParameters() - 3 * ordering_->GroupSize(kSamples);
+    options.linear_solver_type = num_exact > kMaxExactUnknowns
+                                     ? ceres::ITERATIVE_SCHUR
+                                     : ceres::SPARSE_SCHUR;
+    options.preconditioner_type = ceres::SCHUR_JACOBI;
+    options.max_linear_solver_iterations = kMaxNumGradients;
+    options.eta = kGradientsTolerance;
+    options.linear_solver_ordering = ordering_;
+    options.initial_trust_region_radius = kTrustRegionRadius;
+    options.max_num_iterations = kMaxNumSteps;
+    options.function_tolerance = 0;
+    options.num_threads = 1;  // sums of several are in any order
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &ceres_, &summary);
+    equations_.PrepareForEvaluation(false, true);
+    return summary.IsSolutionUsable();
   }
 
-  const State& state() const { return state_; }
+  const PoseUnknowns& unknowns() const { return unknowns_; }
 
   std::vector<double> CostsBySample() const {
-    std::vector<double> sums(state_.offsets.size(), 0);
-    const std::vector<double> costs = Costs(state_);
-    for (std::size_t e = 0; e < costs.size(); ++e) {
-      sums[owners_.of_equation[e].sample_idx] += costs[e];
+    std::vector<double> sums(unknowns_.offsets.size(), 0);
+    for (std::size_t i = 0; i < equations_.equations().size(); ++i) {
+      sums[equations_.observations()[i].sample_idx] +=
+          equations_.equations()[i].loss;
     }
     return sums;
   }
 
-  std::vector<Camera> Cameras() const {
-    std::vector<Camera> cameras;
-    for (const CameraState& camera : CameraStates(state_, false)) {
-      cameras.push_back(camera.camera());
+  MovedCameras Moved() const {
+    MovedCameras moved;
+    for (const PoseIncrement& increment : unknowns_.increments) {
+      moved.new_cam_from_cam.push_back(FromIncrement(increment));
     }
-    return cameras;
+    for (std::size_t i = 0; i < unknowns_.lenses.size(); ++i) {
+      moved.cameras.push_back(
+          equations_.lenses()[i].Changed(unknowns_.lenses[i]));
+    }
+    return moved;
   }
 
  private:
-  std::vector<CameraState> CameraStates(const State& state,
-                                        bool has_derivatives) const {
-    std::vector<CameraState> cameras;
-    for (std::size_t i = 0; i < lenses_.size(); ++i) {
-      cameras.emplace_back(
-          lenses_[i], state.lenses[i], has_derivatives && IsFree(i));
-    }
-    return cameras;
-  }
-
-  // What an increment is multiplied by to give six residuals, each 1 where it
-  // shifts the image by prior_px. None for a view without samples.
-  Vector6d PriorFactors(const PoseProblem& problem,
-                        std::size_t view_idx) const {
-    std::vector<double> depths;
-    for (const std::size_t e : owners_.by_view[view_idx]) {
-      depths.push_back(seen_[e].position.z());
-    }
-    Vector6d factors = Vector6d::Zero();
-    if (depths.empty()) return factors;
-    const View& view = problem.scene.views[view_idx];
-    const Camera& camera = CameraOf(problem.scene, view);
-    const double turn = PinholeCalibration(camera)(0, 0) / problem.prior_px;
-    factors.head<3>().setConstant(turn);
-    factors.tail<3>().setConstant(turn / Median(std::move(depths)));
-    return factors;
-  }
-
-  // Residuals of the prior of a camera.
-  LensChange LensResiduals(const State& state, std::size_t camera_idx) const {
-    return lens_factors_[camera_idx].cwiseProduct(state.lenses[camera_idx] -
-                                                  typical_lenses_[camera_idx]);
-  }
-
-  bool IsFree(std::size_t camera_idx) const {
-    return !is_free_.empty() && is_free_[camera_idx];
-  }
-
-  // By observation; infinite if a sample is behind a camera.
-  std::vector<double> Costs(const State& state) const {
-    const std::vector<Rigid3> increments = RigidIncrements(state);
-    const std::vector<CameraState> cameras = CameraStates(state, false);
-    std::vector<double> costs(seen_.size());
-    ParallelFor(costs.size(), num_threads_, [&](std::size_t e) {
-      const auto [view_idx, sample_idx] = owners_.of_equation[e];
-      const PoseObservation& seen = seen_[e];
-      const Eigen::Vector3d x =
-          increments[view_idx] *
-          (seen.position + seen.moves * state.offsets[sample_idx]);
-      const double residual = seen.direction.dot(
-          ImageFromIdeal(cameras[seen.camera_idx].camera(), x.hnormalized()) -
-          seen.pixel);
-      costs[e] = x.z() > 0 ? kLoss(residual * residual)
-                           : std::numeric_limits<double>::infinity();
-    });
-    return costs;
-  }
-
-  double Cost(const State& state) const {
-    double sum = 0;
-    for (const double cost : Costs(state)) sum += cost;
-    for (std::size_t i = 0; i < state.increments.size(); ++i) {
-      sum += kPriorLoss(
-          prior_factors_[i].cwiseProduct(state.increments[i]).squaredNorm());
-    }
-    for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
-      sum += kPriorLoss(LensResiduals(state, i).squaredNorm());
-    }
-    return sum;
-  }
-
-  State Next(double damping) const {
-    std::vector<StepEquation> equations(seen_.size());
-    std::vector<StepPrior> priors(state_.increments.size());
-    const std::vector<CameraState> cameras = CameraStates(state_, true);
-    ParallelFor(priors.size(), num_threads_, [&](std::size_t i) {
-      Linearise(i, cameras, equations);
-      priors[i] = LinearPrior(i);
-    });
-    std::vector<LensPrior> lens_priors;
-    for (std::size_t i = 0; i < lens_factors_.size(); ++i) {
-      const LensChange residuals = LensResiduals(state_, i);
-      const double root = kPriorLoss.RootOfWeight(residuals.squaredNorm());
-      lens_priors.push_back({root * lens_factors_[i], root * residuals});
-    }
-    const Steps steps = SolveSteps(
-        owners_, equations, priors, lens_priors, damping, num_threads_);
-    State next = state_;
-    for (std::size_t i = 0; i < next.increments.size(); ++i) {
-      next.increments[i] += steps.increments[i];
-    }
-    for (std::size_t i = 0; i < steps.lenses.size(); ++i) {
-      next.lenses[i] += steps.lenses[i];
-    }
-    for (std::size_t i = 0; i < next.offsets.size(); ++i) {
-      next.offsets[i] += steps.offsets[i];
-    }
-    return next;
-  }
-
-  // Writes the equations of one view.
-  void Linearise(std::size_t view_idx,
-                 const std::vector<CameraState>& cameras,
-                 std::vector<StepEquation>& equations) const {
-    const PoseIncrement& increment = state_.increments[view_idx];
-    const Rigid3 rigid = FromIncrement(increment);
-    const Eigen::Matrix3d rotation = rigid.rotation.toRotationMatrix();
-    const Eigen::Matrix3d left_jacobian = LeftJacobian(increment.head<3>());
-    for (const std::size_t e : owners_.by_view[view_idx]) {
-      const PoseObservation& seen = seen_[e];
-      const CameraState& camera = cameras[seen.camera_idx];
-      const std::size_t sample_idx = owners_.of_equation[e].sample_idx;
-      const Eigen::Vector3d turned =
-          rotation * (seen.position + seen.moves * state_.offsets[sample_idx]);
-      const Eigen::Vector3d x = turned + rigid.translation;
-      const Eigen::Vector2d ideal = x.hnormalized();
-      const double residual = seen.direction.dot(
-          ImageFromIdeal(camera.camera(), ideal) - seen.pixel);
-      const double root = kLoss.RootOfWeight(residual * residual);
-      const Eigen::Vector2d direction = root * seen.direction;
-      const Eigen::Vector2d by_ideal =
-          ImageFromIdealJacobian(camera.camera(), ideal).transpose() *
-          direction;
-      const Eigen::Vector3d by_x(by_ideal.x() / x.z(),
-                                 by_ideal.y() / x.z(),
-                                 -by_ideal.dot(ideal) / x.z());
-      StepEquation& equation = equations[e];
-      equation.residual = root * residual;
-      equation.by_pose << left_jacobian.transpose() * turned.cross(by_x), by_x;
-      equation.by_offset =
-          seen.moves.transpose() * (rotation.transpose() * by_x);
-      if (IsFree(seen.camera_idx)) {
-        equation.by_lens = camera.Derivatives(direction, ideal);
+  void AddObservations(const std::vector<Camera>& cameras) {
+    for (std::size_t i = 0; i < equations_.observations().size(); ++i) {
+      const PoseObservation& seen = equations_.observations()[i];
+      const PoseEquation& equation = equations_.equations()[i];
+      std::vector<double*> unknowns = {
+          unknowns_.offsets[seen.sample_idx].data(),
+          unknowns_.increments[seen.view_idx].data()};
+      int num_lens_params = 0;
+      if (is_free_[seen.camera_idx]) {
+        unknowns.push_back(unknowns_.lenses[seen.camera_idx].data());
+        num_lens_params = NumUnknowns(cameras[seen.camera_idx]);
       }
+      ceres_.AddResidualBlock(new ObservationCost(equation, num_lens_params),
+                              new ObservationLoss(equation),
+                              unknowns);
+      ordering_->AddElementToGroup(unknowns.front(), kSamples);
     }
   }
 
-  StepPrior LinearPrior(std::size_t view_idx) const {
-    const Vector6d& factors = prior_factors_[view_idx];
-    const Vector6d residuals =
-        factors.cwiseProduct(state_.increments[view_idx]);
-    const double root = kPriorLoss.RootOfWeight(residuals.squaredNorm());
-    return {root * factors, root * residuals};
+  void AddRadiusPriors(std::size_t num_samples) {
+    equations_.PrepareForEvaluation(true, true);
+    std::vector<double> weights(num_samples, 0);
+    for (std::size_t i = 0; i < equations_.observations().size(); ++i) {
+      const std::size_t sample_idx = equations_.observations()[i].sample_idx;
+      if (sample_idx >= num_samples) continue;
+      weights[sample_idx] +=
+          equations_.equations()[i].by_offset.squaredNorm() * kRadiusWeight;
+    }
+    for (std::size_t i = 0; i < num_samples; ++i) {
+      if (!(weights[i] > 0)) continue;
+      ceres::Matrix factors = ceres::Matrix::Zero(2, 3);
+      factors(0, 2) = std::sqrt(weights[i]);
+      ceres_.AddResidualBlock(
+          new ceres::NormalPrior(factors, Eigen::Vector3d::Zero()),
+          nullptr,
+          unknowns_.offsets[i].data());
+    }
   }
 
-  const int num_threads_;
-  const double min_gain_;
-  const EquationOwners owners_;
-  const std::vector<PoseObservation> seen_;  // by equation
-  std::vector<Lens> lenses_;                 // by camera
-  std::vector<Vector6d> prior_factors_;      // by view
-  std::vector<bool> is_free_;                // by camera; empty if none is
-  std::vector<LensChange> lens_factors_;     // by camera; none if cameras stay
-  std::vector<LensChange> typical_lenses_;   // likewise
-  State state_;
+  // Residuals: `factors` times the distances of the `unknowns` from `center`.
+  template <typename Vector>
+  void AddPrior(const Vector& factors,
+                const Vector& center,
+                double* unknowns,
+                Group group) {
+    ceres_.AddResidualBlock(
+        new ceres::NormalPrior(ceres::Matrix(factors.asDiagonal()), center),
+        new ceres::CauchyLoss(kPriorLossScale),
+        unknowns);
+    ordering_->AddElementToGroup(unknowns, group);
+  }
+
+  // Residuals of an increment are 1 where it shifts the image by prior_px.
+  void AddPosePriors(const PoseProblem& problem) {
+    std::vector<std::vector<double>> depths(unknowns_.increments.size());
+    for (const PoseObservation& seen : equations_.observations()) {
+      depths[seen.view_idx].push_back(seen.position.z());
+    }
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      if (depths[i].empty()) continue;
+      const View& view = problem.scene.views[i];
+      const Camera& camera = CameraOf(problem.scene, view);
+      const double turn = PinholeCalibration(camera)(0, 0) / problem.prior_px;
+      PoseIncrement factors;
+      factors.head<3>().setConstant(turn);
+      factors.tail<3>().setConstant(turn / Median(std::move(depths[i])));
+      AddPrior<PoseIncrement>(factors,
+                              PoseIncrement::Zero(),
+                              unknowns_.increments[i].data(),
+                              kViews);
+    }
+  }
+
+  void AddLensPriors(const std::vector<Camera>& cameras) {
+    const std::vector<Camera> typical = TypicalCameras(cameras, is_free_);
+    for (std::size_t i = 0; i < typical.size(); ++i) {
+      double* change = unknowns_.lenses[i].data();
+      if (!is_free_[i] || !ceres_.HasParameterBlock(change)) continue;
+      const Lens& lens = equations_.lenses()[i];
+      const int size = NumUnknowns(typical[i]);
+      AddPrior<Eigen::VectorXd>(LensPriorFactors(lens).head(size),
+                                lens.ChangeTo(typical[i]).head(size),
+                                change,
+                                kCameras);
+    }
+  }
+
+  std::vector<bool> is_free_;  // by camera
+  PoseUnknowns unknowns_;
+  PoseEquations equations_;
+  ceres::Problem ceres_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_ =
+      std::make_shared<ceres::ParameterBlockOrdering>();
 };
 
 }  // namespace
@@ -369,21 +314,21 @@ AdjustedPoses AdjustPoses(const PoseProblem& problem,
   PoseAdjuster adjuster(problem, start, num_threads);
   AdjustedPoses adjusted;
   adjusted.moved = start;
-  if (adjuster.Run(keep_going)) {
-    adjusted.moved = {RigidIncrements(adjuster.state()), adjuster.Cameras()};
+  if (adjuster.Run(problem.min_gain, keep_going)) {
+    adjusted.moved = adjuster.Moved();
   }
   adjusted.costs = adjuster.CostsBySample();
   std::size_t next = 0;
   for (const PoseSample& sample : problem.samples) {
     OccludingContour& contour = adjusted.contours.emplace_back(sample.contour);
-    const Eigen::Vector3d& offset = adjuster.state().offsets[next++];
+    const Eigen::Vector3d& offset = adjuster.unknowns().offsets[next++];
     contour.axis.position +=
         AxesAcross(contour.axis.tangent) * offset.head<2>();
     contour.radius += offset.z();
   }
   for (const PointSample& point : problem.points) {
     adjusted.points.push_back(point.position +
-                              adjuster.state().offsets[next++]);
+                              adjuster.unknowns().offsets[next++]);
   }
   return adjusted;
 }

@@ -1,46 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). The observations of AdjustPoses, as equations.
+// Paper: none (beyond it). The observations of AdjustPoses in one form.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
-#include "geometry/lens.h"
 #include "poses/adjust_poses.h"
-#include "poses/solve_steps.h"
 
 namespace curvix {
 
-// The distance of a projected sample or point from `pixel`, along `direction`.
+// Where a view sees a sample or a point.
 struct PoseObservation {
-  Eigen::Vector3d position;   // in the camera with its input pose
-  Eigen::Matrix3d moves;      // Jacobian of position by the sample's unknowns
-  Eigen::Vector2d direction;  // over sigma
-  Eigen::Vector2d pixel;
+  std::size_t view_idx;
   std::size_t camera_idx;
+  std::size_t sample_idx;    // indices of points follow those of samples
+  Eigen::Vector3d position;  // in the camera with its input pose
+  Eigen::Matrix3d moves;     // Jacobian of position by the sample's unknowns
+  Eigen::Vector2d pixel;
+  // By row what is measured from `pixel`, over sigma: of a point x and y, of an
+  // edge the distance across and nothing.
+  Eigen::Matrix2d axes;
 };
 
-// One for each edge of a sample, then two for each pixel of a point.
+// One for each edge of a sample, then for each pixel of a point.
 std::vector<PoseObservation> ObservationsOf(const PoseProblem& problem);
-
-// View and sample of each; indices of points follow those of samples.
-EquationOwners OwnersOf(const PoseProblem& problem);
-
-// A camera during the search, and the derivatives of its pixels.
-class CameraState {
- public:
-  // Derivatives() needs `has_derivatives`.
-  CameraState(const Lens& lens, const LensChange& change, bool has_derivatives);
-
-  const Camera& camera() const { return camera_; }
-
-  // Derivatives of direction . pixel by the parameters of the lens.
-  LensChange Derivatives(const Eigen::Vector2d& direction,
-                         const Eigen::Vector2d& ideal) const;
-
- private:
-  Camera camera_;
-  std::vector<Camera> around_;  // each parameter decreased, then increased
-};
 
 }  // namespace curvix
