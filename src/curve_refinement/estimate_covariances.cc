@@ -28,6 +28,9 @@ constexpr double kNumParameters = 2;  // a place across a curve
 // Degrees of freedom's worth of belief in what is usual in the scene.
 constexpr double kPriorFreedom = 4;
 constexpr double kMinSlope = 0.1;
+// Determinant of the information, over its squared trace: views whose rays are
+// nearer to each other than a few millionths do not determine a place.
+constexpr double kMinInformation = 1e-12;
 
 // What 2D edges of one view say about a curve; sums while they are added up.
 struct Evidence {
@@ -82,8 +85,8 @@ constexpr Scatter kSharpImages = {0.05 * 0.05, 1, 1, 1};
 // How the views agree about a sample.
 struct Agreement {
   Scatter scatter;
-  // The covariance for mean distances of variance 1; not finite if unknown.
-  Eigen::Matrix3d unit_covariance = Eigen::Matrix3d::Zero();
+  // The covariance for mean distances of variance 1.
+  std::optional<Eigen::Matrix3d> unit_covariance;
 };
 
 class CurveInViews {
@@ -162,6 +165,10 @@ class CurveInViews {
     }
     result.scatter.freedom =
         std::max(0.0, result.scatter.num_views - kNumParameters);
+    const double trace = information.trace();
+    if (!(information.determinant() > kMinInformation * trace * trace)) {
+      return result;
+    }
     const Eigen::Matrix<double, 3, 2> spread = axes * information.inverse();
     result.unit_covariance =
         spread * SumOfCorrelated(pulls, rays) * spread.transpose();
@@ -235,11 +242,11 @@ std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
   for (std::size_t i = 0; i < curves.size(); ++i) {
     for (std::size_t k = 0; k < agreements[i].size(); ++k) {
       const Agreement& agreement = agreements[i][k];
-      if (!agreement.unit_covariance.allFinite()) continue;
+      if (!agreement.unit_covariance) continue;
       Scatter scatter = agreement.scatter;
       scatter.Add(kPriorFreedom, usual);
       CurveSample& sample = curves[i].samples[k];
-      sample.covariance = scatter.VariancePx2() * agreement.unit_covariance;
+      sample.covariance = scatter.VariancePx2() * *agreement.unit_covariance;
       sample.sigma = std::sqrt(sample.covariance.trace() / 2);
     }
   }

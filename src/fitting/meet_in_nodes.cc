@@ -2,6 +2,7 @@
 #include "fitting/meet_in_nodes.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kNumSteps = 10;
 constexpr double kMaxMoveSigmas = 10;
+constexpr double kMaxMissSigmas = 3;
 
 using End = CurveNode::End;
 
@@ -39,21 +41,21 @@ std::vector<CurveNode> GroupEnds(const std::vector<CurvePrimitives>& curves) {
       }
     }
   }
-  std::erase_if(nodes, [](const CurveNode& n) { return n.ends.size() < 2; });
   return nodes;
 }
 
-// Where the lines and arcs of the node come nearest to each other; along a
-// direction that all of them share, the node stays.
-Eigen::Vector3d Nearest(const CurveNode& node,
+// Where the lines and arcs of the ends come nearest to each other; along a
+// direction that all of them share, as `place`.
+Eigen::Vector3d Nearest(const Eigen::Vector3d& place,
+                        const std::vector<End>& ends,
                         const std::vector<CurvePrimitives>& curves) {
   constexpr double kPull = 1e-3;  // of the old place
-  Eigen::Vector3d point = node.position;
+  Eigen::Vector3d point = place;
   for (int step = 0; step < kNumSteps; ++step) {
     Eigen::Matrix3d normal = kPull * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d right = kPull * (node.position - point);
+    Eigen::Vector3d right = kPull * (place - point);
     bool any = false;
-    for (const End& end : node.ends) {
+    for (const End& end : ends) {
       const auto foot =
           FootOn(curves[end.curve_idx][end.fit_idx].primitive.shape, point);
       if (!foot) continue;
@@ -63,10 +65,43 @@ Eigen::Vector3d Nearest(const CurveNode& node,
       normal += across;
       right += across * (foot->position - point);
     }
-    if (!any) return node.position;
+    if (!any) return place;
     point += normal.ldlt().solve(right);
   }
   return point;
+}
+
+// How far `point` is from the shape of an end, in standard deviations of its
+// sample; 0 for splines.
+double Miss(const Eigen::Vector3d& point,
+            const End& end,
+            const std::vector<CurvePrimitives>& curves) {
+  const auto foot =
+      FootOn(curves[end.curve_idx][end.fit_idx].primitive.shape, point);
+  if (!foot) return 0;
+  return (foot->position - point).norm() / SampleAt(end, curves).sigma;
+}
+
+// Moves the node to where its lines and arcs meet. It loses those that miss
+// the others, the farthest first.
+void Meet(const std::vector<CurvePrimitives>& curves, CurveNode& node) {
+  const Eigen::Vector3d place = node.position;
+  while (node.ends.size() > 1) {
+    node.position = Nearest(place, node.ends, curves);
+    double sigma = 0;
+    for (const End& end : node.ends) {
+      sigma = std::max(sigma, SampleAt(end, curves).sigma);
+    }
+    const double move = (node.position - place).norm();
+    if (move > kMaxMoveSigmas * sigma) node.position = place;
+    std::vector<double> misses;
+    for (const End& end : node.ends) {
+      misses.push_back(Miss(node.position, end, curves));
+    }
+    const auto worst = std::max_element(misses.begin(), misses.end());
+    if (*worst <= kMaxMissSigmas) return;
+    node.ends.erase(node.ends.begin() + (worst - misses.begin()));
+  }
 }
 
 Eigen::Matrix3d CovarianceOf(const CurveNode& node,
@@ -83,16 +118,9 @@ Eigen::Matrix3d CovarianceOf(const CurveNode& node,
 
 std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves) {
   std::vector<CurveNode> nodes = GroupEnds(curves);
-  for (CurveNode& node : nodes) {
-    const Eigen::Vector3d point = Nearest(node, curves);
-    double sigma = 0;
-    for (const End& end : node.ends) {
-      sigma = std::max(sigma, SampleAt(end, curves).sigma);
-    }
-    const double move = (point - node.position).norm();
-    if (move <= kMaxMoveSigmas * sigma) node.position = point;
-    node.covariance = CovarianceOf(node, curves);
-  }
+  for (CurveNode& node : nodes) Meet(curves, node);
+  std::erase_if(nodes, [](const CurveNode& n) { return n.ends.size() < 2; });
+  for (CurveNode& node : nodes) node.covariance = CovarianceOf(node, curves);
   return nodes;
 }
 

@@ -166,11 +166,14 @@ TEST(EstimateCovariances, DepthIsLessSureThanTheImagePlane) {
 }
 
 TEST(EstimateCovariances, OneViewTellsNothing) {
-  const SeenCurves seen = DisturbedLines(1, FrontalViews(), 0.05, 0);
-  const Curve line = WithCovariances(seen)[0];
-  for (std::size_t k = 0; k < line.samples.size(); ++k) {
-    EXPECT_EQ(line.samples[k].sigma, seen.curves[0].samples[k].sigma);
-    EXPECT_EQ(line.samples[k].covariance, Eigen::Matrix3d::Zero());
+  for (const std::vector<PosedView>& views :
+       {FrontalViews(), {ViewsAround(8, 0.25)[7]}}) {
+    const SeenCurves seen = DisturbedLines(1, views, 0.05, 0);
+    const Curve line = WithCovariances(seen)[0];
+    for (std::size_t k = 0; k < line.samples.size(); ++k) {
+      EXPECT_EQ(line.samples[k].sigma, seen.curves[0].samples[k].sigma);
+      EXPECT_EQ(line.samples[k].covariance, Eigen::Matrix3d::Zero());
+    }
   }
 }
 

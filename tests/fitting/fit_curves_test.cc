@@ -270,6 +270,30 @@ TEST(FitCurves, LetsLinesMeetWhereTheyCrossNotWhereTheirEndsWere) {
   }
 }
 
+TEST(FitCurves, LeavesALineFreeThatMissesTheOthers) {
+  const Vector3d corner(1, 1, 1);
+  std::vector<Curve> curves;
+  for (int axis = 0; axis < 3; ++axis) {
+    Curve curve = Sample(
+        [&](double t) { return Vector3d(corner + t * Vector3d::Unit(axis)); },
+        80);
+    curve.samples.front().position = corner;
+    curves.push_back(curve);
+  }
+  const Vector3d aside = 30 * kSigma * Vector3d(1, 1, 0);
+  for (std::size_t i = 1; i < curves[2].samples.size(); ++i) {
+    curves[2].samples[i].position += aside;
+  }
+  const FittedCurves fitted = Fit(curves);
+  ASSERT_EQ(fitted.nodes.size(), 1u);
+  EXPECT_EQ(fitted.nodes[0].ends.size(), 2u);
+  EXPECT_LT((fitted.nodes[0].position - corner).norm(), kSigma);
+  const CurveFit& free = fitted.curves[2].fits.at(0);
+  EXPECT_EQ(free.start_node, -1);
+  EXPECT_LT((free.start - corner - aside).norm(), 2 * kSigma);
+  EXPECT_GT(free.inlier_share, 0.9);
+}
+
 TEST(FitCurves, FollowsARigidMotion) {
   const Curve curve = Sample(OnSlot, 300, true);
   const Eigen::AngleAxisd turn(1.1, Vector3d(-1, 3, 2).normalized());
