@@ -170,10 +170,10 @@ void AddRows(ConnectivityOptions& o, Section row) {
       "edges closer along a curve are merged");
   row("max_angle_deg", &o.max_angle_deg, AboveUpTo(0, 90), "deg", "",
       "largest angle between connected edges");
-  row("max_gap_px", &o.max_gap_px, AtLeast(0), "px", "",
+  row("max_gap_px", &o.max_gap_px, Between(0, 50), "px", "",
       "longest gap closed");
-  row("max_duplicate_distance_px", &o.max_duplicate_distance_px, AtLeast(0),
-      "px", "",
+  row("max_duplicate_distance_px", &o.max_duplicate_distance_px,
+      Between(0, 20), "px", "",
       "parts closer to a longer curve are dropped");
   row("max_corner_deg", &o.max_corner_deg, AboveUpTo(0, 180), "deg", "",
       "curves are cut at corners of more; 180: none");

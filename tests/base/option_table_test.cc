@@ -176,6 +176,16 @@ TEST(OptionTable, LimitsAreInclusiveUnlessExcluded) {
   EXPECT_EQ(RangeText(step), "> 0 and <= 1");
 }
 
+TEST(OptionTable, DistancesAtWhichAllIsComparedWithAllAreRefused) {
+  Options options;
+  const auto rows = OptionTable(options);
+  for (const char* name :
+       {"Connectivity.max_gap_px", "Connectivity.max_duplicate_distance_px"}) {
+    EXPECT_TRUE(SetFromText(Find(rows, name), "20").ok()) << name;
+    EXPECT_FALSE(SetFromText(Find(rows, name), "51").ok()) << name;
+  }
+}
+
 TEST(OptionTable, ErrorsNameTheFieldItsValueAndTheRange) {
   Options options;
   const auto rows = OptionTable(options);
