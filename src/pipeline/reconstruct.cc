@@ -3,14 +3,19 @@
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/reconstruct.h>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/angles.h"
 #include "base/cancelled.h"
+#include "base/infinity.h"
 #include "base/option_table.h"
 #include "curve_drawing/group_edges.h"
 #include "curve_drawing/grow_curves.h"
@@ -42,9 +47,42 @@ std::int64_t NumEdges(const std::vector<EdgeMap>& edge_maps) {
   return num_edges;
 }
 
+// That have to see a place, at least.
+std::size_t FewestViews(const Options& options) {
+  const std::size_t num_on_this_side =
+      options.hypotheses.view_selection == ViewSelection::kEveryView
+          ? 1
+          : std::numeric_limits<std::size_t>::max();
+  return FewestSupports(options.validation, num_on_this_side);
+}
+
+std::string WhyNoPair(const Overlaps& overlaps,
+                      const HypothesisOptions& options) {
+  double least_deg = kInfinity;  // of those above the limit
+  for (const std::vector<ViewOverlap>& others : overlaps) {
+    for (const ViewOverlap& overlap : others) {
+      const double angle_deg = RadToDeg(overlap.ray_angle_rad);
+      if (angle_deg <= options.max_ray_angle_deg) continue;
+      least_deg = std::min(least_deg, angle_deg);
+    }
+  }
+  std::ostringstream text;
+  text << "No two views overlap with rays between " << options.min_ray_angle_deg
+       << " and " << options.max_ray_angle_deg
+       << " degrees apart, so nothing has depth. ";
+  if (least_deg < kInfinity) {
+    text << "Some overlap with rays " << std::floor(least_deg)
+         << " degrees apart or more. Images from places in between help.";
+  } else {
+    text << "Was the camera only turned? Images from more places help.";
+  }
+  return text.str();
+}
+
 // At which stage everything was lost, and what may help: one or two sentences.
 // `num_curves`: before the filters.
-std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
+std::string WhyEmpty(const Overlaps& overlaps,
+                     const std::vector<EdgeMap>& edge_maps,
                      const EdgeSketch& sketch,
                      std::size_t num_curves,
                      const Options& options) {
@@ -63,11 +101,7 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
             "--EdgeDetection.min_gradient (now "
          << options.edge_detection.min_gradient << ") finds weaker edges.";
   } else if (counts.view_pairs == 0) {
-    text << "No two views overlap with rays between "
-         << options.hypotheses.min_ray_angle_deg << " and "
-         << options.hypotheses.max_ray_angle_deg
-         << " degrees apart, so nothing has depth. Was the camera only "
-            "turned? Images from more places help.";
+    text << WhyNoPair(overlaps, options.hypotheses);
   } else if (counts.hypotheses == 0) {
     text << "None of " << counts.h1_edges
          << " edges has a counterpart on its epipolar line in another view: "
@@ -77,10 +111,7 @@ std::string WhyEmpty(const std::vector<EdgeMap>& edge_maps,
     text << "None of " << counts.hypotheses
          << " edge pairs is confirmed by enough other views. Are the poses "
             "right to about two pixels, and do at least "
-         << FewestSupports(options.validation,
-                           edge_maps.size() -
-                               static_cast<std::size_t>(counts.repeated_views))
-         << " views see each part of the scene?";
+         << FewestViews(options) << " views see each part of the scene?";
   } else if (num_curves > 0) {
     text << "None of " << num_curves
          << " curves passes the filters; lower the --CurveFilter options.";
@@ -201,7 +232,11 @@ Result<Reconstruction> Connect(const Scene& scene,
 
   result.report = run.TakeReport();
   if (result.curves.curves.empty()) {
-    result.report.why_empty = WhyEmpty(edge_maps, sketch, num_refined, options);
+    result.report.why_empty = WhyEmpty(FindOverlaps(views, scene.points),
+                                       edge_maps,
+                                       sketch,
+                                       num_refined,
+                                       options);
   }
   return result;
 }

@@ -16,8 +16,10 @@
 namespace curvix {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double kSize = 2;  // of the cube
 
@@ -108,6 +110,20 @@ WireScene TurnedInPlace() {
   return wires;
 }
 
+// Three views from all around.
+WireScene FarApart() {
+  std::vector<PosedView> views;
+  for (const double angle : {0.0, 2.1, 4.2}) {
+    views.push_back(
+        LookAt({6 * std::cos(angle), 6 * std::sin(angle), 0}, {0, 0, 0}));
+  }
+  WireScene wires;
+  wires.truth = {LineCurve({0, 0, -1}, {0, 0, 1})};
+  wires.edge_maps = ExactEdgeMaps(wires.truth, views, 1);
+  wires.scene = ToScene(views);
+  return wires;
+}
+
 // Edges that have nothing to do with each other, too few to agree by chance.
 WireScene UnrelatedEdges() {
   WireScene wires = MakeWireScene({CubeCurves()[0]}, 10);
@@ -143,7 +159,17 @@ TEST_P(WhyEmptyOf, ImagesWithoutEdges) {
 }
 
 TEST_P(WhyEmptyOf, ACameraThatOnlyTurned) {
-  EXPECT_THAT(Reason(TurnedInPlace()), HasSubstr("No two views overlap"));
+  EXPECT_THAT(Reason(TurnedInPlace()),
+              AllOf(HasSubstr("No two views overlap"),
+                    HasSubstr("Was the camera only turned?")));
+}
+
+TEST_P(WhyEmptyOf, ViewsThatAreTooFarApart) {
+  EXPECT_THAT(Reason(FarApart()),
+              AllOf(HasSubstr("No two views overlap"),
+                    HasSubstr("rays 115 degrees apart or more"),
+                    HasSubstr("places in between"),
+                    Not(HasSubstr("turned"))));
 }
 
 TEST_P(WhyEmptyOf, EdgesWithoutACounterpart) {
@@ -153,7 +179,10 @@ TEST_P(WhyEmptyOf, EdgesWithoutACounterpart) {
 }
 
 TEST_P(WhyEmptyOf, PairsThatNoOtherViewConfirms) {
-  EXPECT_THAT(Reason(UnrelatedEdges()), HasSubstr("edge pairs is confirmed"));
+  const std::string fewest = GetParam() == std::string("paper") ? "6" : "3";
+  EXPECT_THAT(Reason(UnrelatedEdges()),
+              AllOf(HasSubstr("edge pairs is confirmed"),
+                    HasSubstr("do at least " + fewest + " views see")));
 }
 
 TEST_P(WhyEmptyOf, CurvesThatAreTooShort) {
