@@ -141,6 +141,31 @@ Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
   return scene;
 }
 
+// At most its first `num_bytes`.
+std::string BeginningOf(const fs::path& path, std::size_t num_bytes) {
+  std::string text(num_bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(num_bytes));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+// The newest camera model of `scene`, if the log says that COLMAP does not know
+// one; else empty. Models are numbered in the order in which COLMAP got them.
+std::string UnknownModel(const Scene& scene, const fs::path& log_path) {
+  constexpr std::size_t kMaxLogBytes = 100000;
+  const std::string log = BeginningOf(log_path, kMaxLogBytes);
+  CameraModel newest = CameraModel::kSimplePinhole;
+  for (const Camera& camera : scene.cameras) {
+    newest = std::max(newest, camera.model);
+  }
+  for (const char* const words :
+       {"ExistsCameraModelWithId", "Camera model does not exist"}) {
+    if (log.find(words) != log.npos) return std::string(ModelName(newest));
+  }
+  return {};
+}
+
 // Fails unless COLMAP came to its own end, successfully.
 Status CheckEnd(const ChildEnd& end, double timeout_s) {
   switch (end.kind) {
@@ -181,11 +206,7 @@ Result<std::string> HelpText(const std::vector<std::string>& arguments,
                        DurationText(timeout_s));
   }
   constexpr std::size_t kMaxHelpBytes = 100000;
-  std::string text(kMaxHelpBytes, '\0');
-  std::ifstream file(text_path, std::ios::binary);
-  file.read(text.data(), kMaxHelpBytes);
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
+  return BeginningOf(text_path, kMaxHelpBytes);
 }
 
 // The name of the option for kFunctionTolerance, which COLMAP 4 renamed; empty
@@ -285,6 +306,13 @@ Result<Scene> RefineWithColmap(const Scene& scene,
                        LogsInto(scratch.path())});
   if (!end.ok()) return end.status();
   Status ended = CheckEnd(*end, run.timeout_s);
+  if (ended.code() == StatusCode::kExternalTool) {
+    const std::string model = UnknownModel(scene, run.log_path);
+    if (!model.empty()) {
+      return ToolFailure("it does not know the camera model " + model +
+                         "; a newer COLMAP may");
+    }
+  }
   if (!ended.ok()) return ended;
   return SceneFromColmap(scene, output);
 }

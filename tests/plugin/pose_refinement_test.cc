@@ -213,6 +213,18 @@ TEST_F(FakeColmap, CrashingIsTold) {
   ExpectKept(Run("exit 1"), "see log");
 }
 
+TEST_F(FakeColmap, CameraModelsThatItDoesNotKnowAreNamed) {
+  ColmapCamera& camera = model_.cameras.front();
+  camera.camera.model = CameraModel::kEucm;
+  camera.camera.params = {500, 500, 320, 240, 0.5, 1};
+  const std::string sentence = "it does not know the camera model EUCM";
+  ExpectKept(Run("echo 'camera.cc:52] Check failed: "
+                 "ExistsCameraModelWithId(model_id) '; kill -ABRT $$"),
+             sentence);
+  ExpectKept(Run("echo '  what():  Camera model does not exist' >&2; exit 134"),
+             sentence);
+}
+
 TEST_F(FakeColmap, WritingNothingIsTold) {
   ExpectKept(Run("exit 0"), "no model that can be read");
 }
