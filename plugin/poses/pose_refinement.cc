@@ -103,7 +103,7 @@ void Conclude(const ColmapModel& model,
   record.accepted = judgement.accepted;
   if (!judgement.accepted) {
     Keep(judgement.reason,
-         "Bundle adjustment by " + RefinerName(record) + " is left out: ",
+         "Bundle adjustment by " + RefinerName(record) + " is refused: ",
          result);
     return;
   }
