@@ -77,6 +77,11 @@ class Arrays(WorkspaceTest):
         np.testing.assert_array_equal(self.curves[-1], self.curves[len(curves) - 1])
         with self.assertRaises(IndexError):
             self.curves[len(curves)]
+        for wrong in (slice(0, 2), '0', 0.5):
+            with self.assertRaises(TypeError):
+                self.curves[wrong]
+        with self.assertRaisesRegex(TypeError, 'select'):
+            self.curves[0:2]
 
     def test_fits_are_those_of_the_file(self):
         fits = [fit for curve in self.json['curves'] for fit in curve['fits']]

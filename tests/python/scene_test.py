@@ -262,7 +262,9 @@ class FromArrays(WorkspaceTest):
                            ('shape', {'t': np.zeros((11, 3))}), ('finite', {'t': np.full((12, 3), np.nan)}),
                            ('either', {'images': ['a.png'] * 12}), ('either', {'edges': None}),
                            ('sizes', {'sizes': None}), ('shape', {'edges': flat}), ('11 edges', {'edges': flat[:11]}),
-                           ('named', {'names': ['a'] * 12})):
+                           ('named', {'names': ['a'] * 12}), ('names', {'names': ['\ud800'] * 12}),
+                           *(('sizes', {'sizes': (size, 600)}) for size in (0, -600, 0.5, 3e9)),
+                           *(('edge_spacing_px', {'edge_spacing_px': px}) for px in (0, -1, np.nan, np.inf, 'x'))):
             with self.assertRaisesRegex(pycurvix.ArgumentError, what):
                 helix_scene(**more)
         with self.assertRaises(pycurvix.NotFoundError):

@@ -57,6 +57,8 @@ class Curves:
 
     def __getitem__(self, curve_idx: int) -> NDArray[np.float64]:
         """The positions of one curve's samples, (n, 3)."""
+        if isinstance(curve_idx, slice):
+            raise TypeError('curves[i] is one curve; select() takes several')
         idx = range(len(self))[curve_idx]
         return self.positions[self.offsets[idx]:self.offsets[idx + 1]]
 

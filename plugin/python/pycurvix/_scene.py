@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     Image = Union[Path, ArrayLike]
 
 
+_MOST_PIXELS = 65535  # along a side, as in JPEG
+
+
 def _warn(sentence: str) -> None:
     import logging
     logging.getLogger('pycurvix').warning('%s', sentence)
@@ -46,6 +49,24 @@ def _pixels(name: str, values: ArrayLike) -> NDArray[Any]:
         raise _core.ArgumentError(f'{name} has the shape {array.shape}; images are height x width, with 3 channels '
                                   '(red, green, blue) or 4 (and alpha) if they are not grey')
     return np.ascontiguousarray(pixels, pixels.dtype.newbyteorder('='))
+
+
+def _number_above_0(name: str, value: float) -> float:
+    number = float(_array(name, np.ravel(value), (1,))[0])
+    if not number > 0:
+        raise _core.ArgumentError(f'{name} is {number:g}; it must be > 0')
+    return number
+
+
+def _names(names: Sequence[str]) -> list[str]:
+    """Text that C++ can take."""
+    texts = [str(name) for name in names]
+    for i, text in enumerate(texts):
+        try:
+            text.encode()
+        except UnicodeEncodeError:
+            raise _core.ArgumentError(f'names[{i}] is {ascii(text)}, which is no text in UTF-8; give other names') from None
+    return texts
 
 
 def _is_path(image: Image) -> bool:
@@ -170,14 +191,16 @@ class Scene:
         pixels = [None if _is_path(image) else _pixels(f'images[{i}]', image) for i, image in enumerate(given)]
         if names is None:
             names = [path or f'view_{i:05d}' for i, path in enumerate(paths)]
+        names = _names(names)
         cameras = _pinholes(calibrations, sizes, needs_sizes=images is None)
         quaternions = _quaternions(rotations)
-        views = [_core.ViewInput(str(names[i]), paths[i], i + 1, min(i, len(cameras) - 1), quaternions[i],
+        views = [_core.ViewInput(names[i], paths[i], i + 1, min(i, len(cameras) - 1), quaternions[i],
                                  translations[i], pixels[i]) for i in range(num_views)]
         no_points = (np.empty((0, 3)), np.empty((0, 2), np.int64), np.empty((0, 2)))
         scene = _core.Scene.make(cameras, views, *no_points)
         if edges is not None:
-            scene = scene.with_edges([_edge_rows(i, rows) for i, rows in enumerate(edges)], edge_spacing_px)
+            spacing_px = _number_above_0('edge_spacing_px', edge_spacing_px)
+            scene = scene.with_edges([_edge_rows(i, rows) for i, rows in enumerate(edges)], spacing_px)
         return cls(_core=scene)
 
     @classmethod
@@ -302,6 +325,8 @@ def _pinholes(calibrations: NDArray[np.float64], sizes: ArrayLike | None, needs_
         raise _core.ArgumentError('edges say nothing of the size of an image; give sizes')
     shape = (2,) if np.ndim(sizes) == 1 else (len(calibrations), 2)
     pixels = np.zeros((1, 2)) if sizes is None else _array('sizes', sizes, shape).reshape(-1, 2)
+    if sizes is not None and not ((pixels >= 1) & (pixels <= _MOST_PIXELS) & (pixels == np.rint(pixels))).all():
+        raise _core.ArgumentError(f'sizes are whole numbers of pixels from 1 to {_MOST_PIXELS}')
     cameras = []
     for i, calibration in enumerate(calibrations):
         (fx, skew, cx), (zero, fy, cy) = calibration[:2]
