@@ -70,10 +70,10 @@ Status Check(const CurveSet& curves,
     return Status(StatusCode::kInvalidArgument, message);
   };
   if (!(options.step > 0) || !std::isfinite(options.step)) {
-    return bad("The step of the evaluation must be > 0.");
+    return bad("The step of the evaluation must be a finite number > 0.");
   }
   if (!(options.unit_mm > 0) || !std::isfinite(options.unit_mm)) {
-    return bad("The millimetres per world unit must be > 0.");
+    return bad("The millimetres per world unit must be a finite number > 0.");
   }
   if (truth.samples.empty()) {
     return bad("There is no ground truth to compare with.");

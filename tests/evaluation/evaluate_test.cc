@@ -185,8 +185,15 @@ TEST(EvaluateCurves, UnusableInputIsRefused) {
     EXPECT_EQ(code(OneLine(), options), StatusCode::kInvalidArgument) << step;
   }
   options = {};
-  options.unit_mm = 0;
-  EXPECT_EQ(code(OneLine(), options), StatusCode::kInvalidArgument);
+  for (const double unit_mm : {0.0, std::numeric_limits<double>::infinity()}) {
+    options.unit_mm = unit_mm;
+    EXPECT_NE(EvaluateCurves({}, OneLine(), options)
+                  .status()
+                  .message()
+                  .find("a finite number > 0"),
+              std::string::npos)
+        << unit_mm;
+  }
 }
 
 TEST(PrintEvaluation, JsonHasNullForWhatIsAbsent) {
