@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "plugin/base/json.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
+#include "plugin/export/write_results.h"
 
 namespace curvix {
 namespace {
@@ -194,7 +196,12 @@ Result<HoldoutScene> ReadHoldoutScene(const RunSettings& settings,
   const auto alignment = ReadAlignment(folder);
   if (!alignment.ok()) return alignment.status();
   if (!*alignment) return result;
-  result.scene = MoveScene((*alignment)->world_from_model, result.scene);
+  // The cameras of curves_model/ are in the frame of the curves.
+  std::error_code ignored;
+  if (!fs::equivalent(
+          workspace->model_path, folder / kCurvesModelFolder, ignored)) {
+    result.scene = MoveScene((*alignment)->world_from_model, result.scene);
+  }
   result.alignment_path = folder / kAlignmentName;
   return result;
 }

@@ -188,7 +188,7 @@ const std::vector<OutputFormat>& OutputFormats() {
       {"vtp", "curves.vtp", "lines with data: ParaView, VTK"},
       {"glb", "curves.glb", "coloured lines: glTF viewers"},
       {"svg", "curves.svg", "the curves as one view sees them: browsers"},
-      {"colmap", "curves_model/", "samples as points with tracks: COLMAP"},
+      {"colmap", kCurvesModelFolder, "samples as points with tracks: COLMAP"},
       {"html", "viewer.html", "the curves in a browser"}};
   return formats;
 }

@@ -13,6 +13,8 @@
 
 namespace curvix {
 
+inline constexpr const char* kCurvesModelFolder = "curves_model/";
+
 struct OutputSettings {
   std::vector<std::string> formats = {
       "ply", "obj", "pcd", "txt", "json", "csv", "html"};

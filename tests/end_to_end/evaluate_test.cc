@@ -61,11 +61,17 @@ TEST_F(Evaluate, ResultsAreComparedInTheirFrame) {
   alignment.world_from_model.scale = 1000;
   const fs::path file = folder_.Write("proj/curvix/0/alignment.json",
                                       AlignmentJson(alignment).dump());
-  ASSERT_EQ(Run("").exit_code, 0);
+  ASSERT_EQ(Run("--output_formats ply,colmap").exit_code, 0);
   const json after = Holdout("curves.ply");
   EXPECT_EQ(after["alignment"], file.string());
   EXPECT_GT(after["length"], 100 * before["length"].get<double>());
   EXPECT_NEAR(after["precision"], before["precision"], 1);
+  // Its cameras are in this frame, too.
+  const fs::path model = results_ / "curves_model";
+  const json same = Holdout("curves.ply", "--input_path " + Quoted(model));
+  EXPECT_EQ(same["model"], model.string());
+  EXPECT_EQ(same["alignment"], file.string());
+  EXPECT_NEAR(same["precision"], before["precision"], 1);
 }
 
 TEST_F(Evaluate, WithoutImagesOfCurvesNothingIsExpected) {
