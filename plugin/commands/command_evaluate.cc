@@ -91,11 +91,11 @@ ExitCode RunEvaluate(const Arguments& arguments) {
   const std::optional<ExitCode> code =
       ParseCommand("evaluate", arguments, Sections(&settings));
   if (code) return *code;
-  const bool has_truth =
-      !settings.curves_path.empty() && !settings.truth_path.empty();
-  const bool has_workspace =
-      !settings.run.workspace_path.empty() && settings.holdout_every > 0;
-  if (has_truth == has_workspace) {
+  const bool has_truth = !settings.truth_path.empty();
+  const bool has_workspace = settings.holdout_every > 0;
+  if (has_truth == has_workspace ||
+      (has_truth ? settings.curves_path : settings.run.workspace_path)
+          .empty()) {
     return Fail({StatusCode::kInvalidArgument,
                  "give either --curves_path and --truth_path, or "
                  "--workspace_path and --holdout_every"},
