@@ -2,6 +2,8 @@
 #include "plugin/draw/choose_plane.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "base/text_fields.h"
@@ -77,8 +79,12 @@ bool IsThreeNodes(std::string_view text) {
 }  // namespace
 
 Status CheckPlanes(const std::string& text) {
+  std::set<std::string> names;
   for (const std::string_view part : SplitAt(text, ',')) {
     const std::string name(part);
+    if (!names.insert(name).second) {
+      return BadPlane("it has " + name + " twice");
+    }
     if (name == "auto" || AxisPlane(name) || IsThreeNodes(name)) continue;
     return BadPlane("\"" + name +
                     "\" is no plane; it takes xy, xz, yz, several of these "

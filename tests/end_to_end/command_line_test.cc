@@ -61,6 +61,7 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
       {"align --workspace_path x --axes auto --up 0,0,0", "no direction"},
       {"align --workspace_path x", "something that is known"},
       {"draw --workspace_path x --plane zx", "is no plane"},
+      {"draw --workspace_path x --plane xz,xy,xz", "xz twice"},
       {"draw --workspace_path x --plane 'nodes 1 2'", "three nodes"},
       {"draw --workspace_path x --slice 2,1", "lower and the higher"},
       {"draw --workspace_path x --name a/b", "without folders"},
