@@ -200,6 +200,10 @@ Status Drafter::TakePhotograph() {
     return BadDrawing("--photograph is " + settings_.photograph +
                       ", which is no image of the model");
   }
+  if (!ShowsFront(scene_, scene_.views[*chosen], area)) {
+    return BadDrawing("--photograph is " + settings_.photograph +
+                      ", which does not show the plane from this side");
+  }
   Result<RectifiedPhotograph> photograph =
       Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);
   if (!photograph.ok()) return photograph.status();

@@ -55,12 +55,19 @@ double PixelOnPlane(const Scene& scene,
 
 }  // namespace
 
+bool ShowsFront(const Scene& scene, const View& view, const PictureArea& area) {
+  const Eigen::Vector3d center = view.cam_from_world.Inverse().translation;
+  const Eigen::Vector3d ray = center - InSpace(area, area.bounds.center());
+  return ray.dot(area.plane.toward) > 0 && ShareShown(scene, view, area) > 0;
+}
+
 std::optional<std::size_t> BestViewOf(const Scene& scene,
                                       const PictureArea& area) {
   std::optional<std::size_t> best;
   double most = 0;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     const View& view = scene.views[i];
+    if (!ShowsFront(scene, view, area)) continue;
     const Eigen::Vector3d look =
         view.cam_from_world.rotation.conjugate() * Eigen::Vector3d::UnitZ();
     const double score =

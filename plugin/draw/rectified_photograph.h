@@ -20,8 +20,12 @@ struct PictureArea {
   Eigen::AlignedBox2d bounds;
 };
 
-// The view that shows most of the area, times the cosine of the angle at which
-// it looks at it; ties go to the first. nullopt: none shows any of it.
+// Whether the view shows some of the area, from the side of its viewer.
+bool ShowsFront(const Scene& scene, const View& view, const PictureArea& area);
+
+// Of the views that show the area from this side, the one that shows most of
+// it, times the cosine of the angle at which it looks at it; ties go to the
+// first. nullopt: none shows any of it.
 std::optional<std::size_t> BestViewOf(const Scene& scene,
                                       const PictureArea& area);
 

@@ -225,6 +225,16 @@ TEST_F(Draw, OtherResultsTakeDrawingsAway) {
   EXPECT_EQ(after.size(), before.size());
 }
 
+TEST_F(Draw, APhotographFromBehindIsRefused) {
+  ASSERT_EQ(Run("draw --plane xz --from_behind 1 --photograph auto").exit_code,
+            0);
+  const std::string sheet = Read(results_ / "drawing_xz_from_behind.svg");
+  const std::size_t name = sheet.find("photograph view_");
+  ASSERT_NE(name, sheet.npos);
+  ExpectError("draw --plane xz --photograph " + sheet.substr(name + 11, 12),
+              "does not show the plane from this side");
+}
+
 TEST_F(Draw, SeveralViewsAreDrawnWholeOnRequest) {
   const Outcome outcome = Run("draw --plane xz,xy --crop all");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;

@@ -101,6 +101,19 @@ TEST(RectifiedPhotograph, TheViewThatLooksStraightAtThePlaneIsBest) {
   EXPECT_FALSE(BestViewOf(scene, {behind, 2, area.bounds}).has_value());
 }
 
+TEST(RectifiedPhotograph, ViewsFromBehindShowNoFront) {
+  Scene scene = Oblique({0, -4, 0});
+  const DrawingPlane plane = *AxisPlane("xz");
+  const DrawingPlane behind = FromBehind(plane);
+  const Eigen::AlignedBox2d bounds(Eigen::Vector2d(-1, -1),
+                                   Eigen::Vector2d(1, 1));
+  const View& view = scene.views.front();
+  EXPECT_TRUE(ShowsFront(scene, view, {plane, 2, bounds}));
+  EXPECT_FALSE(ShowsFront(scene, view, {behind, 2, bounds}));
+  const Eigen::Vector2d aside(100, 0);
+  EXPECT_FALSE(ShowsFront(scene, view, {plane, 2, bounds.translated(aside)}));
+}
+
 TEST(RectifiedPhotograph, SaysWhichImageIsMissing) {
   Scene scene = Oblique({0, -4, 0});
   scene.views.front().image_path = "nowhere.png";
