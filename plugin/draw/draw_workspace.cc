@@ -25,6 +25,7 @@
 #include "plugin/draw/drawn_views.h"
 #include "plugin/draw/map_file.h"
 #include "plugin/draw/rectified_photograph.h"
+#include "plugin/draw/seen_from.h"
 #include "plugin/export/drawing_files.h"
 #include "plugin/export/write_results.h"
 #include "plugin/run/run_steps.h"
@@ -84,6 +85,10 @@ class Drafter {
   Result<std::string> Run();
 
  private:
+  // Of the curves, for what photographs show from one side.
+  bool NeedsSamples() const {
+    return settings_.hidden != "solid" || !settings_.photograph.empty();
+  }
   Status Read();
   Status TakePlanes();
   // kInvalidArgument, with the depths of all curves.
@@ -113,7 +118,7 @@ Status Drafter::Read() {
   if (!workspace.ok()) return workspace.status();
   workspace_ = *std::move(workspace);
   Result<CurvesFile> curves =
-      ReadCurvesFile(workspace_.output_path, settings_.hidden != "solid");
+      ReadCurvesFile(workspace_.output_path, NeedsSamples());
   if (!curves.ok()) return curves.status();
   curves_ = *std::move(curves);
   Result<Scene> scene = ReadRefinedScene(workspace_, progress_);
@@ -181,13 +186,15 @@ Status Drafter::TakePhotograph() {
   const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
   if (bounds.isEmpty()) return {};
   const bool through_nodes = view.plane.name.starts_with("nodes");
-  const PictureArea area{view.plane,
-                         through_nodes ? 0
-                                       : MainDepth(curves_.fitted,
-                                                   view.plane,
-                                                   window_.depth.from,
-                                                   window_.depth.to),
-                         bounds};
+  const PictureArea area{
+      view.plane,
+      through_nodes
+          ? 0
+          : MainDepth(WithoutHidden(curves_, view.plane.toward, scene_),
+                      view.plane,
+                      window_.depth.from,
+                      window_.depth.to),
+      bounds};
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);

@@ -4,6 +4,7 @@
 #include <curvix/curves.h>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "base/angles.h"
 #include "geometry/camera_of.h"
@@ -50,6 +51,19 @@ SeenFrom SeenFromSide(const CurveFit& fit,
   }
   return num_showing < kLeastShare * num_views ? SeenFrom::kHidden
                                                : SeenFrom::kSeen;
+}
+
+FittedCurves WithoutHidden(const CurvesFile& curves,
+                           const Eigen::Vector3d& toward,
+                           const Scene& scene) {
+  FittedCurves shown = curves.fitted;
+  for (std::size_t c = 0; c < shown.curves.size(); ++c) {
+    std::erase_if(shown.curves[c].fits, [&](const CurveFit& fit) {
+      return SeenFromSide(fit, curves.samples[c], toward, scene) ==
+             SeenFrom::kHidden;
+    });
+  }
+  return shown;
 }
 
 }  // namespace curvix

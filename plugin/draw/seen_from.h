@@ -25,4 +25,10 @@ SeenFrom SeenFromSide(const CurveFit& fit,
                       const Eigen::Vector3d& toward,
                       const Scene& scene);
 
+// The curves without the primitives that photographs from there do not show.
+// `curves` has samples.
+FittedCurves WithoutHidden(const CurvesFile& curves,
+                           const Eigen::Vector3d& toward,
+                           const Scene& scene);
+
 }  // namespace curvix

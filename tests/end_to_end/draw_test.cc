@@ -225,6 +225,37 @@ TEST_F(Draw, OtherResultsTakeDrawingsAway) {
   EXPECT_EQ(after.size(), before.size());
 }
 
+TEST_F(Draw, APhotographIsRightWhereItsSideIs) {
+  fs::remove_all(workspace_);
+  SyntheticOptions options;
+  options.solid = SyntheticSolid::kBlock;
+  options.num_views = 32;  // three or more from each side
+  options.width = options.height = 120;
+  ASSERT_TRUE(Synthesize(options, workspace_).ok());
+  ASSERT_EQ(Run("--output_formats json --refiner none").exit_code, 0);
+  // Many lines of the front that no photograph shows.
+  json curves = Curves();
+  const json given = curves["curves"];
+  for (json curve : given) {
+    const json& samples = curve["samples"];
+    if (samples.front()["position"][1] > -0.3 ||
+        samples.back()["position"][1] > -0.3) {
+      continue;
+    }
+    for (json& sample : curve["samples"]) sample["support"] = json::array();
+    for (int i = 0; i < 20; ++i) curves["curves"].push_back(curve);
+  }
+  ASSERT_GT(curves["curves"].size(), given.size());
+  std::ofstream(results_ / "curves.json") << curves;
+  for (const char* hidden : {"dashed", "solid"}) {
+    const Outcome outcome =
+        Run("draw --plane xz --from_behind 1 --photograph auto --hidden " +
+            std::string(hidden));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("right where y is 0.35"));
+  }
+}
+
 TEST_F(Draw, APhotographFromBehindIsRefused) {
   ASSERT_EQ(Run("draw --plane xz --from_behind 1 --photograph auto").exit_code,
             0);

@@ -75,5 +75,19 @@ TEST(SeenFromSide, OnlySamplesOfTheFitCount) {
   EXPECT_EQ(SeenFromSide(fit, samples, {1, 0, 0}, scene), SeenFrom::kHidden);
 }
 
+TEST(WithoutHidden, LeavesOutWhatTheOtherSideShows) {
+  CurvesFile curves;
+  curves.samples = {SamplesIn({1, 2, 12}), SamplesIn({6, 7, 8})};
+  for (const auto& samples : curves.samples) {
+    curves.fitted.curves.push_back({{AllOf(samples)}});
+  }
+  const FittedCurves shown = WithoutHidden(curves, {1, 0, 0}, Ring());
+  ASSERT_EQ(shown.curves.size(), 2u);
+  EXPECT_EQ(shown.curves[0].fits.size(), 1u);
+  EXPECT_EQ(shown.curves[1].fits.size(), 0u);
+  // No photograph looks from above.
+  EXPECT_EQ(WithoutHidden(curves, {0, 0, 1}, Ring()).curves[1].fits.size(), 1u);
+}
+
 }  // namespace
 }  // namespace curvix
