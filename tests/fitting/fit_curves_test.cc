@@ -247,17 +247,23 @@ TEST(FitCurves, TakesASlotToPiecesThatMeet) {
   EXPECT_EQ(num_lines, 2);
 }
 
-TEST(FitCurves, LetsLinesMeetWhereTheyCrossNotWhereTheirEndsWere) {
-  const Vector3d corner(1, 1, 1);
+// Three lines from `corner` along the axes, whose first samples are at `end`.
+std::vector<Curve> AxesFrom(const Vector3d& corner, const Vector3d& end) {
   std::vector<Curve> curves;
   for (int axis = 0; axis < 3; ++axis) {
-    Curve curve = Sample(
+    Curve& curve = curves.emplace_back(Sample(
         [&](double t) { return Vector3d(corner + t * Vector3d::Unit(axis)); },
-        80);
-    // All ends in one place, five standard deviations off.
-    curve.samples.front().position = corner + Vector3d::Constant(3 * kSigma);
-    curves.push_back(curve);
+        80));
+    curve.samples.front().position = end;
   }
+  return curves;
+}
+
+TEST(FitCurves, LetsLinesMeetWhereTheyCrossNotWhereTheirEndsWere) {
+  const Vector3d corner(1, 1, 1);
+  // All ends in one place, five standard deviations off.
+  const std::vector<Curve> curves =
+      AxesFrom(corner, corner + Vector3d::Constant(3 * kSigma));
   const FittedCurves fitted = Fit(curves);
   ASSERT_EQ(fitted.nodes.size(), 1u);
   EXPECT_EQ(fitted.nodes[0].ends.size(), 3u);
@@ -272,14 +278,7 @@ TEST(FitCurves, LetsLinesMeetWhereTheyCrossNotWhereTheirEndsWere) {
 
 TEST(FitCurves, LeavesALineFreeThatMissesTheOthers) {
   const Vector3d corner(1, 1, 1);
-  std::vector<Curve> curves;
-  for (int axis = 0; axis < 3; ++axis) {
-    Curve curve = Sample(
-        [&](double t) { return Vector3d(corner + t * Vector3d::Unit(axis)); },
-        80);
-    curve.samples.front().position = corner;
-    curves.push_back(curve);
-  }
+  std::vector<Curve> curves = AxesFrom(corner, corner);
   const Vector3d aside = 30 * kSigma * Vector3d(1, 1, 0);
   for (std::size_t i = 1; i < curves[2].samples.size(); ++i) {
     curves[2].samples[i].position += aside;
