@@ -35,7 +35,7 @@ FlagSection CommonSection(CommonSettings* settings) {
        Advanced(RowFlag({.name = "log_level",
                          .field = &settings->log_level,
                          .max = 4,
-                         .help = "how much libraries log"}))}};
+                         .help = "how much libraries log; 0: nothing"}))}};
 }
 
 ExitCode ExitCodeOf(const Status& status) {
@@ -217,6 +217,8 @@ std::optional<ExitCode> ParseCommand(const std::string& name,
   }
   FLAGS_logtostderr = settings.log_to_stderr;
   FLAGS_v = settings.log_level;
+  // What Ceres warns of is handled here.
+  FLAGS_minloglevel = settings.log_level > 0 ? google::INFO : google::FATAL;
   return std::nullopt;
 }
 

@@ -160,7 +160,7 @@ class PoseAdjuster {
     AddLensPriors(start.cameras);
   }
 
-  // False, and nothing moves, if a sample is behind a camera.
+  // False if no solution was found.
   bool Run(double min_gain, const std::function<bool()>& keep_going) {
     if (ceres_.NumResidualBlocks() == 0) return true;
     EndOfSearch end(min_gain, keep_going);
@@ -177,6 +177,8 @@ class PoseAdjuster {
     options.linear_solver_ordering = ordering_;
     options.initial_trust_region_radius = kTrustRegionRadius;
     options.max_num_iterations = kMaxNumSteps;
+    // Steps that move something behind a camera.
+    options.max_num_consecutive_invalid_steps = kMaxNumSteps;
     options.function_tolerance = 0;
     options.num_threads = 1;  // sums of several are in any order
     options.logging_type = ceres::SILENT;
@@ -210,10 +212,14 @@ class PoseAdjuster {
   }
 
  private:
+  // Without those of samples that are behind a camera.
   void AddObservations(const std::vector<Camera>& cameras) {
+    equations_.PrepareForEvaluation(true, true);
+    const std::vector<double> costs = CostsBySample();
     for (std::size_t i = 0; i < equations_.observations().size(); ++i) {
       const PoseObservation& seen = equations_.observations()[i];
       const PoseEquation& equation = equations_.equations()[i];
+      if (!std::isfinite(costs[seen.sample_idx])) continue;
       std::vector<double*> unknowns = {
           unknowns_.offsets[seen.sample_idx].data(),
           unknowns_.increments[seen.view_idx].data()};
@@ -230,7 +236,6 @@ class PoseAdjuster {
   }
 
   void AddRadiusPriors(std::size_t num_samples) {
-    equations_.PrepareForEvaluation(true, true);
     std::vector<double> weights(num_samples, 0);
     for (std::size_t i = 0; i < equations_.observations().size(); ++i) {
       const std::size_t sample_idx = equations_.observations()[i].sample_idx;
@@ -239,13 +244,14 @@ class PoseAdjuster {
           equations_.equations()[i].by_offset.squaredNorm() * kRadiusWeight;
     }
     for (std::size_t i = 0; i < num_samples; ++i) {
-      if (!(weights[i] > 0)) continue;
+      double* offset = unknowns_.offsets[i].data();
+      if (!(weights[i] > 0) || !ceres_.HasParameterBlock(offset)) continue;
       ceres::Matrix factors = ceres::Matrix::Zero(2, 3);
       factors(0, 2) = std::sqrt(weights[i]);
       ceres_.AddResidualBlock(
           new ceres::NormalPrior(factors, Eigen::Vector3d::Zero()),
           nullptr,
-          unknowns_.offsets[i].data());
+          offset);
     }
   }
 

@@ -69,7 +69,8 @@ struct AdjustedPoses {
   MovedCameras moved;
   std::vector<OccludingContour> contours;  // of the samples
   std::vector<Eigen::Vector3d> points;     // positions
-  // The loss of each sample, then of each point, over its observations.
+  // The loss of each sample, then of each point, over its observations;
+  // infinite if it was left out.
   std::vector<double> costs;
 };
 
@@ -77,8 +78,8 @@ struct AdjustedPoses {
 // and of projected points from their pixels, each over its sigma and with
 // Cauchy's loss. Levenberg-Marquardt from `start`; samples and points are
 // eliminated. The result does not depend on the number of threads. The search
-// ends when `keep_going`, called between iterations, returns false. Nothing
-// changes if a sample or a point is behind a camera.
+// ends when `keep_going`, called between iterations, returns false. Samples and
+// points that are behind a camera at the start are left out.
 AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const MovedCameras& start,
                           int num_threads,

@@ -226,6 +226,21 @@ HeldOutGains CompareErrors(const PoseObservationSet& held_out,
   return {std::move(places), std::move(points)};
 }
 
+HeldOutGains CompareLosses(const PoseObservationSet& held_out,
+                           const SpaceCells& cells,
+                           const std::vector<double>& before,
+                           const std::vector<double>& after) {
+  const std::vector<Eigen::Vector3d> positions = PositionsOf(held_out);
+  HeldOutGains gains = {GainsByCell(cells), GainsByCell(cells)};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double gain = before[i] - after[i];
+    if (!std::isfinite(gain)) continue;
+    (i < held_out.places.size() ? gains.places : gains.points)
+        .Add(positions[i], gain);
+  }
+  return gains;
+}
+
 SignificanceOfGain Together(const HeldOutGains& gains) {
   std::vector<double> all = gains.places.Normalized();
   const std::vector<double> of_points = gains.points.Normalized();
@@ -237,6 +252,10 @@ SignificanceOfGain Together(const HeldOutGains& gains) {
 
 bool IsBetter(const SignificanceOfGain& gain) {
   return gain.all >= kSignificant && IsNoWorse(gain);
+}
+
+bool IsBetterByOneStandardError(const SignificanceOfGain& gain) {
+  return gain.all >= 1 && IsNoWorse(gain);
 }
 
 bool IsNoWorse(const SignificanceOfGain& gain) {

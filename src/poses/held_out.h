@@ -99,6 +99,12 @@ HeldOutGains CompareErrors(const PoseObservationSet& held_out,
                            const HeldOutErrors& after,
                            const PosedEdges& edges);
 
+// Of losses of places, then of points, where both are finite.
+HeldOutGains CompareLosses(const PoseObservationSet& held_out,
+                           const SpaceCells& cells,
+                           const std::vector<double>& before,
+                           const std::vector<double>& after);
+
 // exp(-z^2 / 2) is 1 / 9000. A run tests at most nine times, up to four camera
 // models and the whole with up to five sets of cells, so at most one run in a
 // thousand accepts a gain by chance.
@@ -106,6 +112,8 @@ inline constexpr double kSignificant = 4.267;
 
 // Whether the gain is significant, and neither places nor points contradict it.
 bool IsBetter(const SignificanceOfGain& gain);
+
+bool IsBetterByOneStandardError(const SignificanceOfGain& gain);
 
 // Whether neither places nor points show a loss.
 bool IsNoWorse(const SignificanceOfGain& gain);

@@ -165,8 +165,9 @@ class Refiner {
 
   // Refines cameras, first by their own terms, then by more. Two fifths of
   // space determine them; all else is test data. Poses are adjusted to it with
-  // the old and with the new cameras, which are kept if that fits better.
-  // Whether cameras have changed.
+  // the old and with the new cameras, which are kept if that is proven to fit
+  // better. Once the input's are given up, one standard error decides between
+  // models. Whether cameras have changed.
   bool TryLenses() {
     if (!refine_intrinsics_) return false;
     PoseObservationSet training = observations_;
@@ -186,8 +187,12 @@ class Refiner {
       search_.Move({before.new_cam_from_cam, cameras});
       search_.Adjust(&adjusted);
       std::vector<double> losses = search_.LossesOf(test);
-      if (search_.edges().moved().cameras != before.cameras &&
-          IsProven(test, best_losses, losses)) {
+      const SignificanceOfGain gain =
+          Together(CompareLosses(test, cells_, best_losses, losses));
+      const bool is_better = best.cameras == before.cameras
+                                 ? IsBetter(gain)
+                                 : IsBetterByOneStandardError(gain);
+      if (is_better && search_.edges().moved().cameras != before.cameras) {
         best_losses = std::move(losses);
         best = search_.edges().moved();
       }
@@ -203,19 +208,6 @@ class Refiner {
       search_.FreeLenses({});
     }
     return have_changed;
-  }
-
-  // Whether the losses of `test` fall, and not by chance.
-  bool IsProven(const PoseObservationSet& test,
-                const std::vector<double>& before,
-                const std::vector<double>& after) const {
-    const std::vector<Eigen::Vector3d> positions = PositionsOf(test);
-    HeldOutGains gains = {GainsByCell(cells_), GainsByCell(cells_)};
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      (i < test.places.size() ? gains.places : gains.points)
-          .Add(positions[i], before[i] - after[i]);
-    }
-    return IsBetter(Together(gains));
   }
 
   // Views in which errors grow keep their poses, unless lenses have changed,

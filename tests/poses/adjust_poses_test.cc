@@ -161,16 +161,25 @@ TEST(AdjustPoses, StopsWhenAsked) {
             Eigen::Vector3d::Zero());
 }
 
-TEST(AdjustPoses, LeavesAllAsItIsIfASampleIsBehindACamera) {
-  const std::vector<PosedView> views = RingOfViews(8);
+TEST(AdjustPoses, LeavesOutSamplesBehindACamera) {
+  std::vector<PosedView> views = RingOfViews(8);
   std::vector<PoseSample> samples = ExactSamples(views);
-  const Eigen::Vector3d behind =
+  Rigid3 increment;
+  increment.translation = {0.01, 0, 0};
+  views[3] = Moved(views[3], increment);
+  PoseSample behind = samples[5];
+  behind.contour.axis.position =
       views[3].center - views[3].rotation.row(2).transpose();
-  samples[5].contour.axis.position = behind;
-  const AdjustedPoses adjusted = Adjust(SceneOf(views), samples, 3);
-  EXPECT_EQ(adjusted.moved.new_cam_from_cam[3].translation,
+  const AdjustedPoses without = Adjust(SceneOf(views), samples, 3);
+  samples.push_back(behind);
+  const AdjustedPoses with = Adjust(SceneOf(views), samples, 3);
+  EXPECT_NE(with.moved.new_cam_from_cam[3].translation,
             Eigen::Vector3d::Zero());
-  EXPECT_EQ(adjusted.contours[5].axis.position, behind);
+  EXPECT_EQ(with.moved.new_cam_from_cam[3].translation,
+            without.moved.new_cam_from_cam[3].translation);
+  EXPECT_EQ(with.contours.back().axis.position, behind.contour.axis.position);
+  EXPECT_TRUE(std::isinf(with.costs.back()));
+  EXPECT_EQ(with.costs[5], without.costs[5]);
 }
 
 // Random points before a ring of views that share a camera, and their pixels.

@@ -146,6 +146,12 @@ TEST(GainsByCell, IsNoneWithoutGains) {
   EXPECT_EQ(GainsByCell(cells).Significance(), 0);
 }
 
+TEST(IsBetterByOneStandardError, AsksLess) {
+  EXPECT_TRUE(IsBetterByOneStandardError({0, 2, 1}));
+  EXPECT_FALSE(IsBetterByOneStandardError({1, 1, 0.9}));
+  EXPECT_FALSE(IsBetterByOneStandardError({-3, 10, 5}));
+}
+
 TEST(IsBetter, AsksBothKinds) {
   EXPECT_TRUE(IsBetter({3, 3, 4.3}));
   EXPECT_FALSE(IsBetter({-3, 10, 5}));  // places tell the contrary
