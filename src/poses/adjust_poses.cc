@@ -154,6 +154,8 @@ class PoseAdjuster {
                    unknowns_,
                    num_threads),
         ceres_(ProblemOptions(&equations_)) {
+    equations_.PrepareForEvaluation(true, true);
+    start_costs_ = CostsBySample();
     AddObservations(start.cameras);
     AddRadiusPriors(problem.samples.size());
     AddPosePriors(problem);
@@ -214,12 +216,10 @@ class PoseAdjuster {
  private:
   // Without those of samples that are behind a camera.
   void AddObservations(const std::vector<Camera>& cameras) {
-    equations_.PrepareForEvaluation(true, true);
-    const std::vector<double> costs = CostsBySample();
     for (std::size_t i = 0; i < equations_.observations().size(); ++i) {
       const PoseObservation& seen = equations_.observations()[i];
       const PoseEquation& equation = equations_.equations()[i];
-      if (!std::isfinite(costs[seen.sample_idx])) continue;
+      if (!std::isfinite(start_costs_[seen.sample_idx])) continue;
       std::vector<double*> unknowns = {
           unknowns_.offsets[seen.sample_idx].data(),
           unknowns_.increments[seen.view_idx].data()};
@@ -272,6 +272,7 @@ class PoseAdjuster {
   void AddPosePriors(const PoseProblem& problem) {
     std::vector<std::vector<double>> depths(unknowns_.increments.size());
     for (const PoseObservation& seen : equations_.observations()) {
+      if (!std::isfinite(start_costs_[seen.sample_idx])) continue;
       depths[seen.view_idx].push_back(seen.position.z());
     }
     for (std::size_t i = 0; i < depths.size(); ++i) {
@@ -306,6 +307,7 @@ class PoseAdjuster {
   std::vector<bool> is_free_;  // by camera
   PoseUnknowns unknowns_;
   PoseEquations equations_;
+  std::vector<double> start_costs_;  // by sample; infinite behind a camera
   ceres::Problem ceres_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_ =
       std::make_shared<ceres::ParameterBlockOrdering>();
