@@ -27,7 +27,7 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 1e-3;  // of a step, share of the cost
+constexpr double kMinGain = 1e-4;  // of a step, share of the cost
 // Wide: damping is in proportion to the bends, which are much stiffer than the
 // edges, and would keep samples from these.
 constexpr double kTrustRegionRadius = 1e10;
