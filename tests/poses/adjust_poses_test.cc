@@ -34,23 +34,6 @@ std::vector<PoseSample> ExactSamples(const std::vector<PosedView>& views) {
   return samples;
 }
 
-// Pinholes of the size and the calibration of `views`.
-Scene SceneOf(const std::vector<PosedView>& views) {
-  Scene scene;
-  for (const PosedView& view : views) {
-    const Eigen::Matrix3d& k = view.calibration;
-    scene.cameras.push_back({CameraModel::kPinhole,
-                             view.width,
-                             view.height,
-                             {k(0, 0), k(1, 1), k(0, 2), k(1, 2)}});
-    View& out = scene.views.emplace_back();
-    out.camera_idx = static_cast<int>(scene.cameras.size()) - 1;
-    out.cam_from_world.rotation = view.rotation;
-    out.cam_from_world.translation = view.translation;
-  }
-  return scene;
-}
-
 // Without lenses and points, with edges 0.2 px about their curves.
 AdjustedPoses Adjust(const Scene& scene,
                      const std::vector<PoseSample>& samples,

@@ -165,6 +165,22 @@ std::vector<PosedView> RingOfViews(int num_views) {
   return views;
 }
 
+Scene SceneOf(const std::vector<PosedView>& views) {
+  Scene scene;
+  for (const PosedView& view : views) {
+    const Eigen::Matrix3d& k = view.calibration;
+    scene.cameras.push_back({CameraModel::kPinhole,
+                             view.width,
+                             view.height,
+                             {k(0, 0), k(1, 1), k(0, 2), k(1, 2)}});
+    View& out = scene.views.emplace_back();
+    out.camera_idx = static_cast<int>(scene.cameras.size()) - 1;
+    out.cam_from_world.rotation = view.rotation;
+    out.cam_from_world.translation = view.translation;
+  }
+  return scene;
+}
+
 std::vector<EdgeMap> ExactEdgeMaps(const std::vector<TestCurve>& curves,
                                    const std::vector<PosedView>& views,
                                    std::uint64_t seed) {

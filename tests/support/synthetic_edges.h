@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/edges.h>
+#include <curvix/scene.h>
 
 #include <cstdint>
 #include <functional>
@@ -32,6 +33,9 @@ std::vector<TestCurve> CubeCurves();
 // radius 6 around the z axis, 2.5 above the origin and looking at it. One pixel
 // is about 1/125 at the origin.
 std::vector<PosedView> RingOfViews(int num_views);
+
+// Pinholes of the size and the calibration of `views`.
+Scene SceneOf(const std::vector<PosedView>& views);
 
 // About one pixel at the origin in these views.
 inline constexpr double kPx = 0.0075;

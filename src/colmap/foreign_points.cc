@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colmap/foreign_points.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/median.h"
+#include "base/text_fields.h"
+#include "geometry/camera_of.h"
+
+namespace curvix {
+namespace {
+
+constexpr double kMaxMedianPx = 50;
+
+std::vector<double> ReprojectionErrors(const Scene& scene) {
+  std::vector<double> errors;
+  for (const ScenePoint& point : scene.points) {
+    for (std::size_t i = 0; i < point.pixels.size(); ++i) {
+      if (!point.pixels[i].allFinite()) continue;
+      const View& view =
+          scene.views[static_cast<std::size_t>(point.view_idxs[i])];
+      const auto pixel =
+          Project(CameraOf(scene, view), view.cam_from_world, point.position);
+      errors.push_back(pixel ? (*pixel - point.pixels[i]).norm()
+                             : std::numeric_limits<double>::infinity());
+    }
+  }
+  return errors;
+}
+
+}  // namespace
+
+std::string RemoveForeignPoints(const std::filesystem::path& model_path,
+                                Scene* scene) {
+  const double median_px = MedianOr(0, ReprojectionErrors(*scene));
+  if (median_px <= kMaxMedianPx) return "";
+  scene->points.clear();
+  const std::string place =
+      std::isfinite(median_px)
+          ? "project " + FixedText(median_px, 0) + " px from their pixels"
+          : "are behind the cameras";
+  return "The points of " + model_path.string() + " " + place +
+         " (median), so they do not belong to its poses and are not used. Were "
+         "they moved or scaled without these?";
+}
+
+}  // namespace curvix

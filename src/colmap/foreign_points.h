@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Points that do not belong to the poses.
+#pragma once
+
+#include <curvix/scene.h>
+#include <filesystem>
+#include <string>
+
+namespace curvix {
+
+// Removes the points of `scene`, read from `model_path`, if they project more
+// than 50 px from their pixels (median; behind the camera is infinitely far):
+// they were moved or scaled without the poses. Returns a sentence for the user,
+// "" if they stay.
+std::string RemoveForeignPoints(const std::filesystem::path& model_path,
+                                Scene* scene);
+
+}  // namespace curvix

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "colmap/foreign_points.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <cstddef>
+#include <string>
+
+#include "tests/support/synthetic_edges.h"
+
+namespace curvix {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+// Points on a line, and their exact pixels in all views.
+Scene SceneWithPoints() {
+  Scene scene = SceneOf(RingOfViews(4));
+  for (int i = -5; i <= 5; ++i) {
+    ScenePoint& point = scene.points.emplace_back();
+    point.position = {0.1 * i, 0.05 * i, 0};
+    for (std::size_t v = 0; v < scene.views.size(); ++v) {
+      const View& view = scene.views[v];
+      const auto k = static_cast<std::size_t>(view.camera_idx);
+      point.view_idxs.push_back(static_cast<int>(v));
+      point.pixels.push_back(
+          *Project(scene.cameras[k], view.cam_from_world, point.position));
+    }
+  }
+  return scene;
+}
+
+TEST(RemoveForeignPoints, KeepsThoseThatProjectToTheirPixels) {
+  Scene scene = SceneWithPoints();
+  for (std::size_t i = 0; i < 4; ++i) scene.points[i].position *= 3;
+  EXPECT_EQ(RemoveForeignPoints("sparse/0", &scene), "");
+  EXPECT_THAT(scene.points, SizeIs(11));
+}
+
+TEST(RemoveForeignPoints, KeepsThoseWithoutPixels) {
+  Scene scene = SceneWithPoints();
+  for (ScenePoint& point : scene.points) {
+    point.position *= 3;
+    point.pixels.clear();
+  }
+  EXPECT_EQ(RemoveForeignPoints("sparse/0", &scene), "");
+  EXPECT_THAT(scene.points, SizeIs(11));
+}
+
+TEST(RemoveForeignPoints, RemovesThoseThatWereMovedWithoutTheCameras) {
+  Scene scene = SceneWithPoints();
+  for (ScenePoint& point : scene.points) point.position.z() += 1;
+  EXPECT_THAT(RemoveForeignPoints("sparse/0", &scene),
+              HasSubstr("The points of sparse/0 project"));
+  EXPECT_THAT(scene.points, SizeIs(0));
+
+  scene = SceneWithPoints();
+  for (ScenePoint& point : scene.points) point.position.x() += 1e6;
+  EXPECT_NE(RemoveForeignPoints("sparse/0", &scene), "");
+  EXPECT_THAT(scene.points, SizeIs(0));
+}
+
+}  // namespace
+}  // namespace curvix
