@@ -2,6 +2,7 @@
 // Paper: none (engineering).
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -28,6 +29,18 @@ inline double Median(std::vector<double> values) {
 
 inline double MedianOr(double fallback, std::vector<double> values) {
   return values.empty() ? fallback : Median(std::move(values));
+}
+
+// Of each coordinate; zero of none.
+inline Eigen::Vector3d MedianPosition(
+    const std::vector<Eigen::Vector3d>& positions) {
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const auto& position : positions) values.push_back(position[axis]);
+    median[axis] = MedianOr(0, std::move(values));
+  }
+  return median;
 }
 
 // The mean of the two middle values of an even number; NaN of none. `values`

@@ -73,11 +73,12 @@ void Add(const PosedView& view,
 Rigid3 FixGauge(const std::vector<PosedView>& views,
                 const std::vector<SeenPlace>& places) {
   Rigid3 transform;
-  if (places.empty()) return transform;
+  std::vector<Eigen::Vector3d> positions;
+  for (const SeenPlace& place : places) positions.push_back(place.position);
+  // Not the mean: rays that are nearly parallel meet anywhere.
+  const Eigen::Vector3d middle = MedianPosition(positions);
   for (int i = 0; i < kNumGaugeIterations; ++i) {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    for (const SeenPlace& place : places) center += transform * place.position;
-    center /= static_cast<double>(places.size());
+    const Eigen::Vector3d center = transform * middle;
     const double loss_scale_px = LossScale(views, places, transform);
     NormalEquations sum;
     for (const SeenPlace& place : places) {

@@ -102,14 +102,8 @@ ChosenPoints ChoosePoints(std::vector<PointSample> points,
   return result;
 }
 
-SpaceCells::SpaceCells(const std::vector<Eigen::Vector3d>& positions) {
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    for (const Eigen::Vector3d& position : positions) {
-      values.push_back(position[axis]);
-    }
-    center_[axis] = MedianOr(0, std::move(values));
-  }
+SpaceCells::SpaceCells(const std::vector<Eigen::Vector3d>& positions)
+    : center_(MedianPosition(positions)) {
   std::vector<double> distances;
   for (const Eigen::Vector3d& position : positions) {
     distances.push_back((position - center_).norm());

@@ -284,22 +284,28 @@ std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
   return positions;
 }
 
-// Not from camera centres, which depend on the focal length.
+// Not from camera centres, which depend on the focal length. About the middle
+// of what is seen, since the origin can be far away.
 void PoseSearch::RestoreScale(PoseObservationSet* observations) {
-  const double unit =
-      MedianRatio(PositionsByInput(*observations), PositionsOf(*observations));
+  const std::vector<Eigen::Vector3d> positions = PositionsOf(*observations);
+  const double unit = MedianRatio(PositionsByInput(*observations), positions);
+  const Eigen::Vector3d center = MedianPosition(positions);
+  const auto scale = [&](Eigen::Vector3d& position) {
+    position = center + unit * (position - center);
+  };
   MovedCameras moved = edges_.moved();
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     Rigid3 pose = edges_.PoseOf(i);
-    pose.translation *= unit;
+    pose.translation =
+        unit * pose.translation - (1 - unit) * (pose.rotation * center);
     moved.new_cam_from_cam[i] = pose * scene_.views[i].cam_from_world.Inverse();
   }
   edges_.Move(moved);
   for (CurvePlace& place : observations->places) {
-    place.contour.axis.position *= unit;
+    scale(place.contour.axis.position);
     place.contour.radius *= unit;
   }
-  for (PointSample& point : observations->points) point.position *= unit;
+  for (PointSample& point : observations->points) scale(point.position);
 }
 
 void PoseSearch::RestoreGauge(PoseObservationSet* observations) {

@@ -3,30 +3,56 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/directions.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {
 namespace {
 
-TEST(FixGauge, FindsHowTheWorldMoved) {
-  const std::vector<PosedView> views = RingOfViews(6);
-  Rigid3 moved;
-  moved.rotation =
-      Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, 3).normalized());
-  moved.translation = {0.03, -0.02, 0.01};
+// Places around the origin and what each of six views saw of them before the
+// world was `moved`.
+std::vector<SeenPlace> PlacesMovedBy(const Rigid3& moved,
+                                     const std::vector<PosedView>& views) {
   Random random(2);
   std::vector<SeenPlace> places;
-  for (int i = 0; i < 60; ++i) {
+  for (std::size_t i = 0; i < 60; ++i) {
     const Eigen::Vector3d x = random.UnitVector();
-    const auto view_idx = static_cast<std::size_t>(i % 6);
+    const std::size_t view_idx = i % views.size();
     const PosedView& view = views[view_idx];
     places.push_back({view_idx, moved * x, view.Pixel(view.InCamera(x))});
   }
-  const Rigid3 left = FixGauge(views, places) * moved;
+  return places;
+}
+
+Rigid3 SmallMove() {
+  return {RotationBy(0.02 * Eigen::Vector3d(1, 2, 3).normalized()),
+          {0.03, -0.02, 0.01}};
+}
+
+void ExpectUndone(const Rigid3& left) {
   EXPECT_LT(left.translation.norm(), 1e-9);
   EXPECT_LT(left.rotation.angularDistance(Eigen::Quaterniond::Identity()),
             1e-7);
+}
+
+TEST(FixGauge, FindsHowTheWorldMoved) {
+  const std::vector<PosedView> views = RingOfViews(6);
+  const Rigid3 moved = SmallMove();
+  ExpectUndone(FixGauge(views, PlacesMovedBy(moved, views)) * moved);
+}
+
+// Where rays are nearly parallel, depth is anything.
+TEST(FixGauge, OnePlaceFarAwayMakesNoDifference) {
+  const std::vector<PosedView> views = RingOfViews(6);
+  const Rigid3 moved = SmallMove();
+  std::vector<SeenPlace> places = PlacesMovedBy(moved, views);
+  const Eigen::Vector3d ahead = views[0].rotation.row(2);
+  places.push_back({0, 1e12 * ahead, {400, 400}});
+  const Rigid3 left = FixGauge(views, places) * moved;
+  EXPECT_LT(left.translation.norm(), 1e-3);
+  EXPECT_LT(left.rotation.angularDistance(Eigen::Quaterniond::Identity()),
+            1e-3);
 }
 
 TEST(FixGauge, LeavesItWithoutPlaces) {

@@ -253,6 +253,19 @@ TEST(RefinePosesWithCurves, MendsALensThatIsOff) {
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.15);
 }
 
+// Another focal length asks for another unit of the world, which scales it
+// about what is seen.
+TEST(RefinePosesWithCurves, AnOriginFarAwayMakesNoDifference) {
+  const WrongLens wrong;
+  const OtherWorld far_away{
+      Eigen::Quaterniond::Identity(), {1e5, -1e5, 1e4}, 1};
+  const CurvePoses moved = Refine(far_away.Moved(wrong.scene), wrong.edge_maps);
+  ASSERT_TRUE(moved.accepted) << moved.reason;
+  const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
+  EXPECT_NEAR(moved.max_shift_px, refined.max_shift_px, 0.05);
+  EXPECT_LT(MedianShift(moved.cam_from_world, refined.cam_from_world), 0.01);
+}
+
 // The true lens sees nothing as far from the middle as one edge is.
 TEST(RefinePosesWithCurves, LeavesALensIfTheBetterCannotShowAnEdge) {
   WrongLens wrong(-0.4, -0.25);
