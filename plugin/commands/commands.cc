@@ -217,7 +217,7 @@ std::optional<ExitCode> ParseCommand(const std::string& name,
   }
   FLAGS_logtostderr = settings.log_to_stderr;
   FLAGS_v = settings.log_level;
-  // What Ceres warns of is handled here.
+  // Failures of Ceres are handled where it is called.
   FLAGS_minloglevel = settings.log_level > 0 ? google::INFO : google::FATAL;
   return std::nullopt;
 }

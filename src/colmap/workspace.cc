@@ -7,7 +7,7 @@
 
 #include "base/file_io.h"
 #include "colmap/fit_to_images.h"
-#include "colmap/foreign_points.h"
+#include "colmap/inconsistent_points.h"
 #include "colmap/links.h"
 #include "colmap/project_file.h"
 
@@ -366,9 +366,9 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
         " and are skipped: " + FirstNames(result.missing_images) + ".");
   }
   NoteMissingMasks(workspace, &result);
-  const std::string foreign =
-      RemoveForeignPoints(workspace.model_path, &result.scene);
-  if (!foreign.empty()) result.notes.push_back(foreign);
+  const std::string removed =
+      RemoveInconsistentPoints(workspace.model_path, &result.scene);
+  if (!removed.empty()) result.notes.push_back(removed);
   return result;
 }
 

@@ -113,6 +113,8 @@ inline constexpr double kSignificant = 4.267;
 // Whether the gain is significant, and neither places nor points contradict it.
 bool IsBetter(const SignificanceOfGain& gain);
 
+// Whether the gain of both together is at least one standard error, and neither
+// places nor points contradict it.
 bool IsBetterByOneStandardError(const SignificanceOfGain& gain);
 
 // Whether neither places nor points show a loss.

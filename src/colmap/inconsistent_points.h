@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Points that do not belong to the poses.
+// Paper: none (engineering). Points that contradict the poses.
 #pragma once
 
 #include <curvix/scene.h>
@@ -12,7 +12,7 @@ namespace curvix {
 // than 50 px from their pixels (median; behind the camera is infinitely far):
 // they were moved or scaled without the poses. Returns a sentence for the user,
 // "" if they stay.
-std::string RemoveForeignPoints(const std::filesystem::path& model_path,
-                                Scene* scene);
+std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
+                                     Scene* scene);
 
 }  // namespace curvix

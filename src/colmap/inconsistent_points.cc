@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colmap/foreign_points.h"
+#include "colmap/inconsistent_points.h"
 
 #include <cmath>
 #include <limits>
@@ -32,8 +32,8 @@ std::vector<double> ReprojectionErrors(const Scene& scene) {
 
 }  // namespace
 
-std::string RemoveForeignPoints(const std::filesystem::path& model_path,
-                                Scene* scene) {
+std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
+                                     Scene* scene) {
   const double median_px = MedianOr(0, ReprojectionErrors(*scene));
   if (median_px <= kMaxMedianPx) return "";
   scene->points.clear();

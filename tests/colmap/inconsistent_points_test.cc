@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colmap/foreign_points.h"
+#include "colmap/inconsistent_points.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,33 +31,33 @@ Scene SceneWithPoints() {
   return scene;
 }
 
-TEST(RemoveForeignPoints, KeepsThoseThatProjectToTheirPixels) {
+TEST(RemoveInconsistentPoints, KeepsThoseThatProjectToTheirPixels) {
   Scene scene = SceneWithPoints();
   for (std::size_t i = 0; i < 4; ++i) scene.points[i].position *= 3;
-  EXPECT_EQ(RemoveForeignPoints("sparse/0", &scene), "");
+  EXPECT_EQ(RemoveInconsistentPoints("sparse/0", &scene), "");
   EXPECT_THAT(scene.points, SizeIs(11));
 }
 
-TEST(RemoveForeignPoints, KeepsThoseWithoutPixels) {
+TEST(RemoveInconsistentPoints, KeepsThoseWithoutPixels) {
   Scene scene = SceneWithPoints();
   for (ScenePoint& point : scene.points) {
     point.position *= 3;
     point.pixels.clear();
   }
-  EXPECT_EQ(RemoveForeignPoints("sparse/0", &scene), "");
+  EXPECT_EQ(RemoveInconsistentPoints("sparse/0", &scene), "");
   EXPECT_THAT(scene.points, SizeIs(11));
 }
 
-TEST(RemoveForeignPoints, RemovesThoseThatWereMovedWithoutTheCameras) {
+TEST(RemoveInconsistentPoints, RemovesThoseThatWereMovedWithoutTheCameras) {
   Scene scene = SceneWithPoints();
   for (ScenePoint& point : scene.points) point.position.z() += 1;
-  EXPECT_THAT(RemoveForeignPoints("sparse/0", &scene),
+  EXPECT_THAT(RemoveInconsistentPoints("sparse/0", &scene),
               HasSubstr("The points of sparse/0 project"));
   EXPECT_THAT(scene.points, SizeIs(0));
 
   scene = SceneWithPoints();
   for (ScenePoint& point : scene.points) point.position.x() += 1e6;
-  EXPECT_NE(RemoveForeignPoints("sparse/0", &scene), "");
+  EXPECT_NE(RemoveInconsistentPoints("sparse/0", &scene), "");
   EXPECT_THAT(scene.points, SizeIs(0));
 }
 
