@@ -16,9 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double kFixedWeight = 1e4;  // times that of all samples
 
-// A distance from the circle changes with three parameters by `row`: the one in
-// the plane with the centre's x and y and the radius, the one off it with the
-// centre's z and the normal's x and y.
+// A distance from the circle changes with three parameters by `row`.
 struct Observation {
   Vector3d row;
   double weight = 0;
@@ -26,18 +24,23 @@ struct Observation {
   Vector3d shared = {0, 0, 0};  // standard deviations, shape by shape
 };
 
-// Of the parameters that least squares gives.
+// Of the parameters that least squares gives. A sum of squares, so that no
+// variance is below 0.
 Matrix3d CovarianceOf(const std::vector<Observation>& observations) {
-  Matrix3d information = Matrix3d::Zero(), spread = Matrix3d::Zero();
+  Matrix3d information = Matrix3d::Zero();
   Matrix3d shared = Matrix3d::Zero();  // a column per shape
   for (const Observation& o : observations) {
-    const Vector3d gain = o.weight * o.row;
-    information += gain * o.row.transpose();
-    spread += o.variance * gain * gain.transpose();
-    shared += gain * o.shared.transpose();
+    information += o.weight * o.row * o.row.transpose();
+    shared += o.weight * o.row * o.shared.transpose();
   }
   const Matrix3d inverse = information.inverse();
-  return inverse * (spread + shared * shared.transpose()) * inverse;
+  const Matrix3d moved = inverse * shared;
+  Matrix3d covariance = moved * moved.transpose();
+  for (const Observation& o : observations) {
+    const Vector3d gain = o.weight * inverse * o.row;
+    covariance += o.variance * gain * gain.transpose();
+  }
+  return covariance;
 }
 
 // At share x of the way along an arc, from -1 to 1, or at angle t.
@@ -46,9 +49,57 @@ Vector3d Shapes(double x, double t, bool is_whole) {
   return {1, x, (3 * x * x - 1) / 2};
 }
 
-Vector3d RowInPlane(double t) { return {std::cos(t), std::sin(t), 1}; }
-Vector3d RowOffPlane(double t, double radius) {
-  return {1, -radius * std::cos(t), -radius * std::sin(t)};
+// The parameters of a circle, by which its arc moves: a shift out of the plane
+// or outwards, a turn, and a bow, the last two measured where the arc ends. So
+// they are as well known on an arc that is nearly straight, whose centre and
+// radius hardly differ.
+class ArcFrame {
+ public:
+  ArcFrame(const Conic& circle, double middle, double reach)
+      : radius_(circle.a), middle_(middle), reach_(reach) {
+    const double x = std::cos(middle), y = std::sin(middle);
+    axes_ << circle.frame * Vector3d(x, y, 0),
+        circle.frame * Vector3d(-y, x, 0), circle.frame.col(2);
+  }
+
+  Vector3d RowInPlane(double t) const {
+    return {std::cos(t - middle_), Turn(t), Bow(t)};
+  }
+  Vector3d RowOffPlane(double t) const { return {1, -Turn(t), Bow(t)}; }
+  Vector3d normal() const { return axes_.col(2); }
+
+  // What centre, normal and radius in the world change by with the parameters
+  // in the plane and those off it.
+  Eigen::Matrix<double, 7, 6> ToWorld() const {
+    const double turn = 1 / reach_, bow = 1 / (reach_ * reach_);
+    Eigen::Matrix<double, 7, 6> world = Eigen::Matrix<double, 7, 6>::Zero();
+    world.block<3, 1>(0, 0) = axes_.col(0);
+    world.block<3, 1>(0, 1) = turn * axes_.col(1);
+    world.block<3, 1>(0, 2) = -bow * axes_.col(0);
+    world(6, 2) = bow;
+    world.block<3, 1>(0, 3) = axes_.col(2);
+    world.block<3, 1>(3, 4) = turn / radius_ * axes_.col(1);
+    world.block<3, 1>(0, 5) = bow * axes_.col(2);
+    world.block<3, 1>(3, 5) = bow / radius_ * axes_.col(0);
+    return world;
+  }
+
+ private:
+  double Turn(double t) const { return std::sin(t - middle_) / reach_; }
+  double Bow(double t) const {
+    const double sine = std::sin((t - middle_) / 2) / reach_;
+    return 2 * sine * sine;
+  }
+
+  double radius_, middle_, reach_;
+  Matrix3d axes_;  // outwards and along in the middle of the arc, normal
+};
+
+// The largest distance of an angle from `middle`.
+double ReachOf(const std::vector<double>& angles, double middle) {
+  double reach = 1e-9;
+  for (const double t : angles) reach = std::max(reach, std::abs(t - middle));
+  return reach;
 }
 
 // The mean squared distance of the samples in squares of their sigmas, which is
@@ -173,6 +224,7 @@ Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
   const std::vector<double> angles = UnwrappedAngles(circle, samples);
   const double middle = (angles.front() + angles.back()) / 2;
   const double half = std::max(std::abs(angles.back() - middle), 1e-9);
+  const ArcFrame frame(circle, middle, ReachOf(angles, middle));
   std::vector<Observation> in_plane, off_plane;
   double sum = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -182,29 +234,24 @@ Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
     const double weight = RobustWeight(squared, s.sigma, kNumRounds - 1);
     const double own = s.sigma * s.sigma - s.common * s.common;
     const Vector3d shared = s.common * Shapes((t - middle) / half, t, is_whole);
-    in_plane.push_back({RowInPlane(t), weight, factor * own, shared});
-    off_plane.push_back(
-        {RowOffPlane(t, circle.a), weight, factor * own, shared});
+    in_plane.push_back({frame.RowInPlane(t), weight, factor * own, shared});
+    off_plane.push_back({frame.RowOffPlane(t), weight, factor * own, shared});
     sum += weight;
   }
   for (const FixedPoint& p : points) {
     const double t = NearestParameter(circle, p.position);
     const Vector3d out = circle.frame * Vector3d(std::cos(t), std::sin(t), 0);
-    const Vector3d normal = circle.frame.col(2);
+    const Vector3d normal = frame.normal();
     const double weight = kFixedWeight * sum;
-    in_plane.push_back({RowInPlane(t), weight, out.dot(p.covariance * out)});
+    in_plane.push_back(
+        {frame.RowInPlane(t), weight, out.dot(p.covariance * out)});
     off_plane.push_back(
-        {RowOffPlane(t, circle.a), weight, normal.dot(p.covariance * normal)});
+        {frame.RowOffPlane(t), weight, normal.dot(p.covariance * normal)});
   }
-  // To the centre, the normal and the radius in the world.
-  Eigen::Matrix<double, 7, 6> world = Eigen::Matrix<double, 7, 6>::Zero();
-  world.block<3, 2>(0, 0) = circle.frame.leftCols<2>();
-  world(6, 2) = 1;
-  world.block<3, 1>(0, 3) = circle.frame.col(2);
-  world.block<3, 2>(3, 4) = circle.frame.leftCols<2>();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   covariance.topLeftCorner<3, 3>() = CovarianceOf(in_plane);
   covariance.bottomRightCorner<3, 3>() = CovarianceOf(off_plane);
+  const Eigen::Matrix<double, 7, 6> world = frame.ToWorld();
   return world * covariance * world.transpose();
 }
 

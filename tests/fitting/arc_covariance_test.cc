@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "fitting/end_covariance.h"
 #include "fitting/fit_conic.h"
 #include "gtest/gtest.h"
 #include "tests/support/random.h"
@@ -84,6 +85,40 @@ TEST(ArcCovariance, ErrorsInAChainAreAsLargeAsStated) {
       const Eigen::Array2d normalised = Normalised(sweep, has_corners);
       EXPECT_GT(normalised.minCoeff(), 0.5) << sweep << has_corners;
       EXPECT_LT(normalised.maxCoeff(), 1.7) << sweep << has_corners;
+    }
+  }
+}
+
+// An arc of chord 2 between two points that are known has a bow of 1 / (2 R).
+// That of n samples of standard deviation s, at x from -1 to 1, is known to
+// s / sqrt(sum (1 - x^2)^2), which is s / sqrt(8 n / 15).
+TEST(ArcCovariance, KnowsTheRadiusOfAnArcThatIsNearlyStraight) {
+  constexpr int kNumSamples = 201;
+  const double bow_sigma = kArcSigma / std::sqrt(8 * kNumSamples / 15.0);
+  for (const double radius : {10.0, 1e2, 1e3, 9e3}) {
+    for (const Vector3d& origin : {Vector3d(0, 0, 0), Vector3d(5e5, 5e6, 0)}) {
+      Conic arc;
+      arc.center = origin;
+      arc.a = arc.b = radius;
+      FitSamples samples;
+      for (int i = 0; i < kNumSamples; ++i) {
+        const double x = 2.0 * i / (kNumSamples - 1) - 1;
+        samples.push_back({arc.At(0.7 + std::asin(x / radius)),
+                           kArcSigma,
+                           0,
+                           0,
+                           Eigen::Matrix3d::Zero()});
+      }
+      const Eigen::Matrix3d sure = Eigen::Matrix3d::Zero();
+      const auto covariance = ArcCovariance(
+          arc,
+          samples,
+          {{samples.front().position, sure}, {samples.back().position, sure}},
+          false);
+      const double expected = 2 * radius * radius * bow_sigma;
+      EXPECT_NEAR(std::sqrt(covariance(6, 6)), expected, 0.02 * expected)
+          << radius << " " << origin.transpose();
+      EXPECT_GE(covariance.diagonal().minCoeff(), 0);
     }
   }
 }
