@@ -23,6 +23,9 @@ using Indices = std::vector<std::size_t>;
 
 constexpr double kMaxAccidentalPlanes = 0.01;
 constexpr double kMinSine = 0.3;  // between two lines that span a plane
+// Of the information about a plane, in its standard deviations: that of points
+// on a line to a millionth of their extent.
+constexpr double kLeastPivot = 1e-12;
 
 // w = offset + slopes (u, v), of (u, v, w) in the frame, whose z is the normal.
 struct Plane {
@@ -42,6 +45,19 @@ struct PlaneObservation {
   double bound = 0;
   double chance_scale = 1;  // what values of unrelated fits spread over
 };
+
+// Of the information about offset and slopes, each in its standard deviation
+// without the others, so that the unit of length plays no part. nullopt: it
+// has none.
+std::optional<Matrix3d> InverseOf(const Matrix3d& information) {
+  const Vector3d sigmas = information.diagonal().cwiseSqrt().cwiseInverse();
+  if (!sigmas.allFinite()) return std::nullopt;
+  Eigen::FullPivLU<Matrix3d> lu(sigmas.asDiagonal() * information *
+                                sigmas.asDiagonal());
+  lu.setThreshold(kLeastPivot);
+  if (!lu.isInvertible()) return std::nullopt;
+  return sigmas.asDiagonal() * lu.inverse() * sigmas.asDiagonal();
+}
 
 class PlaneFinder {
  public:
@@ -192,10 +208,11 @@ class PlaneFinder {
       right += o.row * o.value / o.variance;
       squares += o.value * o.value / o.variance;
     }
-    const Eigen::FullPivLU<Matrix3d> lu(information);
     plane.num_observations = static_cast<int>(all.size());
-    if (plane.num_observations < 3 || !lu.isInvertible()) return std::nullopt;
-    plane.covariance = lu.inverse();
+    if (plane.num_observations < 3) return std::nullopt;
+    const std::optional<Matrix3d> covariance = InverseOf(information);
+    if (!covariance) return std::nullopt;
+    plane.covariance = *covariance;
     const Vector3d solution = plane.covariance * right;
     plane.chi_squared = std::max(0.0, squares - solution.dot(right));
     plane.point += solution.x() * normal;

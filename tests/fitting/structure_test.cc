@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "gmock/gmock.h"
@@ -128,12 +129,10 @@ TEST(Structure, OfAPart) {
   }
 }
 
-TEST(Structure, MovesWithTheWorld) {
-  Similarity3 s;
-  s.scale = 70;
-  s.rotation = Eigen::Quaterniond(
-      Eigen::AngleAxisd(0.8, Vector3d(1, 2, 3).normalized()));
-  s.translation = {4, -5, 6};
+class StructureInWorld : public testing::TestWithParam<Similarity3> {};
+
+TEST_P(StructureInWorld, MovesWithTheWorld) {
+  const Similarity3& s = GetParam();
   CurveSet moved;
   for (const Curve& curve : Part(5).curves) {
     moved.curves.push_back(MoveCurve(s, curve));
@@ -151,6 +150,26 @@ TEST(Structure, MovesWithTheWorld) {
     EXPECT_NEAR(a.radius, b.radius, 1e-4 * a.radius);
   }
 }
+
+Similarity3 World(double scale, const Vector3d& translation) {
+  Similarity3 s;
+  s.scale = scale;
+  s.rotation = Eigen::Quaterniond(
+      Eigen::AngleAxisd(0.8, Vector3d(1, 2, 3).normalized()));
+  s.translation = translation;
+  return s;
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds,
+                         StructureInWorld,
+                         testing::Values(World(70, {4, -5, 6}),
+                                         World(1e-6, {0, 0, 0}),
+                                         World(1e8, {0, 0, 0}),
+                                         World(1e8, {3e9, -2e9, 1e9}),
+                                         World(1, {5e5, 5e6, 100})),
+                         [](const auto& world) {
+                           return std::to_string(world.index);
+                         });
 
 // Lines so uncertain that nothing speaks against it are not parallel.
 TEST(Structure, OfUncertainLinesIsNotFound) {
