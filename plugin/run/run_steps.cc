@@ -11,6 +11,8 @@
 #include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "colmap/links.h"
+#include "edge_detection/load_image.h"
+#include "geometry/camera_of.h"
 #include "measuring/moved_curves.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
@@ -124,6 +126,14 @@ Result<Workspace> FindInput(const RunSettings& settings) {
   Status usable = CheckOutputPath(*workspace);
   if (!usable.ok()) return usable;
   return workspace;
+}
+
+Status CheckImages(const Scene& scene) {
+  for (const View& view : scene.views) {
+    Status status = CheckImageFiles(view, CameraOf(scene, view));
+    if (!status.ok()) return status;
+  }
+  return {};
 }
 
 Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {

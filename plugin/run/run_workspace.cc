@@ -58,7 +58,10 @@ Result<WorkspaceRun> ReconstructWorkspace(const RunSettings& settings,
   if (!workspace.ok()) return workspace.status();
   Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
-  // Now, so that an unwritable folder is not found out after all the work.
+  // Now, so that broken images or an unwritable folder are not found out after
+  // much work.
+  const Status usable = CheckImages(input->scene);
+  if (!usable.ok()) return usable;
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
   const fs::path& staging = output->folder();

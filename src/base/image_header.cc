@@ -5,20 +5,72 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
+#include <limits>
+#include <vector>
 
 namespace curvix {
 namespace {
 
-std::optional<ImageSize> Checked(std::uint32_t width, std::uint32_t height) {
+using std::string_view_literals::operator""sv;
+
+// The bytes of a file, of which those around a place are read when it is asked
+// for.
+class FileBytes {
+ public:
+  explicit FileBytes(const std::filesystem::path& path)
+      : stream_(path, std::ios::binary) {
+    stream_.seekg(0, std::ios::end);
+    const std::streamoff end = stream_.tellg();
+    size_ = end > 0 ? static_cast<std::size_t>(end) : 0;
+  }
+
+  std::size_t size() const { return size_; }
+  // 0 where the file cannot be read.
+  char operator[](std::size_t at) const {
+    constexpr std::size_t kBlock = 4096;
+    if (at / kBlock != block_) {
+      block_ = at / kBlock;
+      bytes_.assign(kBlock, 0);
+      stream_.clear();
+      stream_.seekg(static_cast<std::streamoff>(block_ * kBlock));
+      stream_.read(bytes_.data(), kBlock);
+    }
+    return bytes_[at % kBlock];
+  }
+
+ private:
+  mutable std::ifstream stream_;
+  mutable std::vector<char> bytes_;  // of the block
+  mutable std::size_t block_ = std::numeric_limits<std::size_t>::max();
+  std::size_t size_ = 0;
+};
+
+// The functions below take `bytes` as a string_view or as FileBytes.
+
+template <typename Bytes>
+bool StartsWith(const Bytes& bytes, std::string_view start) {
+  if (bytes.size() < start.size()) return false;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (bytes[i] != start[i]) return false;
+  }
+  return true;
+}
+
+std::optional<ImageHeader> Checked(std::uint32_t width,
+                                   std::uint32_t height,
+                                   std::uint32_t bits) {
   constexpr std::uint32_t kMax = 1u << 20;
   if (width == 0 || height == 0 || width > kMax || height > kMax) {
     return std::nullopt;
   }
-  return ImageSize{static_cast<int>(width), static_cast<int>(height)};
+  return ImageHeader{{static_cast<int>(width), static_cast<int>(height)},
+                     static_cast<int>(bits)};
 }
 
 // The number in the `size` bytes at `at`; zero beyond the end.
-std::uint32_t NumberAt(std::string_view bytes,
+template <typename Bytes>
+std::uint32_t NumberAt(const Bytes& bytes,
                        std::size_t at,
                        std::size_t size,
                        bool is_big_endian = true) {
@@ -41,8 +93,8 @@ bool IsJpegFrame(std::uint32_t marker) {
 // Calls visit(marker, place behind it) for each segment of a JPEG until it
 // returns false. Segments are skipped by their lengths, since thumbnails inside
 // them have markers of their own.
-template <typename Visit>
-void VisitSegments(std::string_view bytes, const Visit& visit) {
+template <typename Bytes, typename Visit>
+void VisitSegments(const Bytes& bytes, const Visit& visit) {
   std::size_t at = 2;
   while (at + 1 < bytes.size()) {
     const std::uint32_t marker = NumberAt(bytes, at + 1, 1);
@@ -58,29 +110,34 @@ void VisitSegments(std::string_view bytes, const Visit& visit) {
   }
 }
 
-bool IsJpeg(std::string_view bytes) {
-  return bytes.size() >= 4 && bytes.substr(0, 2) == "\xFF\xD8";
+template <typename Bytes>
+bool IsJpeg(const Bytes& bytes) {
+  return bytes.size() >= 4 && StartsWith(bytes, "\xFF\xD8"sv);
 }
 
-std::optional<ImageSize> SizeOfJpeg(std::string_view bytes) {
-  std::optional<ImageSize> size;
+template <typename Bytes>
+std::optional<ImageHeader> HeaderOfJpeg(const Bytes& bytes) {
+  std::optional<ImageHeader> header;
   VisitSegments(bytes, [&](std::uint32_t marker, std::size_t at) {
     if (!IsJpegFrame(marker)) return marker != kJpegEnd;
-    // Behind the length and the bits per sample.
-    size = Checked(NumberAt(bytes, at + 5, 2), NumberAt(bytes, at + 3, 2));
+    // Behind the length.
+    header = Checked(NumberAt(bytes, at + 5, 2),
+                     NumberAt(bytes, at + 3, 2),
+                     NumberAt(bytes, at + 2, 1));
     return false;
   });
-  return size;
+  return header;
 }
 
 // From the first directory, whose entries are a tag, a type, a count and a
-// value of four bytes, of which short numbers take the first two.
-std::optional<ImageSize> SizeOfTiff(std::string_view bytes, bool is_big) {
-  constexpr std::uint32_t kWidth = 256, kHeight = 257, kShort = 3;
+// value of four bytes, of which short numbers take the first two. Of several,
+// which do not fit, it is the place.
+template <typename Bytes>
+std::optional<ImageHeader> HeaderOfTiff(const Bytes& bytes, bool is_big) {
+  constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kShort = 3;
   const std::size_t directory = NumberAt(bytes, 4, 4, is_big);
   const std::uint32_t count = NumberAt(bytes, directory, 2, is_big);
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
+  std::uint32_t width = 0, height = 0, bits = 1;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::size_t at = directory + 2 + 12 * std::size_t{i};
     const std::uint32_t tag = NumberAt(bytes, at, 2, is_big);
@@ -89,8 +146,25 @@ std::optional<ImageSize> SizeOfTiff(std::string_view bytes, bool is_big) {
         NumberAt(bytes, at + 8, is_short ? 2 : 4, is_big);
     if (tag == kWidth) width = value;
     if (tag == kHeight) height = value;
+    if (tag != kBits) continue;
+    const bool is_apart = is_short && NumberAt(bytes, at + 4, 4, is_big) > 2;
+    bits = is_apart
+               ? NumberAt(bytes, NumberAt(bytes, at + 8, 4, is_big), 2, is_big)
+               : value;
   }
-  return Checked(width, height);
+  return Checked(width, height, bits);
+}
+
+template <typename Bytes>
+std::optional<ImageHeader> HeaderOf(const Bytes& bytes) {
+  if (StartsWith(bytes, "\x89PNG\r\n\x1a\n"sv)) {
+    return Checked(
+        NumberAt(bytes, 16, 4), NumberAt(bytes, 20, 4), NumberAt(bytes, 24, 1));
+  }
+  if (IsJpeg(bytes)) return HeaderOfJpeg(bytes);
+  if (StartsWith(bytes, "II*\0"sv)) return HeaderOfTiff(bytes, false);
+  if (StartsWith(bytes, "MM\0*"sv)) return HeaderOfTiff(bytes, true);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -102,14 +176,12 @@ bool HaveSameShape(const ImageSize& a, const ImageSize& b) {
 }
 
 std::optional<ImageSize> SizeInHeader(std::string_view bytes) {
-  using std::string_view_literals::operator""sv;
-  if (bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n"sv) {
-    return Checked(NumberAt(bytes, 16, 4), NumberAt(bytes, 20, 4));
-  }
-  if (IsJpeg(bytes)) return SizeOfJpeg(bytes);
-  if (bytes.substr(0, 4) == "II*\0"sv) return SizeOfTiff(bytes, false);
-  if (bytes.substr(0, 4) == "MM\0*"sv) return SizeOfTiff(bytes, true);
-  return std::nullopt;
+  const std::optional<ImageHeader> header = HeaderOf(bytes);
+  return header ? std::optional(header->size) : std::nullopt;
+}
+
+std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path) {
+  return HeaderOf(FileBytes(path));
 }
 
 bool IsHeif(std::string_view bytes) {

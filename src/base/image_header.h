@@ -3,6 +3,7 @@
 // decoding them.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -24,6 +25,15 @@ bool HaveSameShape(const ImageSize& a, const ImageSize& b);
 // The size that a PNG, JPEG or TIFF file announces, each side at most a million
 // pixels. nullopt: another format, or no sound header.
 std::optional<ImageSize> SizeInHeader(std::string_view bytes);
+
+struct ImageHeader {
+  ImageSize size;
+  int bits_per_channel = 8;
+};
+
+// What the header of a PNG, JPEG or TIFF file says, as above; a few kilobytes
+// of the file are read. nullopt, too, if it cannot be opened.
+std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path);
 
 // Whether a file is HEIF or AVIF, as telephones make them.
 bool IsHeif(std::string_view bytes);

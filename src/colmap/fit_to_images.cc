@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <system_error>
 #include <vector>
 
-#include "base/file_io.h"
 #include "base/image_header.h"
 #include "colmap/links.h"
 #include "geometry/distortion.h"
@@ -28,18 +26,6 @@ struct Scale {
   double y = 1;
 };
 
-// From the first bytes if these have it, else from all.
-std::optional<ImageSize> SizeOfImage(const fs::path& file) {
-  constexpr std::size_t kFirstBytes = 1 << 16;
-  std::string bytes(kFirstBytes, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  if (const auto size = SizeInHeader(bytes)) return size;
-  const Result<std::string> all = ReadFile(file);
-  return all.ok() ? SizeInHeader(*all) : std::nullopt;
-}
-
 // By camera_id; nullopt: not known.
 std::map<std::uint32_t, std::optional<ImageSize>> SizesOfImages(
     const fs::path& folder, const ColmapModel& model) {
@@ -49,7 +35,9 @@ std::map<std::uint32_t, std::optional<ImageSize>> SizesOfImages(
     const fs::path file = ImageFile(folder, image.name);
     std::error_code error;
     if (!fs::is_regular_file(file, error)) continue;
-    sizes.emplace(image.camera_id, SizeOfImage(file));
+    const std::optional<ImageHeader> header = ReadImageHeader(file);
+    sizes.emplace(image.camera_id,
+                  header ? std::optional(header->size) : std::nullopt);
   }
   return sizes;
 }

@@ -156,6 +156,13 @@ Status Broken(const std::string& name, const std::string& bytes) {
               "again, or convert it to PNG or JPEG."};
 }
 
+Status WrongPixels(const std::string& name) {
+  return {StatusCode::kUnsupported,
+          name +
+              " has neither 8 nor 16 bits per channel, or an unusual number of "
+              "channels. Convert it to an 8-bit PNG."};
+}
+
 std::string ImageNamed(const std::filesystem::path& path) {
   return "Image " + path.string();
 }
@@ -176,10 +183,46 @@ Result<GrayImage> LoadFile(const std::filesystem::path& path,
   Status status = check(ImageSize{image.cols, image.rows});
   if (!status.ok()) return status;
   if (std::optional<GrayImage> gray = ToGrey(image)) return *std::move(gray);
-  return Status(StatusCode::kUnsupported,
-                name +
-                    " has neither 8 nor 16 bits per channel, or an unusual "
-                    "number of channels. Convert it to an 8-bit PNG.");
+  return WrongPixels(name);
+}
+
+// What LoadFile would say, as far as the header tells.
+template <typename CheckSize>
+Status CheckFile(const std::filesystem::path& path,
+                 const std::string& name,
+                 const CheckSize& check) {
+  constexpr int kMaxBits = 16;
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(path, error);
+  if (const auto header = is_file ? ReadImageHeader(path) : std::nullopt) {
+    Status status = check(header->size);
+    if (status.ok() && header->bits_per_channel > kMaxBits) {
+      return WrongPixels(name);
+    }
+    return status;
+  }
+  if (is_file && cv::haveImageReader(path.string())) return {};
+  const Result<std::string> bytes = ReadImageFile(path, name);
+  return bytes.ok() ? Broken(name, *bytes) : bytes.status();
+}
+
+// For LoadFile and CheckFile: `expected` and no other size.
+auto IsOfSize(const std::string& name, const ImageSize& expected) {
+  return [=](const ImageSize& size) {
+    return size == expected ? Status() : WrongSize(name, size, expected);
+  };
+}
+
+// Any size of the shape of `expected`.
+auto IsOfShape(const std::string& name, const ImageSize& expected) {
+  return [=](const ImageSize& size) {
+    return HaveSameShape(size, expected) ? Status()
+                                         : WrongShape(name, size, expected);
+  };
+}
+
+std::string MaskNamed(const std::filesystem::path& path) {
+  return "Mask " + path.string();
 }
 
 GrayImage Resized(GrayImage image, const ImageSize& size) {
@@ -206,13 +249,23 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
   return ImageSize{image.cols, image.rows};
 }
 
+Status CheckImageFiles(const View& view, const Camera& camera) {
+  const ImageSize expected = {camera.width, camera.height};
+  if (!view.image) {
+    const std::string name = ImageNamed(view.image_path);
+    Status status = CheckFile(view.image_path, name, IsOfSize(name, expected));
+    if (!status.ok()) return status;
+  }
+  if (view.mask_path.empty()) return {};
+  const std::string name = MaskNamed(view.mask_path);
+  return CheckFile(view.mask_path, name, IsOfShape(name, expected));
+}
+
 Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
                                 const std::optional<ImageSize>& expected) {
   const std::string name = ImageNamed(path);
-  return LoadFile(path, name, [&](const ImageSize& size) {
-    return !expected || size == *expected ? Status()
-                                          : WrongSize(name, size, *expected);
-  });
+  if (expected) return LoadFile(path, name, IsOfSize(name, *expected));
+  return LoadFile(path, name, [](const ImageSize&) { return Status(); });
 }
 
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
@@ -239,12 +292,9 @@ Result<std::optional<GrayImage>> LoadMask(const View& view,
                                           const Camera& camera) {
   if (view.mask_path.empty()) return std::optional<GrayImage>();
   const ImageSize expected = {camera.width, camera.height};
-  const std::string name = "Mask " + view.mask_path.string();
+  const std::string name = MaskNamed(view.mask_path);
   Result<GrayImage> mask =
-      LoadFile(view.mask_path, name, [&](const ImageSize& size) {
-        return HaveSameShape(size, expected) ? Status()
-                                             : WrongShape(name, size, expected);
-      });
+      LoadFile(view.mask_path, name, IsOfShape(name, expected));
   if (!mask.ok()) return mask.status();
   const bool fits = ImageSize{mask->width, mask->height} == expected;
   return std::optional(fits ? *std::move(mask)

@@ -17,6 +17,11 @@ namespace curvix {
 // kNotFound: no such file. kDataLoss: not an image.
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
+// Whether LoadGrayImage() and LoadMask() take the files of a view, as far as
+// the headers tell, of which a few kilobytes are read: their format and, of
+// PNG, JPEG and TIFF files, size and bits. Their errors.
+Status CheckImageFiles(const View& view, const Camera& camera);
+
 // The image in the file, as stored: an EXIF rotation is ignored, as COLMAP
 // does. Grey, colour (0.299 R + 0.587 G + 0.114 B) and either with alpha, 8 or
 // 16 bits per channel; 16 bits are scaled to 0..255. Fractions are kept: on

@@ -231,5 +231,75 @@ TEST_F(LoadGrayImageTest, RefusesOtherPixelFormats) {
             StatusCode::kUnsupported);
 }
 
+// By the header alone: bodies are cut off.
+TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
+  Camera camera;
+  camera.width = 80;
+  camera.height = 60;
+  View view;
+  const std::vector<std::pair<std::string, cv::Mat>> images = {
+      {"a.png", Texture(CV_8UC3)},
+      {"a.jpg", Texture(CV_8UC3)},
+      {"a.tiff", Texture(CV_16UC3)},
+      {"wide.png", cv::Mat(60, 81, CV_8U, cv::Scalar(7))},
+      {"turned.jpg", cv::Mat(80, 60, CV_8U, cv::Scalar(7))},
+      {"float.tiff", cv::Mat(60, 80, CV_32FC1, 0.5)},
+      {"wide.tiff", cv::Mat(60, 81, CV_16UC1, cv::Scalar(7))}};
+  for (const auto& [name, image] : images) {
+    view.image_path = Written(name, image);
+    EXPECT_EQ(CheckImageFiles(view, camera).message(),
+              LoadGrayImage(view, camera).status().message());
+    EXPECT_EQ(CheckImageFiles(view, camera).ok(), name[0] == 'a') << name;
+  }
+  for (const std::string start : {"", "hello", "GIF89a\x50", "....ftypheic"}) {
+    view.image_path = Written("a.gif", Bytes(start.begin(), start.end()));
+    EXPECT_FALSE(CheckImageFiles(view, camera).ok()) << start;
+    EXPECT_EQ(CheckImageFiles(view, camera).message(),
+              LoadGrayImage(view, camera).status().message());
+  }
+  // No more than the header is looked at, and formats without one pass.
+  for (const char* name : {"a.png", "a.jpg"}) {
+    Bytes head = Contents(folder_.path() / name);
+    head.resize(head.size() / 2);
+    view.image_path = Written(std::string("cut_") + name, head);
+    EXPECT_TRUE(CheckImageFiles(view, camera).ok()) << name;
+  }
+  view.image_path = Written("b.bmp", Texture(CV_8UC1));
+  EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+}
+
+// 80 x 60 pixels, three channels of so many bits, which stand behind the
+// directory.
+Bytes TiffHeader(char bits) {
+  return {'I', 'I', 42, 0, 8, 0, 0,  0, 3, 0, 0,    1, 3,    0, 1,    0, 0, 0,
+          80,  0,   0,  0, 1, 1, 3,  0, 1, 0, 0,    0, 60,   0, 0,    0, 2, 1,
+          3,   0,   3,  0, 0, 0, 46, 0, 0, 0, bits, 0, bits, 0, bits, 0};
+}
+
+TEST_F(LoadGrayImageTest, ChecksTheBitsOfColours) {
+  Camera camera;
+  camera.width = 80;
+  camera.height = 60;
+  View view;
+  view.image_path = Written("short.tiff", TiffHeader(16));
+  EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+  view.image_path = Written("float.tiff", TiffHeader(32));
+  EXPECT_EQ(CheckImageFiles(view, camera).code(), StatusCode::kUnsupported);
+}
+
+TEST_F(LoadGrayImageTest, ChecksTheShapeOfMasks) {
+  Camera camera;
+  camera.width = 80;
+  camera.height = 60;
+  View view;
+  view.image_path = Written("a.png", Texture(CV_8UC1));
+  view.mask_path = Written("half.png", cv::Mat(30, 40, CV_8U, cv::Scalar(7)));
+  EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+  view.mask_path = Written("flat.png", cv::Mat(20, 40, CV_8U, cv::Scalar(7)));
+  EXPECT_EQ(CheckImageFiles(view, camera).message(),
+            LoadMask(view, camera).status().message());
+  EXPECT_THAT(CheckImageFiles(view, camera).message(), HasSubstr("flat.png"));
+}
+
 }  // namespace
 }  // namespace curvix

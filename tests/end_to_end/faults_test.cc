@@ -17,6 +17,7 @@
 #include "plugin/base/staged_output.h"
 #include "tests/end_to_end/run_program.h"
 #include "tests/end_to_end/small_workspace.h"
+#include "tests/plugin/import_fixtures.h"
 #include "tests/plugin/posed_points.h"
 
 namespace curvix {
@@ -345,6 +346,20 @@ TEST_F(ColmapFaults, AreSurvived) {
         outcome.output,
         AllOf(HasSubstr("Bundle adjustment is left out"), HasSubstr(says)));
   }
+}
+
+// COLMAP may take minutes, and images tell at once that they will not do.
+TEST_F(ColmapFaults, ComeAfterImagesThatWillNotDo) {
+  const fs::path started = workspace_.Outside("started");
+  const auto run = [&] { return RunWith("touch " + Quoted(started)); };
+  workspace_.WriteImage(PngOfSize(64, 63));
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("is 64 x 63 pixels, but its camera"));
+  EXPECT_FALSE(fs::exists(started));
+  fs::remove(workspace_.At("images/view_000.png"));  // is skipped
+  EXPECT_EQ(run().exit_code, 0);
+  EXPECT_TRUE(fs::exists(started));
 }
 
 TEST_F(ColmapFaults, WithoutColmapTheRunGoesOn) {
