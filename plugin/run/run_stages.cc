@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "colmap/inconsistent_points.h"
 #include "edge_detection/curvelets.h"
 #include "plugin/base/text.h"
 
@@ -78,6 +79,11 @@ Result<SceneStages> RunStages::Run(const ColmapModel& model,
   if (record_.settings.poses.refine_poses_with_curves) {
     const Status status = RefinePoses(model, stages);
     if (!status.ok()) return KeptStages(status);
+  }
+  const std::string note = LargeErrorsNote(stages.scene);
+  if (!note.empty()) {
+    record_.input.notes.push_back(note);
+    progress_.Note(note);
   }
   Result<Reconstruction> found = Reconstruct(stages.scene, stages.edge_maps);
   if (!found.ok()) return KeptStages(found.status());

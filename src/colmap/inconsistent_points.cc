@@ -2,7 +2,9 @@
 #include "colmap/inconsistent_points.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "base/median.h"
@@ -13,6 +15,9 @@ namespace curvix {
 namespace {
 
 constexpr double kMaxMedianPx = 50;
+// Edges of views that are further off are hardly matched.
+constexpr double kMaxUsualMedianPx = 2;
+constexpr std::size_t kMinPixels = 100;
 
 std::vector<double> ReprojectionErrors(const Scene& scene) {
   std::vector<double> errors;
@@ -44,6 +49,18 @@ std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
   return "The points of " + model_path.string() + " " + place +
          " (median), so they do not belong to its poses and are not used. Were "
          "they moved or scaled without these?";
+}
+
+std::string LargeErrorsNote(const Scene& scene) {
+  std::vector<double> errors = ReprojectionErrors(scene);
+  if (errors.size() < kMinPixels) return "";
+  const double median_px = Median(std::move(errors));
+  if (median_px <= kMaxUsualMedianPx) return "";
+  return "WARNING: The points project " + FixedText(median_px, 1) +
+         " px from their pixels (median), so poses or cameras are wrong, as "
+         "with a wrong focal length, and curves will be missing or off; refine "
+         "both with COLMAP's bundle_adjuster, and use the model that it "
+         "writes.";
 }
 
 }  // namespace curvix

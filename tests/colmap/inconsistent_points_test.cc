@@ -15,8 +15,8 @@ using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 // Points on a line, and their exact pixels in all views.
-Scene SceneWithPoints() {
-  Scene scene = SceneOf(RingOfViews(4));
+Scene SceneWithPoints(int num_views = 4) {
+  Scene scene = SceneOf(RingOfViews(num_views));
   for (int i = -5; i <= 5; ++i) {
     ScenePoint& point = scene.points.emplace_back();
     point.position = {0.1 * i, 0.05 * i, 0};
@@ -59,6 +59,31 @@ TEST(RemoveInconsistentPoints, RemovesThoseThatWereMovedWithoutTheCameras) {
   for (ScenePoint& point : scene.points) point.position.x() += 1e6;
   EXPECT_NE(RemoveInconsistentPoints("sparse/0", &scene), "");
   EXPECT_THAT(scene.points, SizeIs(0));
+}
+
+// Moves every pixel by `px`, and those of the first point by as much again.
+Scene SceneWithErrors(double px, int num_views) {
+  Scene scene = SceneWithPoints(num_views);
+  for (ScenePoint& point : scene.points) {
+    for (auto& pixel : point.pixels) pixel.x() += px;
+  }
+  for (auto& pixel : scene.points[0].pixels) pixel.x() += px;
+  return scene;
+}
+
+TEST(LargeErrorsNote, SaysByHowMuchPointsAreOff) {
+  EXPECT_EQ(LargeErrorsNote(SceneWithErrors(1.9, 10)), "");
+  EXPECT_THAT(LargeErrorsNote(SceneWithErrors(3.1, 10)),
+              HasSubstr("project 3.1 px from their pixels (median)"));
+  EXPECT_EQ(LargeErrorsNote(SceneWithErrors(3.1, 4)), "") << "too few";
+  EXPECT_EQ(LargeErrorsNote({}), "");
+}
+
+TEST(LargeErrorsNote, TellsOfAFocalLengthThatIsOff) {
+  Scene scene = SceneWithPoints(10);
+  EXPECT_EQ(LargeErrorsNote(scene), "");
+  for (Camera& camera : scene.cameras) camera.params[0] *= 1.2;
+  EXPECT_NE(LargeErrorsNote(scene), "");
 }
 
 }  // namespace

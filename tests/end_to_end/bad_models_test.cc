@@ -297,6 +297,24 @@ TEST(BadModels, PointsThatMakeNoSense) {
   ExpectOutcome(cases);
 }
 
+// Nothing here makes up for it.
+TEST(BadModels, AFocalLengthThatIsOffIsTold) {
+  SmallWorkspace workspace;
+  std::mt19937 random(1);
+  workspace.model.points.clear();
+  workspace.model.images[0].points2D.clear();
+  AddPoints(400, 0.3, random, &workspace.model);
+  workspace.model.cameras[0].camera.params[0] *= 1.4;
+  workspace.WriteModel();
+  const Outcome outcome =
+      RunProgram("--workspace_path " + Quoted(workspace.path()) +
+                 " --clean --refiner none --refine_poses_with_curves 0");
+  const std::string says = "px from their pixels (median)";
+  EXPECT_THAT(outcome.output, testing::HasSubstr(says));
+  EXPECT_THAT(Read(workspace.At("curvix/0/report.json")),
+              testing::HasSubstr(says));
+}
+
 TEST(BadModels, Text) {
   std::vector<BadCase> cases;
   const auto add = [&](const std::string& name,
