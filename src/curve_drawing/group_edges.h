@@ -7,6 +7,7 @@
 #include <curvix/options.h>
 #include <vector>
 
+#include "edge_sketch/sketch_input.h"
 #include "model/neighborhood_graph.h"
 #include "model/posed_view.h"
 
@@ -14,11 +15,13 @@ namespace curvix {
 
 // Ordered curves from aligned edges and their neighborhood graph: thinned,
 // connected, traced, drawn once, joined, cut at corners, the short ones
-// dropped.
+// dropped. Between these steps `step_done` is asked; if it says false, the
+// result is empty.
 std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
                               const NeighborhoodGraph& graph,
                               const std::vector<PosedView>& views,
                               const ConnectivityOptions& options,
-                              int num_threads);
+                              int num_threads,
+                              const StepDone& step_done = {});
 
 }  // namespace curvix

@@ -164,8 +164,12 @@ void GroupIntoCurves(const std::vector<PosedView>& views,
 
   // Sec. 6.
   if (!run.Begin("connect_edges")) return;
-  result.curves.curves =
-      GroupEdges(result.edges, graph, views, options.connectivity, num_threads);
+  result.curves.curves = GroupEdges(result.edges,
+                                    graph,
+                                    views,
+                                    options.connectivity,
+                                    num_threads,
+                                    run.Steps());
   run.End(CountsOf(result.curves));
 }
 

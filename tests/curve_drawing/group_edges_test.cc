@@ -175,6 +175,24 @@ TEST(GroupEdges, MovesAndScalesWithTheWorld) {
   EXPECT_EQ(there[0].closed, here[0].closed);
 }
 
+TEST(GroupEdges, StopsWhenAskedTo) {
+  const SyntheticEdges made =
+      Noisy({CircleCurve(Eigen::Vector3d::Zero(), 0.5)});
+  const NeighborhoodGraph graph =
+      LinkEdges(made.edges, made.edge_maps, made.views, {}, 2);
+  for (int last = 1; last <= 4; ++last) {
+    int num_asked = 0;
+    const auto curves = GroupEdges(
+        made.edges, graph, made.views, {}, 2, [&](int step, int num_steps) {
+          EXPECT_EQ(step, ++num_asked);
+          EXPECT_LT(step, num_steps);
+          return step < last;
+        });
+    EXPECT_EQ(num_asked, last);
+    EXPECT_TRUE(curves.empty());
+  }
+}
+
 TEST(GroupEdges, GivesNothingForDegenerateInput) {
   const std::vector<PosedView> views = RingOfViews(3);
   EXPECT_TRUE(GroupEdges({}, {}, views, {}, 2).empty());

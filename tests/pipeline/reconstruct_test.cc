@@ -274,6 +274,18 @@ TEST(ReconstructCurves, StopsBeforeEachStage) {
   }
 }
 
+TEST(ReconstructCurves, StopsWhileItConnectsEdges) {
+  const WireScene wires = MakeWireScene({CubeCurves()[4]}, 8);
+  const auto result =
+      ReconstructCurves(wires.scene,
+                        wires.edge_maps,
+                        PaperOptions(),
+                        [](const std::string& stage, int done, int) {
+                          return stage != "connect_edges" || done == 0;
+                        });
+  EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
+}
+
 TEST(ReconstructCurves, RefusesOptionsOutOfRange) {
   const WireScene wires = MakeWireScene({CubeCurves()[4]}, 4);
   Options options;
