@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "plugin/align/epsg.h"
@@ -16,7 +17,6 @@
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
 #include "plugin/base/file_errors.h"
-#include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/run/run_steps.h"
 
@@ -117,7 +117,7 @@ Status Aligner::TakeMarkers() {
                                            settings_.marker_size,
                                            settings_.run.options.runtime);
   if (!found.ok()) return found.status();
-  progress_.Finish(std::to_string(found->markers.size()) + " markers");
+  progress_.Finish(Plural(found->markers.size(), "marker"));
   for (const std::string& note : found->notes) progress_.Note(note);
   for (const FoundMarker& marker : found->markers) {
     input_.scales.push_back(marker.scale);
@@ -199,7 +199,7 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
   for (const FoundMarker& marker : markers_) {
     const double now = scale * marker.side;
     Say("  marker " + std::to_string(marker.id) + " in " +
-        std::to_string(marker.num_views) + " images has a side of " +
+        Plural(marker.num_views, "image") + " has a side of " +
         WithSigma(now, now * marker.scale.sigma));
     sources_["markers"].push_back({{"id", marker.id},
                                    {"num_views", marker.num_views},
@@ -255,7 +255,7 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
   }
   const double n = static_cast<double>(input_.positions.size());
   const std::size_t worst = WorstOf(result);
-  Say(std::to_string(input_.positions.size()) + " positions, " +
+  Say(Plural(input_.positions.size(), "position") + ", " +
       SigmaText(std::sqrt(squares / n)) + " off (root mean square), " +
       input_.positions[worst].name +
       " most: " + SigmaText(result.position_residuals[worst].norm()));

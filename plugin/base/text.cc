@@ -26,19 +26,6 @@ std::string WrapText(const std::string& text, std::size_t indent) {
   return wrapped;
 }
 
-std::string GroupDigits(std::int64_t number) {
-  std::string text = std::to_string(number);
-  const int first = number < 0 ? 1 : 0;
-  for (int i = static_cast<int>(text.size()) - 3; i > first; i -= 3) {
-    text.insert(static_cast<std::size_t>(i), 1, ' ');
-  }
-  return text;
-}
-
-std::string Plural(std::int64_t count, const std::string& noun) {
-  return GroupDigits(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string ShellWord(const std::string& text) {
   const bool is_plain =
       !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 
 namespace curvix {
@@ -16,12 +15,6 @@ inline constexpr char kNoBreak = '\x01';
 // `text` broken between words into lines of at most kColumns, each after
 // `indent` spaces and with a line end.
 std::string WrapText(const std::string& text, std::size_t indent);
-
-// "171204" as "171 204".
-std::string GroupDigits(std::int64_t number);
-
-// "1 view", "1 200 views".
-std::string Plural(std::int64_t count, const std::string& noun);
 
 // `text` as one word of a shell: in quotes, unless it needs none.
 std::string ShellWord(const std::string& text);

@@ -324,6 +324,10 @@ def paths_of_run(path):
     return model, path.parent / source['image_path']
 
 
+def plural(count, noun):
+    return f'{count} {noun}' + ('' if count == 1 else 's')
+
+
 def import_file(path, cameras=True, model_path='', image_path='', separate=False, thickness=0.2):
     """Returns the new collection and a sentence. OSError, ValueError: with what is wrong."""
     path = pathlib.Path(path).resolve()
@@ -337,7 +341,7 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
     collection['offset'] = offset.tolist()
     show_all(size)
     add_curves(curves, collection, offset, size * thickness / 100, separate)
-    said = f'{len(curves)} curves'
+    said = plural(len(curves), 'curve')
     if offset.any():
         said += f', moved by {(-offset).tolist()}'
     model, images = paths_of_run(path) if cameras else (None, pathlib.Path())
@@ -349,11 +353,13 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
         else:
             alignment = document.get('alignment', {}).get('world_from_model')
             count, found, distorted = add_cameras(read_model(model), images, collection, alignment, offset, center, size)
-            said += f', {count} cameras, {found} photographs'
+            said += f', {plural(count, "camera")}, {plural(found, "photograph")}'
             if found < count:
-                said += f'; {count - found} images are not in "{images}": name their folder'
+                are = 'is' if count - found == 1 else 'are'
+                said += f'; {plural(count - found, "image")} {are} not in "{images}": name their folder'
             if distorted:
-                said += f'; {distorted} photographs have a lens that Blender does not have, curves are beside them'
+                have = 'has' if distorted == 1 else 'have'
+                said += f'; {plural(distorted, "photograph")} {have} a lens that Blender does not have, curves are beside them'
     return collection, said + '.'
 
 

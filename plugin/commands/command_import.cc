@@ -4,6 +4,7 @@
 #include <iterator>
 #include <string>
 
+#include "base/count_text.h"
 #include "base/text_fields.h"
 #include "plugin/base/text.h"
 #include "plugin/commands/commands.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "base/count_text.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
 #include "plugin/run/run_parts.h"
@@ -35,8 +36,8 @@ ExitCode RunPartitionCommand(const Arguments& arguments) {
   if (!partition.ok()) return Fail(partition.status());
   for (std::size_t i = 0; i < partition->parts.size(); ++i) {
     const ScenePart& part = partition->parts[i];
-    std::cout << "part " << i << ": " << part.view_idxs.size() << " views, "
-              << part.own_view_idxs.size() << " of its own\n";
+    std::cout << "part " << i << ": " << Plural(part.view_idxs.size(), "view")
+              << ", " << part.own_view_idxs.size() << " of its own\n";
   }
   std::cout << "Next, for each part: colmap_curvix reconstruct --part K, then "
                "colmap_curvix merge, with the same paths and options"

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <utility>
 
+#include "base/count_text.h"
 #include "plugin/commands/commands.h"
 #include "plugin/run/run_parts.h"
 #include "plugin/run/run_workspace.h"
@@ -40,7 +41,8 @@ ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
   });
   if (!record.ok()) return Fail(record.status());
   const ResultSummary& result = record->result;
-  std::cout << "\npart " << part_idx << ": " << result.num_curves << " curves";
+  std::cout << "\npart " << part_idx << ": "
+            << Plural(result.num_curves, "curve");
   if (result.num_curves == 0) std::cout << " (" << result.why_empty << ")";
   std::cout << ", in " << result.output_path.string() << "\n";
   return kExitSuccess;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
@@ -163,8 +164,8 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   const Status status = Synthesize(settings.options, settings.workspace_path);
   if (!status.ok()) return Fail(status);
   const std::string path = settings.workspace_path.string();
-  std::cout << "Wrote " << settings.options.num_views
-            << " images and their poses to " << path
+  std::cout << "Wrote " << Plural(settings.options.num_views, "image")
+            << " and their poses to " << path
             << "\nTry: colmap_curvix --workspace_path " << ShellWord(path)
             << std::endl;
   return kExitSuccess;

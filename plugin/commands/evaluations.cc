@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/count_text.h"
 #include "base/text_fields.h"
 #include "colmap/workspace.h"
 #include "measuring/moved_curves.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
-#include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/write_results.h"
 
@@ -231,8 +231,8 @@ void PrintTable(const HoldoutResult& result, std::ostream& out) {
   const fs::path& alignment_path = result.input.alignment_path;
   std::string head = "in the images held out, %";
   head.resize(40, ' ');
-  out << result.num_held_out << " views held out, "
-      << GroupDigits(result.curves.num_curves) << " curves of total length "
+  out << Plural(result.num_held_out, "view") << " held out, "
+      << Plural(result.curves.num_curves, "curve") << " of total length "
       << result.curves.total_length << "\nmodel "
       << result.input.model_path.string()
       << (alignment_path.empty()

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "drawing/dimension_marks.h"
@@ -321,8 +322,8 @@ Result<std::string> Drafter::Run() {
     num_unknown += view.num_unknown;
     num_far += view.num_far;
   }
-  text_ += "Drew " + std::to_string(sheet_.curves.size()) +
-           " primitives: " + Subtitle() + ", " + sheet_.scale_text + "\n";
+  text_ += "Drew " + Plural(sheet_.curves.size(), "primitive") + ": " +
+           Subtitle() + ", " + sheet_.scale_text + "\n";
   if (num_far > 0) {
     text_ += "Left out, far from the others: " + std::to_string(num_far) +
              " (--crop all draws them)\n";

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/count_text.h"
 #include "plugin/imports/importers.h"
 
 #include <algorithm>
@@ -157,19 +158,21 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
     views.push_back(
         {"camera " + std::to_string(number), projection, image->second});
   }
-  const std::string counts = std::to_string(names.size()) + " images in " +
-                             folder.string() + " and " +
-                             std::to_string(projections.size()) + " cameras";
+  const std::string counts =
+      OneOrMore(names.size(), "There is ", "There are ") +
+      Plural(names.size(), "image") + " in " + folder.string() + " and " +
+      Plural(projections.size(), "camera");
   if (views.empty()) {
     return Status(StatusCode::kNotFound,
-                  "There are " + counts +
+                  counts +
                       ", but no number of a camera is in the name of a "
                       "image; name their folder with --image_path.");
   }
   if (views.size() < std::max(names.size(), projections.size())) {
-    notes->push_back("There are " + counts + "; " +
-                     std::to_string(views.size()) +
-                     " have the same number and are taken.");
+    notes->push_back(counts + "; " + std::to_string(views.size()) +
+                     OneOrMore(views.size(), " has", " have") +
+                     " the same number and " +
+                     OneOrMore(views.size(), "is", "are") + " taken.");
   }
   return views;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/count_text.h"
 #include "plugin/imports/importers.h"
 
 #include <array>
@@ -74,8 +75,9 @@ Result<std::vector<ParLine>> ParsePar(std::string_view text,
   if (lines.size() != static_cast<std::size_t>(*count)) {
     return BrokenMiddlebury(file,
                             1,
-                            "announces " + std::to_string(*count) +
-                                " images, and there are " +
+                            "announces " + Plural(*count, "image") +
+                                ", and there " +
+                                OneOrMore(lines.size(), "is ", "are ") +
                                 std::to_string(lines.size()));
   }
   return lines;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "colmap/links.h"
 #include "edge_detection/load_image.h"
@@ -298,7 +299,8 @@ Result<std::vector<std::string>> FindNames(const json& frames,
   if (missing.empty()) return names;
   return Status(StatusCode::kNotFound,
                 std::to_string(missing.size()) + " of " +
-                    std::to_string(names.size()) + " images are not in " +
+                    Plural(names.size(), "image") +
+                    OneOrMore(missing.size(), " is", " are") + " not in " +
                     root.string() + " (" + FirstNames(missing) +
                     "); name their folder with --image_path.");
 }

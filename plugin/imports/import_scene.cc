@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/count_text.h"
 #include "colmap/links.h"
 
 namespace curvix {
@@ -113,8 +114,9 @@ Status CheckImagesExist(const std::vector<std::string>& names,
   if (missing.empty()) return {};
   return {
       StatusCode::kNotFound,
-      std::to_string(missing.size()) + " of " + std::to_string(names.size()) +
-          " images are not in " + folder.string() + " (" + FirstNames(missing) +
+      std::to_string(missing.size()) + " of " + Plural(names.size(), "image") +
+          OneOrMore(missing.size(), " is", " are") + " not in " +
+          folder.string() + " (" + FirstNames(missing) +
           "); name their folder with --image_path, or remove their cameras."};
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/bytes.h"
+#include "base/count_text.h"
 #include "base/text_fields.h"
 
 namespace curvix {
@@ -154,7 +155,7 @@ Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
   if (!count || *count * size != bytes.size()) {
     return BrokenNpy(name,
                      "is cut short or damaged: its shape does not fit the " +
-                         std::to_string(bytes.size()) + " bytes of its values");
+                         Plural(bytes.size(), "byte") + " of its values");
   }
   NpyArray array;
   array.values = is_double ? ValuesOf<double>(bytes, *header, *count)

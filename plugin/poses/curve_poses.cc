@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
+#include "base/count_text.h"
 #include "base/median.h"
 #include "base/text_fields.h"
-#include "plugin/base/text.h"
 #include "plugin/poses/adjustable_scene.h"
 
 namespace curvix {
@@ -100,8 +100,8 @@ std::string CamerasText(const std::vector<CameraChange>& cameras) {
   for (const CameraChange& camera : cameras) {
     shifts_px.push_back(camera.median_shift_px);
   }
-  return ", " + Plural(static_cast<std::int64_t>(cameras.size()), "camera") +
-         " (" + std::string(ModelName(cameras.front().to.model)) + ", " +
+  return ", " + Plural(cameras.size(), "camera") + " (" +
+         std::string(ModelName(cameras.front().to.model)) + ", " +
          FixedText(MedianOrNan(std::move(shifts_px)), 2) + " px)";
 }
 
@@ -114,9 +114,9 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
         poses.num_check_observations + poses.num_check_points > 0;
     return is_judged ? "kept, " + poses.reason : "kept";
   }
-  return GroupDigits(static_cast<std::int64_t>(poses.num_views_moved)) +
-         " views, " + ErrorsText(poses) + CamerasText(record.cameras) +
-         ", shifts up to " + FixedText(poses.max_shift_px, 2) + " px" +
+  return Plural(poses.num_views_moved, "view") + ", " + ErrorsText(poses) +
+         CamerasText(record.cameras) + ", shifts up to " +
+         FixedText(poses.max_shift_px, 2) + " px" +
          (poses.accepted ? "" : ", refused");
 }
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "base/cancelled.h"
+#include "base/count_text.h"
 #include "base/text_fields.h"
 #include "geometry/similarity.h"
-#include "plugin/base/text.h"
 #include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/colmap_bundle_adjuster.h"
 
@@ -119,8 +119,7 @@ void Conclude(const ColmapModel& model,
 
 std::string PoseRefinementText(const PoseRefinementRecord& record) {
   if (!record.judgement) return "kept";
-  return RefinerName(record) + ", " +
-         GroupDigits(static_cast<std::int64_t>(record.num_views)) + " views, " +
+  return RefinerName(record) + ", " + Plural(record.num_views, "view") + ", " +
          FixedText(record.judgement->before.mean_px, 3) + " to " +
          FixedText(record.judgement->after.mean_px, 3) + " px, shifts up to " +
          FixedText(record.judgement->max_shift_px, 2) + " px" +
@@ -170,9 +169,8 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   record.num_views = input.views.size();
   record.num_points = input.points.size();
   if (record.num_points < kMinPointsToRefine || record.num_views < 3) {
-    Keep("the model has " +
-             GroupDigits(static_cast<std::int64_t>(record.num_points)) +
-             " points, and at least " + std::to_string(kMinPointsToRefine) +
+    Keep("the model has " + Plural(record.num_points, "point") +
+             ", and at least " + std::to_string(kMinPointsToRefine) +
              " in 3 views are needed",
          "Bundle adjustment is left out: ",
          &result);

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include "base/count_text.h"
 #include "base/stopwatch.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
-#include "plugin/base/text.h"
 #include "plugin/imports/read_lines.h"
 #include "plugin/run/run_steps.h"
 
@@ -30,17 +30,17 @@ Result<LineCurves> ReadCurvesOfLines(
   record.stages.back().counts = {
       {"lines", static_cast<std::int64_t>(lines->size())},
       {"without length", curves->num_without_length}};
-  progress.Finish(GroupDigits(static_cast<std::int64_t>(lines->size())) +
-                  " lines");
+  progress.Finish(Plural(lines->size(), "line"));
   if (curves->num_seen < static_cast<int>(lines->size()) / 2) {
     progress.Note("Only " + std::to_string(curves->num_seen) +
-                  " of the lines are seen by an image of the model. If they "
+                  " of the lines " + OneOrMore(curves->num_seen, "is", "are") +
+                  " seen by an image of the model. If they "
                   "were made of another model, name its workspace with "
                   "--workspace_path.");
   }
   if (curves->num_without_length > 0) {
-    progress.Note("Left out " + std::to_string(curves->num_without_length) +
-                  " lines without length.");
+    progress.Note("Left out " + Plural(curves->num_without_length, "line") +
+                  " without length.");
   }
   return curves;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/cancelled.h"
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "io/ply_lines.h"
@@ -84,7 +85,7 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   Result<ScenePartition> partition =
       PartitionScene(input->scene, max_views_per_part);
   if (!partition.ok()) return partition;
-  progress.Finish(std::to_string(partition->parts.size()) + " parts");
+  progress.Finish(Plural(partition->parts.size(), "part"));
   NoteOverlap(*partition, progress);
 
   const fs::path folder = workspace->output_path / kPartsName;

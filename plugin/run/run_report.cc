@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/option_table.h"
 #include "base/text_fields.h"
@@ -185,7 +186,7 @@ std::string StageLine(const StageReport& stage) {
   std::string counts;
   for (const auto& [name, count] : stage.counts) {
     counts += counts.empty() ? "" : ", ";
-    std::string item = GroupDigits(count) + " " + name;
+    std::string item = CountText(count, name);
     std::replace(item.begin(), item.end(), ' ', kNoBreak);
     counts += item;
   }

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "base/count_text.h"
 #include "colmap/inconsistent_points.h"
 #include "edge_detection/curvelets.h"
-#include "plugin/base/text.h"
 
 namespace curvix {
 namespace {
@@ -50,7 +50,7 @@ StageCounts CountEdges(const std::vector<EdgeMap>& edge_maps) {
 std::string CountsText(const StageCounts& counts) {
   std::string text;
   for (const auto& [name, count] : counts) {
-    text += (text.empty() ? "" : ", ") + GroupDigits(count) + " " + name;
+    text += (text.empty() ? "" : ", ") + CountText(count, name);
   }
   return text;
 }

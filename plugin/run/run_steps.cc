@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "base/cancelled.h"
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "colmap/links.h"
 #include "edge_detection/load_image.h"
 #include "geometry/camera_of.h"
 #include "measuring/moved_curves.h"
-#include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/drawing_files.h"
 #include "plugin/export/write_results.h"
@@ -174,8 +174,8 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
       {"missing images",
        static_cast<std::int64_t>(record.input.missing_images.size())},
       {"points", record.input.num_points}};
-  progress.Finish(GroupDigits(record.input.num_views) + " views, " +
-                  GroupDigits(record.input.num_points) + " points");
+  progress.Finish(Plural(record.input.num_views, "view") + ", " +
+                  Plural(record.input.num_points, "point"));
   for (const std::string& note : record.input.notes) progress.Note(note);
   if (record.alignment) {
     progress.Note("The results are in the frame of " +

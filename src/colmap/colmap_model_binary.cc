@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/bytes.h"
+#include "base/count_text.h"
 #include "colmap/colmap_model_format.h"
 
 namespace curvix {
@@ -55,9 +56,10 @@ Result<std::vector<Item>> ParseAll(std::string_view bytes,
   }
   if (!reader.AtEnd()) {
     return Status(StatusCode::kDataLoss,
-                  file + " has " + std::to_string(reader.rest().size()) +
-                      " bytes more than its " + std::to_string(count) + " " +
-                      item_name + "s take; export the model again.");
+                  file + " has " + Plural(reader.rest().size(), "byte") +
+                      " more than its " + Plural(count, item_name) +
+                      OneOrMore(count, " takes", " take") +
+                      "; export the model again.");
   }
   return items;
 }

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/count_text.h"
 #include "base/image_header.h"
 #include "colmap/links.h"
 #include "geometry/distortion.h"
@@ -105,9 +106,10 @@ std::string FitToImages(const fs::path& folder, ColmapModel* model) {
   }
   for (ColmapPoint3D& point : model->points) point.error = -1;
   return "The images of " + std::to_string(scales.size()) + " of " +
-         std::to_string(model->cameras.size()) +
-         " cameras have another size than the model says (" + first +
-         "); these cameras are scaled to them.";
+         Plural(model->cameras.size(), "camera") +
+         " have another size than the model says (" + first + "); " +
+         OneOrMore(scales.size(), "this camera is", "these cameras are") +
+         " scaled to them.";
 }
 
 }  // namespace curvix

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "colmap/fit_to_images.h"
 #include "colmap/inconsistent_points.h"
@@ -287,9 +288,10 @@ void NoteMissingMasks(const Workspace& workspace, WorkspaceScene* result) {
   if (names.empty()) return;
   result->notes.push_back(std::to_string(names.size()) + " of " +
                           std::to_string(result->scene.views.size()) +
-                          " images have no mask in " +
-                          workspace.mask_path.string() +
-                          " and are used whole: " + FirstNames(names) + ".");
+                          " images " + OneOrMore(names.size(), "has", "have") +
+                          " no mask in " + workspace.mask_path.string() +
+                          " and " + OneOrMore(names.size(), "is", "are") +
+                          " used whole: " + FirstNames(names) + ".");
 }
 
 constexpr std::size_t kMinViews = 3;
@@ -300,8 +302,8 @@ Status TooFewViews(const Workspace& workspace,
   if (missing.empty()) {
     return {StatusCode::kInvalidArgument,
             "The model " + workspace.model_path.string() + " has " +
-                std::to_string(num_views) +
-                " images, and curves need at least three; register more "
+                Plural(num_views, "image") +
+                ", and curves need at least three; register more "
                 "images."};
   }
   std::error_code error;
@@ -313,9 +315,10 @@ Status TooFewViews(const Workspace& workspace,
                     "--image_path.");
   }
   return NotFound("Only " + std::to_string(num_views) + " of the " +
-                  std::to_string(num_views + missing.size()) +
-                  " images of the model " + workspace.model_path.string() +
-                  " are in " + workspace.image_path.string() +
+                  Plural(num_views + missing.size(), "image") +
+                  " of the model " + workspace.model_path.string() +
+                  OneOrMore(num_views, " is in ", " are in ") +
+                  workspace.image_path.string() +
                   " (missing: " + FirstNames(missing) +
                   "), and curves need at least three. Name the right folder "
                   "with --image_path.");
@@ -359,11 +362,13 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
         workspace, result.scene.views.size(), result.missing_images);
   }
   if (!result.missing_images.empty()) {
+    const std::string are =
+        OneOrMore(result.missing_images.size(), "is", "are");
     result.notes.push_back(
         std::to_string(result.missing_images.size()) + " of " +
-        std::to_string(result.model.images.size()) + " images are not in " +
-        workspace.image_path.string() +
-        " and are skipped: " + FirstNames(result.missing_images) + ".");
+        Plural(result.model.images.size(), "image") + " " + are + " not in " +
+        workspace.image_path.string() + " and " + are +
+        " skipped: " + FirstNames(result.missing_images) + ".");
   }
   NoteMissingMasks(workspace, &result);
   const std::string removed =

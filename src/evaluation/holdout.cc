@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/count_text.h"
 #include "model/check_input.h"
 
 namespace curvix {
@@ -66,9 +67,9 @@ Result<std::vector<int>> ViewsHeldOut(std::size_t num_views, int every) {
   for (int i = every / 2; i < n; i += every) view_idxs.push_back(i);
   if (view_idxs.empty()) {
     return Status(StatusCode::kInvalidArgument,
-                  "none of " + std::to_string(num_views) +
-                      " views is held out if it is one of " +
-                      std::to_string(every) + "; hold out more");
+                  "none of " + Plural(num_views, "view") +
+                      " is held out if it is one of " + std::to_string(every) +
+                      "; hold out more");
   }
   return view_idxs;
 }

@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "base/check.h"
+#include "base/count_text.h"
 #include "geometry/distortion.h"
 
 namespace curvix {
@@ -198,9 +199,9 @@ Status Validate(const Camera& camera) {
   const std::size_t expected =
       static_cast<std::size_t>(NumParams(camera.model));
   if (camera.params.size() != expected) {
-    return invalid(
-        name + " camera with " + std::to_string(camera.params.size()) +
-        " parameters: the model has " + std::to_string(expected) + ".");
+    return invalid(name + " camera with " +
+                   Plural(camera.params.size(), "parameter") +
+                   ": the model has " + std::to_string(expected) + ".");
   }
   const std::string wrong = WrongParameter(camera);
   if (!wrong.empty()) return invalid(name + " camera: " + wrong + ".");

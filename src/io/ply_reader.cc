@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/bytes.h"
+#include "base/count_text.h"
 #include "base/text_fields.h"
 
 namespace curvix {
@@ -183,7 +184,7 @@ std::uint64_t MinRowBytes(const PlyElement& element, PlyFormat format) {
 Status Broken(const PlyElement& element, std::uint64_t row) {
   return {StatusCode::kDataLoss,
           "element " + element.name + " announces " +
-              std::to_string(element.count) + " rows but ends or breaks in " +
+              Plural(element.count, "row") + " but ends or breaks in " +
               "row " + std::to_string(row) +
               "; the file is truncated or "
               "damaged"};

@@ -235,9 +235,10 @@ Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
   const std::optional<Frame> best = BestFrame(directions);
   if (!best) {
     return Status(StatusCode::kUnsupported,
-                  "No two of " + std::to_string(directions.size()) +
-                      " lines, axes of arcs and rows of circles are "
-                      "perpendicular, so that axes cannot be found");
+                  "No two of the lines, axes of arcs and rows of circles (" +
+                      std::to_string(directions.size()) +
+                      " in all) are perpendicular, so that axes cannot be "
+                      "found");
   }
   const Frame frame =
       Ordered(Refined(directions, *best), up, views_direction, directions);

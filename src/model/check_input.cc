@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "base/count_text.h"
+
 namespace curvix {
 namespace {
 
@@ -23,8 +25,9 @@ Status CheckView(const Scene& scene, const View& view) {
   if (view.camera_idx < 0 ||
       static_cast<std::size_t>(view.camera_idx) >= scene.cameras.size()) {
     return Invalid("view " + view.name + " has camera index " +
-                   std::to_string(view.camera_idx) + ", but there are " +
-                   std::to_string(scene.cameras.size()) + " cameras");
+                   std::to_string(view.camera_idx) + ", but there " +
+                   OneOrMore(scene.cameras.size(), "is ", "are ") +
+                   Plural(scene.cameras.size(), "camera"));
   }
   const Rigid3& pose = view.cam_from_world;
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite() ||
@@ -103,9 +106,10 @@ Status CheckScene(const Scene& scene) {
 Status CheckEdgeMaps(const Scene& scene,
                      const std::vector<EdgeMap>& edge_maps) {
   if (edge_maps.size() != scene.views.size()) {
-    return Invalid("there are " + std::to_string(edge_maps.size()) +
-                   " edge maps for " + std::to_string(scene.views.size()) +
-                   " views; one per view is needed");
+    return Invalid("there " + OneOrMore(edge_maps.size(), "is ", "are ") +
+                   Plural(edge_maps.size(), "edge map") + " for " +
+                   Plural(scene.views.size(), "view") +
+                   "; one per view is needed");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     if (IsSound(edge_maps[i])) continue;

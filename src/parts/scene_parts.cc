@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/count_text.h"
 #include "base/median.h"
 #include "edge_sketch/view_overlap.h"
 #include "geometry/posed_views.h"
@@ -45,10 +46,10 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
       places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
   if (partition) return *std::move(partition);
   return Status(StatusCode::kInvalidArgument,
-                "the " + std::to_string(views.size()) +
-                    " views cannot be divided into parts of " +
-                    std::to_string(max_views_per_part) +
-                    " views, because too many of them see the same places; "
+                "the " + Plural(views.size(), "view") +
+                    " cannot be divided into parts of " +
+                    Plural(max_views_per_part, "view") +
+                    ", because too many of them see the same places; "
                     "allow more views per part");
 }
 

@@ -15,6 +15,7 @@
 
 #include "base/angles.h"
 #include "base/cancelled.h"
+#include "base/count_text.h"
 #include "base/infinity.h"
 #include "base/option_table.h"
 #include "curve_drawing/group_edges.h"
@@ -92,37 +93,38 @@ std::string WhyEmpty(const Overlaps& overlaps,
   const SketchCounts& counts = sketch.counts;
   std::ostringstream text;
   if (num_edges == 0 && num_masked > 0) {
-    text << "All " << num_masked
-         << " edges are on black pixels of the masks, which are left out. Are "
-            "the masks inverted?";
+    text << "All edges are on black pixels of the masks (" << num_masked
+         << "), which are left out. Are the masks inverted?";
   } else if (num_edges == 0) {
-    text << "No edges were found in the " << edge_maps.size()
-         << " images. Are they blank or very dark? A lower "
+    text << "No edges were found in the " << Plural(edge_maps.size(), "image")
+         << ". Are they blank or very dark? A lower "
             "--EdgeDetection.min_gradient (now "
          << options.edge_detection.min_gradient << ") finds weaker edges.";
   } else if (counts.view_pairs == 0) {
     text << WhyNoPair(overlaps, options.hypotheses);
   } else if (counts.hypotheses == 0) {
-    text << "None of " << counts.h1_edges
-         << " edges has a counterpart on its epipolar line in another view: "
+    text << "None of " << Plural(counts.h1_edges, "edge")
+         << " has a counterpart on its epipolar line in another view: "
             "the poses may be wrong, or all edges run along the epipolar lines "
             "(images from above and below help).";
   } else if (sketch.edges.empty()) {
-    text << "None of " << counts.hypotheses
-         << " edge pairs is confirmed by enough other views. Are the poses "
+    text << "None of " << Plural(counts.hypotheses, "edge pair")
+         << " is confirmed by enough other views. Are the poses "
             "right to about two pixels, and do at least "
          << FewestViews(options) << " views see each part of the scene?";
   } else if (num_curves > 0) {
-    text << "None of " << num_curves
-         << " curves passes the filters; lower the --CurveFilter options.";
+    text << "None of " << Plural(num_curves, "curve")
+         << " passes the filters; lower the --CurveFilter options.";
   } else {
-    text << sketch.edges.size() << " 3D edges were found, but no ";
+    text << Plural(sketch.edges.size(), "3D edge")
+         << OneOrMore(sketch.edges.size(), " was", " were")
+         << " found, but no ";
     if (CurvesGrow(edge_maps, options)) {
       text << "curve that grows from them is significant; see edges.ply, or "
               "lower --CurveGrowth.min_significance.";
     } else {
       text << "run of them is " << options.connectivity.min_length_px
-           << " pixels long; see edges.ply, or lower "
+           << " px long; see edges.ply, or lower "
               "--Connectivity.min_length_px.";
     }
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/count_text.h"
 #include "base/parallel.h"
 #include "edge_detection/undistort_edges.h"
 #include "edge_sketch/sketch_by_views.h"
@@ -347,8 +348,8 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
   }
   if (cameras.size() < scene.cameras.size()) {
     return Status(StatusCode::kInvalidArgument,
-                  "there are " + std::to_string(cameras.size()) +
-                      " cameras for the " +
+                  "there " + OneOrMore(cameras.size(), "is ", "are ") +
+                      Plural(cameras.size(), "camera") + " for the " +
                       std::to_string(scene.cameras.size()) + " of the scene");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {

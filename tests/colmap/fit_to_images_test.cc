@@ -78,8 +78,8 @@ class FitToImagesTest : public ::testing::Test {
 
 TEST_F(FitToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
   EXPECT_EQ(FitTo(400, 300),
-            "The images of 1 of 1 cameras have another size than the model "
-            "says (400 x 300 pixels instead of 800 x 600); these cameras are "
+            "The images of 1 of 1 camera have another size than the model "
+            "says (400 x 300 pixels instead of 800 x 600); this camera is "
             "scaled to them.");
   const Camera& camera = model_.cameras[0].camera;
   EXPECT_EQ(camera.width, 400);

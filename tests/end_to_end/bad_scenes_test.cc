@@ -139,7 +139,7 @@ TEST(BadImages, NoFiles) {
                     fs::remove(w.At(image));
                     ASSERT_EQ(mkfifo(w.At(image).c_str(), 0600), 0);
                   },
-                  "1 of 12 images are not in",
+                  "1 of 12 images is not in",
                   0}});
 }
 

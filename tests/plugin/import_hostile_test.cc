@@ -62,7 +62,7 @@ TEST_F(HostileImport, MiddleburySaysWhatIsWrong) {
   EXPECT_THAT(message(""), HasSubstr("number of images"));
   EXPECT_THAT(message("two\n"), HasSubstr("number of images"));
   EXPECT_THAT(message("2\n" + ParLine("a.png")),
-              HasSubstr("announces 2 images, and there are 1"));
+              HasSubstr("announces 2 images, and there is 1"));
   EXPECT_THAT(message("1\na.png 1 2 3\n"), HasSubstr("21 numbers"));
   EXPECT_THAT(message("1\n" + ParLine("../a.png")), HasSubstr("../a.png"));
   EXPECT_THAT(message("1\n" + ParLine("/etc/passwd")), HasSubstr("relative"));

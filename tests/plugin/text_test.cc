@@ -32,21 +32,6 @@ TEST(WrapText, LetsLongWordsStick) {
   EXPECT_EQ(WrapText("", 0), "\n");
 }
 
-TEST(GroupDigits, PutsASpaceEveryThreeDigits) {
-  EXPECT_EQ(GroupDigits(0), "0");
-  EXPECT_EQ(GroupDigits(999), "999");
-  EXPECT_EQ(GroupDigits(1000), "1 000");
-  EXPECT_EQ(GroupDigits(171204), "171 204");
-  EXPECT_EQ(GroupDigits(-1234567), "-1 234 567");
-  EXPECT_EQ(GroupDigits(-123), "-123");
-}
-
-TEST(Plural, HasAnSUnlessItIsOne) {
-  EXPECT_EQ(Plural(0, "view"), "0 views");
-  EXPECT_EQ(Plural(1, "view"), "1 view");
-  EXPECT_EQ(Plural(1200, "view"), "1 200 views");
-}
-
 TEST(ShellWord, IsQuotedIfItMust) {
   EXPECT_EQ(ShellWord("/tmp/a-b_1.x"), "/tmp/a-b_1.x");
   EXPECT_EQ(ShellWord("sy 3/\xc3\xa4"), "'sy 3/\xc3\xa4'");

@@ -92,7 +92,7 @@ class FromColmap(WorkspaceTest):
         np.testing.assert_allclose(self.scene.R[3][:, 0], turned, atol=1e-12)
         np.testing.assert_array_equal(self.scene.sizes, [(160, 160)] * 12)
         self.assertEqual(len(self.scene.points), len(model.points3D))
-        self.assertRegex(repr(self.scene), r'<pycurvix.Scene: 12 views, 1 cameras, \d+ points>')
+        self.assertRegex(repr(self.scene), r'<pycurvix.Scene: 12 views, 1 camera, \d+ points>')
         self.assertEqual(self.scene.view_idx(-1), 11)
         self.assertEqual(self.scene.view_idx(self.scene.names[4]), 4)
 

@@ -8,6 +8,7 @@ import os
 from . import _core
 from ._lazy import TYPE_CHECKING, np
 from ._scene import Scene, core_scene
+from ._text import plural
 
 if TYPE_CHECKING:
     from typing import Any, Iterator, Sequence
@@ -233,7 +234,7 @@ class Curves:
         chosen = np.atleast_1d(which)
         if chosen.dtype == bool:
             if len(chosen) != len(self):
-                raise _core.ArgumentError(f'there are {len(chosen)} bools for {len(self)} curves')
+                raise _core.ArgumentError(f'{plural(len(chosen), "bool")} cannot choose among {plural(len(self), "curve")}')
             chosen = np.flatnonzero(chosen)
         if chosen.size and not np.issubdtype(chosen.dtype, np.integer):
             raise _core.ArgumentError('curves are chosen by bools or by indices')
@@ -298,7 +299,8 @@ class Curves:
     def __repr__(self) -> str:
         if len(self) == 0:
             return '<pycurvix.Curves: none>'
-        return (f'<pycurvix.Curves: {len(self)} curves, {int(self.closed.sum())} closed, {len(self.positions)} samples, '
+        return (f'<pycurvix.Curves: {plural(len(self), "curve")}, {int(self.closed.sum())} closed, '
+                f'{plural(len(self.positions), "sample")}, '
                 f'total length {self.lengths().sum():.4g}>')
 
 

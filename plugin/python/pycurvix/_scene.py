@@ -6,6 +6,7 @@ import os
 
 from . import _core
 from ._lazy import TYPE_CHECKING, np
+from ._text import plural
 
 if TYPE_CHECKING:
     from typing import Any, Sequence, Union
@@ -184,7 +185,8 @@ class Scene:
             raise _core.ArgumentError('a scene from arrays has either images or edges')
         for name, values in (('images', images), ('edges', edges), ('names', names)):
             if values is not None and len(values) != num_views:
-                raise _core.ArgumentError(f'there are {len(values)} {name} for {num_views} views')
+                are = 'is' if len(values) == 1 else 'are'
+                raise _core.ArgumentError(f'there {are} {plural(len(values), name[:-1])} for {plural(num_views, "view")}')
         calibrations = _array('K', K, (3, 3) if np.ndim(K) == 2 else (num_views, 3, 3)).reshape(-1, 3, 3)
         given: Sequence[Image] = [''] * num_views if images is None else images
         paths = [os.fspath(image) if _is_path(image) else '' for image in given]
@@ -229,7 +231,9 @@ class Scene:
                             key=lambda image: image.name.encode())
         images = [image for image in registered if os.path.isfile(os.path.join(folder, image.name))]
         if len(images) < len(registered):
-            _warn(f'{len(registered) - len(images)} of {len(registered)} images are not in {folder} and are skipped')
+            num_missing = len(registered) - len(images)
+            are = 'is' if num_missing == 1 else 'are'
+            _warn(f'{num_missing} of {plural(len(registered), "image")} {are} not in {folder} and {are} skipped')
         ids = sorted(reconstruction.cameras)
         cameras = [_camera(reconstruction.cameras[i]) for i in ids]
         camera_idx = {camera_id: i for i, camera_id in enumerate(ids)}
@@ -316,8 +320,8 @@ class Scene:
 
     def __repr__(self) -> str:
         what = ' with edges' if self._core.has_edges() else ''
-        return (f'<pycurvix.Scene: {len(self)} views{what}, {self._core.num_cameras()} cameras, '
-                f'{len(self._core.points())} points>')
+        return (f'<pycurvix.Scene: {plural(len(self), "view")}{what}, {plural(self._core.num_cameras(), "camera")}, '
+                f'{plural(len(self._core.points()), "point")}>')
 
 
 def _pinholes(calibrations: NDArray[np.float64], sizes: ArrayLike | None, needs_sizes: bool) -> list[_core.CameraInput]:
