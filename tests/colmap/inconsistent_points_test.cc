@@ -11,6 +11,7 @@
 namespace curvix {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
@@ -52,7 +53,8 @@ TEST(RemoveInconsistentPoints, RemovesThoseThatWereMovedWithoutTheCameras) {
   Scene scene = SceneWithPoints();
   for (ScenePoint& point : scene.points) point.position.z() += 1;
   EXPECT_THAT(RemoveInconsistentPoints("sparse/0", &scene),
-              HasSubstr("The points of sparse/0 project"));
+              AllOf(HasSubstr("The points of sparse/0 project"),
+                    HasSubstr("is a focal length wrong?")));
   EXPECT_THAT(scene.points, SizeIs(0));
 
   scene = SceneWithPoints();
