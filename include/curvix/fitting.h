@@ -155,11 +155,11 @@ struct FittedCurves {
 //   sum of min(distance^2 / sigma^2, 9) + (number of parameters) * log(samples)
 // wins, ties go to the earlier kind. Samples further than three standard
 // deviations off, as at rounded corners, thus cost the same at any distance.
-// Sigma is that of each sample (the median where it is not known, and a
-// twentieth of the distance between samples where it is known nowhere) together
-// with the error that samples share, 0.1 px, for which `scene` has the views
-// that samples name; without views it is left out. Next to open ends, which
-// corners bend, it is four times as large.
+// Sigma is that of each sample (the median where it is not known; where it is
+// known nowhere, 1 px, and at most a twentieth of the distance between samples)
+// together with the error that samples share, 0.1 px. For pixels, `scene` has
+// the views that samples name; without views these two are left out. Next to
+// open ends, which corners bend, the second is four times as large.
 //
 // Ends of curves in the same place are one node, joints of a chain too. A node
 // lies where its lines and arcs, fitted alone, come nearest to each other, at

@@ -12,7 +12,6 @@
 namespace curvix {
 namespace {
 
-constexpr double kKnownDeg = 1.5;
 constexpr double kSigmas = 3;
 
 Eigen::Vector3d AxisOf(const CurveFit& arc) {
@@ -69,7 +68,7 @@ double LengthSigma(const CurveFit& line) {
       along.dot((line.start_covariance + line.end_covariance) * along));
 }
 
-std::vector<KnownDirection> DirectionsOf(const FittedCurves& fitted) {
+DirectionsOfCurves DirectionsOf(const FittedCurves& fitted) {
   std::vector<KnownDirection> directions;
   std::vector<const CurveFit*> circles;
   for (const FittedCurve& curve : fitted.curves) {
@@ -92,15 +91,13 @@ std::vector<KnownDirection> DirectionsOf(const FittedCurves& fitted) {
   const auto is_unknown = [&](const KnownDirection& d) {
     return !(d.length > 0 && d.variance < limit);
   };
-  directions.erase(
-      std::remove_if(directions.begin(), directions.end(), is_unknown),
-      directions.end());
+  const std::size_t num_unknown = std::erase_if(directions, is_unknown);
   std::stable_sort(directions.begin(),
                    directions.end(),
                    [](const KnownDirection& a, const KnownDirection& b) {
                      return a.length > b.length;
                    });
-  return directions;
+  return {std::move(directions), num_unknown};
 }
 
 }  // namespace curvix

@@ -5,12 +5,16 @@
 
 #include <curvix/fitting.h>
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace curvix {
 
 // Lines with a smaller angle between them can be parallel.
 constexpr double kParallelDeg = 1;
+
+// Directions of a larger standard deviation are not known.
+constexpr double kKnownDeg = 1.5;
 
 struct KnownDirection {
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();  // unit, of either sign
@@ -25,8 +29,12 @@ double DirectionVariance(const CurveFit& line);
 double LengthSigma(const CurveFit& line);
 
 // Of lines, of the axes of arcs, and from each circle to the nearest one of its
-// size in its plane, all known to 1.5 degrees; longest first, ties as in
-// `fitted`. Arcs without an arc_covariance are left out.
-std::vector<KnownDirection> DirectionsOf(const FittedCurves& fitted);
+// size in its plane; longest first, ties as in `fitted`. Arcs without an
+// arc_covariance are left out.
+struct DirectionsOfCurves {
+  std::vector<KnownDirection> known;  // to kKnownDeg
+  std::size_t num_unknown = 0;        // the others
+};
+DirectionsOfCurves DirectionsOf(const FittedCurves& fitted);
 
 }  // namespace curvix

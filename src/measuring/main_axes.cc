@@ -4,10 +4,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <string>
 
 #include "base/angles.h"
+#include "base/count_text.h"
 #include "base/median.h"
+#include "base/text_fields.h"
 #include "geometry/directions.h"
 #include "measuring/known_directions.h"
 
@@ -216,6 +221,20 @@ void JudgeAngles(const std::vector<Member>& members,
   }
 }
 
+Status NothingPerpendicular(std::size_t num_known, std::size_t num_unknown) {
+  std::string message =
+      "No two of the lines, axes of arcs and rows of circles (" +
+      GroupDigits(static_cast<std::int64_t>(num_known)) +
+      " in all) are perpendicular, so that axes cannot be found";
+  if (num_unknown > 0) {
+    message += "; " + GroupDigits(static_cast<std::int64_t>(num_unknown)) +
+               " more are not used, since the standard deviation of their "
+               "direction is above " +
+               FixedText(kKnownDeg, 1) + " degrees";
+  }
+  return Status(StatusCode::kUnsupported, message);
+}
+
 // `axis`: of each camera.
 Eigen::Vector3d MeanOfAxis(const std::vector<View>& views,
                            const Eigen::Vector3d& axis) {
@@ -231,15 +250,9 @@ Eigen::Vector3d MeanOfAxis(const std::vector<View>& views,
 Result<MainAxes> FindMainAxes(const FittedCurves& fitted,
                               const Eigen::Vector3d& up,
                               const Eigen::Vector3d& views_direction) {
-  const Directions directions = DirectionsOf(fitted);
+  const auto [directions, num_unknown] = DirectionsOf(fitted);
   const std::optional<Frame> best = BestFrame(directions);
-  if (!best) {
-    return Status(StatusCode::kUnsupported,
-                  "No two of the lines, axes of arcs and rows of circles (" +
-                      std::to_string(directions.size()) +
-                      " in all) are perpendicular, so that axes cannot be "
-                      "found");
-  }
+  if (!best) return NothingPerpendicular(directions.size(), num_unknown);
   const Frame frame =
       Ordered(Refined(directions, *best), up, views_direction, directions);
   const std::vector<Member> members = MembersOf(directions, frame);

@@ -326,6 +326,23 @@ TEST(FitCurves, NeedsNoSigma) {
   EXPECT_EQ(KindName(FitOne(curve)), "arc");
 }
 
+// Two samples, as lines of other programs are.
+TEST(FitCurves, TakesLinesOfNoSigmaAsKnownToAPixel) {
+  constexpr double kPixel = 0.01;
+  const Scene scene = ToScene({LookAt({8, 0, 0}, {0, 0, 0})});
+  Curve curve;
+  for (const double y : {-1, 1}) {
+    CurveSample& sample = curve.samples.emplace_back();
+    sample.position = Vector3d(0, y, 0);
+    sample.tangent = Vector3d::UnitY();
+    sample.support = {{0, 0}};
+  }
+  const FittedCurves fitted = FitCurves({{curve}}, scene, {}, 1);
+  const CurveFit& fit = fitted.curves.at(0).fits.at(0);
+  EXPECT_EQ(KindName(fit), "line");
+  EXPECT_NEAR(std::sqrt(fit.start_covariance(2, 2)), kPixel, 0.2 * kPixel);
+}
+
 TEST(FitCurves, IsTheSameForAnyNumberOfThreads) {
   const std::vector<Curve> curves = {
       Sample(OnSlot, 300, true),

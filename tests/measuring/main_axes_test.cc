@@ -18,6 +18,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using testing::AllOf;
 using testing::HasSubstr;
 
 // With an error of `sigma` at both ends.
@@ -177,6 +178,18 @@ TEST(FindMainAxes, SaysThatNothingIsPerpendicular) {
   ASSERT_FALSE(axes.ok());
   EXPECT_THAT(axes.status().message(), HasSubstr("perpendicular"));
   EXPECT_FALSE(FindMainAxes({}, {0, 0, 1}, {0, 1, 0}).ok());
+}
+
+TEST(FindMainAxes, SaysThatDirectionsAreNotKnown) {
+  FittedCurves lines;
+  AddLine({0, 0, 0}, {1, 0, 0}, 0, lines);
+  for (int i = 0; i < 3; ++i) AddLine({0, 0, 0}, {0, 1, 0}, 0.1, lines);
+  const auto axes = FindMainAxes(lines, {0, 0, 1}, {0, 1, 0});
+  ASSERT_FALSE(axes.ok());
+  EXPECT_THAT(axes.status().message(),
+              AllOf(HasSubstr("(1 in all) are perpendicular"),
+                    HasSubstr("3 more are not used"),
+                    HasSubstr("above 1.5 degrees")));
 }
 
 TEST(MeanUp, IsWhatTheCamerasHoldUpwards) {
