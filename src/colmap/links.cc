@@ -2,7 +2,10 @@
 #include "colmap/links.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <system_error>
+
+#include "base/count_text.h"
 
 namespace curvix {
 
@@ -42,7 +45,9 @@ std::string FirstNames(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) {
     text += (i > 0 ? ", " : "") + names[i];
   }
-  return names.size() > kMany ? text + ", ..." : text;
+  if (names.size() <= kMany) return text;
+  return text + " and " +
+         GroupDigits(static_cast<std::int64_t>(names.size() - kMany)) + " more";
 }
 
 }  // namespace curvix

@@ -34,7 +34,7 @@ inline bool IsFolder(const std::filesystem::path& path) {
 std::vector<std::filesystem::path> EntriesOf(
     const std::filesystem::path& folder);
 
-// "a, b, c, d, e, ...": at most five.
+// "a, b, c, d, e and 12 more": at most five.
 std::string FirstNames(const std::vector<std::string>& names);
 
 // The file in `folder` that `name`, relative to it, means: that of this name,

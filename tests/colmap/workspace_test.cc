@@ -260,7 +260,7 @@ TEST_F(WorkspaceTest, SceneSkipsAndNamesMissingImages) {
   EXPECT_THAT(scene->notes[0], HasSubstr("6 of 12 images are not in"));
   EXPECT_THAT(scene->notes[0],
               HasSubstr("image_1.png, image_2.png, image_4.png, image_5.png, "
-                        "image_6.png, ..."));
+                        "image_6.png and 1 more."));
 }
 
 TEST_F(WorkspaceTest, FindsMasksAsColmapNamesThem) {
