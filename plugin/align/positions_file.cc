@@ -1,39 +1,86 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/align/positions_file.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/file_io.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
+#include "colmap/links.h"
 
 namespace curvix {
 namespace {
 
-std::optional<KnownPosition> ParsePosition(std::string_view line) {
-  KnownPosition position;
-  position.name = TakeWord(line);
-  for (int i = 0; i < 3; ++i) {
-    const std::optional<double> value = ParseNumber<double>(TakeWord(line));
-    if (!value || !std::isfinite(*value)) return std::nullopt;
-    position.world(i) = *value;
-  }
-  const std::string_view sigma = TakeWord(line);
-  if (!sigma.empty()) {
-    const std::optional<double> value = ParseNumber<double>(sigma);
-    if (!value || !(*value > 0) || !std::isfinite(*value)) return std::nullopt;
-    position.sigma = *value;
-  }
-  if (!TakeWord(line).empty()) return std::nullopt;
-  return position;
+constexpr std::string_view kSeparators = " \t\r\v\f,;";
+
+// Without separators at the end.
+std::string_view WithoutEnd(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(kSeparators) + 1);
 }
 
-std::map<std::string, Eigen::Vector3d> Centers(const Scene& scene) {
-  std::map<std::string, Eigen::Vector3d> centers;
+// The name without quotes around it.
+std::string NameOf(std::string_view text) {
+  text = WithoutEnd(text);
+  if (text.size() > 2 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+  }
+  return std::string(text);
+}
+
+// What a line can mean: four numbers at its end may have a sigma among them, or
+// the first one ends the name.
+std::vector<KnownPosition> ReadingsOf(std::string_view line) {
+  std::vector<double> numbers;          // from the right
+  std::vector<std::string_view> names;  // what is before each of them
+  while (numbers.size() < 4) {
+    line = WithoutEnd(line);
+    const std::size_t begin = line.find_last_of(kSeparators) + 1;
+    const auto number = ParseNumber<double>(line.substr(begin));
+    if (begin == 0 || !number || !std::isfinite(*number)) break;
+    line = line.substr(0, begin);
+    numbers.push_back(*number);
+    names.push_back(line);
+  }
+  std::vector<KnownPosition> readings;
+  for (std::size_t n = numbers.size(); n >= 3; --n) {
+    KnownPosition position;
+    position.name = NameOf(names[n - 1]);
+    position.world = {numbers[n - 1], numbers[n - 2], numbers[n - 3]};
+    if (n == 4) position.sigma = numbers[0];
+    const bool is_sound = n == 3 || position.sigma > 0;
+    if (is_sound && !position.name.empty()) readings.push_back(position);
+  }
+  return readings;
+}
+
+using Centers = std::map<std::string, Eigen::Vector3d>;
+
+// The reading whose name is in the model, else the first one. Names may hold
+// "#", which else begins a comment.
+std::optional<KnownPosition> ParsePosition(std::string_view line,
+                                           const Centers& centers) {
+  std::optional<KnownPosition> first;
+  for (std::size_t end = line.find('#');; end = line.find('#', end + 1)) {
+    for (KnownPosition& position : ReadingsOf(line.substr(0, end))) {
+      if (centers.contains(position.name)) return position;
+      if (!first) first = std::move(position);
+    }
+    if (end == std::string_view::npos) break;
+  }
+  // A name of the model and too many numbers.
+  const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
+  if (centers.contains(std::string(word))) return std::nullopt;
+  return first;
+}
+
+Centers CentersOf(const Scene& scene) {
+  Centers centers;
   for (const View& view : scene.views) {
     centers[view.name] = view.cam_from_world.Inverse().translation;
   }
@@ -46,38 +93,29 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                                       const Scene& scene) {
   Result<std::string> file = ReadFile(path);
   if (!file.ok()) return file.status();
-  std::replace_if(
-      file->begin(),
-      file->end(),
-      [](char c) { return c == ',' || c == ';'; },
-      ' ');
-  const auto broken = [&](int number, const std::string& why) {
-    return Status(
-        StatusCode::kDataLoss,
-        "line " + std::to_string(number) + " of " + path.string() + " " + why);
+  LineReader reader(*file);
+  const auto broken = [&](const std::string& why) {
+    return Status(StatusCode::kDataLoss,
+                  "line " + std::to_string(reader.line_number()) + " of " +
+                      path.string() + " " + why);
   };
-  const std::map<std::string, Eigen::Vector3d> centers = Centers(scene);
+  const Centers centers = CentersOf(scene);
   CameraPositions result;
   std::set<std::string> names;
-  std::string_view rest = *file;
-  for (int number = 1; !rest.empty(); ++number) {
-    std::string_view line = TakeLine(rest);
-    line = line.substr(0, line.find('#'));
-    std::string_view words = line;
-    if (TakeWord(words).empty()) continue;
-    std::optional<KnownPosition> position = ParsePosition(line);
+  std::vector<std::string> unknown;
+  while (const auto line = reader.NextFilled()) {
+    std::optional<KnownPosition> position = ParsePosition(*line, centers);
     if (!position) {
-      return broken(number,
-                    "is not \"name x y z\", or with a standard deviation "
-                    "above 0 \"name x y z sigma\"");
+      return broken(
+          "is not \"name x y z\", or with a standard deviation above 0 \"name "
+          "x y z sigma\"");
     }
     if (!names.insert(position->name).second) {
-      return broken(number, "names " + position->name + " once more");
+      return broken("names " + position->name + " once more");
     }
     const auto center = centers.find(position->name);
     if (center == centers.end()) {
-      result.notes.push_back("no image of the model is called " +
-                             position->name);
+      unknown.push_back(position->name);
       continue;
     }
     position->model = center->second;
@@ -88,6 +126,10 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                   path.string() + " names no image of the model, as " +
                       (scene.views.empty() ? "" : scene.views.front().name) +
                       " is one");
+  }
+  if (!unknown.empty()) {
+    result.notes.push_back("no image of the model is called " +
+                           FirstNames(unknown));
   }
   return result;
 }

@@ -18,9 +18,11 @@ struct CameraPositions {
 };
 
 // A line "name x y z" or "name x y z sigma" per image, blanks, commas or
-// semicolons between; "#" begins a comment. The model's position is the centre
-// of the camera. kNotFound; kDataLoss: the line that cannot be read, a name
-// that is there twice, or no name that a view has.
+// semicolons between; "#" begins a comment. Names may hold all of these and be
+// in quotes: of several meanings of a line, the one whose name a view has
+// counts. The model's position is the centre of the camera. kNotFound;
+// kDataLoss: the line that cannot be read, a name that is there twice, or no
+// name that a view has.
 Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                                       const Scene& scene);
 

@@ -172,6 +172,39 @@ TEST_F(Positions, AreThoseOfTheCameras) {
   EXPECT_THAT(read->notes[0], HasSubstr("other"));
 }
 
+TEST_F(Positions, NamesMayHoldWhatIsBetweenNumbers) {
+  const char* const kNames[] = {
+      "my view 1.jpg", "a #1.jpg", "b,c;d.jpg", "e.jpg", "f 7"};
+  scene_.views.resize(5, scene_.views.front());
+  for (std::size_t i = 0; i < 5; ++i) scene_.views[i].name = kNames[i];
+  const auto read = Read(
+      "\xEF\xBB\xBFmy view 1.jpg 1 2 3\n"
+      "a #1.jpg 1 2 3 0.5 # 4 5 6\n"
+      "b,c;d.jpg,1,2,3\n"
+      "\"e.jpg\"; 1; 2; 3\n"
+      "f 7 1 2 3\n");
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_THAT(read->notes, testing::IsEmpty());
+  ASSERT_EQ(read->positions.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(read->positions[i].name, kNames[i]);
+    EXPECT_EQ(read->positions[i].world, Vector3d(1, 2, 3));
+    EXPECT_EQ(read->positions[i].sigma, i == 1 ? 0.5 : 0);
+  }
+}
+
+TEST_F(Positions, UnknownNamesAreOneNote) {
+  std::string text = "view_000 1 2 3\n";
+  for (int i = 0; i < 1000; ++i) {
+    text += "IMG_" + std::to_string(i) + ".jpg 1 2 3\n";
+  }
+  const auto read = Read(text);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  ASSERT_EQ(read->notes.size(), 1u);
+  EXPECT_THAT(read->notes[0], HasSubstr("IMG_0.jpg"));
+  EXPECT_THAT(read->notes[0], HasSubstr("995 more"));
+}
+
 TEST_F(Positions, ThatCannotBeReadAreNamed) {
   EXPECT_THAT(Read("view_000 1 2\n").status().message(), HasSubstr("line 1"));
   EXPECT_THAT(Read("\nview_000 1 2 x\n").status().message(),
