@@ -30,6 +30,13 @@ inline bool IsFolder(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path, error);
 }
 
+// Whether rights keep it from being known if `path` is there.
+inline bool IsForbidden(const std::filesystem::path& path) {
+  std::error_code error;
+  return !std::filesystem::exists(path, error) &&
+         error == std::errc::permission_denied;
+}
+
 // Sorted; empty on errors.
 std::vector<std::filesystem::path> EntriesOf(
     const std::filesystem::path& folder);

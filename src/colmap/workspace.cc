@@ -60,6 +60,13 @@ Status NotFound(const std::string& sentence) {
   return {StatusCode::kNotFound, sentence};
 }
 
+Status MayNotBeRead(const fs::path& folder, const std::string& flag) {
+  return NotFound(folder.string() +
+                  " may not be read (Permission denied); change its "
+                  "permissions, or name another folder with " +
+                  flag + ".");
+}
+
 // The folder beside whose sparse/ the model lies: what holds sparse/<k> or
 // sparse; empty if the model lies in neither.
 fs::path RootOfModel(const fs::path& model) {
@@ -154,6 +161,10 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
   const std::vector<fs::path> places = ModelCandidates(paths.workspace_path);
   const auto place = std::find_if(places.begin(), places.end(), IsModel);
   if (place == places.end()) {
+    for (const fs::path& folder : places) {
+      if (!IsForbidden(folder / "cameras.bin")) continue;
+      return MayNotBeRead(folder, "--input_path");
+    }
     return NotFound(
         "No COLMAP model (cameras and images, as .bin or .txt) in " +
         paths.workspace_path.string() + "." + Tried(places) +
@@ -306,13 +317,8 @@ Status TooFewViews(const Workspace& workspace,
                 ", and curves need at least three; register more "
                 "images."};
   }
-  std::error_code error;
-  const fs::path file = ImageFile(workspace.image_path, missing.front());
-  if (!fs::exists(file, error) && error == std::errc::permission_denied) {
-    return NotFound(workspace.image_path.string() + " may not be read (" +
-                    error.message() +
-                    "); change its permissions, or name another folder with "
-                    "--image_path.");
+  if (IsForbidden(ImageFile(workspace.image_path, missing.front()))) {
+    return MayNotBeRead(workspace.image_path, "--image_path");
   }
   return NotFound("Only " + std::to_string(num_views) + " of the " +
                   Plural(num_views + missing.size(), "image") +

@@ -298,6 +298,11 @@ TEST_F(WorkspaceTest, FoldersThatMayNotBeReadAreNamed) {
   fs::permissions(At("proj/images"), fs::perms::none);
   const Status status = LoadWorkspaceScene(*FindWorkspace(Root())).status();
   fs::permissions(At("proj/images"), fs::perms::owner_all);
+  fs::permissions(At("proj/sparse"), fs::perms::none);
+  EXPECT_THAT(
+      FindWorkspace(Root()).status().message(),
+      testing::AllOf(HasSubstr("sparse"), HasSubstr("may not be read")));
+  fs::permissions(At("proj/sparse"), fs::perms::owner_all);
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_THAT(status.message(), HasSubstr("images may not be read (Perm"));
 }
