@@ -302,7 +302,9 @@ void NoteMissingMasks(const Workspace& workspace, WorkspaceScene* result) {
                           " images " + OneOrMore(names.size(), "has", "have") +
                           " no mask in " + workspace.mask_path.string() +
                           " and " + OneOrMore(names.size(), "is", "are") +
-                          " used whole: " + FirstNames(names) + ".");
+                          " used whole: " + FirstNames(names) + ". That of " +
+                          names.front() + " would be called " + names.front() +
+                          ".png.");
 }
 
 constexpr std::size_t kMinViews = 3;

@@ -284,6 +284,7 @@ TEST_F(WorkspaceTest, FindsMasksAsColmapNamesThem) {
   ASSERT_EQ(scene->notes.size(), 1u);
   EXPECT_THAT(scene->notes[0], HasSubstr("2 of 4 images have no mask"));
   EXPECT_THAT(scene->notes[0], HasSubstr("image_3.png, image_4.png"));
+  EXPECT_THAT(scene->notes[0], HasSubstr("would be called image_3.png.png"));
 
   paths.mask_path = At("no_masks");
   const Status status = FindWorkspace(paths).status();

@@ -478,7 +478,7 @@ def _(w):
     w.convert('.tif', save_deep)
 
 
-@row('PNG with an opaque alpha channel', '')
+@row('PNG with an opaque alpha channel', 'others: over black')
 def _(w):
     w.convert('.png', lambda image, path: image.convert('RGBA').save(path))
 
