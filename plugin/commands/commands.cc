@@ -8,6 +8,8 @@
 #include <iostream>
 #include <system_error>
 
+#include "base/file_io.h"
+#include "colmap/project_file.h"
 #include "plugin/commands/help_text.h"
 #include "plugin/run/run_report.h"
 
@@ -154,6 +156,36 @@ ExitCode UnknownCommand(const std::string& name) {
   return Fail({StatusCode::kInvalidArgument, message}, kExitCommandLine);
 }
 
+// The value of a flag, "--name value" or "--name=value"; "" if it is not there.
+std::string ValueOf(const Arguments& arguments, const std::string& flag) {
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == flag && i + 1 < arguments.size()) {
+      return arguments[i + 1];
+    }
+    if (arguments[i].starts_with(flag + "=")) {
+      return arguments[i].substr(flag.size() + 1);
+    }
+  }
+  return "";
+}
+
+// What runs where no command is given: that of the project file, which
+// ParseCommand reads again and complains about.
+Command CommandOfProject(const Arguments& arguments) {
+  Command command = kCommands.front();
+  const Result<std::string> text =
+      ReadFile(ValueOf(arguments, "--project_path"));
+  if (!text.ok()) return command;
+  const auto entries = ParseProjectFile(*text);
+  if (!entries.ok()) return command;
+  for (const ProjectEntry& entry : *entries) {
+    if (entry.name != kCommandName) continue;
+    const Command* const named = FindCommand(entry.value);
+    if (named != nullptr) command = *named;
+  }
+  return command;
+}
+
 }  // namespace
 
 const Command* FindCommand(const std::string& name) {
@@ -167,7 +199,7 @@ ExitCode RunProgram(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return Help({});
   const std::string& first = arguments.front();
   if (first == "--version") return Version({});
-  if (first.starts_with("-")) return RunReconstruct(arguments);
+  if (first.starts_with("-")) return CommandOfProject(arguments).run(arguments);
   const Command* const command = FindCommand(first);
   if (command == nullptr) return UnknownCommand(first);
   return command->run({arguments.begin() + 1, arguments.end()});
@@ -197,8 +229,9 @@ std::optional<ExitCode> ParseCommand(const std::string& name,
   sections.insert(sections.begin() + 1, CommonSection(&settings));
   // The project.ini of a run serves all commands.
   RunSettings run;
-  const Result<Request> request =
-      ParseFlags(arguments, sections, ReconstructSections(&run));
+  std::vector<FlagSection> of_runs = ReconstructSections(&run);
+  of_runs.front().flags.push_back(TextFlag(kCommandName, &run.command, ""));
+  const Result<Request> request = ParseFlags(arguments, sections, of_runs);
   if (!request.ok()) {
     const bool is_file = request.status().code() == StatusCode::kNotFound;
     const ExitCode code =

@@ -247,6 +247,7 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   status = CheckScene(*input, *plan, model_path, folder);
   if (!status.ok()) return status;
   record.settings.input_path = fs::absolute(model_path);
+  record.settings.command = "merge";
   Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
   if (!output.ok()) return output.status();
   const auto image_hashes =

@@ -294,6 +294,7 @@ std::string ProjectFile(const RunSettings& settings) {
   const auto add = [&](const char* name, const std::string& value) {
     if (!value.empty()) text += std::string(name) + "=" + value + "\n";
   };
+  add(kCommandName, settings.command);
   add("workspace_path", settings.workspace_path.string());
   add("input_path", settings.input_path.string());
   add("image_path", settings.image_path.string());

@@ -25,8 +25,12 @@ namespace curvix {
 // "0.1.0".
 std::string_view ProgramVersion();
 
+// The line of a project file with the command that it repeats.
+inline constexpr const char* kCommandName = "command";
+
 // What the user asked for. Empty paths: found under the workspace.
 struct RunSettings : WorkspacePaths {
+  std::string command = "";  // "": reconstruct
   std::string preset = "default";
   PoseRefinementSettings poses;
   OutputSettings output;

@@ -116,6 +116,22 @@ TEST_F(Align, WritesAgainWhatReconstructWroteBesideAPlanOfParts) {
   EXPECT_TRUE(Curves().contains("alignment"));
 }
 
+TEST_F(Align, TheProjectFileOfAMergeRepeatsTheMerge) {
+  for (const char* words : {"partition", "reconstruct --part 0", "merge"}) {
+    ASSERT_EQ(Run(words).exit_code, 0) << words;
+  }
+  const json merged = Curves();
+  const std::string project =
+      "--project_path " + Quoted(results_ / "project.ini");
+  const Outcome outcome = RunProgram(project);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("Join parts"));
+  EXPECT_EQ(Curves(), merged);
+  EXPECT_EQ(RunAlign("--axes auto").exit_code, 0);
+  EXPECT_TRUE(Curves().contains("alignment"));
+  EXPECT_EQ(RunProgram("draw " + project).exit_code, 0);
+}
+
 TEST_F(Align, WorkspacesMayMove) {
   const fs::path moved = folder_.path() / "moved";
   fs::rename(workspace_, moved);
