@@ -16,6 +16,7 @@
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
 #include "plugin/run/file_hashes.h"
+#include "plugin/run/part_models.h"
 #include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"
 
@@ -137,52 +138,6 @@ bool IsSound(const ScenePartition& partition, int num_views) {
                      });
 }
 
-// The images of `views` with the points that they see, or without any.
-ColmapModel ModelOfViews(const ColmapModel& model,
-                         const Scene& scene,
-                         const std::vector<int>& view_idxs,
-                         bool with_points) {
-  ColmapModel part;
-  part.cameras = model.cameras;
-  std::vector<std::uint32_t> image_ids;
-  for (const int idx : view_idxs) {
-    image_ids.push_back(scene.views[Idx(idx)].image_id);
-  }
-  std::sort(image_ids.begin(), image_ids.end());
-  const auto is_in_part = [&](std::uint32_t id) {
-    return std::binary_search(image_ids.begin(), image_ids.end(), id);
-  };
-  std::vector<std::uint64_t> point_ids;
-  for (const ColmapImage& image : model.images) {
-    if (!is_in_part(image.image_id)) continue;
-    part.images.push_back(image);
-    if (!with_points) part.images.back().points2D.clear();
-    for (const ColmapPoint2D& point : part.images.back().points2D) {
-      if (point.point3D_id != kNoPoint3D) point_ids.push_back(point.point3D_id);
-    }
-  }
-  std::sort(point_ids.begin(), point_ids.end());
-  point_ids.erase(std::unique(point_ids.begin(), point_ids.end()),
-                  point_ids.end());
-  auto point = model.points.begin();
-  for (const std::uint64_t id : point_ids) {
-    point = std::lower_bound(point,
-                             model.points.end(),
-                             id,
-                             [](const ColmapPoint3D& p, std::uint64_t sought) {
-                               return p.point3D_id < sought;
-                             });
-    if (point == model.points.end()) break;
-    if (point->point3D_id != id) continue;
-    part.points.push_back(*point);
-    std::erase_if(part.points.back().track,
-                  [&](const ColmapTrackElement& element) {
-                    return !is_in_part(element.image_id);
-                  });
-  }
-  return part;
-}
-
 constexpr const char* kModelFiles[] = {
     "cameras.bin", "images.bin", "points3D.bin"};
 
@@ -242,13 +197,11 @@ Status WritePlan(const ScenePartition& partition,
                  const Scene& scene,
                  const ColmapModel& model,
                  const fs::path& folder) {
-  std::vector<int> all(scene.views.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  Status status = WriteColmapModel(ModelOfViews(model, scene, all, false),
-                                   folder / "scene");
+  Status status =
+      WriteColmapModel(ModelForMerge(model, scene), folder / "scene");
   for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
     status = WriteColmapModel(
-        ModelOfViews(model, scene, partition.parts[i].view_idxs, true),
+        ModelForPart(model, scene, partition.parts[i].view_idxs),
         PartFolder(folder, static_cast<int>(i)) / "sparse");
   }
   if (!status.ok()) return status;

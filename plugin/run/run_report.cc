@@ -149,7 +149,10 @@ Json ResultJson(const ResultSummary& result) {
   json["total_length"] = result.total_length;
   json["num_edges_3d"] = result.num_edges_3d;
   json["num_edges_2d"] = result.num_edges_2d;
-  json["edge_sigma_px"] = Milli(result.edge_sigma_px);
+  // Merges and imports do not measure it.
+  if (result.edge_sigma_px > 0) {
+    json["edge_sigma_px"] = Milli(result.edge_sigma_px);
+  }
   json["files"] = result.files;
   json["why_empty"] = result.why_empty;
   return json;

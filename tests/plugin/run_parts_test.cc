@@ -22,7 +22,9 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int kMaxViews = 46;
 
@@ -90,6 +92,11 @@ TEST_F(RunParts, GiveWhatOneRunGives) {
   const auto run = RunWorkspace(settings, progress_);
   ASSERT_TRUE(run.ok()) << run.status().message();
 
+  EXPECT_THAT(*ReadFile(parts_ / "viewer.html"),
+              Not(HasSubstr("\"points\":[]")));
+  EXPECT_THAT(*ReadFile(parts_ / "report.json"),
+              Not(HasSubstr("edge_sigma_px")));
+  EXPECT_THAT(*ReadFile(one_ / "report.json"), HasSubstr("edge_sigma_px"));
   EXPECT_TRUE(AreMerged(parts_));
   EXPECT_FALSE(AreMerged(one_));
   const Evaluation one = Evaluate(one_);
