@@ -6,6 +6,7 @@
 
 #include "base/count_text.h"
 #include "base/text_fields.h"
+#include "plugin/base/progress.h"
 #include "plugin/base/text.h"
 #include "plugin/commands/commands.h"
 #include "plugin/imports/importers.h"
@@ -150,7 +151,8 @@ ExitCode ImportDataSet(const ImportSettings& settings) {
   status = WriteNewWorkspace(scene->model,
                              scene->image_files,
                              settings.copy_policy,
-                             settings.workspace_path);
+                             settings.workspace_path,
+                             [] { return !IsInterrupted(); });
   if (!status.ok()) return Fail(status);
   for (const std::string& note : scene->notes) std::cerr << note << std::endl;
   const std::string path = settings.workspace_path.string();

@@ -9,12 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/check.h"
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/image_file.h"
+#include "plugin/base/progress.h"
+#include "plugin/base/staged_output.h"
 #include "plugin/base/text.h"
 #include "plugin/commands/commands.h"
 #include "plugin/imports/new_workspace.h"
@@ -161,7 +164,9 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   settings.options.seed = static_cast<std::uint64_t>(settings.seed);
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Status status = Synthesize(settings.options, settings.workspace_path);
+  const Status status = Synthesize(settings.options,
+                                   settings.workspace_path,
+                                   [] { return !IsInterrupted(); });
   if (!status.ok()) return Fail(status);
   const std::string path = settings.workspace_path.string();
   std::cout << "Wrote " << Plural(settings.options.num_views, "image")
@@ -171,25 +176,36 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   return kExitSuccess;
 }
 
-Status Synthesize(const SyntheticOptions& options, const fs::path& workspace) {
-  const fs::path images = workspace / "images";
-  const fs::path sparse = workspace / "sparse";
-  const fs::path truth = workspace / "gt.txt";
-  for (const fs::path& path : {images, sparse, truth}) {
-    if (Status status = CheckUnused(path); !status.ok()) return status;
+Status Synthesize(const SyntheticOptions& options,
+                  const fs::path& workspace,
+                  const std::function<bool()>& keep_going) {
+  const std::vector<std::string> names = {"images", "sparse", "gt.txt"};
+  for (const std::string& name : names) {
+    if (Status status = CheckUnused(workspace / name); !status.ok()) {
+      return status;
+    }
   }
-  const Result<SyntheticScene> scene = MakeSyntheticScene(options);
+  const Result<SyntheticScene> scene = MakeSyntheticScene(options, keep_going);
   if (!scene.ok()) return scene.status();
 
-  if (Status status = MakeFolder(images); !status.ok()) return status;
-  for (std::size_t i = 0; i < scene->images.size(); ++i) {
-    const fs::path path = images / scene->scene.views[i].name;
-    Status status = WriteImage(scene->images[i], path);
-    if (!status.ok()) return status;
+  const Result<StagedOutput> staged = StageWorkspace(workspace);
+  if (!staged.ok()) return staged.status();
+  const fs::path& folder = staged->folder();
+  Status status = MakeFolder(folder / "images");
+  for (std::size_t i = 0; status.ok() && i < scene->images.size(); ++i) {
+    const fs::path path = folder / "images" / scene->scene.views[i].name;
+    status = WriteImage(scene->images[i], path);
+    if (status.ok() && keep_going && !keep_going()) status = CancelledStatus();
   }
-  Status status = WriteColmapModel(ModelOfScene(scene->scene), sparse / "0");
+  if (status.ok()) {
+    status =
+        WriteColmapModel(ModelOfScene(scene->scene), folder / "sparse" / "0");
+  }
+  if (status.ok()) {
+    status = WriteFileAtomically(folder / "gt.txt", TruthText(scene->truth));
+  }
   if (!status.ok()) return status;
-  return WriteFileAtomically(truth, TruthText(scene->truth));
+  return MoveIntoWorkspace(names, folder, workspace);
 }
 
 }  // namespace curvix

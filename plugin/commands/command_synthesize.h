@@ -4,6 +4,7 @@
 
 #include <curvix/status.h>
 #include <filesystem>
+#include <functional>
 
 #include "synthetic/synthetic_scene.h"
 
@@ -18,7 +19,10 @@ namespace curvix {
 //                             kind, the number of its CurveKind
 // kInvalidArgument, before anything is rendered or written, if an option is out
 // of range, if images/ or sparse/ holds anything already, or if gt.txt exists.
+// kCancelled if keep_going, which is asked after each view, returns false. All
+// files appear together, or none does.
 Status Synthesize(const SyntheticOptions& options,
-                  const std::filesystem::path& workspace);
+                  const std::filesystem::path& workspace,
+                  const std::function<bool()>& keep_going = {});
 
 }  // namespace curvix

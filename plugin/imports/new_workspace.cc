@@ -5,8 +5,9 @@
 #include <string>
 #include <system_error>
 
+#include "base/cancelled.h"
+#include "base/file_io.h"
 #include "colmap/links.h"
-#include "plugin/base/staged_output.h"
 
 namespace curvix {
 namespace {
@@ -31,6 +32,12 @@ bool AreInPlace(const ColmapModel& model,
   return !files.empty();
 }
 
+// fs::copy_file() calls a full disk an "Input/output error".
+Status CopyFile(const fs::path& from, const fs::path& to) {
+  const Result<std::string> bytes = ReadFile(from);
+  return bytes.ok() ? WriteFileAtomically(to, *bytes) : bytes.status();
+}
+
 Status PlaceImage(const fs::path& from, const fs::path& to, CopyPolicy policy) {
   std::error_code error;
   fs::create_directories(to.parent_path(), error);
@@ -39,8 +46,7 @@ Status PlaceImage(const fs::path& from, const fs::path& to, CopyPolicy policy) {
   if (error) return CannotWrite(to, error);
   switch (policy) {
     case CopyPolicy::kCopy:
-      fs::copy_file(original, to, error);
-      break;
+      return CopyFile(original, to);
     case CopyPolicy::kSoftLink:
       fs::create_symlink(original, to, error);
       break;
@@ -49,23 +55,6 @@ Status PlaceImage(const fs::path& from, const fs::path& to, CopyPolicy policy) {
       break;
   }
   return error ? CannotWrite(to, error) : Status();
-}
-
-// Moves the folders `names`, all or none. Empty folders in their places go.
-Status MoveFolders(const std::vector<std::string>& names,
-                   const fs::path& from,
-                   const fs::path& to) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::error_code error;
-    fs::rename(from / names[i], to / names[i], error);
-    if (!error) continue;
-    for (std::size_t j = 0; j < i; ++j) {
-      std::error_code ignored;
-      fs::rename(to / names[j], from / names[j], ignored);
-    }
-    return CannotWrite(to / names[i], error);
-  }
-  return {};
 }
 
 }  // namespace
@@ -84,10 +73,39 @@ Status CheckWorkspaceUnused(const fs::path& workspace) {
   return CheckUnused(workspace / "sparse");
 }
 
+Result<StagedOutput> StageWorkspace(const fs::path& workspace) {
+  Result<StagedOutput> staged = StagedOutput::Create(workspace);
+  if (staged.ok()) return staged;
+  std::string message = staged.status().message();
+  const std::string flag = "--output_path";
+  const std::size_t at = message.rfind(flag);
+  if (at != std::string::npos) {
+    message.replace(at, flag.size(), "--workspace_path");
+  }
+  return Status(staged.status().code(), message);
+}
+
+Status MoveIntoWorkspace(const std::vector<std::string>& names,
+                         const fs::path& from,
+                         const fs::path& to) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::error_code error;
+    fs::rename(from / names[i], to / names[i], error);
+    if (!error) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      std::error_code ignored;
+      fs::rename(to / names[j], from / names[j], ignored);
+    }
+    return CannotWrite(to / names[i], error);
+  }
+  return {};
+}
+
 Status WriteNewWorkspace(const ColmapModel& model,
                          const std::vector<fs::path>& image_files,
                          CopyPolicy policy,
-                         const fs::path& workspace) {
+                         const fs::path& workspace,
+                         const std::function<bool()>& keep_going) {
   if (image_files.size() != model.images.size()) {
     throw std::logic_error("WriteNewWorkspace without one file per image");
   }
@@ -96,16 +114,13 @@ Status WriteNewWorkspace(const ColmapModel& model,
   const bool in_place = AreInPlace(model, image_files, workspace / "images");
   if (!in_place) status = CheckUnused(workspace / "images");
   if (!status.ok()) return status;
-  Result<StagedOutput> staged = StagedOutput::Create(workspace);
-  if (!staged.ok()) {
-    return {staged.status().code(),
-            "cannot write to " + workspace.string() +
-                "; choose another folder with --workspace_path."};
-  }
+  const Result<StagedOutput> staged = StageWorkspace(workspace);
+  if (!staged.ok()) return staged.status();
   const fs::path folder = staged->folder();
   for (std::size_t i = 0; !in_place && i < image_files.size(); ++i) {
     const fs::path to = folder / "images" / model.images[i].name;
     status = PlaceImage(image_files[i], to, policy);
+    if (status.ok() && keep_going && !keep_going()) status = CancelledStatus();
     if (!status.ok()) return status;
   }
   status = WriteColmapModel(model, folder / "sparse" / "0");
@@ -113,7 +128,7 @@ Status WriteNewWorkspace(const ColmapModel& model,
   const std::vector<std::string> names =
       in_place ? std::vector<std::string>{"sparse"}
                : std::vector<std::string>{"images", "sparse"};
-  return MoveFolders(names, folder, workspace);
+  return MoveIntoWorkspace(names, folder, workspace);
 }
 
 }  // namespace curvix

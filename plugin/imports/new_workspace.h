@@ -4,9 +4,12 @@
 
 #include <curvix/status.h>
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "colmap/colmap_model.h"
+#include "plugin/base/staged_output.h"
 
 namespace curvix {
 
@@ -22,11 +25,22 @@ enum class CopyPolicy { kCopy, kSoftLink, kHardLink };
 // kInvalidArgument if <workspace>/sparse or, but for such images,
 // <workspace>/images holds anything, or if something cannot be written. A hard
 // link cannot lead to another file system, a soft link breaks if its original
-// is moved.
+// is moved. kCancelled if keep_going, which is asked after each image, returns
+// false.
 Status WriteNewWorkspace(const ColmapModel& model,
                          const std::vector<std::filesystem::path>& image_files,
                          CopyPolicy policy,
-                         const std::filesystem::path& workspace);
+                         const std::filesystem::path& workspace,
+                         const std::function<bool()>& keep_going = {});
+
+// A temporary folder in a workspace; errors of StagedOutput::Create.
+Result<StagedOutput> StageWorkspace(const std::filesystem::path& workspace);
+
+// Moves the files and folders `names` from one folder to another, all or none.
+// Empty folders in their places go.
+Status MoveIntoWorkspace(const std::vector<std::string>& names,
+                         const std::filesystem::path& from,
+                         const std::filesystem::path& to);
 
 // kInvalidArgument if `path` is there and is not an empty folder.
 Status CheckUnused(const std::filesystem::path& path);

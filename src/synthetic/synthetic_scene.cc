@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/cancelled.h"
 #include "base/parallel.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
@@ -140,7 +141,8 @@ Status Validate(const SyntheticOptions& options) {
   return MakeCamera(options).status();
 }
 
-Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
+Result<SyntheticScene> MakeSyntheticScene(
+    const SyntheticOptions& options, const std::function<bool()>& keep_going) {
   if (Status status = Validate(options); !status.ok()) return status;
   const Result<Camera> camera = MakeCamera(options);
 
@@ -167,7 +169,7 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
   scene.scene.views.resize(poses.size());
   scene.images.resize(poses.size());
   std::vector<std::vector<SampleInView>> looks(poses.size());
-  ParallelFor(poses.size(), options.num_threads, [&](std::size_t i) {
+  const auto make_view = [&](std::size_t i) {
     const RenderedImage image = Render(solid, surfaces, *camera, poses[i]);
     looks[i] = LookAtSamples(scene.truth, solid, *camera, poses[i], image);
     scene.images[i] =
@@ -180,7 +182,15 @@ Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options) {
                                     places,
                                     options.pose_error_px,
                                     Mix(Mix(options.seed, kPoseError), i));
-  });
+    return true;
+  };
+  bool is_cancelled = false;
+  ParallelForWhile(
+      poses.size(), options.num_threads, make_view, [&](std::size_t) {
+        is_cancelled = keep_going && !keep_going();
+        return !is_cancelled;
+      });
+  if (is_cancelled) return CancelledStatus();
   for (const std::vector<SampleInView>& view_looks : looks) {
     for (std::size_t i = 0; i < view_looks.size(); ++i) {
       scene.truth[i].num_views_seen += view_looks[i].is_seen;

@@ -8,6 +8,7 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/option_table.h"
@@ -87,7 +88,10 @@ std::vector<OptionRow> OptionTable(SyntheticOptions& options);
 // kInvalidArgument if an option is out of range.
 Status Validate(const SyntheticOptions& options);
 
-// Deterministic for equal options. Errors of Validate.
-Result<SyntheticScene> MakeSyntheticScene(const SyntheticOptions& options);
+// Deterministic for equal options. Errors of Validate; kCancelled if
+// keep_going, which is asked after each view, returns false.
+Result<SyntheticScene> MakeSyntheticScene(
+    const SyntheticOptions& options,
+    const std::function<bool()>& keep_going = {});
 
 }  // namespace curvix

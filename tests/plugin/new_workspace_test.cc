@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <csignal>
+#include <fstream>
 
 #include "base/file_io.h"
 #include "tests/plugin/import_fixtures.h"
@@ -89,6 +92,35 @@ TEST(NewWorkspace, TakesEmptyFolders) {
   EXPECT_TRUE(WriteNewWorkspace(
                   source.model, source.files, CopyPolicy::kCopy, workspace)
                   .ok());
+}
+
+TEST(NewWorkspace, LeavesNothingWhenItIsInterrupted) {
+  const Source source;
+  const fs::path workspace = source.folder.path() / "new" / "workspace";
+  int left = 1;
+  const Status status = WriteNewWorkspace(
+      source.model, source.files, CopyPolicy::kCopy, workspace, [&] {
+        return left-- > 0;
+      });
+  EXPECT_EQ(status.code(), StatusCode::kCancelled);
+  EXPECT_FALSE(fs::exists(source.folder.path() / "new"));
+}
+
+TEST(NewWorkspace, SaysThatAnImageDoesNotFit) {
+  const Source source;
+  std::ofstream(source.files[1]) << std::string(100000, 'x');
+  rlimit before = {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small = {50000, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const fs::path workspace = source.folder.path() / "new";
+  const Status status = WriteNewWorkspace(
+      source.model, source.files, CopyPolicy::kCopy, workspace);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_THAT(status.message(),
+              testing::AllOf(HasSubstr("b.png"), HasSubstr("free space")));
+  EXPECT_FALSE(fs::exists(workspace));
 }
 
 TEST(NewWorkspace, LeavesNothingWhenAnImageCannotBePlaced) {

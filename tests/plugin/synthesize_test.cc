@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <csignal>
 #include <filesystem>
 #include <set>
 
@@ -107,6 +109,36 @@ TEST(SynthesizeTest, TakesAWorkspaceWithEmptyFolders) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "images");
   std::filesystem::create_directories(folder.path() / "sparse");
+  EXPECT_TRUE(Synthesize(SmallOptions(), folder.path()).ok());
+}
+
+// Interrupted before each view in turn, while they are made and written.
+TEST(SynthesizeTest, WritesNothingWhenItIsInterrupted) {
+  for (const int calls : {0, 1, 2, 4}) {
+    const TemporaryFolder folder;
+    int left = calls;
+    SyntheticOptions options = SmallOptions();
+    options.num_threads = 1;
+    const auto workspace = folder.path() / "new";
+    const Status status =
+        Synthesize(options, workspace, [&] { return left-- > 0; });
+    EXPECT_EQ(status.code(), StatusCode::kCancelled) << calls;
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  }
+}
+
+// As on a full disk: the last file, the longest, does not fit.
+TEST(SynthesizeTest, LeavesNothingWhenTheDiskIsFull) {
+  const TemporaryFolder folder;
+  rlimit before = {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small = {50000, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Status status = Synthesize(SmallOptions(), folder.path());
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_THAT(status.message(), HasSubstr("gt.txt"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   EXPECT_TRUE(Synthesize(SmallOptions(), folder.path()).ok());
 }
 
