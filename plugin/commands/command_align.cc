@@ -102,7 +102,11 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
 ExitCode WriteResultsAgain(const AlignSettings& settings,
                            const fs::path& folder) {
   if (!fs::exists(folder / "project.ini")) {
-    std::cout << "The next run of 'colmap_curvix reconstruct' uses it.\n";
+    std::cout << (fs::exists(folder / "report.json")
+                      ? "Repeat the 'colmap_curvix import' that wrote the "
+                        "results: it uses it.\n"
+                      : "The next run of 'colmap_curvix reconstruct' uses "
+                        "it.\n");
     return kExitSuccess;
   }
   Arguments again = {AreMerged(folder) ? "merge" : "reconstruct"};

@@ -64,6 +64,19 @@ TEST_F(ImportLines, AreFittedAndWrittenBesideTheModel) {
   }
 }
 
+TEST_F(ImportLines, AreAlignedByAnotherImport) {
+  const std::string folders = " --workspace_path " + Quoted(workspace_);
+  const std::string import =
+      "import --format limap --input_path " + Quoted(Tracks()) + folders;
+  ASSERT_EQ(RunProgram(import).exit_code, 0);
+  const Outcome outcome =
+      RunProgram("align --distance 0,0,0 0,0,0.25 1 --unit m" + folders +
+                 " --output_path " + Quoted(workspace_ / "limap"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("Repeat the 'colmap_curvix import'"));
+  EXPECT_THAT(RunProgram(import).output, HasSubstr("total length 1.5 m"));
+}
+
 TEST_F(ImportLines, TakeThePlaceOfWhatARunHasWritten) {
   const fs::path results = workspace_ / "curvix/0";
   ASSERT_EQ(RunProgram("--workspace_path " + Quoted(workspace_)).exit_code, 0);
