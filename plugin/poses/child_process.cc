@@ -3,18 +3,22 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 namespace curvix {
 namespace {
@@ -39,67 +43,99 @@ std::vector<std::string> Environment(const std::vector<std::string>& changes) {
   return variables;
 }
 
-// What posix_spawn is told; cleans up after itself.
-class SpawnSetup {
- public:
-  explicit SpawnSetup(const ChildProcess& child) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-    const std::string log = child.log_path.string();
-    const std::string folder = child.folder.string();
-    Check(posix_spawn_file_actions_addopen(
-        &actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0));
-    Check(posix_spawn_file_actions_addopen(&actions_,
-                                           STDOUT_FILENO,
-                                           log.c_str(),
-                                           O_WRONLY | O_CREAT | O_TRUNC,
-                                           kLogMode));
-    Check(posix_spawn_file_actions_adddup2(
-        &actions_, STDOUT_FILENO, STDERR_FILENO));
-    Check(posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str()));
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) {
-      sigaddset(&defaults, signal);
-    }
-    Check(posix_spawnattr_setsigdefault(&attributes_, &defaults));
-    Check(posix_spawnattr_setpgroup(&attributes_, 0));
-    Check(posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF));
-  }
-  ~SpawnSetup() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnSetup(const SpawnSetup&) = delete;
-  SpawnSetup& operator=(const SpawnSetup&) = delete;
+// The words with a null pointer at the end; they must outlive it.
+std::vector<char*> Pointers(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
 
-  // 0, or the error of the first step that failed.
-  int error() const { return error_; }
-
-  int Spawn(const ChildProcess& child, pid_t* pid) const {
-    std::vector<std::string> words = {child.program.string()};
+// What is made before the fork: after it, memory may not be asked for.
+struct Prepared {
+  explicit Prepared(const ChildProcess& child)
+      : words{child.program.string()},
+        variables(Environment(child.environment)),
+        log(child.log_path.string()),
+        folder(child.folder.string()) {
     words.insert(words.end(), child.arguments.begin(), child.arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    std::vector<std::string> variables = Environment(child.environment);
-    std::vector<char*> envp;
-    for (std::string& variable : variables) envp.push_back(variable.data());
-    envp.push_back(nullptr);
-    return posix_spawn(
-        pid, argv[0], &actions_, &attributes_, argv.data(), envp.data());
+    argv = Pointers(words);
+    envp = Pointers(variables);
   }
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
 
- private:
-  void Check(int error) {
-    if (error_ == 0) error_ = error;
-  }
-
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-  int error_ = 0;
+  std::vector<std::string> words, variables;
+  std::string log, folder;
+  std::vector<char*> argv, envp;
 };
+
+// Opens `path` as the file `number`.
+bool OpenAs(int number, const char* path, int flags) {
+  const int file = open(path, flags, kLogMode);
+  if (file < 0 || file == number) return file == number;
+  const bool is_done = dup2(file, number) == number;
+  close(file);
+  return is_done;
+}
+
+// Lets the kernel end this process, `parent`'s child, when that ends, however
+// it does; elsewhere than on Linux it then goes on.
+bool EndWith([[maybe_unused]] pid_t parent) {
+#ifdef __linux__
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) return false;
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // it has ended before
+#endif
+  return true;
+}
+
+// The child after the fork; comes back only with errno set.
+void BecomeProgram(const Prepared& prepared, pid_t parent) {
+  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) {
+    std::signal(signal, SIG_DFL);
+  }
+  if (setpgid(0, 0) != 0 || !EndWith(parent) ||
+      !OpenAs(STDIN_FILENO, "/dev/null", O_RDONLY) ||
+      !OpenAs(
+          STDOUT_FILENO, prepared.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC) ||
+      dup2(STDOUT_FILENO, STDERR_FILENO) < 0 ||
+      chdir(prepared.folder.c_str()) != 0) {
+    return;
+  }
+  execve(prepared.argv[0], prepared.argv.data(), prepared.envp.data());
+}
+
+// The error of the child, which it writes before it ends; 0 if the program has
+// taken its place, which closes the pipe.
+int ErrorOfChild(int pipe_end) {
+  int error = 0;
+  ssize_t size = 0;
+  do {
+    size = read(pipe_end, &error, sizeof(error));
+  } while (size < 0 && errno == EINTR);
+  return size == sizeof(error) ? error : 0;
+}
+
+// 0 or an error.
+int Start(const ChildProcess& child, pid_t* pid) {
+  const Prepared prepared(child);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return errno;
+  const pid_t parent = getpid();
+  *pid = fork();
+  if (*pid == 0) {
+    BecomeProgram(prepared, parent);
+    const int error = errno;
+    [[maybe_unused]] const auto written = write(ends[1], &error, sizeof(error));
+    _exit(EXIT_FAILURE);
+  }
+  const int fork_error = errno;
+  close(ends[1]);
+  const int error = *pid < 0 ? fork_error : ErrorOfChild(ends[0]);
+  close(ends[0]);
+  if (*pid > 0 && error != 0) waitpid(*pid, nullptr, 0);
+  return error;
+}
 
 bool HasExited(pid_t pid) {
   siginfo_t info = {};
@@ -124,10 +160,8 @@ ChildEnd::Kind Wait(pid_t pid, const ChildProcess& child) {
 }  // namespace
 
 Result<ChildEnd> RunChildProcess(const ChildProcess& child) {
-  const SpawnSetup setup(child);
   pid_t pid = 0;
-  int error = setup.error();
-  if (error == 0) error = setup.Spawn(child, &pid);
+  const int error = Start(child, &pid);
   if (error != 0) {
     return Status(StatusCode::kExternalTool,
                   "cannot start " + child.program.string() + " (" +

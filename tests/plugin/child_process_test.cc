@@ -2,6 +2,8 @@
 #include "plugin/poses/child_process.h"
 
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -71,6 +73,21 @@ TEST_F(ChildProcessTest, HasTheEnvironmentOfThisProcessWithChanges) {
   child.environment = {"CURVIX_CHANGED=after", "CURVIX_NEW=new"};
   ASSERT_TRUE(RunChildProcess(child).ok());
   EXPECT_EQ(Read("log"), "CURVIX_CHANGED=after\nkept new\n");
+}
+
+// Even if this process is killed, which runs none of its code.
+TEST_F(ChildProcessTest, EndsWithThisProcess) {
+  const pid_t parent = fork();
+  if (parent == 0) {
+    RunChildProcess(Shell("echo $$ > part; mv part pid; exec sleep 60")).ok();
+    _exit(0);
+  }
+  while (Read("pid").empty()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  kill(parent, SIGKILL);
+  ASSERT_EQ(waitpid(parent, nullptr, 0), parent);
+  EXPECT_TRUE(IsGone("pid"));
 }
 
 TEST_F(ChildProcessTest, TellsTheSignal) {
