@@ -216,7 +216,8 @@ Result<std::string_view> FindEdges(std::string_view bytes) {
     }
   }
   return Status(StatusCode::kDataLoss,
-                "it is broken, or was not written by curvix");
+                "it is broken, or was not written by curvix; reconstruct "
+                "this part again");
 }
 
 Status ForEachEdges(const std::vector<fs::path>& parts, const ByteSink& take) {

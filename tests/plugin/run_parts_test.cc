@@ -253,6 +253,12 @@ TEST_F(RunParts, LostFoldersAndBrokenResultsComeBack) {
   EXPECT_THAT(MergeStatus().message(), HasSubstr("version: 0; "));
   Reconstruct(0);
   Reconstruct(1);
+  const fs::path edges = parts_ / "parts/1/edges.ply";
+  fs::resize_file(edges, fs::file_size(edges) - 1);
+  EXPECT_THAT(MergeStatus().message(),
+              AllOf(HasSubstr("parts/1/edges.ply"),
+                    HasSubstr("reconstruct this part again")));
+  Reconstruct(1);
   MergeAll();
   EXPECT_EQ(*ReadFile(parts_ / "curves.json"), before);
 }
