@@ -107,10 +107,16 @@ ColmapModel ModelForColmap(Scene scene) {
 
 // `scene` with what COLMAP made of it; points that it dropped stay.
 Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
+  if (!FindColmapFormat(folder).ok()) return ToolFailure("it wrote no model");
   const Result<ColmapModel> model = ReadColmapModel(folder);
   if (!model.ok()) {
-    return ToolFailure("it wrote no model that can be read: " +
-                       model.status().message());
+    // The folder is gone when this is read.
+    std::string reason = model.status().message();
+    const std::string path = folder.string() + "/";
+    for (std::size_t at; (at = reason.find(path)) != std::string::npos;) {
+      reason.erase(at, path.size());
+    }
+    return ToolFailure("it wrote a model that cannot be read: " + reason);
   }
   bool same = model->images.size() == scene.views.size() &&
               model->cameras.size() == scene.cameras.size();

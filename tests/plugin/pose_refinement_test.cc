@@ -227,13 +227,13 @@ TEST_F(FakeColmap, CameraModelsThatItDoesNotKnowAreNamed) {
 }
 
 TEST_F(FakeColmap, WritingNothingIsTold) {
-  ExpectKept(Run("exit 0"), "no model that can be read");
+  ExpectKept(Run("exit 0"), "it wrote no model;");
 }
 
 TEST_F(FakeColmap, WritingNonsenseIsTold) {
   ExpectKept(Run("for f in cameras images points3D; do head -c 5000 "
                  "/dev/urandom > \"$5\"/$f.bin; done"),
-             "no model that can be read");
+             "it wrote a model that cannot be read: cameras.bin");
 }
 
 TEST_F(FakeColmap, WritingAnotherModelIsTold) {
