@@ -120,6 +120,12 @@ std::string CurvePosesText(const CurvePoseRecord& record) {
          (poses.accepted ? "" : ", refused");
 }
 
+std::string CurvePosesRefusal(const CurvePoseRecord& record) {
+  const CurvePoses& poses = record.poses;
+  if (poses.accepted || poses.num_views_moved == 0) return "";
+  return "Refinement with curves is refused: " + poses.reason + ".";
+}
+
 CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,
                                         const Scene& scene,
                                         CurvePoses refined) {

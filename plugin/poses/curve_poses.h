@@ -43,6 +43,10 @@ struct CurvePoseRefinement {
 // points if no sample was.
 std::string CurvePosesText(const CurvePoseRecord& record);
 
+// Why poses that were found stay unused, as a sentence; "": none was found, or
+// they are used.
+std::string CurvePosesRefusal(const CurvePoseRecord& record);
+
 // What RefinePosesWithCurves() has made of `scene` for `model`. The scene is
 // that of the model, without the views whose images are missing.
 CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,

@@ -172,6 +172,8 @@ Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
               {},
               CurvePosesText(result.record),
               is_resumed);
+  const std::string refusal = CurvePosesRefusal(result.record);
+  if (!refusal.empty()) progress_.Note(refusal);
   if (!result.model) return {};
   const CurvePoses& poses = result.record.poses;
   auto moved =

@@ -72,6 +72,17 @@ TEST(CurvePosesText, HasTheErrorsOfPointsIfNoCurveWasHeldOut) {
   EXPECT_THAT(CurvePosesText(record), HasSubstr("0.125 to 0.000 px"));
 }
 
+TEST(CurvePosesRefusal, HasTheReason) {
+  CurvePoseRecord record;
+  record.poses.reason = "may be chance";
+  EXPECT_EQ(CurvePosesRefusal(record), "");
+  record.poses.num_views_moved = 4;
+  EXPECT_EQ(CurvePosesRefusal(record),
+            "Refinement with curves is refused: may be chance.");
+  record.poses.accepted = true;
+  EXPECT_EQ(CurvePosesRefusal(record), "");
+}
+
 TEST_F(CurvePosesOfAModel, LeaveOutViewsThatAreMissing) {
   scene_ = SceneFromColmapModel(model_, "images", {scene_.views[5].name});
   wires_.edge_maps.erase(wires_.edge_maps.begin() + 5);
