@@ -93,7 +93,8 @@ std::string WhyEmpty(const Overlaps& overlaps,
   const SketchCounts& counts = sketch.counts;
   std::ostringstream text;
   if (num_edges == 0 && num_masked > 0) {
-    text << "All edges are on black pixels of the masks (" << num_masked
+    text << "All edges are on black pixels of the masks ("
+         << GroupDigits(num_masked)
          << "), which are left out. Are the masks inverted?";
   } else if (num_edges == 0) {
     text << "No edges were found in the " << Plural(edge_maps.size(), "image")

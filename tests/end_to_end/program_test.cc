@@ -26,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -122,6 +123,7 @@ TEST_F(ProgramRun, BlackMasksLeaveNoEdgesAndTheSummarySaysSo) {
       RunWorkspace("--mask_path '" + (folder_.path() / "masks").string() + "'");
   EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("Are the masks inverted?"));
+  EXPECT_THAT(outcome.output, ContainsRegex("\\([0-9]+\\s+[0-9]{3}\\)"));
 }
 
 TEST_F(ProgramRun, ViewsHeldOutShowItsCurves) {
