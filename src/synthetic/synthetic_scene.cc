@@ -156,6 +156,11 @@ Result<SyntheticScene> MakeSyntheticScene(
                            Mix(options.seed, kTexture)});
   const std::vector<Rigid3> poses = Poses(options, solid);
 
+  bool is_cancelled = false;
+  const auto goes_on = [&](std::size_t) {
+    is_cancelled = is_cancelled || (keep_going && !keep_going());
+    return !is_cancelled;
+  };
   SyntheticScene scene;
   scene.scene.cameras = {*camera};
   scene.truth = SampleTruth(solid, surfaces, options.scale / 500);
@@ -164,7 +169,9 @@ Result<SyntheticScene> MakeSyntheticScene(
                                   poses,
                                   options.points_per_view,
                                   Mix(options.seed, kPoints),
-                                  options.num_threads);
+                                  options.num_threads,
+                                  goes_on);
+  if (is_cancelled) return CancelledStatus();
   const auto places = EveryFiftieth(scene.truth);
   scene.scene.views.resize(poses.size());
   scene.images.resize(poses.size());
@@ -184,12 +191,7 @@ Result<SyntheticScene> MakeSyntheticScene(
                                     Mix(Mix(options.seed, kPoseError), i));
     return true;
   };
-  bool is_cancelled = false;
-  ParallelForWhile(
-      poses.size(), options.num_threads, make_view, [&](std::size_t) {
-        is_cancelled = keep_going && !keep_going();
-        return !is_cancelled;
-      });
+  ParallelForWhile(poses.size(), options.num_threads, make_view, goes_on);
   if (is_cancelled) return CancelledStatus();
   for (const std::vector<SampleInView>& view_looks : looks) {
     for (std::size_t i = 0; i < view_looks.size(); ++i) {

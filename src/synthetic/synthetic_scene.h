@@ -89,7 +89,7 @@ std::vector<OptionRow> OptionTable(SyntheticOptions& options);
 Status Validate(const SyntheticOptions& options);
 
 // Deterministic for equal options. Errors of Validate; kCancelled if
-// keep_going, which is asked after each view, returns false.
+// keep_going, which is asked after each point and view, returns false.
 Result<SyntheticScene> MakeSyntheticScene(
     const SyntheticOptions& options,
     const std::function<bool()>& keep_going = {});

@@ -111,20 +111,22 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
   return looks;
 }
 
-std::vector<ScenePoint> FindPoints(const Solid& solid,
-                                   const Camera& camera,
-                                   const std::vector<Rigid3>& poses,
-                                   int num_per_view,
-                                   std::uint64_t seed,
-                                   int num_threads) {
+std::vector<ScenePoint> FindPoints(
+    const Solid& solid,
+    const Camera& camera,
+    const std::vector<Rigid3>& poses,
+    int num_per_view,
+    std::uint64_t seed,
+    int num_threads,
+    const std::function<bool(std::size_t)>& keep_going) {
   const auto num_points = static_cast<std::size_t>(num_per_view);
   std::vector<ScenePoint> points(poses.size() * num_points);
-  ParallelFor(points.size(), num_threads, [&](std::size_t i) {
+  const auto find_point = [&](std::size_t i) {
     const Vector2d pixel(camera.width * Uniform(Mix(seed, 2 * i)),
                          camera.height * Uniform(Mix(seed, 2 * i + 1)));
     const auto position =
         SurfaceAt(pixel, solid, camera, poses[i / num_points]);
-    if (!position) return;
+    if (!position) return true;
     points[i].position = *position;
     for (std::size_t view = 0; view < poses.size(); ++view) {
       if (const auto at = Sight(*position, solid, camera, poses[view])) {
@@ -132,7 +134,9 @@ std::vector<ScenePoint> FindPoints(const Solid& solid,
         points[i].pixels.push_back(*at);
       }
     }
-  });
+    return true;
+  };
+  ParallelForWhile(points.size(), num_threads, find_point, keep_going);
   std::erase_if(points,
                 [](const ScenePoint& p) { return p.view_idxs.size() < 2; });
   return points;

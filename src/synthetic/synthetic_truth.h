@@ -3,6 +3,8 @@
 // on it, their samples, and who sees them.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "synthetic/render.h"
@@ -34,13 +36,16 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
 
 // Up to `num_per_view` points of the surface that each view finds, in random
 // places of its image (given by `seed`), with all views that see them: two at
-// least.
-std::vector<ScenePoint> FindPoints(const Solid& solid,
-                                   const Camera& camera,
-                                   const std::vector<Rigid3>& poses,
-                                   int num_per_view,
-                                   std::uint64_t seed,
-                                   int num_threads);
+// least. keep_going: as ParallelForWhile asks it; after false, some are
+// missing.
+std::vector<ScenePoint> FindPoints(
+    const Solid& solid,
+    const Camera& camera,
+    const std::vector<Rigid3>& poses,
+    int num_per_view,
+    std::uint64_t seed,
+    int num_threads,
+    const std::function<bool(std::size_t)>& keep_going);
 
 // Every edge at which two faces of the solid meet at an angle of more than
 // about 25 degrees, each once, whole: an edge that others touch stays one

@@ -119,6 +119,7 @@ TEST(SynthesizeTest, WritesNothingWhenItIsInterrupted) {
     int left = calls;
     SyntheticOptions options = SmallOptions();
     options.num_threads = 1;
+    options.points_per_view = calls == 0 ? 10000 : 0;
     const auto workspace = folder.path() / "new";
     const Status status =
         Synthesize(options, workspace, [&] { return left-- > 0; });
