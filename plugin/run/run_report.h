@@ -30,7 +30,7 @@ inline constexpr const char* kCommandName = "command";
 
 // What the user asked for. Empty paths: found under the workspace.
 struct RunSettings : WorkspacePaths {
-  std::string command = "";  // "": reconstruct
+  std::string command;  // "": reconstruct
   std::string preset = "default";
   PoseRefinementSettings poses;
   OutputSettings output;
