@@ -53,10 +53,12 @@ void RemoveEmptyFolders(fs::path path, const fs::path& first_created) {
   }
 }
 
-Status CannotWrite(const fs::path& path, const std::string& reason) {
+Status CannotWrite(const fs::path& path,
+                   const std::string& reason,
+                   const std::string& flag = "--output_path") {
   return {StatusCode::kNotFound,
           "cannot write to " + path.string() + " (" + reason +
-              "); choose another folder with --output_path"};
+              "); choose another folder with " + flag};
 }
 
 // In a temporary folder: what was replaced, and the names of what is to go.
@@ -133,7 +135,7 @@ Status MoveIntoPlace(const fs::path& folder, const fs::path& output) {
 
 // Brings what killed processes left in `output` to its end. A link is not
 // ours.
-Status FinishOlderRuns(const fs::path& output) {
+Status FinishOlderRuns(const fs::path& output, const std::string& flag) {
   for (const fs::path& name : EntryNames(output)) {
     const fs::path folder = output / name;
     std::error_code error;
@@ -146,32 +148,33 @@ Status FinishOlderRuns(const fs::path& output) {
       if (!status.ok()) return status;
     }
     fs::remove_all(folder, error);
-    if (error) return CannotWrite(output, error.message());
+    if (error) return CannotWrite(output, error.message(), flag);
   }
   return {};
 }
 
 }  // namespace
 
-Result<StagedOutput> StagedOutput::Create(const fs::path& output_path) {
+Result<StagedOutput> StagedOutput::Create(const fs::path& output_path,
+                                          const std::string& flag) {
   const fs::path output = fs::absolute(output_path).lexically_normal();
   const fs::path first_created = FirstMissing(output);
   std::error_code error;
   fs::create_directories(output, error);
   if (error) {
     RemoveEmptyFolders(output, first_created);
-    return CannotWrite(output, error.message());
+    return CannotWrite(output, error.message(), flag);
   }
   std::optional<FolderLock> lock = FolderLock::Take(output);
   if (!lock) {
     return Status(StatusCode::kInvalidArgument,
                   "another run is writing to " + output.string() +
-                      "; wait for its end, or choose another folder with "
-                      "--output_path");
+                      "; wait for its end, or choose another folder with " +
+                      flag);
   }
   StagedOutput staged(output, first_created, *std::move(lock));
-  Status status = FinishOlderRuns(output);
-  if (status.ok()) status = staged.MakeFolder();
+  Status status = FinishOlderRuns(output, flag);
+  if (status.ok()) status = staged.MakeFolder(flag);
   if (!status.ok()) return status;
   return staged;
 }
@@ -195,11 +198,12 @@ StagedOutput::~StagedOutput() {
   RemoveEmptyFolders(output_path_, first_created_);
 }
 
-Status StagedOutput::MakeFolder() {
+Status StagedOutput::MakeFolder(const std::string& flag) {
   std::string folder =
       (output_path_ / (std::string(kUnfinished) + "XXXXXX")).string();
   if (mkdtemp(folder.data()) == nullptr) {
-    return CannotWrite(output_path_, std::generic_category().message(errno));
+    return CannotWrite(
+        output_path_, std::generic_category().message(errno), flag);
   }
   folder_ = folder;
   return {};

@@ -6,6 +6,7 @@
 #include <curvix/status.h>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,8 +41,10 @@ class FolderLock {
 class StagedOutput {
  public:
   // kNotFound if the output folder cannot be made or written to,
-  // kInvalidArgument if another run is writing to it.
-  static Result<StagedOutput> Create(const std::filesystem::path& output_path);
+  // kInvalidArgument if another run is writing to it. `flag`: what the message
+  // says to choose another folder with.
+  static Result<StagedOutput> Create(const std::filesystem::path& output_path,
+                                     const std::string& flag = "--output_path");
 
   StagedOutput(StagedOutput&& other) noexcept;
   StagedOutput& operator=(StagedOutput&& other) = delete;
@@ -63,7 +66,7 @@ class StagedOutput {
                std::filesystem::path first_created,
                FolderLock lock);
 
-  Status MakeFolder();
+  Status MakeFolder(const std::string& flag);
 
   std::filesystem::path output_path_;
   std::filesystem::path folder_;         // empty: none, or moved from

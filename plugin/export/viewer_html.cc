@@ -25,7 +25,6 @@ constexpr int kNumPhotos = 16;
 constexpr int kPhotoSize = 640;          // pixels
 constexpr int kNumCoordinateDigits = 6;  // with respect to the scene
 constexpr int kNumCovarianceDigits = 5;
-constexpr std::size_t kNumPoints = 10000;  // of the model
 
 std::string Base64(std::string_view bytes) {
   constexpr char kLetters[] =
@@ -178,7 +177,7 @@ Eigen::Matrix3d CovarianceOf(const ScenePoint& point, const Scene& scene) {
 // Some of the points of the model, evenly by number, with their covariances.
 Json PointsJson(const Scene& scene, int num_decimals) {
   Json json = Json::array();
-  const std::size_t step = scene.points.size() / kNumPoints + 1;
+  const std::size_t step = scene.points.size() / kMaxViewerPoints + 1;
   for (std::size_t i = 0; i < scene.points.size(); i += step) {
     const ScenePoint& point = scene.points[i];
     const Eigen::Matrix3d covariance = CovarianceOf(point, scene);

@@ -2,11 +2,14 @@
 // viewer.html: the curves in a browser.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 
 #include "plugin/export/curves_json.h"
 
 namespace curvix {
+
+constexpr std::size_t kMaxViewerPoints = 10000;  // of the model
 
 // One page that needs nothing else, with the curves, the cameras and small
 // copies of up to 16 well-spread images; those that cannot be read are

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/count_text.h"
 #include "plugin/imports/importers.h"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"

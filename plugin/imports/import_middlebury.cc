@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/count_text.h"
 #include "plugin/imports/importers.h"
 
 #include <array>
 #include <string_view>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"

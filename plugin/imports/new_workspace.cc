@@ -74,15 +74,7 @@ Status CheckWorkspaceUnused(const fs::path& workspace) {
 }
 
 Result<StagedOutput> StageWorkspace(const fs::path& workspace) {
-  Result<StagedOutput> staged = StagedOutput::Create(workspace);
-  if (staged.ok()) return staged;
-  std::string message = staged.status().message();
-  const std::string flag = "--output_path";
-  const std::size_t at = message.rfind(flag);
-  if (at != std::string::npos) {
-    message.replace(at, flag.size(), "--workspace_path");
-  }
-  return Status(staged.status().code(), message);
+  return StagedOutput::Create(workspace, "--workspace_path");
 }
 
 Status MoveIntoWorkspace(const std::vector<std::string>& names,

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <map>
 
+#include "plugin/export/viewer_html.h"
+
 namespace curvix {
 namespace {
-
-constexpr std::size_t kNumPoints = 10000;
 
 // The point with its observations in `images`, which get its pixels.
 void AddPoint(const ColmapPoint3D& point,
@@ -90,7 +90,8 @@ ColmapModel ModelForMerge(const ColmapModel& model, const Scene& scene) {
   for (ColmapImage& image : merged.images) images[image.image_id] = &image;
   // Points that do not fit their views are not in the scene.
   const std::size_t num_points = scene.points.empty() ? 0 : model.points.size();
-  const std::size_t step = (num_points + kNumPoints - 1) / kNumPoints;
+  const std::size_t step =
+      (num_points + kMaxViewerPoints - 1) / kMaxViewerPoints;
   for (std::size_t i = 0; i < num_points; i += step) {
     AddPoint(model.points[i], from, images, merged);
   }

@@ -15,7 +15,7 @@ ColmapModel ModelForPart(const ColmapModel& model,
                          const std::vector<int>& view_idxs);
 
 // For a merge: the images of all views, and of the points as many as
-// viewer.html shows, 10 000 at most, evenly by number.
+// viewer.html shows, kMaxViewerPoints at most, evenly by number.
 ColmapModel ModelForMerge(const ColmapModel& model, const Scene& scene);
 
 }  // namespace curvix

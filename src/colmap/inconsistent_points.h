@@ -16,8 +16,8 @@ std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
                                      Scene* scene);
 
 // A sentence for the user if the points of `scene` project more than 2 px from
-// their pixels (median), as they do where a focal length is 20 % off; "" if
-// they do not, or have fewer than 100 pixels in all.
+// their pixels (median), as with a wrong focal length; "" if they do not, or
+// have fewer than 100 pixels in all.
 std::string LargeErrorsNote(const Scene& scene);
 
 }  // namespace curvix
