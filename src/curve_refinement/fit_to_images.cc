@@ -13,6 +13,7 @@
 
 #include "base/parallel.h"
 #include "curve_refinement/response_curve.h"
+#include "curve_refinement/weak_directions.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/image_edge.h"
@@ -27,7 +28,8 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 1e-4;  // of a step, share of the cost
+constexpr double kMinGain = 1e-4;     // of a step, share of the cost
+constexpr double kMaxStiffening = 3;  // in weak directions
 // Wide: damping is in proportion to the bends, which are much stiffer than the
 // edges, and would keep samples from these.
 constexpr double kTrustRegionRadius = 1e10;
@@ -83,11 +85,15 @@ class SupportCost : public ceres::CostFunction {
 
 using Segment = std::array<Station, 4>;
 
-// The third derivative of four samples in a row.
-class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
+// The third derivative of four samples in a row, in the directions of `rows`.
+class BendCost : public ceres::CostFunction {
  public:
-  BendCost(const Segment& segment, double stiffness_px, double pixel)
-      : segment_(segment) {
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+  BendCost(const Segment& segment, double stiffness_px, double pixel, Rows rows)
+      : segment_(segment), rows_(std::move(rows)) {
+    set_num_residuals(static_cast<int>(rows_.rows()));
+    mutable_parameter_block_sizes()->assign(segment_.size(), 2);
     std::array<double, 4> along = {};
     for (std::size_t j = 1; j < along.size(); ++j) {
       const double step = (segment[j].start - segment[j - 1].start).norm();
@@ -110,15 +116,17 @@ class BendCost : public ceres::SizedCostFunction<3, 2, 2, 2, 2> {
     for (std::size_t j = 0; j < segment_.size(); ++j) {
       sum += factors_[j] * (segment_[j].At(offsets[j]) - segment_[0].start);
       if (jacobians == nullptr || jacobians[j] == nullptr) continue;
-      Eigen::Map<Eigen::Matrix<double, 3, 2, Eigen::RowMajor>>{jacobians[j]} =
-          factors_[j] * segment_[j].axes;
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>{
+          jacobians[j], rows_.rows(), 2} =
+          factors_[j] * rows_ * segment_[j].axes;
     }
-    Eigen::Map<Eigen::Vector3d>{residuals} = sum;
+    Eigen::Map<Eigen::VectorXd>{residuals, rows_.rows()} = rows_ * sum;
     return true;
   }
 
  private:
   Segment segment_;
+  Rows rows_;
   std::array<double, 4> factors_ = {};
 };
 
@@ -139,6 +147,7 @@ class CurveFitter {
       : curve_(std::move(curve)),
         pixel_(pixel),
         offsets_(curve_.samples.size()),
+        information_(curve_.samples.size(), Eigen::Matrix3d::Zero()),
         problem_(WithoutChecksAndOwnership()) {
     stations_.reserve(curve_.samples.size());
     for (const CurveSample& sample : curve_.samples) {
@@ -160,6 +169,11 @@ class CurveFitter {
             MeasurePlane(view, Unblurred(edge, view, bend, response)));
       }
       if (measured.empty()) continue;
+      for (const PlaneMeasurement& plane : measured) {
+        const Eigen::Vector3d gradient =
+            DistanceFrom(plane, stations_[k].start).gradient;
+        information_[k] += gradient * gradient.transpose();
+      }
       support_costs_.emplace_back(
           stations_[k], std::move(measured), input.edge_sigma_px);
       problem_.AddResidualBlock(
@@ -167,18 +181,31 @@ class CurveFitter {
     }
   }
 
+  // In a weak direction curves may zigzag at first. So samples move across the
+  // mean tangent there, and keep their distances along the curve.
   void AddBends(double stiffness_px) {
+    const std::vector<std::optional<WeakDirection>> weak =
+        WeakDirections(curve_, information_);
+    for (std::size_t k = 0; k < weak.size(); ++k) {
+      if (weak[k]) stations_[k].axes = pixel_ * AxesAcross(weak[k]->along);
+    }
     const std::size_t size = stations_.size();
     const std::size_t num_bends = curve_.closed ? size : size - 3;
     for (std::size_t k = 0; k < num_bends; ++k) {
-      Segment segment;
-      std::vector<double*> offsets;
-      for (std::size_t j = 0; j < segment.size(); ++j) {
-        segment[j] = stations_[(k + j) % size];
-        offsets.push_back(offsets_[(k + j) % size].data());
+      const auto& middle = weak[(k + 1) % size];
+      if (!middle) {
+        AddBend(k, stiffness_px, Eigen::Matrix3d::Identity(), &bend_loss_);
+        continue;
       }
-      bend_costs_.emplace_back(segment, stiffness_px, pixel_);
-      problem_.AddResidualBlock(&bend_costs_.back(), &bend_loss_, offsets);
+      const Eigen::Vector3d& d = middle->direction;
+      AddBend(k,
+              stiffness_px,
+              Eigen::Matrix3d::Identity() - d * d.transpose(),
+              &bend_loss_);
+      AddBend(k,
+              std::min(kMaxStiffening, middle->ratio) * stiffness_px,
+              d.transpose(),
+              nullptr);
     }
   }
 
@@ -201,6 +228,22 @@ class CurveFitter {
   }
 
  private:
+  // Of the samples from `first` on.
+  void AddBend(std::size_t first,
+               double stiffness_px,
+               const BendCost::Rows& rows,
+               ceres::LossFunction* loss) {
+    Segment segment;
+    std::vector<double*> offsets;
+    for (std::size_t j = 0; j < segment.size(); ++j) {
+      const std::size_t sample = (first + j) % stations_.size();
+      segment[j] = stations_[sample];
+      offsets.push_back(offsets_[sample].data());
+    }
+    bend_costs_.emplace_back(segment, stiffness_px, pixel_, rows);
+    problem_.AddResidualBlock(&bend_costs_.back(), loss, offsets);
+  }
+
   void SetTangents() {
     const std::size_t size = curve_.samples.size();
     for (std::size_t k = 0; k < size; ++k) {
@@ -219,6 +262,7 @@ class CurveFitter {
   double pixel_;  // world units
   std::vector<Station> stations_;
   std::vector<std::array<double, 2>> offsets_;
+  std::vector<Eigen::Matrix3d> information_;  // of samples' places
   // At addresses that stay.
   std::deque<SupportCost> support_costs_;
   std::deque<BendCost> bend_costs_;
@@ -226,24 +270,28 @@ class CurveFitter {
   ceres::Problem problem_;
 };
 
+Curve FitCurve(const Curve& curve,
+               const RefinementInput& input,
+               const ResponseCurve& response) {
+  if (curve.samples.size() < kMinNumFittedSamples) return curve;
+  const CurveSample& first = curve.samples.front();
+  const double pixel = PixelSize(first.position, first.support, input.views);
+  if (!(pixel > 0)) return curve;
+  CurveFitter fitter(curve, pixel);
+  fitter.AddEdges(input, response);
+  fitter.AddBends(kStiffness * input.options.smoothing_px);
+  return fitter.Solve();
+}
+
 }  // namespace
 
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const RefinementInput& input,
                                const ResponseCurve& response) {
-  const double smoothing_px = input.options.smoothing_px;
-  if (!(smoothing_px > 0)) return curves;
+  if (!(input.options.smoothing_px > 0)) return curves;
   std::vector<Curve> fitted(curves.size());
   ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
-    fitted[i] = curves[i];
-    if (curves[i].samples.size() < kMinNumFittedSamples) return;
-    const CurveSample& first = curves[i].samples.front();
-    const double pixel = PixelSize(first.position, first.support, input.views);
-    if (!(pixel > 0)) return;
-    CurveFitter fitter(curves[i], pixel);
-    fitter.AddEdges(input, response);
-    fitter.AddBends(kStiffness * smoothing_px);
-    fitted[i] = fitter.Solve();
+    fitted[i] = FitCurve(curves[i], input, response);
   });
   return fitted;
 }

@@ -20,9 +20,11 @@ namespace curvix {
 // derivative by arc length of four samples in a row, small for all smooth
 // curves, and the losses are Cauchy's: a wrong 2D edge hardly pulls, and a kink
 // that the images show stays. So noise goes on lengths of some b and curvature
-// stays. Tangents become those of the samples five in a row. Curves of fewer
-// than six samples stay; smoothing_px = 0 returns the input. Pixels in space as
-// in pixel_size.h.
+// stays. In a weak direction (weak_directions.h) images show no kink: there, b
+// is larger by the ratio of the standard deviations, at most by three, and
+// rho2 is the square. Tangents become those of the samples five in a row.
+// Curves of fewer than six samples stay; smoothing_px = 0 returns the input.
+// Pixels in space as in pixel_size.h.
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const RefinementInput& input,
                                const ResponseCurve& response);
