@@ -182,12 +182,16 @@ class CurveFitter {
   }
 
   // In a weak direction curves may zigzag at first. So samples move across the
-  // mean tangent there, and keep their distances along the curve.
+  // mean tangent there, and keep their distances along the curve. Axes turn
+  // with the world, since damping depends on them.
   void AddBends(double stiffness_px) {
     const std::vector<std::optional<WeakDirection>> weak =
         WeakDirections(curve_, information_);
     for (std::size_t k = 0; k < weak.size(); ++k) {
-      if (weak[k]) stations_[k].axes = pixel_ * AxesAcross(weak[k]->along);
+      if (!weak[k]) continue;
+      const Eigen::Vector3d& direction = weak[k]->direction;
+      stations_[k].axes.col(0) = pixel_ * direction;
+      stations_[k].axes.col(1) = pixel_ * weak[k]->along.cross(direction);
     }
     const std::size_t size = stations_.size();
     const std::size_t num_bends = curve_.closed ? size : size - 3;
