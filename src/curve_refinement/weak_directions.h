@@ -22,7 +22,7 @@ struct WeakDirection {
 // covariances of the places of samples in units of any scale, of rank 2 or
 // less. nullopt where the ratio is less than two, and where the curve turns by
 // more than 10 degrees across `direction`, since images show that it is not
-// straight there.
+// straight there. Needs six samples or more.
 std::vector<std::optional<WeakDirection>> WeakDirections(
     const Curve& curve, const std::vector<Eigen::Matrix3d>& information);
 
