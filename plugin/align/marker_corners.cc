@@ -34,7 +34,8 @@ ImageLine FitLineTo(const std::vector<Eigen::Vector2d>& points) {
   for (const Eigen::Vector2d& p : points) {
     scatter += (p - mean) * (p - mean).transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(scatter);
   return {mean, eigen.eigenvectors().col(0)};
 }
 

@@ -63,8 +63,8 @@ std::optional<WeakDirection> WeakDirectionAround(
   if (!(along.norm() > 0)) return std::nullopt;
   along.normalize();
   const AcrossAxes axes = AxesAcross(along);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(axes.transpose() *
-                                                              sum * axes);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver;
+  solver.computeDirect(axes.transpose() * sum * axes);
   const double most = solver.eigenvalues()(1);
   if (!(most > 0)) return std::nullopt;
   const double least = std::max(solver.eigenvalues()(0), kMinEigenvalue * most);

@@ -4,8 +4,11 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <utility>
+#include <vector>
 
 namespace curvix {
 
@@ -95,9 +98,14 @@ std::optional<Conic> WeightedCircle(FitSpan samples,
   return circle;
 }
 
+// At most eight unknowns; on the stack.
+using Step = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
+using NormalMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
+
 // The conic after a step: 3 for the centre, 3 for the turn (in the frame), and
 // the logarithm of the axes. A circle has one axis and no turn about z.
-Conic Moved(const Conic& conic, const Eigen::VectorXd& step, bool is_circle) {
+Conic Moved(const Conic& conic, const Step& step, bool is_circle) {
   Conic moved = conic;
   const double size = conic.a;
   moved.center += size * (conic.frame * step.head<3>());
@@ -133,28 +141,28 @@ struct Target {
 };
 
 // The Gauss-Newton step on the distances of the targets, for Moved.
-Eigen::VectorXd StepOf(const std::vector<Target>& targets,
-                       bool is_circle,
-                       const Conic& conic) {
+Step StepOf(const std::vector<Target>& targets,
+            bool is_circle,
+            const Conic& conic) {
   const Eigen::Index n = is_circle ? 6 : 8;
   constexpr double kDelta = 1e-6;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  NormalMatrix normal = NormalMatrix::Zero(n, n);
+  Step right = Step::Zero(n);
   std::vector<Conic> nudged;
   for (Eigen::Index k = 0; k < n; ++k) {
-    nudged.push_back(
-        Moved(conic, kDelta * Eigen::VectorXd::Unit(n, k), is_circle));
+    nudged.push_back(Moved(conic, kDelta * Step::Unit(n, k), is_circle));
   }
   for (const Target& target : targets) {
     const Eigen::Vector2d residual = SignedDistances(conic, target.position);
-    Eigen::Matrix2Xd jacobian(2, n);
+    Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 8> jacobian(2, n);
     for (Eigen::Index k = 0; k < n; ++k) {
       jacobian.col(k) = (SignedDistances(nudged[static_cast<std::size_t>(k)],
                                          target.position) -
                          residual) /
                         kDelta;
     }
-    normal += target.weight * jacobian.transpose() * jacobian;
+    normal.noalias() +=
+        target.weight * jacobian.transpose().lazyProduct(jacobian);
     right -= target.weight * jacobian.transpose() * residual;
   }
   normal.diagonal() *= 1 + 1e-9;
@@ -175,7 +183,7 @@ Conic Descend(const std::vector<Target>& targets, bool is_circle, Conic conic) {
   constexpr double kLeastShare = 1.0 / 64;
   double least = CostOf(targets, conic);
   for (int i = 0; i < kNumSteps; ++i) {
-    const Eigen::VectorXd step = StepOf(targets, is_circle, conic);
+    const Step step = StepOf(targets, is_circle, conic);
     if (!step.allFinite()) break;
     double share = std::min(1.0, kMaxStep / step.cwiseAbs().maxCoeff());
     double cost = least;
@@ -232,7 +240,7 @@ std::optional<Conic> Refine(Conic conic, FitSpan samples, bool is_circle) {
           s.position,
           RobustWeight(SquaredDistance(conic, s.position), s.sigma, round)};
     }
-    const Eigen::VectorXd step = StepOf(targets, is_circle, conic);
+    const Step step = StepOf(targets, is_circle, conic);
     if (!(step.cwiseAbs().maxCoeff() <= kMaxStep)) return std::nullopt;
     conic = Moved(conic, step, is_circle);
     if (!(conic.a < kMaxAxisRatio * conic.b &&
@@ -242,6 +250,20 @@ std::optional<Conic> Refine(Conic conic, FitSpan samples, bool is_circle) {
     conic = Ordered(conic);
   }
   return conic;
+}
+
+// By OpenCV, since Eigen's solver takes half a minute to compile.
+std::array<Eigen::Vector3d, 3> EigenvectorsOf(const Eigen::Matrix3d& matrix) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
+  cv::Matx33d vectors;  // in rows
+  cv::Vec3d values;
+  cv::eigenNonSymmetric(cv::Matx33d(rows.data()), values, vectors);
+  std::array<Eigen::Vector3d, 3> result;
+  for (int k = 0; k < 3; ++k) {
+    result[static_cast<std::size_t>(k)] = {
+        vectors(k, 0), vectors(k, 1), vectors(k, 2)};
+  }
+  return result;
 }
 
 // The direct least-squares ellipse of Fitzgibbon, Pilu and Fisher in the form
@@ -268,9 +290,7 @@ std::optional<Conic> DirectEllipse(FitSpan samples) {
   Eigen::Matrix3d reduced;
   reduced << m.row(2) / 2, -m.row(1), m.row(0) / 2;
   if (!reduced.allFinite()) return std::nullopt;
-  const Eigen::EigenSolver<Eigen::Matrix3d> eigen(reduced);
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d q = eigen.eigenvectors().col(k).real();
+  for (const Eigen::Vector3d& q : EigenvectorsOf(reduced)) {
     if (!(4 * q(0) * q(2) - q(1) * q(1) > 0)) continue;
     const Eigen::Vector3d l = t * q;
     // q0 x^2 + q1 x y + q2 y^2 + l0 x + l1 y + l2 = 0
@@ -278,7 +298,8 @@ std::optional<Conic> DirectEllipse(FitSpan samples) {
     form << q(0), q(1) / 2, q(1) / 2, q(2);
     const Eigen::Vector2d center = -0.5 * form.inverse() * l.head<2>();
     const double level = center.dot(form * center) - l(2);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(form / level);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+    axes.computeDirect(form / level);
     if (!(axes.eigenvalues()(0) > 0)) return std::nullopt;
     plane.center += scale * plane.frame.leftCols<2>() * center;
     plane.a = scale / std::sqrt(axes.eigenvalues()(0));

@@ -3,6 +3,7 @@
 #include "fitting/structure.h"
 
 #include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
@@ -28,12 +29,12 @@ constexpr double kHard = 1e3;
 constexpr double kMaxAdjustmentSigmas = 3;
 
 // The inverse of the root of a covariance, for weights; 0 if it has none.
-template <int kRows>
-SquareMatrix<kRows> Whitening(SquareMatrix<kRows> covariance) {
+Eigen::MatrixXd Whitening(Eigen::MatrixXd covariance) {
+  const Eigen::Index size = covariance.rows();
   covariance.diagonal().array() *= 1 + 1e-9;
-  const Eigen::LLT<SquareMatrix<kRows>> llt(covariance);
-  if (llt.info() != Eigen::Success) return SquareMatrix<kRows>::Zero();
-  return llt.matrixL().solve(SquareMatrix<kRows>::Identity());
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  if (llt.info() != Eigen::Success) return Eigen::MatrixXd::Zero(size, size);
+  return llt.matrixL().solve(Eigen::MatrixXd::Identity(size, size));
 }
 
 // Where primitives go on smoothly, their node is hardly known along them. It is
@@ -107,13 +108,10 @@ class Adjustment {
 
   void Solve() {
     for (std::size_t k = 0; k < points_.size(); ++k) {
-      Add(Auto<StaysCost<3>, 3, 3>(
-              {Whitening<3>(points_[k].covariance), points_[k].position}),
-          points_[k].position.data());
+      Stay(points_[k].covariance, points_[k].position);
     }
     for (auto& [key, arc] : arcs_) {
-      Add(Auto<StaysCost<6>, 6, 6>({Whitening<6>(arc.covariance), arc.values}),
-          arc.values.data());
+      Stay(arc.covariance, arc.values);
       const CurveFit& fit = FitOf(key);
       for (const int node : {fit.start_node, fit.end_node}) {
         if (node < 0) continue;
@@ -156,7 +154,7 @@ class Adjustment {
     std::vector<bool> point_is_far;
     for (std::size_t k = 0; k < points_.size(); ++k) {
       point_is_far.push_back(
-          is_far(Whitening<3>(points_[k].covariance),
+          is_far(Whitening(points_[k].covariance),
                  (points_[k].position - before_[k].position).eval()));
     }
     for (std::size_t c = 0; c < fitted_.curves.size(); ++c) {
@@ -165,7 +163,7 @@ class Adjustment {
         const auto arc = arcs_.find(key);
         bool moved =
             arc != arcs_.end() &&
-            is_far(Whitening<6>(arc->second.covariance),
+            is_far(Whitening(arc->second.covariance),
                    (arc->second.values - arcs_before_.at(key).values).eval());
         for (const bool at_end : {false, true}) {
           const auto end = end_points_.find({key, at_end});
@@ -199,6 +197,12 @@ class Adjustment {
   template <typename... Blocks>
   void Add(ceres::CostFunction* cost, Blocks... blocks) {
     problem_.AddResidualBlock(cost, nullptr, blocks...);
+  }
+
+  // Holds `values` where they are, as firmly as they are known.
+  template <typename Values>
+  void Stay(const Eigen::MatrixXd& covariance, Values& values) {
+    Add(new ceres::NormalPrior(Whitening(covariance), values), values.data());
   }
 
   // The nodes of a fit, and its free ends if it is a line, are points.

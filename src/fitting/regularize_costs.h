@@ -13,8 +13,6 @@ template <typename T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 template <typename T>
 using In = Eigen::Map<const Vector3<T>>;
-template <int kRows>
-using SquareMatrix = Eigen::Matrix<double, kRows, kRows>;
 
 // A direction that turns about where it was: base + across * (p, q).
 struct Chart {
@@ -35,21 +33,6 @@ struct Chart {
     for (const int k : {0, 1}) {
       out[k] = weight * (across.col(k).cast<T>().dot(v) - turn[k] * along);
     }
-  }
-};
-
-template <int kRows>
-struct StaysCost {
-  SquareMatrix<kRows> whitening;
-  Eigen::Matrix<double, kRows, 1> before;
-
-  template <typename T>
-  bool operator()(const T* now, T* out) const {
-    using Values = Eigen::Matrix<T, kRows, 1>;
-    Eigen::Map<Values> residual(out);
-    residual = whitening.template cast<T>() *
-               (Eigen::Map<const Values>(now) - before.template cast<T>());
-    return true;
   }
 };
 
