@@ -3,8 +3,13 @@
 #pragma once
 
 #include <curvix/status.h>
+#include <functional>
 
 namespace curvix {
+
+// Called by a stage with (done, total) steps, or (0, 0); false asks it to stop.
+// What it returns then means nothing.
+using StepDone = std::function<bool(int, int)>;
 
 // Of a run that the user has stopped.
 inline Status CancelledStatus() {

@@ -28,11 +28,14 @@ bool AreFree(const std::vector<EdgeRef>& refs, const UsedEdges& claimed) {
 
 std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
                              const GrowthInput& input,
-                             int num_threads) {
+                             int num_threads,
+                             const StepDone& step_done) {
   UsedEdges claimed(input.edge_maps);
   const std::vector<std::size_t> order = ByFallingEvidence(seeds);
   std::vector<GrownCurve> curves;
+  const auto total = static_cast<int>(order.size());
   for (std::size_t begin = 0; begin < order.size(); begin += kNumAtOnce) {
+    if (step_done && !step_done(static_cast<int>(begin), total)) break;
     std::vector<Growth> growths(std::min(kNumAtOnce, order.size() - begin));
     const auto grow = [&](std::size_t k) {
       growths[k] = GrowFromSeed(seeds[order[begin + k]], input, claimed);
@@ -56,9 +59,10 @@ std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,
 
 std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
                               const GrowthInput& input,
-                              int num_threads) {
+                              int num_threads,
+                              const StepDone& step_done) {
   return KeepSignificant(
-      Grow(seeds, input, num_threads), input.indices, input.options);
+      Grow(seeds, input, num_threads, step_done), input.indices, input.options);
 }
 
 }  // namespace curvix

@@ -7,6 +7,7 @@
 #include <curvix/edges.h>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "curve_drawing/grow_from_seed.h"
 
 namespace curvix {
@@ -30,9 +31,10 @@ namespace curvix {
 // it. The sigma of a sample is that of a 3D edge with the same support, before
 // short streaks of hits are dropped.
 //
-// The curves are in the order of their seeds.
+// The curves are in the order of their seeds. `step_done` counts these.
 std::vector<Curve> GrowCurves(const std::vector<Edge3d>& seeds,
                               const GrowthInput& input,
-                              int num_threads);
+                              int num_threads,
+                              const StepDone& step_done = {});
 
 }  // namespace curvix

@@ -303,7 +303,14 @@ void Classifier::Classify(std::size_t curve_idx, Curve* curve) const {
 void ClassifyCurves(const Scene& scene,
                     const std::vector<PosedView>& views,
                     int num_threads,
-                    std::vector<Curve>* curves) {
+                    std::vector<Curve>* curves,
+                    const StepDone& step_done) {
+  const std::size_t num_curves = curves->size();
+  const auto keep_going = [&](std::size_t done) {
+    return !step_done ||
+           step_done(static_cast<int>(done), static_cast<int>(num_curves));
+  };
+  if (!keep_going(0)) return;
   const std::vector<BlurredImage> images =
       LoadBlurredImages(scene, kMaxImageBytes, num_threads);
   if (std::all_of(images.begin(), images.end(), [](const BlurredImage& image) {
@@ -312,12 +319,14 @@ void ClassifyCurves(const Scene& scene,
     return;
   }
   const Classifier classifier(scene, views, images, *curves);
-  ParallelFor(curves->size(), num_threads, [&](std::size_t i) {
+  const auto classify = [&](std::size_t i) {
     Curve& curve = (*curves)[i];
     if (MainKind(curve) != CurveKind::kOccludingContour) {
       classifier.Classify(i, &curve);
     }
-  });
+    return true;
+  };
+  ParallelForWhile(num_curves, num_threads, classify, keep_going);
 }
 
 }  // namespace curvix

@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "base/cancelled.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -20,10 +21,11 @@ namespace curvix {
 // Sets kind and probability of every sample, from the images of the scene.
 // Curves that are occluding contours already stay so. Where no image can be
 // read, or fewer than three views face any surface, samples are kUnknown. One
-// view per scene view.
+// view per scene view. `step_done` counts curves.
 void ClassifyCurves(const Scene& scene,
                     const std::vector<PosedView>& views,
                     int num_threads,
-                    std::vector<Curve>* curves);
+                    std::vector<Curve>* curves,
+                    const StepDone& step_done = {});
 
 }  // namespace curvix

@@ -235,7 +235,7 @@ std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
                                        const RefinementInput& input,
                                        const ResponseCurve& response) {
   std::vector<std::vector<Agreement>> agreements(curves.size());
-  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+  ForEachCurve(curves.size(), input, [&](std::size_t i) {
     agreements[i] = MeasureAgreement(curves[i], input, response);
   });
   const Scatter usual = UsualScatter(agreements);

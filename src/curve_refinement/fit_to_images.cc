@@ -294,7 +294,7 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const ResponseCurve& response) {
   if (!(input.options.smoothing_px > 0)) return curves;
   std::vector<Curve> fitted(curves.size());
-  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+  ForEachCurve(curves.size(), input, [&](std::size_t i) {
     fitted[i] = FitCurve(curves[i], input, response);
   });
   return fitted;

@@ -16,7 +16,8 @@ namespace curvix {
 // (meet_at_junctions.h), drops curves shorter than input.options.min_length_px
 // unless they join two junctions, and estimates covariances
 // (estimate_covariances.h). Occluding contours that options keep are smoothed,
-// not fitted. Without input.options.enabled, the curves as they are.
+// not fitted. Without input.options.enabled, the curves as they are. Between
+// steps, and between curves in the longest, input.step_done is asked.
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const RefinementInput& input);
 

@@ -5,8 +5,12 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
+#include "base/cancelled.h"
+#include "base/parallel.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -20,6 +24,23 @@ struct RefinementInput {
   double edge_sigma_px;
   const CurveRefinementOptions& options;
   int num_threads;
+  StepDone step_done = {};
+
+  bool Stops() const { return step_done && !step_done(0, 0); }
 };
+
+// ParallelFor over curves, or as many of them as there are until input.Stops().
+inline void ForEachCurve(std::size_t num_curves,
+                         const RefinementInput& input,
+                         const std::function<void(std::size_t)>& f) {
+  ParallelForWhile(
+      num_curves,
+      input.num_threads,
+      [&](std::size_t i) {
+        f(i);
+        return true;
+      },
+      [&](std::size_t) { return !input.Stops(); });
+}
 
 }  // namespace curvix

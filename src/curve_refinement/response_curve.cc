@@ -217,7 +217,7 @@ ResponseCurve EstimateResponseCurve(const std::vector<Curve>& curves,
   ResponseCurve response;
   for (int round = 0; round < kMaxNumRounds; ++round) {
     std::vector<NormalEquations> of_curves(curves.size());
-    ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+    ForEachCurve(curves.size(), input, [&](std::size_t i) {
       of_curves[i] = OfCurve(curves[i], input, response);
     });
     NormalEquations sum;

@@ -98,7 +98,8 @@ double BlurredShare(const Support& support,
 double SharpDilution(const CurveSample& sample,
                      const RefinementInput& input,
                      const std::vector<bool>& are_sharp) {
-  const auto& [views, edge_maps, edge_sigma_px, options, num_threads] = input;
+  const auto& [views, edge_maps, edge_sigma_px, options, num_threads, _] =
+      input;
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : sample.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);

@@ -6,18 +6,15 @@
 #include <curvix/options.h>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "edge_sketch/depth_range.h"
 #include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
 #include "model/posed_view.h"
 
 namespace curvix {
-
-// Called with (done, total); false stops early.
-using StepDone = std::function<bool(int, int)>;
 
 struct SketchInput {
   const std::vector<PosedView>& views;

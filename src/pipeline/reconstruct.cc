@@ -202,7 +202,8 @@ Result<Reconstruction> Connect(const Scene& scene,
                                        sketch.edge_sigma_px,
                                        options.curve_growth,
                                        options.validation},
-                                      num_threads);
+                                      num_threads,
+                                      run.Steps());
     run.End(CountsOf(result.curves));
   } else {
     GroupIntoCurves(views, edge_maps, sketch, options, run, result);
@@ -215,7 +216,8 @@ Result<Reconstruction> Connect(const Scene& scene,
                                        edge_maps,
                                        sketch.edge_sigma_px,
                                        options.curve_refinement,
-                                       num_threads});
+                                       num_threads,
+                                       run.Steps()});
   run.End(CountsOf(result.curves));
 
   if (options.curve_kinds.enabled) {
@@ -225,7 +227,8 @@ Result<Reconstruction> Connect(const Scene& scene,
                    sketch.edge_sigma_px,
                    num_threads,
                    &result.curves.curves);
-    ClassifyCurves(scene, views, num_threads, &result.curves.curves);
+    ClassifyCurves(
+        scene, views, num_threads, &result.curves.curves, run.Steps());
     run.End(KindCounts(result.curves));
   }
 

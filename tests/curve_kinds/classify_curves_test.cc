@@ -95,12 +95,13 @@ class ClassifyCurvesTest : public ::testing::Test {
   CurveSample MiddleOf(const Scene& scene) const {
     std::vector<Curve> curves = {CurveAt(0, scene)};
     for (const double x : other_curves_) curves.push_back(CurveAt(x, scene));
-    ClassifyCurves(scene, MakePosedViews(scene), 1, &curves);
+    ClassifyCurves(scene, MakePosedViews(scene), 1, &curves, step_done_);
     return curves[0].samples[30];
   }
 
   int first_view_ = 0;                // of those that support the curves
   std::vector<double> other_curves_;  // x of curves parallel to the edge
+  StepDone step_done_;
 
  private:
   Curve CurveAt(double x, const Scene& scene) const {
@@ -193,6 +194,20 @@ TEST_F(ClassifyCurvesTest, SurfaceMayEndAtTheNextCurve) {
   EXPECT_EQ(Classified(surfaces).kind, CurveKind::kBoundary);
   other_curves_ = {width};
   EXPECT_EQ(Classified(surfaces).kind, CurveKind::kMarking);
+}
+
+TEST_F(ClassifyCurvesTest, StopsAfterAnyCurve) {
+  other_curves_ = {0.01, 0.02};
+  for (const int last : {1, 2}) {
+    int num_done = 0;
+    step_done_ = [&](int done, int total) {
+      EXPECT_EQ(total, 3);
+      num_done = done;
+      return done < last;
+    };
+    Classified({{0, 1}, {180, 2}});
+    EXPECT_EQ(num_done, last);
+  }
 }
 
 TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {

@@ -33,11 +33,17 @@ std::vector<Curve> RoughSquare() {
 }
 
 std::vector<Curve> RefineRoughSquare(const CurveRefinementOptions& options,
-                                     int num_threads) {
+                                     int num_threads,
+                                     const StepDone& step_done = {}) {
   std::vector<Curve> curves = RoughSquare();
   const std::vector<EdgeMap> edge_maps = SupportByEdges(FrontalViews(), curves);
-  return RefineCurves(
-      curves, {FrontalViews(), edge_maps, kEdgeSigmaPx, options, num_threads});
+  return RefineCurves(curves,
+                      {FrontalViews(),
+                       edge_maps,
+                       kEdgeSigmaPx,
+                       options,
+                       num_threads,
+                       step_done});
 }
 
 TEST(RefineCurves, DrawsASquareAsFourSidesBetweenCorners) {
@@ -62,6 +68,21 @@ TEST(RefineCurves, ChangesNothingWhenItIsOff) {
   CurveRefinementOptions options;
   options.enabled = false;
   EXPECT_EQ(LargestDistance(RefineRoughSquare(options, 1), RoughSquare()), 0);
+}
+
+TEST(RefineCurves, StopsWheneverItIsAskedTo) {
+  int num_calls = 0;
+  const std::vector<Curve> whole =
+      RefineRoughSquare({}, 1, [&](int, int) { return ++num_calls > 0; });
+  EXPECT_EQ(LargestDistance(whole, RefineRoughSquare({}, 1)), 0);
+  // Between steps, and between curves where that takes long.
+  EXPECT_GT(num_calls, 4 * static_cast<int>(whole.size()));
+  for (int last = 1; last <= num_calls - 4; ++last) {
+    int calls = 0;
+    const auto refined =
+        RefineRoughSquare({}, 1, [&](int, int) { return ++calls < last; });
+    EXPECT_TRUE(refined.empty()) << last;
+  }
 }
 
 TEST(RefineCurves, ThreadsChangeNothing) {

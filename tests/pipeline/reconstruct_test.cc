@@ -286,6 +286,23 @@ TEST(ReconstructCurves, StopsWhileItConnectsEdges) {
   EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
 }
 
+TEST(ReconstructCurves, StopsWhileItGrowsAndRefinesCurves) {
+  WireScene wires = MakeWireScene({CubeCurves()[4]}, 8);
+  for (EdgeMap& map : wires.edge_maps) map.spacing_px = 1;  // crowded
+  for (const char* name : {"grow_curves", "refine_curves"}) {
+    int num_asked = 0;
+    const auto result =
+        ReconstructCurves(wires.scene,
+                          wires.edge_maps,
+                          Options(),
+                          [&](const std::string& stage, int, int) {
+                            return stage != name || ++num_asked < 2;
+                          });
+    EXPECT_EQ(result.status().code(), StatusCode::kCancelled) << name;
+    EXPECT_EQ(num_asked, 2) << name;
+  }
+}
+
 TEST(ReconstructCurves, RefusesOptionsOutOfRange) {
   const WireScene wires = MakeWireScene({CubeCurves()[4]}, 4);
   Options options;
