@@ -2,7 +2,9 @@
 #include <iostream>
 #include <utility>
 
+#include "colmap/workspace.h"
 #include "evaluation/evaluate.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/commands/commands.h"
 #include "plugin/commands/evaluations.h"
 
@@ -29,7 +31,8 @@ FlagSection TruthSection(EvaluateSettings* settings) {
       "Against known curves",
       {PathFlag("curves_path",
                 &settings->curves_path,
-                "curves.ply, curves.obj or curves.txt"),
+                "curves.ply, curves.obj or curves.txt; default: curves.ply "
+                "that a run has left in the workspace"),
        PathFlag("truth_path",
                 &settings->truth_path,
                 "the exact curves: gt.txt of synthesize, say"),
@@ -71,6 +74,21 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
   return sections;
 }
 
+Status EvaluateWithTruth(const EvaluateSettings& settings) {
+  std::filesystem::path curves_path = settings.curves_path;
+  if (curves_path.empty()) {
+    const Result<Workspace> workspace = CatchFileErrors(
+        StatusCode::kNotFound, [&] { return FindWorkspace(settings.run); });
+    if (!workspace.ok()) return workspace.status();
+    curves_path = workspace->output_path / "curves.ply";
+  }
+  return EvaluateFiles(curves_path,
+                       settings.truth_path,
+                       settings.options,
+                       settings.format(),
+                       std::cout);
+}
+
 Status EvaluateWorkspace(const EvaluateSettings& settings) {
   Status valid = Validate(settings.run.options);
   if (!valid.ok()) return valid;
@@ -92,21 +110,17 @@ ExitCode RunEvaluate(const Arguments& arguments) {
       ParseCommand("evaluate", arguments, Sections(&settings));
   if (code) return *code;
   const bool has_truth = !settings.truth_path.empty();
-  const bool has_workspace = settings.holdout_every > 0;
-  if (has_truth == has_workspace ||
-      (has_truth ? settings.curves_path : settings.run.workspace_path)
-          .empty()) {
+  const bool holds_out = settings.holdout_every > 0;
+  const bool has_workspace = !settings.run.workspace_path.empty();
+  const bool has_curves = has_workspace || !settings.curves_path.empty();
+  if (has_truth == holds_out || !(has_truth ? has_curves : has_workspace)) {
     return Fail({StatusCode::kInvalidArgument,
                  "give either --curves_path and --truth_path, or "
-                 "--workspace_path and --holdout_every"},
+                 "--workspace_path with --truth_path or --holdout_every"},
                 kExitCommandLine);
   }
-  const Status status = has_workspace ? EvaluateWorkspace(settings)
-                                      : EvaluateFiles(settings.curves_path,
-                                                      settings.truth_path,
-                                                      settings.options,
-                                                      settings.format(),
-                                                      std::cout);
+  const Status status =
+      holds_out ? EvaluateWorkspace(settings) : EvaluateWithTruth(settings);
   return status.ok() ? kExitSuccess : Fail(status);
 }
 

@@ -74,6 +74,27 @@ TEST_F(Evaluate, ResultsAreComparedInTheirFrame) {
   EXPECT_NEAR(same["precision"], before["precision"], 1);
 }
 
+TEST_F(Evaluate, AWorkspaceHasTheCurvesToCompareWithKnownOnes) {
+  const std::string known =
+      "evaluate --json --truth_path " + Quoted(workspace_ / "gt.txt");
+  const std::string given =
+      known + " --curves_path " + Quoted(results_ / "curves.ply");
+  const Outcome of_file = RunProgram(given);
+  ASSERT_EQ(of_file.exit_code, 0) << of_file.output;
+  EXPECT_EQ(Run(known).output, of_file.output);
+  EXPECT_EQ(
+      RunProgram(known + " --project_path " + Quoted(results_ / "project.ini"))
+          .output,
+      of_file.output);
+  // Curves that are given come before those of the workspace.
+  fs::rename(results_ / "curves.ply", folder_.path() / "curves.ply");
+  EXPECT_EQ(
+      Run(known + " --curves_path " + Quoted(folder_.path() / "curves.ply"))
+          .output,
+      of_file.output);
+  ExpectError(known, (results_ / "curves.ply").string());
+}
+
 TEST_F(Evaluate, WithoutImagesOfCurvesNothingIsExpected) {
   EXPECT_GT(Holdout("curves.txt")["expected_precision"], 0);
   EXPECT_FALSE(Holdout("curves.obj").contains("expected_precision"));
