@@ -155,6 +155,43 @@ std::optional<ImageHeader> HeaderOfTiff(const Bytes& bytes, bool is_big) {
   return Checked(width, height, bits);
 }
 
+// The height is below 0 where the first row comes first.
+template <typename Bytes>
+std::optional<ImageHeader> HeaderOfBmp(const Bytes& bytes) {
+  constexpr std::uint32_t kShortHeader = 12;  // bytes; sides have two each
+  if (NumberAt(bytes, 14, 4, false) == kShortHeader) {
+    return Checked(
+        NumberAt(bytes, 18, 2, false), NumberAt(bytes, 20, 2, false), 8);
+  }
+  const std::uint32_t height = NumberAt(bytes, 22, 4, false);
+  return Checked(
+      NumberAt(bytes, 18, 4, false), std::min(height, 0 - height), 8);
+}
+
+// PBM, PGM and PPM: "P6" and the sides as text, with comments from "#" to the
+// end of the line.
+template <typename Bytes>
+std::optional<ImageHeader> HeaderOfPnm(const Bytes& bytes) {
+  constexpr std::uint32_t kTooLarge = 1u << 24;
+  std::size_t at = 2;
+  const auto next = [&] {
+    bool is_comment = false;
+    for (; at < bytes.size(); ++at) {
+      is_comment = is_comment ? bytes[at] != '\n' : bytes[at] == '#';
+      if (!is_comment && " \t\r\n"sv.find(bytes[at]) == ""sv.npos) break;
+    }
+    std::uint32_t number = 0;
+    for (; at < bytes.size() && number < kTooLarge; ++at) {
+      const auto digit = static_cast<std::uint32_t>(bytes[at] - '0');
+      if (digit > 9) break;
+      number = 10 * number + digit;
+    }
+    return number;
+  };
+  const std::uint32_t width = next();
+  return Checked(width, next(), 8);
+}
+
 template <typename Bytes>
 std::optional<ImageHeader> HeaderOf(const Bytes& bytes) {
   if (StartsWith(bytes, "\x89PNG\r\n\x1a\n"sv)) {
@@ -164,6 +201,11 @@ std::optional<ImageHeader> HeaderOf(const Bytes& bytes) {
   if (IsJpeg(bytes)) return HeaderOfJpeg(bytes);
   if (StartsWith(bytes, "II*\0"sv)) return HeaderOfTiff(bytes, false);
   if (StartsWith(bytes, "MM\0*"sv)) return HeaderOfTiff(bytes, true);
+  if (StartsWith(bytes, "BM"sv)) return HeaderOfBmp(bytes);
+  if (StartsWith(bytes, "P"sv) && bytes.size() > 1 && bytes[1] >= '1' &&
+      bytes[1] <= '6') {
+    return HeaderOfPnm(bytes);
+  }
   return std::nullopt;
 }
 

@@ -22,8 +22,8 @@ struct ImageSize {
 // the smaller one.
 bool HaveSameShape(const ImageSize& a, const ImageSize& b);
 
-// The size that a PNG, JPEG or TIFF file announces, each side at most a million
-// pixels. nullopt: another format, or no sound header.
+// The size that a PNG, JPEG, TIFF, BMP, PBM, PGM or PPM file announces, each
+// side at most a million pixels. nullopt: another format, or no sound header.
 std::optional<ImageSize> SizeInHeader(std::string_view bytes);
 
 struct ImageHeader {
@@ -31,8 +31,8 @@ struct ImageHeader {
   int bits_per_channel = 8;
 };
 
-// What the header of a PNG, JPEG or TIFF file says, as above; a few kilobytes
-// of the file are read. nullopt, too, if it cannot be opened.
+// What the header of a file says, as above; a few kilobytes of the file are
+// read. nullopt, too, if it cannot be opened.
 std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path);
 
 // Whether a file is HEIF or AVIF, as telephones make them.

@@ -13,13 +13,13 @@
 namespace curvix {
 
 // The size of the image as stored (an EXIF rotation is ignored, as COLMAP
-// does): from the header of PNG, JPEG and TIFF files, by decoding others.
+// does): from the header (SizeInHeader), by decoding files of other formats.
 // kNotFound: no such file. kDataLoss: not an image.
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
 // Whether LoadGrayImage() and LoadMask() take the files of a view, as far as
-// the headers tell, of which a few kilobytes are read: their format and, of
-// PNG, JPEG and TIFF files, size and bits. Their errors.
+// the headers tell, of which a few kilobytes are read: their format and, of all
+// but WebP files, size and bits. Their errors.
 Status CheckImageFiles(const View& view, const Camera& camera);
 
 // The image in the file, as stored: an EXIF rotation is ignored, as COLMAP
@@ -31,8 +31,8 @@ Status CheckImageFiles(const View& view, const Camera& camera);
 //
 // kNotFound: no such file. kDataLoss: the file is empty, broken or cut short.
 // kUnsupported: another pixel format. kInvalidArgument: not of the `expected`
-// size, which is found out before a PNG, JPEG or TIFF is decoded. The message
-// names the file.
+// size, which is found out before any but a WebP is decoded. The message names
+// the file.
 Result<GrayImage> LoadGrayImage(
     const std::filesystem::path& path,
     const std::optional<ImageSize>& expected = std::nullopt);

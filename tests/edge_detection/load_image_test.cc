@@ -241,10 +241,15 @@ TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
       {"a.png", Texture(CV_8UC3)},
       {"a.jpg", Texture(CV_8UC3)},
       {"a.tiff", Texture(CV_16UC3)},
+      {"a.bmp", Texture(CV_8UC3)},
+      {"a.pgm", Texture(CV_16UC1)},
+      {"a.ppm", Texture(CV_8UC3)},
       {"wide.png", cv::Mat(60, 81, CV_8U, cv::Scalar(7))},
       {"turned.jpg", cv::Mat(80, 60, CV_8U, cv::Scalar(7))},
       {"float.tiff", cv::Mat(60, 80, CV_32FC1, 0.5)},
-      {"wide.tiff", cv::Mat(60, 81, CV_16UC1, cv::Scalar(7))}};
+      {"wide.tiff", cv::Mat(60, 81, CV_16UC1, cv::Scalar(7))},
+      {"turned.bmp", cv::Mat(80, 60, CV_8U, cv::Scalar(7))},
+      {"wide.pgm", cv::Mat(60, 81, CV_8U, cv::Scalar(7))}};
   for (const auto& [name, image] : images) {
     view.image_path = Written(name, image);
     EXPECT_EQ(CheckImageFiles(view, camera).message(),
@@ -258,14 +263,44 @@ TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
               LoadGrayImage(view, camera).status().message());
   }
   // No more than the header is looked at, and formats without one pass.
-  for (const char* name : {"a.png", "a.jpg"}) {
+  for (const char* name : {"a.png", "a.jpg", "a.bmp", "a.pgm"}) {
     Bytes head = Contents(folder_.path() / name);
     head.resize(head.size() / 2);
     view.image_path = Written(std::string("cut_") + name, head);
     EXPECT_TRUE(CheckImageFiles(view, camera).ok()) << name;
   }
-  view.image_path = Written("b.bmp", Texture(CV_8UC1));
+  view.image_path = Written("b.webp", Texture(CV_8UC3));
   EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+}
+
+TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
+  Camera camera;
+  camera.width = 80;
+  camera.height = 60;
+  View view;
+  // From the top row down: the height is below 0.
+  Bytes bmp = Contents(Written("down.bmp", Texture(CV_8UC3)));
+  for (const int at : {23, 24, 25}) bmp[static_cast<std::size_t>(at)] = '\xFF';
+  for (const int height : {60, 59}) {
+    bmp[22] = static_cast<char>(-height);
+    view.image_path = Written("down.bmp", bmp);
+    EXPECT_EQ(CheckImageFiles(view, camera).ok(), height == 60);
+    EXPECT_EQ(CheckImageFiles(view, camera).message(),
+              LoadGrayImage(view, camera).status().message());
+  }
+  for (const auto& [text, is_right] :
+       {std::pair("P5\n# 7 9\n80 60\n255\n", true),
+        std::pair("P2 80\t# 7\n#\n60\n9\n", true),
+        std::pair("P6 60\r\n80 255 ", false),
+        std::pair("P5 x 80 60 ", false),
+        std::pair("P5", false)}) {
+    const std::string start = text;
+    view.image_path = Written("a.pnm", Bytes(start.begin(), start.end()));
+    EXPECT_EQ(ReadImageHeader(view.image_path).has_value() &&
+                  CheckImageFiles(view, camera).ok(),
+              is_right)
+        << start;
+  }
 }
 
 // 80 x 60 pixels, three channels of so many bits, which stand behind the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What PNG, JPEG and TIFF files say about themselves. Decoders are OpenCV's.
+// What image files say about themselves. Decoders are OpenCV's.
 #include "base/image_header.h"
 
 #include <opencv2/core.hpp>
@@ -11,7 +11,7 @@ namespace curvix {
 
 std::vector<std::string> FuzzSeeds() {
   std::vector<std::string> seeds;
-  for (const char* extension : {".png", ".jpg", ".tiff"}) {
+  for (const char* extension : {".png", ".jpg", ".tiff", ".bmp", ".ppm"}) {
     std::vector<unsigned char> bytes;
     cv::imencode(extension, cv::Mat(9, 7, CV_8UC3, cv::Scalar(1, 2, 3)), bytes);
     seeds.emplace_back(bytes.begin(), bytes.end());
