@@ -100,7 +100,8 @@ std::string WrongPoint(const std::vector<ColmapPoint3D>& points) {
 
 bool LeavesImageFolder(std::string_view name) {
   if (name.empty() || name[0] == '/' || name[0] == '\\') return true;
-  if (name.size() > 1 && name[1] == ':') return true;  // C:
+  // "C:\a.jpg"; "c:d.png" is a file, too.
+  if (name.find_first_of("/\\") == 2 && name[1] == ':') return true;
   while (!name.empty()) {
     const std::size_t end = std::min(name.find_first_of("/\\"), name.size());
     if (name.substr(0, end) == "..") return true;

@@ -206,6 +206,7 @@ TEST(ColmapModel, ValidationSaysWhatIsBroken) {
       {[](auto& m) { m.images[0].name = ""; }, "empty, absolute"},
       {[](auto& m) { m.images[0].name = "/etc/passwd"; }, "absolute"},
       {[](auto& m) { m.images[0].name = "C:\\a.jpg"; }, "absolute"},
+      {[](auto& m) { m.images[0].name = "C:/a.jpg"; }, "absolute"},
       {[](auto& m) { m.images[0].name = "../a.jpg"; }, "\"..\""},
       {[](auto& m) { m.images[0].name = "a/../../b.jpg"; }, "\"..\""},
       {[](auto& m) { m.images[0].name = "a\\..\\b.jpg"; }, "\"..\""},
@@ -224,9 +225,12 @@ TEST(ColmapModel, ValidationSaysWhatIsBroken) {
     EXPECT_FALSE(WriteColmapModel(model, folder.path()).ok());
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   }
-  ColmapModel dots = RandomModel(1);
-  dots.images[0].name = "a..b/...jpg";
-  EXPECT_TRUE(ValidateColmapModel(dots).ok());
+  for (const char* name :
+       {"a..b/...jpg", "c:d.png", "c:d/e.png", "12:30.png"}) {
+    ColmapModel model = RandomModel(1);
+    model.images[0].name = name;
+    EXPECT_TRUE(ValidateColmapModel(model).ok()) << name;
+  }
 }
 
 TEST(ColmapModel, IsNotWrittenWhereOtherFilesWouldShadowIt) {
