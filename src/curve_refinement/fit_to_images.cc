@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "curve_refinement/response_curve.h"
 #include "curve_refinement/weak_directions.h"
@@ -18,6 +19,7 @@
 #include "geometry/directions.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
+#include "model/sample_ranges.h"
 
 namespace curvix {
 namespace {
@@ -30,6 +32,9 @@ constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
 constexpr double kMinGain = 1e-4;     // of a step, share of the cost
 constexpr double kMaxStiffening = 3;  // in weak directions
+// Robust losses let the fit leave edges behind: from twice the distance at
+// which edges were found, samples are not there.
+constexpr double kMaxMissPx = 2;
 // Wide: damping is in proportion to the bends, which are much stiffer than the
 // edges, and would keep samples from these.
 constexpr double kTrustRegionRadius = 1e10;
@@ -76,6 +81,18 @@ class SupportCost : public ceres::CostFunction {
     }
     return true;
   }
+
+  // Of the station at an offset.
+  double MedianDistancePx(const double* offset) const {
+    std::vector<double> distances;
+    for (const PlaneMeasurement& plane : measured_) {
+      distances.push_back(
+          std::abs(DistanceFrom(plane, station_->At(offset)).px));
+    }
+    return Median(std::move(distances));
+  }
+
+  const Station* station() const { return station_; }
 
  private:
   const Station* station_;
@@ -213,7 +230,8 @@ class CurveFitter {
     }
   }
 
-  Curve Solve() {
+  // The curve, or the parts of it that are near their edges.
+  std::vector<Curve> Solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = kMaxNumIterations;
@@ -223,15 +241,26 @@ class CurveFitter {
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
-    if (!summary.IsSolutionUsable()) return curve_;
+    if (!summary.IsSolutionUsable()) return {std::move(curve_)};
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       curve_.samples[k].position = stations_[k].At(offsets_[k].data());
     }
     SetTangents();
-    return curve_;
+    return KeepRanges(std::move(curve_), AreNearEdges());
   }
 
  private:
+  // By sample; true without edges.
+  std::vector<bool> AreNearEdges() const {
+    std::vector<bool> near(stations_.size(), true);
+    for (const SupportCost& cost : support_costs_) {
+      const auto k =
+          static_cast<std::size_t>(cost.station() - stations_.data());
+      near[k] = cost.MedianDistancePx(offsets_[k].data()) < kMaxMissPx;
+    }
+    return near;
+  }
+
   // Of the samples from `first` on.
   void AddBend(std::size_t first,
                double stiffness_px,
@@ -274,13 +303,13 @@ class CurveFitter {
   ceres::Problem problem_;
 };
 
-Curve FitCurve(const Curve& curve,
-               const RefinementInput& input,
-               const ResponseCurve& response) {
-  if (curve.samples.size() < kMinNumFittedSamples) return curve;
+std::vector<Curve> FitCurve(const Curve& curve,
+                            const RefinementInput& input,
+                            const ResponseCurve& response) {
+  if (curve.samples.size() < kMinNumFittedSamples) return {curve};
   const CurveSample& first = curve.samples.front();
   const double pixel = PixelSize(first.position, first.support, input.views);
-  if (!(pixel > 0)) return curve;
+  if (!(pixel > 0)) return {curve};
   CurveFitter fitter(curve, pixel);
   fitter.AddEdges(input, response);
   fitter.AddBends(kStiffness * input.options.smoothing_px);
@@ -293,11 +322,11 @@ std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const RefinementInput& input,
                                const ResponseCurve& response) {
   if (!(input.options.smoothing_px > 0)) return curves;
-  std::vector<Curve> fitted(curves.size());
+  std::vector<std::vector<Curve>> fitted(curves.size());
   ForEachCurve(curves.size(), input, [&](std::size_t i) {
     fitted[i] = FitCurve(curves[i], input, response);
   });
-  return fitted;
+  return Concatenate(std::move(fitted));
 }
 
 }  // namespace curvix

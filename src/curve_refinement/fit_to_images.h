@@ -24,6 +24,8 @@ namespace curvix {
 // is larger by the ratio of the standard deviations, at most by three, and
 // rho2 is the square. Tangents become those of the samples five in a row.
 // Curves of fewer than six samples stay; smoothing_px = 0 returns the input.
+// Samples that come to lie 2 px or more from their 2D edges (median) are cut
+// out; what is left of a curve is one or several, in order.
 // Pixels in space as in pixel_size.h.
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const RefinementInput& input,

@@ -39,12 +39,19 @@ Curve Noisy(Curve curve) {
   return curve;
 }
 
-Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
+std::vector<Curve> FitAll(const SeenCurve& seen, double smoothing_px = 2.5) {
   CurveRefinementOptions options;
   options.smoothing_px = smoothing_px;
   return FitToImages({Noisy(seen.truth)},
                      {seen.views, seen.edge_maps, kEdgeSigmaPx, options, 1},
-                     {})[0];
+                     {});
+}
+
+// The only curve.
+Curve Fit(const SeenCurve& seen, double smoothing_px = 2.5) {
+  std::vector<Curve> curves = FitAll(seen, smoothing_px);
+  EXPECT_EQ(curves.size(), 1);
+  return curves.at(0);
 }
 
 TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
@@ -138,6 +145,24 @@ TEST(FitToImages, WrongEdgesHardlyPull) {
   for (const CurveSample& sample : Fit(seen).samples) {
     EXPECT_LT(sample.position.tail<2>().norm(), 0.1 * kPixel);
   }
+}
+
+TEST(FitToImages, SamplesBetweenContradictoryEdgesAreCutOut) {
+  SeenCurve seen = SeeFromEightViews(Line(InPlane(-50, 0), InPlane(50, 0)));
+  const std::size_t size = seen.truth.samples.size();
+  const std::size_t begin = size / 3, end = begin + 5;
+  for (std::size_t k = begin; k < end; ++k) {
+    for (const EdgeRef& ref : seen.truth.samples[k].support) {
+      const auto v = static_cast<std::size_t>(ref.view_idx);
+      seen.edge_maps[v]
+          .edges[static_cast<std::size_t>(ref.edge_idx)]
+          .position.y() += v % 2 == 0 ? 8 : -8;
+    }
+  }
+  const std::vector<Curve> parts = FitAll(seen);
+  ASSERT_EQ(parts.size(), 2);
+  EXPECT_EQ(parts[0].samples.size(), begin);
+  EXPECT_EQ(parts[1].samples.size(), size - end);
 }
 
 TEST(FitToImages, NoWidthMovesNothing) {
