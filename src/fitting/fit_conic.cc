@@ -4,9 +4,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
@@ -252,22 +250,8 @@ std::optional<Conic> Refine(Conic conic, FitSpan samples, bool is_circle) {
   return conic;
 }
 
-// By OpenCV, since Eigen's solver takes half a minute to compile.
-std::array<Eigen::Vector3d, 3> EigenvectorsOf(const Eigen::Matrix3d& matrix) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = matrix;
-  cv::Matx33d vectors;  // in rows
-  cv::Vec3d values;
-  cv::eigenNonSymmetric(cv::Matx33d(rows.data()), values, vectors);
-  std::array<Eigen::Vector3d, 3> result;
-  for (int k = 0; k < 3; ++k) {
-    result[static_cast<std::size_t>(k)] = {
-        vectors(k, 0), vectors(k, 1), vectors(k, 2)};
-  }
-  return result;
-}
-
-// The direct least-squares ellipse of Fitzgibbon, Pilu and Fisher in the form
-// of Halir and Flusser, in the plane of the samples.
+// The direct least-squares ellipse of Fitzgibbon, Pilu and Fisher, its linear
+// terms eliminated as by Halir and Flusser, in the plane of the samples.
 std::optional<Conic> DirectEllipse(FitSpan samples) {
   Conic plane = PlaneOf(samples, EqualWeights(samples));
   double scale = 0;
@@ -286,31 +270,33 @@ std::optional<Conic> DirectEllipse(FitSpan samples) {
     s3 += linear * linear.transpose();
   }
   const Eigen::Matrix3d t = -s3.ldlt().solve(s2.transpose());
-  const Eigen::Matrix3d m = s1 + s2 * t;
-  Eigen::Matrix3d reduced;
-  reduced << m.row(2) / 2, -m.row(1), m.row(0) / 2;
-  if (!reduced.allFinite()) return std::nullopt;
-  for (const Eigen::Vector3d& q : EigenvectorsOf(reduced)) {
-    if (!(4 * q(0) * q(2) - q(1) * q(1) > 0)) continue;
-    const Eigen::Vector3d l = t * q;
-    // q0 x^2 + q1 x y + q2 y^2 + l0 x + l1 y + l2 = 0
-    Eigen::Matrix2d form;
-    form << q(0), q(1) / 2, q(1) / 2, q(2);
-    const Eigen::Vector2d center = -0.5 * form.inverse() * l.head<2>();
-    const double level = center.dot(form * center) - l(2);
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
-    axes.computeDirect(form / level);
-    if (!(axes.eigenvalues()(0) > 0)) return std::nullopt;
-    plane.center += scale * plane.frame.leftCols<2>() * center;
-    plane.a = scale / std::sqrt(axes.eigenvalues()(0));
-    plane.b = scale / std::sqrt(axes.eigenvalues()(1));
-    const Eigen::Matrix<double, 3, 2> directions =
-        plane.frame.leftCols<2>() * axes.eigenvectors();
-    plane.frame.leftCols<2>() = directions;
-    plane.frame.col(2) = plane.frame.col(0).cross(plane.frame.col(1));
-    return plane;
-  }
-  return std::nullopt;
+  Eigen::Matrix3d m = s1 + s2 * t;
+  m.diagonal().array() += 1e-14 * m.trace();  // 0 of exact samples
+  if (!m.allFinite()) return std::nullopt;
+  // q' ellipticity q = 4 q0 q2 - q1^2 is > 0 for ellipses.
+  Eigen::Matrix3d ellipticity;
+  ellipticity << 0, 0, 2, 0, -1, 0, 2, 0, 0;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+      ellipticity, m);
+  if (eigen.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Vector3d q = eigen.eigenvectors().col(2).normalized();
+  const Eigen::Vector3d l = t * q;
+  // q0 x^2 + q1 x y + q2 y^2 + l0 x + l1 y + l2 = 0
+  Eigen::Matrix2d form;
+  form << q(0), q(1) / 2, q(1) / 2, q(2);
+  const Eigen::Vector2d center = -0.5 * form.inverse() * l.head<2>();
+  const double level = center.dot(form * center) - l(2);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(form / level);
+  if (!(axes.eigenvalues()(0) > 0)) return std::nullopt;
+  plane.center += scale * plane.frame.leftCols<2>() * center;
+  plane.a = scale / std::sqrt(axes.eigenvalues()(0));
+  plane.b = scale / std::sqrt(axes.eigenvalues()(1));
+  const Eigen::Matrix<double, 3, 2> directions =
+      plane.frame.leftCols<2>() * axes.eigenvectors();
+  plane.frame.leftCols<2>() = directions;
+  plane.frame.col(2) = plane.frame.col(0).cross(plane.frame.col(1));
+  return plane;
 }
 
 }  // namespace
