@@ -8,7 +8,7 @@
 namespace curvix {
 
 // Called by a stage with (done, total) steps, or (0, 0); false asks it to stop.
-// What it returns then means nothing.
+// Its result is then not to be used.
 using StepDone = std::function<bool(int, int)>;
 
 // Of a run that the user has stopped.

@@ -28,7 +28,7 @@ std::optional<ImageSize> SizeInHeader(std::string_view bytes);
 
 struct ImageHeader {
   ImageSize size;
-  int bits_per_channel = 8;
+  int bits_per_channel = 8;  // not read from BMP, PBM, PGM and PPM
 };
 
 // What the header of a file says, as above; a few kilobytes of the file are

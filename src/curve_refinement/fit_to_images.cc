@@ -32,8 +32,8 @@ constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
 constexpr double kMinGain = 1e-4;     // of a step, share of the cost
 constexpr double kMaxStiffening = 3;  // in weak directions
-// Robust losses let the fit leave edges behind: from twice the distance at
-// which edges were found, samples are not there.
+// Under robust losses the fit can leave edges. Samples at twice the default of
+// Validation.max_distance_px or more are cut out.
 constexpr double kMaxMissPx = 2;
 // Wide: damping is in proportion to the bends, which are much stiffer than the
 // edges, and would keep samples from these.
@@ -82,7 +82,7 @@ class SupportCost : public ceres::CostFunction {
     return true;
   }
 
-  // Of the station at an offset.
+  // From the 2D edges, with the sample at this offset.
   double MedianDistancePx(const double* offset) const {
     std::vector<double> distances;
     for (const PlaneMeasurement& plane : measured_) {

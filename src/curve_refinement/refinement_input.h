@@ -29,7 +29,7 @@ struct RefinementInput {
   bool Stops() const { return step_done && !step_done(0, 0); }
 };
 
-// ParallelFor over curves, or as many of them as there are until input.Stops().
+// ParallelFor over curves that ends early if input.Stops().
 inline void ForEachCurve(std::size_t num_curves,
                          const RefinementInput& input,
                          const std::function<void(std::size_t)>& f) {

@@ -271,9 +271,10 @@ std::optional<Conic> DirectEllipse(FitSpan samples) {
   }
   const Eigen::Matrix3d t = -s3.ldlt().solve(s2.transpose());
   Eigen::Matrix3d m = s1 + s2 * t;
-  m.diagonal().array() += 1e-14 * m.trace();  // 0 of exact samples
+  m.diagonal().array() += 1e-14 * m.trace();  // exact samples: singular
   if (!m.allFinite()) return std::nullopt;
-  // q' ellipticity q = 4 q0 q2 - q1^2 is > 0 for ellipses.
+  // For ellipses, q^T ellipticity q = 4 q0 q2 - q1^2 is positive: only one
+  // eigenvalue, the largest, is.
   Eigen::Matrix3d ellipticity;
   ellipticity << 0, 0, 2, 0, -1, 0, 2, 0, 0;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
