@@ -165,7 +165,7 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
   if (views.empty()) {
     return Status(StatusCode::kNotFound,
                   counts +
-                      ", but no number of a camera is in the name of a "
+                      ", but no number of a camera is in the name of an "
                       "image; name their folder with --image_path.");
   }
   if (views.size() < std::max(names.size(), projections.size())) {
