@@ -20,6 +20,7 @@
 #include "plugin/align/curves_file.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
+#include "plugin/base/text.h"
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
@@ -252,7 +253,8 @@ Status Drafter::LayOut() {
                       .filename()
                       .string();
   }
-  sheet.subtitle = Subtitle();
+  sheet.title = ValidUtf8(sheet.title);
+  sheet.subtitle = ValidUtf8(Subtitle());
   sheet.paper = settings_.paper;
   sheet.has_dimensions = settings_.dimensions;
   if (curves_.alignment) sheet.unit = curves_.alignment->unit;
