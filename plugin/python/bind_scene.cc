@@ -247,8 +247,9 @@ void BindScene(py::module_& module) {
            [](const PythonScene& scene) { return scene.scene->cameras.size(); })
       .def("has_edges",
            [](const PythonScene& scene) { return scene.edge_maps != nullptr; })
-      .def("names",
-           OfViews([](const Scene&, const View& view) { return view.name; }))
+      .def("names", OfViews([](const Scene&, const View& view) {
+             return py::bytes(view.name);  // not always UTF-8
+           }))
       .def("image_paths", OfViews([](const Scene&, const View& view) {
              return view.image_path;
            }))
