@@ -33,7 +33,8 @@ constexpr double kLensPriorPx = 3;
 // ratio, since the world can stretch.
 constexpr double kAspectRatioPriorPx = 0.15;
 constexpr std::size_t kMinAlikeCameras = 3;
-// Edges are matched again after each solution, so none needs to be exact.
+// Smaller steps move images by much less than edges are off.
+constexpr double kMinGain = 3e-3;  // of a step, share of the cost
 constexpr int kMaxNumSteps = 25;
 // Wide: priors fix what observations leave free, so steps need little damping.
 constexpr double kTrustRegionRadius = 1e8;
@@ -103,20 +104,19 @@ PoseUnknowns UnknownsOf(const PoseProblem& problem, const MovedCameras& start) {
 // that step.
 class EndOfSearch : public ceres::IterationCallback {
  public:
-  EndOfSearch(double min_gain, const std::function<bool()>& keep_going)
-      : min_gain_(min_gain), keep_going_(keep_going) {}
+  explicit EndOfSearch(const std::function<bool()>& keep_going)
+      : keep_going_(keep_going) {}
 
   ceres::CallbackReturnType operator()(
       const ceres::IterationSummary& step) override {
     const bool is_settled =
         step.iteration > 0 && step.step_is_successful &&
-        step.cost_change < min_gain_ * (step.cost + step.cost_change);
+        step.cost_change < kMinGain * (step.cost + step.cost_change);
     return is_settled || !keep_going_() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                                         : ceres::SOLVER_CONTINUE;
   }
 
  private:
-  const double min_gain_;
   const std::function<bool()>& keep_going_;
 };
 
@@ -163,9 +163,9 @@ class PoseAdjuster {
   }
 
   // False if no solution was found.
-  bool Run(double min_gain, const std::function<bool()>& keep_going) {
+  bool Run(const std::function<bool()>& keep_going) {
     if (ceres_.NumResidualBlocks() == 0) return true;
-    EndOfSearch end(min_gain, keep_going);
+    EndOfSearch end(keep_going);
     ceres::Solver::Options options;
     options.callbacks = {&end};
     const int num_exact =
@@ -322,7 +322,7 @@ AdjustedPoses AdjustPoses(const PoseProblem& problem,
   PoseAdjuster adjuster(problem, start, num_threads);
   AdjustedPoses adjusted;
   adjusted.moved = start;
-  if (adjuster.Run(problem.min_gain, keep_going)) {
+  if (adjuster.Run(keep_going)) {
     adjusted.moved = adjuster.Moved();
   }
   adjusted.costs = adjuster.CostsBySample();

@@ -60,8 +60,6 @@ struct PoseProblem {
   // By camera: whether its first eight parameters are unknowns. Empty: none
   // are.
   std::vector<bool> free_lenses = {};
-  // The search ends when a step lowers the cost by a smaller share.
-  double min_gain = 1e-4;
 };
 
 struct AdjustedPoses {
@@ -76,10 +74,11 @@ struct AdjustedPoses {
 
 // Minimises the distances of projected samples from the lines of their edges,
 // and of projected points from their pixels, each over its sigma and with
-// Cauchy's loss. Levenberg-Marquardt from `start`; samples and points are
-// eliminated. The result does not depend on the number of threads. The search
-// ends when `keep_going`, called between iterations, returns false. Samples and
-// points that are behind a camera at the start are left out.
+// Cauchy's loss. Levenberg-Marquardt from `start` until a step lowers the
+// cost by a share of less than 0.003; samples and points are eliminated. The
+// result does not depend on the number of threads. The search ends when
+// `keep_going`, called between iterations, returns false. Samples and points
+// that are behind a camera at the start are left out.
 AdjustedPoses AdjustPoses(const PoseProblem& problem,
                           const MovedCameras& start,
                           int num_threads,

@@ -19,7 +19,7 @@ namespace curvix {
 namespace {
 
 constexpr int kMaxNumTurns = 6;
-constexpr double kMinGainOfTurn = 0.01;
+constexpr double kMinGainOfTurn = 0.03;
 // Sketches expect larger errors until they find so many places.
 constexpr std::size_t kMinPlaces = 100;
 constexpr double kMaxSketchSigmaPx = 1.2;
@@ -173,8 +173,7 @@ void PoseSearch::AdjustInTurns(PoseObservationSet* observations) {
 
 AdjustedPoses PoseSearch::Solve(const PoseObservationSet& observations,
                                 double prior_px,
-                                const std::vector<bool>& free_lenses,
-                                double min_gain) {
+                                const std::vector<bool>& free_lenses) {
   std::vector<PoseSample> samples;
   for (const CurvePlace& place : observations.places) {
     PoseSample& sample = samples.emplace_back();
@@ -189,8 +188,7 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& observations,
                       sigmas_px_,
                       point_sigma_px_,
                       prior_px,
-                      free_lenses,
-                      min_gain},
+                      free_lenses},
                      edges_.moved(),
                      num_threads_,
                      [this] { return step_done_(0, 0); });
@@ -203,9 +201,9 @@ double PoseSearch::PriorFor(const PoseObservationSet& observations) const {
   return observations.points.empty() ? prior_px_ : kFirstPriorPx;
 }
 
-void PoseSearch::Adjust(PoseObservationSet* observations, double min_gain) {
+void PoseSearch::Adjust(PoseObservationSet* observations) {
   const AdjustedPoses adjusted =
-      Solve(*observations, PriorFor(*observations), free_lenses_, min_gain);
+      Solve(*observations, PriorFor(*observations), free_lenses_);
   edges_.Move(adjusted.moved);
   for (std::size_t i = 0; i < observations->points.size(); ++i) {
     observations->points[i].position = adjusted.points[i];
@@ -234,7 +232,7 @@ std::vector<double> PoseSearch::LossesOf(
     const PoseObservationSet& observations) {
   PoseObservationSet fitted = observations;
   Fit(&fitted);
-  return Solve(fitted, kFirstPriorPx, {}, kFineGain).costs;
+  return Solve(fitted, kFirstPriorPx, {}).costs;
 }
 
 std::vector<std::optional<double>> PoseSearch::Shifts(

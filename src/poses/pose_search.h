@@ -17,10 +17,6 @@ namespace curvix {
 
 class PoseSearch {
  public:
-  // kRoughGain is enough if edges are matched again afterwards.
-  static constexpr double kRoughGain = 3e-3;
-  static constexpr double kFineGain = 1e-4;
-
   // The arguments must outlive it. `step_done` is called between steps; it
   // returns false to stop.
   PoseSearch(const Scene& scene,
@@ -46,9 +42,8 @@ class PoseSearch {
   // Whether any camera rotated.
   bool ShiftViews(const std::vector<CurvePlace>& places);
 
-  // Adjusts poses, free cameras, places and points jointly, until a step lowers
-  // the loss by a share of less than `min_gain`.
-  void Adjust(PoseObservationSet* observations, double min_gain = kRoughGain);
+  // Adjusts poses, free cameras, places and points jointly.
+  void Adjust(PoseObservationSet* observations);
 
   // Alternates FindEdges() and Adjust() until edges come no nearer.
   void AdjustInTurns(PoseObservationSet* observations);
@@ -84,8 +79,7 @@ class PoseSearch {
   double PriorFor(const PoseObservationSet& observations) const;
   AdjustedPoses Solve(const PoseObservationSet& observations,
                       double prior_px,
-                      const std::vector<bool>& free_lenses,
-                      double min_gain);
+                      const std::vector<bool>& free_lenses);
   std::vector<Eigen::Vector3d> PositionsByInput(
       const PoseObservationSet& observations);
   void RestoreScale(PoseObservationSet* observations);

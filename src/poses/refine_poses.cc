@@ -283,9 +283,7 @@ class Refiner {
                                 held_out_.points.end());
     for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
       search_.FindEdges(&observations_.places);
-      const bool is_last = i + 1 == kNumFinalRounds;
-      search_.Adjust(&observations_,
-                     is_last ? PoseSearch::kFineGain : PoseSearch::kRoughGain);
+      search_.Adjust(&observations_);
     }
     search_.RestoreGauge(&observations_);
     PutPoses(observations_, result);
