@@ -25,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Longer ones are not meant, and products of their covariances overflow.
+// Longer lines are errors of what wrote them; products of much longer ones
+// overflow.
 constexpr double kMaxLength = 1e30;
 
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {

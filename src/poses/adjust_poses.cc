@@ -33,7 +33,7 @@ constexpr double kLensPriorPx = 3;
 // ratio, since the world can stretch.
 constexpr double kAspectRatioPriorPx = 0.15;
 constexpr std::size_t kMinAlikeCameras = 3;
-// Smaller steps move images by much less than edges are off.
+// A smaller one takes more steps; curves of photographs are no better for it.
 constexpr double kMinGain = 3e-3;  // of a step, share of the cost
 constexpr int kMaxNumSteps = 25;
 // Wide: priors fix what observations leave free, so steps need little damping.

@@ -82,14 +82,18 @@ TEST(MeasureCurves, NamesAFileThatIsNotThere) {
   EXPECT_THAT(outcome.output, HasSubstr("no_such_file.txt"));
 }
 
-TEST(CurvesFromWorkspace, ShowsWhatTheCommandLeavesBehind) {
-  const TemporaryFolder folder;
+SyntheticOptions SmallBlock() {
   SyntheticOptions options;
   options.solid = SyntheticSolid::kBlock;
   options.num_views = 12;
   options.width = options.height = 160;
+  return options;
+}
+
+TEST(CurvesFromWorkspace, ShowsWhatTheCommandLeavesBehind) {
+  const TemporaryFolder folder;
   const fs::path workspace = folder.path() / "my proj";
-  ASSERT_TRUE(Synthesize(options, workspace).ok());
+  ASSERT_TRUE(Synthesize(SmallBlock(), workspace).ok());
   const Outcome outcome =
       RunAll("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR
              "/examples/01_curves_from_workspace.sh' '" +
@@ -102,12 +106,8 @@ TEST(CurvesFromWorkspace, ShowsWhatTheCommandLeavesBehind) {
 
 TEST(CurvesFromWorkspace, FindsTheResultsOfADenseModel) {
   const TemporaryFolder folder;
-  SyntheticOptions options;
-  options.solid = SyntheticSolid::kBlock;
-  options.num_views = 12;
-  options.width = options.height = 160;
   const fs::path dense = folder.path() / "proj/dense/0";
-  ASSERT_TRUE(Synthesize(options, folder.path() / "block").ok());
+  ASSERT_TRUE(Synthesize(SmallBlock(), folder.path() / "block").ok());
   fs::create_directories(dense);
   fs::rename(folder.path() / "block/images", dense / "images");
   fs::rename(folder.path() / "block/sparse/0", dense / "sparse");
