@@ -51,7 +51,7 @@ std::string WithSigma(double value, double sigma) {
 Status CheckUp(const std::string& text) {
   const Result<Eigen::Vector3d> up = ParseVector("--up", text);
   if (!up.ok() || up->norm() > 0) return up.status();
-  return {StatusCode::kInvalidArgument, "--up has no direction"};
+  return Status::InvalidArgument("--up has no direction");
 }
 
 class Aligner {
@@ -232,16 +232,14 @@ Status Aligner::CheckPositions(const AlignmentResult& result) const {
       result.alignment.world_from_model.scale * std::sqrt(squares / n);
   if (!(result.position_sigma > kLargeShareOff * extent)) return {};
   const std::size_t worst = WorstOf(result);
-  return {StatusCode::kInvalidArgument,
-          "The positions do not fit the cameras: each coordinate is " +
-              SigmaText(result.position_sigma) +
-              " off (standard deviation), and the cameras are " +
-              SigmaText(extent) + " from their middle. " +
-              input_.positions[worst].name + " fits worst, by " +
-              SigmaText(result.position_residuals[worst].norm()) +
-              ". Look for a wrong number, degrees or a mirrored axis; if "
-              "positions are that uncertain, give a standard deviation after "
-              "each"};
+  return Status::InvalidArgument(
+      "The positions do not fit the cameras: each coordinate is " +
+      SigmaText(result.position_sigma) +
+      " off (standard deviation), and the cameras are " + SigmaText(extent) +
+      " from their middle. " + input_.positions[worst].name +
+      " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
+      ". Look for a wrong number, degrees or a mirrored axis; if positions are "
+      "that uncertain, give a standard deviation after each");
 }
 
 void Aligner::DescribePositions(const AlignmentResult& result) {
@@ -279,9 +277,9 @@ Result<AlignSummary> Aligner::Run() {
   if (!fits.ok()) return fits;
   WorldAlignment& alignment = result->alignment;
   if (settings_.unit != "none" && !alignment.has_scale) {
-    return Status(StatusCode::kInvalidArgument,
-                  "--unit needs a scale, which nothing that is given tells: "
-                  "add --distance, --markers or --positions");
+    return Status::InvalidArgument(
+        "--unit needs a scale, which nothing that is given tells: add "
+        "--distance, --markers or --positions");
   }
   if (settings_.unit != "none") alignment.unit = settings_.unit;
   if (!settings_.epsg.empty()) alignment.crs = "EPSG:" + settings_.epsg;
@@ -317,23 +315,22 @@ Result<AlignSummary> Aligner::Run() {
 }  // namespace
 
 Status Check(const AlignSettings& s) {
-  const auto bad = [](std::string message) {
-    return Status(StatusCode::kInvalidArgument, std::move(message));
-  };
   if (s.distances.empty() && s.markers.empty() && s.positions_path.empty() &&
       s.axes == "none") {
-    return bad(
+    return Status::InvalidArgument(
         "align needs something that is known: --distance, --markers, "
         "--positions or --axes auto");
   }
   if (!s.markers.empty() && !(s.marker_size > 0)) {
-    return bad("--markers needs --marker_size, the side of the black square");
+    return Status::InvalidArgument(
+        "--markers needs --marker_size, the side of the black square");
   }
   if (!s.up.empty() && s.axes == "none") {
-    return bad("--up needs --axes auto, which it corrects");
+    return Status::InvalidArgument("--up needs --axes auto, which it corrects");
   }
   if (!s.epsg.empty() && s.positions_path.empty()) {
-    return bad("--epsg needs --positions, whose coordinates it names");
+    return Status::InvalidArgument(
+        "--epsg needs --positions, whose coordinates it names");
   }
   Status status;
   if (!s.distances.empty()) status = CheckDistances(s.distances);

@@ -19,10 +19,6 @@ namespace po = boost::program_options;
 
 using Values = std::map<std::string, std::string>;
 
-Status BadArgument(std::string message) {
-  return {StatusCode::kInvalidArgument, std::move(message)};
-}
-
 po::options_description Describe(const std::vector<FlagSection>& sections) {
   po::options_description description;
   description.add_options()("help,h", po::bool_switch())("help_all",
@@ -56,21 +52,23 @@ Status UnknownFlag(std::string token,
       dashes == std::string::npos ? token : token.substr(dashes);
   const auto former = FormerOptions().find(name);
   if (former != FormerOptions().end()) {
-    return BadArgument("'" + token + "' is no longer an option; it is always " +
-                       former->second);
+    return Status::InvalidArgument("'" + token +
+                                   "' is no longer an option; it is always " +
+                                   former->second);
   }
   std::vector<std::string> names = {"help", "help_all"};
   for (const FlagSection& section : sections) {
     for (const Flag& flag : section.flags) names.push_back(flag.name);
   }
   const std::string nearest = NearestName(name, names);
-  return BadArgument("There is no option '" + token + "'" +
-                     (nearest.empty() ? "; --help_all lists all options"
+  return Status::InvalidArgument("There is no option '" + token + "'" +
+                                 (nearest.empty()
+                                      ? "; --help_all lists all options"
                                       : "; did you mean '--" + nearest + "'?"));
 }
 
 Status GivenTwice(const std::string& name) {
-  return BadArgument("The option '--" + name + "' is given twice");
+  return Status::InvalidArgument("The option '--" + name + "' is given twice");
 }
 
 // What Boost found, as one value per name.
@@ -82,8 +80,8 @@ Result<Values> Collect(const po::parsed_options& parsed,
                                   ? option.string_key
                                   : option.original_tokens.front();
     if (option.position_key >= 0) {
-      return BadArgument("'" + token +
-                         "' is not expected here; options start with --");
+      return Status::InvalidArgument(
+          "'" + token + "' is not expected here; options start with --");
     }
     if (option.unregistered) return UnknownFlag(token, sections);
     // Only a switch may come without a value.
@@ -109,7 +107,7 @@ Result<Values> ReadArguments(const std::vector<std::string>& arguments,
                        .run(),
                    sections);
   } catch (const po::error& error) {
-    return BadArgument(error.what());
+    return Status::InvalidArgument(error.what());
   }
 }
 
@@ -154,7 +152,8 @@ Result<Values> ReadProjectFile(const fs::path& path,
       entries.ok() ? Collect(*std::move(entries), sections, of_others)
                    : Result<Values>(entries.status());
   if (values.ok()) return values;
-  return BadArgument(values.status().message() + " (in " + path.string() + ")");
+  return Status::InvalidArgument(values.status().message() + " (in " +
+                                 path.string() + ")");
 }
 
 // A workspace that is given wins over that of a project file, whose paths in
@@ -192,8 +191,8 @@ Status CheckRequired(const std::vector<FlagSection>& sections,
   for (const FlagSection& section : sections) {
     for (const Flag& flag : section.flags) {
       if (flag.is_required && !values.contains(flag.name)) {
-        return BadArgument("The option '--" + flag.name +
-                           "' is required but missing");
+        return Status::InvalidArgument("The option '--" + flag.name +
+                                       "' is required but missing");
       }
     }
   }
@@ -284,7 +283,8 @@ Flag ChoiceFlag(std::string name,
               name = flag.name,
               range = flag.range](const std::string& text) -> Status {
     if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
-      return BadArgument(name + " is " + text + "; it must be one of " + range);
+      return Status::InvalidArgument(name + " is " + text +
+                                     "; it must be one of " + range);
     }
     *choice = text;
     return {};

@@ -48,9 +48,9 @@ Flag MarkersFlag(AlignSettings* settings) {
                          "dictionary of the square markers in the images");
   if (!flag.range.empty()) return flag;
   flag.set = [](const std::string&) {
-    return Status(StatusCode::kInvalidArgument,
-                  "this program was built without OpenCV's aruco module, so "
-                  "that it finds no markers");
+    return Status::InvalidArgument(
+        "this program was built without OpenCV's aruco module, so that it "
+        "finds no markers");
   };
   return flag;
 }

@@ -114,9 +114,9 @@ ExitCode RunEvaluate(const Arguments& arguments) {
   const bool has_workspace = !settings.run.workspace_path.empty();
   const bool has_curves = has_workspace || !settings.curves_path.empty();
   if (has_truth == holds_out || !(has_truth ? has_curves : has_workspace)) {
-    return Fail({StatusCode::kInvalidArgument,
-                 "give either --curves_path and --truth_path, or "
-                 "--workspace_path with --truth_path or --holdout_every"},
+    return Fail(Status::InvalidArgument(
+                    "give either --curves_path and --truth_path, or "
+                    "--workspace_path with --truth_path or --holdout_every"),
                 kExitCommandLine);
   }
   const Status status =

@@ -31,8 +31,8 @@ Status MakeFolder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (!error) return {};
-  return {StatusCode::kInvalidArgument,
-          "cannot make the folder " + path.string() + ": " + error.message()};
+  return Status::InvalidArgument("cannot make the folder " + path.string() +
+                                 ": " + error.message());
 }
 
 Status WriteImage(const RgbImage& image, const fs::path& path) {

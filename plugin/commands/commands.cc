@@ -153,7 +153,7 @@ ExitCode UnknownCommand(const std::string& name) {
   } else {
     message += "; 'colmap_curvix help' lists all";
   }
-  return Fail({StatusCode::kInvalidArgument, message}, kExitCommandLine);
+  return Fail(Status::InvalidArgument(message), kExitCommandLine);
 }
 
 // The value of a flag, "--name value" or "--name=value"; "" if it is not there.

@@ -36,10 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Status BadDrawing(std::string message) {
-  return {StatusCode::kInvalidArgument, std::move(message)};
-}
-
 std::string Short(double value) { return ShortText(value, 4); }
 
 // "front (xz)".
@@ -65,14 +61,16 @@ std::string NameOf(const DrawSettings& settings) {
 
 Status CheckName(const std::string& name) {
   if (fs::path(name).filename() != name || name.front() == '.') {
-    return BadDrawing("--name is \"" + name +
-                      "\"; it takes the name of a file, without folders");
+    return Status::InvalidArgument(
+        "--name is \"" + name +
+        "\"; it takes the name of a file, without folders");
   }
   for (const OutputFormat& format : OutputFormats()) {
     for (const char* ending : {".dxf", ".svg", ".jpg", ".gpkg", ".geojson"}) {
       if (name + ending != format.file) continue;
-      return BadDrawing("--name is \"" + name + "\", but " + format.file +
-                        " is a file of the curves; choose another name");
+      return Status::InvalidArgument(
+          "--name is \"" + name + "\", but " + format.file +
+          " is a file of the curves; choose another name");
     }
   }
   return {};
@@ -175,7 +173,7 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
       }
     }
   }
-  return BadDrawing(
+  return Status::InvalidArgument(
       "There is nothing to draw from " + Short(window_.depth.from) + " to " +
       Short(window_.depth.to) + "; " + plane.depth_name +
       " of the curves is from " + Short(low) + " to " + Short(high));
@@ -199,18 +197,20 @@ Status Drafter::TakePhotograph() {
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);
-    if (!chosen) return BadDrawing("No image shows the plane from this side");
+    if (!chosen)
+      return Status::InvalidArgument("No image shows the plane from this side");
   }
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     if (scene_.views[i].name == settings_.photograph) chosen = i;
   }
   if (!chosen) {
-    return BadDrawing("--photograph is " + settings_.photograph +
-                      ", which is no image of the model");
+    return Status::InvalidArgument("--photograph is " + settings_.photograph +
+                                   ", which is no image of the model");
   }
   if (!ShowsFront(scene_, scene_.views[*chosen], area)) {
-    return BadDrawing("--photograph is " + settings_.photograph +
-                      ", which does not show the plane from this side");
+    return Status::InvalidArgument(
+        "--photograph is " + settings_.photograph +
+        ", which does not show the plane from this side");
   }
   Result<RectifiedPhotograph> photograph =
       Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);
@@ -282,7 +282,8 @@ Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   // --output_path is also where the curves are read.
   if (!output.ok()) {
-    return BadDrawing(output.status().message() + ", a copy of this one");
+    return Status::InvalidArgument(output.status().message() +
+                                   ", a copy of this one");
   }
   std::vector<std::pair<std::string, std::string>> files = {
       {name_ + ".dxf", EncodeDxfSheet(sheet_)},
@@ -349,13 +350,14 @@ Status Check(const DrawSettings& s) {
   if (status.ok()) status = CheckName(NameOf(s));
   if (!status.ok()) return status;
   if (!s.scale.empty() && !ParseScale(s.scale)) {
-    return BadDrawing("--scale is \"" + s.scale +
-                      "\"; it takes a scale such as 1:50 or 2:1");
+    return Status::InvalidArgument("--scale is \"" + s.scale +
+                                   "\"; it takes a scale such as 1:50 or 2:1");
   }
   const bool is_cropped = !s.crop.empty() && s.crop != "all";
   if (s.plane.find(',') != s.plane.npos &&
       (is_cropped || !s.slice.empty() || !s.photograph.empty())) {
-    return BadDrawing("--slice, --crop and --photograph need a single --plane");
+    return Status::InvalidArgument(
+        "--slice, --crop and --photograph need a single --plane");
   }
   return {};
 }

@@ -33,8 +33,8 @@ Result<int> ViewOfSvg(const std::string& image,
         return image.empty() || candidate.name == image;
       });
   if (view != views.end()) return static_cast<int>(view - views.begin());
-  return Status(StatusCode::kInvalidArgument,
-                "svg_image is " + image + ", which is no image of the model");
+  return Status::InvalidArgument("svg_image is " + image +
+                                 ", which is no image of the model");
 }
 
 Status WriteSvg(const CurveRecord& record,
@@ -146,9 +146,9 @@ Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
   for (const std::string_view part : SplitAt(text, ',')) {
     const std::string& name = formats.emplace_back(part);
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      return Status(StatusCode::kInvalidArgument,
-                    "output_formats has \"" + name +
-                        "\"; it takes, with commas between: " + choices);
+      return Status::InvalidArgument(
+          "output_formats has \"" + name +
+          "\"; it takes, with commas between: " + choices);
     }
   }
   return formats;

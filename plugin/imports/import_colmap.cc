@@ -19,12 +19,11 @@ Status CheckSize(const fs::path& file, const Camera& camera) {
   const Result<ImageSize> size = ReadImageSize(file);
   if (!size.ok()) return size.status();
   if (*size == ImageSize{camera.width, camera.height}) return {};
-  return {StatusCode::kDataLoss,
-          file.string() + " has " + SizeText(size->width, size->height) +
-              " pixels and its camera " +
-              SizeText(camera.width, camera.height) +
-              "; name the folder of the images that the model was made of with "
-              "--image_path."};
+  return Status::DataLoss(
+      file.string() + " has " + SizeText(size->width, size->height) +
+      " pixels and its camera " + SizeText(camera.width, camera.height) +
+      "; name the folder of the images that the model was made of with "
+      "--image_path.");
 }
 
 }  // namespace

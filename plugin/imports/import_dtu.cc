@@ -29,7 +29,7 @@ struct DtuView {
 using Projections = std::map<int, Matrix34d>;  // by the number in the name
 
 Status BrokenDtu(const std::string& what) {
-  return {StatusCode::kDataLoss, what + "; download it again."};
+  return Status::DataLoss(what + "; download it again.");
 }
 
 // The number in `name` between `prefix` and `suffix`; nullopt: another name.
@@ -122,12 +122,10 @@ Result<std::map<int, std::string>> NumberedImages(
     if (!number) continue;
     const auto [other, is_new] = numbered.emplace(*number, name);
     if (!is_new) {
-      return Status(StatusCode::kInvalidArgument,
-                    folder.string() + " holds several images number " +
-                        std::to_string(*number) + " (" + other->second + ", " +
-                        name +
-                        "); choose with --image_filter, say "
-                        "--image_filter max.");
+      return Status::InvalidArgument(
+          folder.string() + " holds several images number " +
+          std::to_string(*number) + " (" + other->second + ", " + name +
+          "); choose with --image_filter, say --image_filter max.");
     }
   }
   return numbered;
@@ -163,10 +161,9 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
       Plural(names.size(), "image") + " in " + folder.string() + " and " +
       Plural(projections.size(), "camera");
   if (views.empty()) {
-    return Status(StatusCode::kNotFound,
-                  counts +
-                      ", but no number of a camera is in the name of a "
-                      "image; name their folder with --image_path.");
+    return Status::NotFound(counts +
+                            ", but no number of a camera is in the name of a "
+                            "image; name their folder with --image_path.");
   }
   if (views.size() < std::max(names.size(), projections.size())) {
     notes->push_back(counts + "; " + std::to_string(views.size()) +

@@ -23,9 +23,8 @@ struct ParLine {
 Status BrokenMiddlebury(const fs::path& file,
                         int line,
                         const std::string& why) {
-  return {StatusCode::kDataLoss,
-          file.string() + ", line " + std::to_string(line) + " " + why +
-              "; download it again."};
+  return Status::DataLoss(file.string() + ", line " + std::to_string(line) +
+                          " " + why + "; download it again.");
 }
 
 // `line` counts from 1.

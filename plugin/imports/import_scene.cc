@@ -68,10 +68,9 @@ Result<ImportedView> CalibratedView(const std::string& name,
 Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
                                    const fs::path& source) {
   if (views.empty()) {
-    return Status(StatusCode::kDataLoss,
-                  source.string() +
-                      " describes no images; name the file that "
-                      "holds the cameras with --input_path.");
+    return Status::DataLoss(source.string() +
+                            " describes no images; name the file that holds "
+                            "the cameras with --input_path.");
   }
   ImportedScene scene;
   for (const ImportedView& view : views) {
@@ -98,11 +97,10 @@ Status CheckImageName(const std::string& name, const fs::path& source) {
     return std::iscntrl(static_cast<unsigned char>(c)) != 0;
   });
   if (!has_control && !LeavesImageFolder(name)) return {};
-  return {StatusCode::kDataLoss,
-          source.string() + " names an image \"" +
-              (has_control ? "with control characters" : name) +
-              "\", but names must be relative to the image folder and stay in "
-              "it; correct the name."};
+  return Status::DataLoss(source.string() + " names an image \"" +
+                          (has_control ? "with control characters" : name) +
+                          "\", but names must be relative to the image folder "
+                          "and stay in it; correct the name.");
 }
 
 Status CheckImagesExist(const std::vector<std::string>& names,
@@ -112,12 +110,11 @@ Status CheckImagesExist(const std::vector<std::string>& names,
     if (!IsFile(ImageFile(folder, name))) missing.push_back(name);
   }
   if (missing.empty()) return {};
-  return {
-      StatusCode::kNotFound,
+  return Status::NotFound(
       std::to_string(missing.size()) + " of " + Plural(names.size(), "image") +
-          OneOrMore(missing.size(), " is", " are") + " not in " +
-          folder.string() + " (" + FirstNames(missing) +
-          "); name their folder with --image_path, or remove their cameras."};
+      OneOrMore(missing.size(), " is", " are") + " not in " + folder.string() +
+      " (" + FirstNames(missing) +
+      "); name their folder with --image_path, or remove their cameras.");
 }
 
 Result<fs::path> FindImageFolder(const fs::path& image_path,
@@ -126,9 +123,8 @@ Result<fs::path> FindImageFolder(const fs::path& image_path,
   std::error_code error;
   if (!image_path.empty()) {
     if (fs::is_directory(image_path, error)) return image_path;
-    return Status(StatusCode::kNotFound,
-                  "--image_path " + image_path.string() +
-                      " is not a folder; name the folder of the images.");
+    return Status::NotFound("--image_path " + image_path.string() +
+                            " is not a folder; name the folder of the images.");
   }
   for (const fs::path& place : places) {
     if (IsFile(place / name)) return place;
@@ -162,13 +158,12 @@ Result<fs::path> OnlyFile(const fs::path& folder,
   });
   if (names.size() == 1) return folder / names.front();
   const std::string pattern = prefix + "*" + suffix;
-  return Status(StatusCode::kNotFound,
-                names.empty()
-                    ? folder.string() + " holds no " + pattern +
-                          "; name the file of the cameras with --input_path."
-                    : folder.string() + " holds several files " + pattern +
-                          " (" + FirstNames(names) +
-                          "); name one of them with --input_path.");
+  return Status::NotFound(
+      names.empty()
+          ? folder.string() + " holds no " + pattern +
+                "; name the file of the cameras with --input_path."
+          : folder.string() + " holds several files " + pattern + " (" +
+                FirstNames(names) + "); name one of them with --input_path.");
 }
 
 }  // namespace curvix

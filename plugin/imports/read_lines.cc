@@ -126,11 +126,9 @@ class Words {
     if (!ok()) return;
     const std::string_view read = text_.substr(0, text_.size() - rest_.size());
     const auto line = 1 + std::count(read.begin(), read.end(), '\n');
-    status_ = {StatusCode::kDataLoss,
-               path_.string() + ", line " + std::to_string(line) + ", lacks " +
-                   what +
-                   "; write the file again, or name the right one with "
-                   "--input_path."};
+    status_ = Status::DataLoss(
+        path_.string() + ", line " + std::to_string(line) + ", lacks " + what +
+        "; write the file again, or name the right one with --input_path.");
   }
 
   fs::path path_;
@@ -142,10 +140,9 @@ class Words {
 // The lines of a file, at least one.
 Result<Lines> SomeLines(const fs::path& path, Lines lines) {
   if (!lines.empty()) return lines;
-  return Status(StatusCode::kUnsupported,
-                path.string() +
-                    " holds no lines; name the right file with "
-                    "--input_path.");
+  return Status::Unsupported(
+      path.string() +
+      " holds no lines; name the right file with --input_path.");
 }
 
 // What `read` finds in a file, at least one line.
@@ -264,11 +261,9 @@ Result<Lines> ReadLine3dppLines(const fs::path& path) {
   if (IsFolder(path)) {
     const Result<fs::path> file = OnlyFile(path, "Line3D++", ".txt");
     if (file.ok()) return ReadLine3dppLines(*file);
-    return Status(StatusCode::kNotFound,
-                  path.string() +
-                      " does not hold just one Line3D++*.txt; name "
-                      "the .txt or .obj of Line3D++ with "
-                      "--input_path.");
+    return Status::NotFound(path.string() +
+                            " does not hold just one Line3D++*.txt; name the "
+                            ".txt or .obj of Line3D++ with --input_path.");
   }
   if (path.extension() == ".obj") return ReadObj(path);
   return ReadWords(path, ReadLine3dppRows);
@@ -286,11 +281,10 @@ Result<Lines> ReadLimapLines(const fs::path& path) {
   }
   const fs::path all = path / "alltracks.txt";
   if (IsFile(all)) return ReadWords(all, ReadAllTracks);
-  return Status(StatusCode::kNotFound,
-                path.string() +
-                    " holds no finaltracks/, track_<i>.txt or "
-                    "alltracks.txt; name the output folder of "
-                    "LIMAP with --input_path.");
+  return Status::NotFound(
+      path.string() +
+      " holds no finaltracks/, track_<i>.txt or alltracks.txt; name the output "
+      "folder of LIMAP with --input_path.");
 }
 
 Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
@@ -301,10 +295,10 @@ Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
         return IsSeenBySome(line, scene);
       }));
   if (result.num_seen == 0) {
-    return Status(StatusCode::kInvalidArgument,
-                  "no image of the model sees any of the lines: they are of "
-                  "another world; name the workspace that they were made of "
-                  "with --workspace_path");
+    return Status::InvalidArgument(
+        "no image of the model sees any of the lines: they are of another "
+        "world; name the workspace that they were made of with "
+        "--workspace_path");
   }
   std::map<std::uint32_t, std::int32_t> view_of_image;
   for (const View& view : scene.views) {

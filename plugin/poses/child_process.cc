@@ -163,9 +163,9 @@ Result<ChildEnd> RunChildProcess(const ChildProcess& child) {
   pid_t pid = 0;
   const int error = Start(child, &pid);
   if (error != 0) {
-    return Status(StatusCode::kExternalTool,
-                  "cannot start " + child.program.string() + " (" +
-                      std::generic_category().message(error) + ")");
+    return Status::ExternalTool("cannot start " + child.program.string() +
+                                " (" + std::generic_category().message(error) +
+                                ")");
   }
   ChildEnd end{Wait(pid, child), 0};
   // Before the child is reaped: until then its number is that of no other

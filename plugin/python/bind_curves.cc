@@ -76,8 +76,8 @@ std::vector<double> LengthsOf(const PythonCurves& curves) {
 
 const View& ViewAt(const Scene& scene, std::size_t view_idx) {
   if (view_idx >= scene.views.size()) {
-    Raise({StatusCode::kInvalidArgument,
-           "there is no view " + std::to_string(view_idx)});
+    Raise(Status::InvalidArgument("there is no view " +
+                                  std::to_string(view_idx)));
   }
   return scene.views[view_idx];
 }
@@ -112,8 +112,7 @@ std::unique_ptr<PythonCurves> Select(const PythonCurves& curves,
                                      const std::vector<std::size_t>& ids) {
   for (const std::size_t id : ids) {
     if (id >= curves.table().size()) {
-      Raise({StatusCode::kInvalidArgument,
-             "there is no curve " + std::to_string(id)});
+      Raise(Status::InvalidArgument("there is no curve " + std::to_string(id)));
     }
   }
   return WithoutLock([&] { return curves.Select(ids); });

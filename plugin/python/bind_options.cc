@@ -39,10 +39,10 @@ Flag FlagNamed(const std::string& name, RunSettings& settings) {
     names.push_back(flag.name);
   }
   const std::string nearest = NearestName(name, names);
-  Raise({StatusCode::kInvalidArgument,
-         "There is no option '" + name + "'" +
-             (nearest.empty() ? "; list(pycurvix.Options()) has all"
-                              : "; did you mean '" + nearest + "'?")});
+  Raise(Status::InvalidArgument("There is no option '" + name + "'" +
+                                (nearest.empty()
+                                     ? "; list(pycurvix.Options()) has all"
+                                     : "; did you mean '" + nearest + "'?")));
 }
 
 py::object ValueOf(const Flag& flag) {

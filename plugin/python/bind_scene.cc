@@ -52,7 +52,7 @@ ImageInMemory ImageOf(const py::array& array) {
 }
 
 [[noreturn]] void RaiseArgument(const std::string& sentence) {
-  Raise({StatusCode::kInvalidArgument, sentence});
+  Raise(Status::InvalidArgument(sentence));
 }
 
 Camera MakeCamera(const std::string& model_name,
@@ -61,8 +61,7 @@ Camera MakeCamera(const std::string& model_name,
                   std::vector<double> params) {
   const auto model = ModelFromName(model_name);
   if (!model) {
-    Raise({StatusCode::kUnsupported,
-           "there is no camera model '" + model_name + "'"});
+    Raise(Status::Unsupported("there is no camera model '" + model_name + "'"));
   }
   return {*model, width, height, std::move(params)};
 }

@@ -166,10 +166,10 @@ Status PartsNotDone(const std::vector<int>& missing,
       "these parts are broken, or of other images, masks or options, or of "
       "another version",
       other);
-  return {StatusCode::kNotFound,
-          text +
-              "; run 'colmap_curvix reconstruct' with --part and the paths "
-              "and options of this command for each of them"};
+  return Status::NotFound(
+      text +
+      "; run 'colmap_curvix reconstruct' with --part and the paths and options "
+      "of this command for each of them");
 }
 
 }  // namespace
@@ -212,9 +212,9 @@ Status CheckModelIsThere(const fs::path& folder) {
   std::error_code error;
   for (const char* file : kModelFiles) {
     if (fs::exists(folder / file, error)) continue;
-    return {StatusCode::kNotFound,
-            "there is no " + (folder / file).string() +
-                "; run 'colmap_curvix partition' again, which brings it back"};
+    return Status::NotFound(
+        "there is no " + (folder / file).string() +
+        "; run 'colmap_curvix partition' again, which brings it back");
   }
   return {};
 }
@@ -222,9 +222,9 @@ Status CheckModelIsThere(const fs::path& folder) {
 Result<PartPlan> ReadPlan(const fs::path& folder) {
   Result<std::string> text = ReadFile(folder / kPlanName);
   if (!text.ok()) {
-    return Status(StatusCode::kNotFound,
-                  "there is no plan " + (folder / kPlanName).string() +
-                      "; run 'colmap_curvix partition' first");
+    return Status::NotFound("there is no plan " +
+                            (folder / kPlanName).string() +
+                            "; run 'colmap_curvix partition' first");
   }
   PartPlan plan;
   bool is_sound = false;
@@ -238,9 +238,8 @@ Result<PartPlan> ReadPlan(const fs::path& folder) {
     is_sound = false;
   }
   if (!is_sound) {
-    return Status(StatusCode::kDataLoss,
-                  (folder / kPlanName).string() +
-                      " is broken; run 'colmap_curvix partition' again");
+    return Status::DataLoss((folder / kPlanName).string() +
+                            " is broken; run 'colmap_curvix partition' again");
   }
   plan.text = *std::move(text);
   return plan;

@@ -96,10 +96,9 @@ Result<ScenePartition> Partition(const RunSettings& settings,
       present.ok() && present->text == PlanJson(*partition, input->scene);
   const bool has_results = HasResults(folder);
   if (present.ok() && !is_same && has_results) {
-    return Status(StatusCode::kInvalidArgument,
-                  "the plan in " + folder.string() +
-                      " is another one, and parts of it are done; to divide "
-                      "anew, remove this folder");
+    return Status::InvalidArgument("the plan in " + folder.string() +
+                                   " is another one, and parts of it are done; "
+                                   "to divide anew, remove this folder");
   }
   if (is_same) progress.Note("The plan is there already, and stays");
   // Beside finished parts; a merge finds those of another plan or model.
@@ -118,8 +117,8 @@ Result<ScenePartition> Partition(const RunSettings& settings,
 // Those of a model that 'partition' has written.
 Status CheckImagesAreThere(const WorkspaceScene& input) {
   if (input.missing_images.empty()) return {};
-  return {StatusCode::kNotFound,
-          "image " + input.missing_images.front() + " is gone; bring it back"};
+  return Status::NotFound("image " + input.missing_images.front() +
+                          " is gone; bring it back");
 }
 
 // kNotFound if the model is no longer the one that was divided.
@@ -128,15 +127,15 @@ Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
   if (!hash.ok()) return hash.status();
   const Result<std::string> divided = ReadFile(folder / kModelHashName);
   if (!divided.ok()) {
-    return {StatusCode::kNotFound,
-            "there is no " + (folder / kModelHashName).string() +
-                "; run 'colmap_curvix partition' again"};
+    return Status::NotFound("there is no " +
+                            (folder / kModelHashName).string() +
+                            "; run 'colmap_curvix partition' again");
   }
   if (*divided == std::to_string(*hash)) return {};
-  return {StatusCode::kNotFound,
-          "the model " + model_path.string() +
-              " has changed since it was divided; run 'colmap_curvix " +
-              "partition' again"};
+  return Status::NotFound(
+      "the model " + model_path.string() +
+      " has changed since it was divided; run 'colmap_curvix " +
+      "partition' again");
 }
 
 // What a merge needs besides the parts.
@@ -147,9 +146,9 @@ Status CheckScene(const WorkspaceScene& input,
   Status status = CheckImagesAreThere(input);
   if (status.ok()) status = CheckModelIsSame(model_path, folder);
   if (!status.ok() || input.scene.views.size() == plan.num_views) return status;
-  return {StatusCode::kDataLoss,
-          (folder / "scene").string() +
-              " does not fit the plan; run 'colmap_curvix partition' again"};
+  return Status::DataLoss(
+      (folder / "scene").string() +
+      " does not fit the plan; run 'colmap_curvix partition' again");
 }
 
 Status CheckPartIdx(const PartPlan& plan, int part_idx) {
@@ -157,9 +156,9 @@ Status CheckPartIdx(const PartPlan& plan, int part_idx) {
   if (part_idx >= 0 && static_cast<std::size_t>(part_idx) < num_parts) {
     return {};
   }
-  return {StatusCode::kNotFound,
-          "there is no part " + std::to_string(part_idx) +
-              "; the plan has the parts 0 to " + std::to_string(num_parts - 1)};
+  return Status::NotFound("there is no part " + std::to_string(part_idx) +
+                          "; the plan has the parts 0 to " +
+                          std::to_string(num_parts - 1));
 }
 
 Result<RunRecord> ReconstructPart(const RunSettings& settings,

@@ -75,9 +75,9 @@ Status RefuseForeignFiles(const fs::path& folder) {
                            "images.txt",
                            "points3D.txt"}) {
     if (IsFile(folder / name)) {
-      return {StatusCode::kInvalidArgument,
-              "Cannot write a model to " + folder.string() + ": it holds " +
-                  name + " of another model; choose an empty folder."};
+      return Status::InvalidArgument(
+          "Cannot write a model to " + folder.string() + ": it holds " + name +
+          " of another model; choose an empty folder.");
     }
   }
   return {};
@@ -127,9 +127,8 @@ Status UnsupportedCameraModel(const std::string& file,
             "views first."
           : "which this program does not know; convert the images with "
             "'colmap image_undistorter' and use its output.";
-  return {StatusCode::kUnsupported,
-          file + ": camera " + std::to_string(camera_id) +
-              " has the camera model " + model + ", " + why};
+  return Status::Unsupported(file + ": camera " + std::to_string(camera_id) +
+                             " has the camera model " + model + ", " + why);
 }
 
 Eigen::Quaterniond RotationFromColmap(const std::array<double, 4>& wxyz) {
@@ -154,10 +153,9 @@ Result<ColmapFormat> FindColmapFormat(const fs::path& folder) {
   for (const ColmapFormat format : kFormats) {
     if (has_poses(format)) return format;
   }
-  return Status(StatusCode::kNotFound,
-                folder.string() +
-                    " holds no COLMAP model: cameras and images are needed, "
-                    "both as .bin or both as .txt.");
+  return Status::NotFound(folder.string() +
+                          " holds no COLMAP model: cameras and images are "
+                          "needed, both as .bin or both as .txt.");
 }
 
 std::size_t CountColmapImages(const fs::path& folder) {
@@ -185,9 +183,8 @@ Result<ColmapModel> ReadColmapModel(const fs::path& folder) {
                     std::move(points).value()};
   SortById(&model);
   if (const std::optional<ColmapFlaw> flaw = FindFlaw(model)) {
-    return Status(
-        StatusCode::kDataLoss,
-        FilePath(folder, flaw->list, *format).string() + ": " + flaw->sentence);
+    return Status::DataLoss(FilePath(folder, flaw->list, *format).string() +
+                            ": " + flaw->sentence);
   }
   return model;
 }
@@ -199,9 +196,9 @@ Status WriteColmapModel(const ColmapModel& model, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    return {StatusCode::kInvalidArgument,
-            "Cannot make the folder " + folder.string() + " (" +
-                error.message() + "); choose one that may be written."};
+    return Status::InvalidArgument("Cannot make the folder " + folder.string() +
+                                   " (" + error.message() +
+                                   "); choose one that may be written.");
   }
   const std::pair<const char*, std::string> files[] = {
       {"cameras.bin", FormatCamerasBinary(model.cameras)},

@@ -56,15 +56,11 @@ std::string Tried(const std::vector<fs::path>& places) {
   return text + ".";
 }
 
-Status NotFound(const std::string& sentence) {
-  return {StatusCode::kNotFound, sentence};
-}
-
 Status MayNotBeRead(const fs::path& folder, const std::string& flag) {
-  return NotFound(folder.string() +
-                  " may not be read (Permission denied); change its "
-                  "permissions, or name another folder with " +
-                  flag + ".");
+  return Status::NotFound(folder.string() +
+                          " may not be read (Permission denied); change its "
+                          "permissions, or name another folder with " +
+                          flag + ".");
 }
 
 // The folder beside whose sparse/ the model lies: what holds sparse/<k> or
@@ -143,10 +139,11 @@ Status CheckModelFiles(const fs::path& workspace, const fs::path& model) {
     for (const char* extension : {".bin", ".txt"}) {
       const fs::path file = model / (std::string(list) + extension);
       if (LiesIn(file, {workspace, model})) continue;
-      return NotFound(file.string() +
-                      " is a link that leads out of the workspace; copy the "
-                      "file, or name the model's folder with --input_path if "
-                      "the link is meant.");
+      return Status::NotFound(
+          file.string() +
+          " is a link that leads out of the workspace; copy the "
+          "file, or name the model's folder with --input_path if "
+          "the link is meant.");
     }
   }
   return {};
@@ -165,7 +162,7 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
       if (!IsForbidden(folder / "cameras.bin")) continue;
       return MayNotBeRead(folder, "--input_path");
     }
-    return NotFound(
+    return Status::NotFound(
         "No COLMAP model (cameras and images, as .bin or .txt) in " +
         paths.workspace_path.string() + "." + Tried(places) +
         " Name its folder with --input_path.");
@@ -219,16 +216,16 @@ Status FindImages(const WorkspacePaths& paths, Workspace* found) {
   if (!paths.image_path.empty()) {
     found->image_path = paths.image_path;
     if (IsFolder(paths.image_path)) return {};
-    return NotFound("--image_path " + paths.image_path.string() +
-                    " is not a folder; name the folder of the images.");
+    return Status::NotFound("--image_path " + paths.image_path.string() +
+                            " is not a folder; name the folder of the images.");
   }
   const std::vector<fs::path> places =
       ImageCandidates(ModelPlace(paths.workspace_path, found->model_path));
   const auto place = std::find_if(places.begin(), places.end(), IsFolder);
   if (place == places.end()) {
-    return NotFound("No folder of images for the model " +
-                    found->model_path.string() + "." + Tried(places) +
-                    " Name it with --image_path.");
+    return Status::NotFound("No folder of images for the model " +
+                            found->model_path.string() + "." + Tried(places) +
+                            " Name it with --image_path.");
   }
   found->image_path = *place;
   return {};
@@ -252,10 +249,10 @@ Status CheckOutputPath(const WorkspacePaths& paths, const fs::path& output) {
   for (fs::path folder = output;; folder = folder.parent_path()) {
     std::error_code error;
     if (fs::is_symlink(folder, error)) {
-      return {StatusCode::kInvalidArgument,
-              folder.string() +
-                  " is a link, and the results would go where it leads; name "
-                  "that folder with --output_path if it is meant."};
+      return Status::InvalidArgument(
+          folder.string() +
+          " is a link, and the results would go where it leads; name that "
+          "folder with --output_path if it is meant.");
     }
     if (folder.filename() == "curvix") return {};
   }
@@ -285,8 +282,8 @@ Status FindMasks(const WorkspacePaths& paths, Workspace* found) {
   if (paths.mask_path.empty()) return {};
   found->mask_path = fs::absolute(paths.mask_path);
   if (IsFolder(paths.mask_path)) return {};
-  return NotFound("--mask_path " + paths.mask_path.string() +
-                  " is not a folder; name the folder of the masks.");
+  return Status::NotFound("--mask_path " + paths.mask_path.string() +
+                          " is not a folder; name the folder of the masks.");
 }
 
 // Images without masks are used whole, which people should know.
@@ -313,36 +310,36 @@ Status TooFewViews(const Workspace& workspace,
                    std::size_t num_views,
                    const std::vector<std::string>& missing) {
   if (missing.empty()) {
-    return {StatusCode::kInvalidArgument,
-            "The model " + workspace.model_path.string() + " has " +
-                Plural(num_views, "image") +
-                ", and curves need at least three; register more "
-                "images."};
+    return Status::InvalidArgument(
+        "The model " + workspace.model_path.string() + " has " +
+        Plural(num_views, "image") +
+        ", and curves need at least three; register more images.");
   }
   if (IsForbidden(ImageFile(workspace.image_path, missing.front()))) {
     return MayNotBeRead(workspace.image_path, "--image_path");
   }
-  return NotFound("Only " + std::to_string(num_views) + " of the " +
-                  Plural(num_views + missing.size(), "image") +
-                  " of the model " + workspace.model_path.string() +
-                  OneOrMore(num_views, " is in ", " are in ") +
-                  workspace.image_path.string() +
-                  " (missing: " + FirstNames(missing) +
-                  "), and curves need at least three. Name the right folder "
-                  "with --image_path.");
+  return Status::NotFound(
+      "Only " + std::to_string(num_views) + " of the " +
+      Plural(num_views + missing.size(), "image") + " of the model " +
+      workspace.model_path.string() +
+      OneOrMore(num_views, " is in ", " are in ") +
+      workspace.image_path.string() + " (missing: " + FirstNames(missing) +
+      "), and curves need at least three. Name the right folder "
+      "with --image_path.");
 }
 
 }  // namespace
 
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   if (paths.workspace_path.empty()) {
-    return Status(StatusCode::kInvalidArgument,
-                  "The option --workspace_path is required but missing.");
+    return Status::InvalidArgument(
+        "The option --workspace_path is required but missing.");
   }
   if (!IsFolder(paths.workspace_path)) {
-    return NotFound("--workspace_path " + paths.workspace_path.string() +
-                    " is not a folder; name the folder that holds sparse/ and "
-                    "images/.");
+    return Status::NotFound(
+        "--workspace_path " + paths.workspace_path.string() +
+        " is not a folder; name the folder that holds sparse/ and "
+        "images/.");
   }
   Workspace found;
   Status status = FindModel(paths, &found);

@@ -72,8 +72,8 @@ Result<DrawingPlane> PlaneThrough(const Eigen::Vector3d& a,
   constexpr double kOnALine = 1e-6;  // radians
   const double angle = AngleBetween(b - a, c - a);
   if (!(angle > kOnALine && angle < kPi - kOnALine)) {
-    return Status(StatusCode::kInvalidArgument,
-                  "the three points are on a line, which is in many planes");
+    return Status::InvalidArgument(
+        "the three points are on a line, which is in many planes");
   }
   DrawingPlane plane;
   plane.origin = a;

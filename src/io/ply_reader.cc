@@ -182,30 +182,27 @@ std::uint64_t MinRowBytes(const PlyElement& element, PlyFormat format) {
 }
 
 Status Broken(const PlyElement& element, std::uint64_t row) {
-  return {StatusCode::kDataLoss,
-          "element " + element.name + " announces " +
-              Plural(element.count, "row") + " but ends or breaks in " +
-              "row " + std::to_string(row) +
-              "; the file is truncated or "
-              "damaged"};
+  return Status::DataLoss(
+      "element " + element.name + " announces " + Plural(element.count, "row") +
+      " but ends or breaks in " + "row " + std::to_string(row) +
+      "; the file is truncated or damaged");
 }
 
 }  // namespace
 
 Result<PlyHeader> TakePlyHeader(std::string_view& bytes) {
-  Status not_ply(StatusCode::kDataLoss, "the file is not PLY");
-  if (TakeLine(bytes) != "ply") return not_ply;
+  if (TakeLine(bytes) != "ply") return Status::DataLoss("the file is not PLY");
   PlyHeader header;
   while (!bytes.empty()) {
     const std::string_view line = TakeLine(bytes);
     if (line == "end_header") return header;
     if (ParseHeaderLine(line, header)) continue;
-    return Status(StatusCode::kDataLoss,
-                  "the PLY header has a line that is not understood: \"" +
-                      std::string(line.substr(0, 80)) + "\"");
+    return Status::DataLoss(
+        "the PLY header has a line that is not understood: \"" +
+        std::string(line.substr(0, 80)) + "\"");
   }
-  return Status(StatusCode::kDataLoss,
-                "the PLY header has no end_header; the file is truncated");
+  return Status::DataLoss(
+      "the PLY header has no end_header; the file is truncated");
 }
 
 std::optional<std::size_t> FindScalar(const PlyElement& element,

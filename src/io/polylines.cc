@@ -23,18 +23,17 @@ struct Path {
 Status Check(const LineGraph& graph) {
   for (std::size_t i = 0; i < graph.positions.size(); ++i) {
     if (graph.positions[i].allFinite()) continue;
-    return {StatusCode::kDataLoss,
-            "vertex " + std::to_string(i) + " has a coordinate that is not " +
-                "finite; export the lines again"};
+    return Status::DataLoss("vertex " + std::to_string(i) +
+                            " has a coordinate that is not " +
+                            "finite; export the lines again");
   }
   const auto size = static_cast<std::int64_t>(graph.positions.size());
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     for (const std::int64_t vertex : graph.edges[i]) {
       if (vertex >= 0 && vertex < size) continue;
-      return {StatusCode::kDataLoss,
-              "edge " + std::to_string(i) + " names vertex " +
-                  std::to_string(vertex) + " but there are " +
-                  std::to_string(size) + "; the file is damaged"};
+      return Status::DataLoss("edge " + std::to_string(i) + " names vertex " +
+                              std::to_string(vertex) + " but there are " +
+                              std::to_string(size) + "; the file is damaged");
     }
   }
   return {};

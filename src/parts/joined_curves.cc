@@ -117,10 +117,9 @@ Result<TracedCurve> JoinedCurves::Read(int part_idx,
     ref.view_idx = view_idxs[view_idx];
   });
   if (is_sound) return traced;
-  return Status(StatusCode::kDataLoss,
-                "a curve of part " + std::to_string(part_idx) +
-                    " names views or edges that are not there; reconstruct "
-                    "this part again");
+  return Status::DataLoss(
+      "a curve of part " + std::to_string(part_idx) +
+      " names views or edges that are not there; reconstruct this part again");
 }
 
 Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {

@@ -45,12 +45,11 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
   std::optional<ScenePartition> partition = PartitionViews(
       places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
   if (partition) return *std::move(partition);
-  return Status(StatusCode::kInvalidArgument,
-                "the " + Plural(views.size(), "view") +
-                    " cannot be divided into parts of " +
-                    Plural(max_views_per_part, "view") +
-                    ", because too many of them see the same places; "
-                    "allow more views per part");
+  return Status::InvalidArgument("the " + Plural(views.size(), "view") +
+                                 " cannot be divided into parts of " +
+                                 Plural(max_views_per_part, "view") +
+                                 ", because too many of them see the same "
+                                 "places; allow more views per part");
 }
 
 PartResult TakePart(const ScenePartition& partition,
