@@ -164,7 +164,7 @@ Status Aligner::TakeAxes() {
       " lines, axes of arcs and rows of circles (x, y, z)");
   const auto& num = axes->num_directions;
   const int num_others = std::accumulate(num.begin(), num.end(), 0) -
-                         *std::max_element(num.begin(), num.end());
+                         *std::ranges::max_element(num);
   if (num_others <= kFewDirections) {
     Say("  Only " + Plural(num_others, "direction") +
         " along the other two axes: look whether they are right.");
@@ -212,10 +212,7 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
 // Index of the position that is furthest off, of one or more.
 std::size_t WorstOf(const AlignmentResult& result) {
   const auto& left = result.position_residuals;
-  const auto worst =
-      std::max_element(left.begin(), left.end(), [](auto& a, auto& b) {
-        return a.norm() < b.norm();
-      });
+  const auto worst = std::ranges::max_element(left, {}, &Eigen::Vector3d::norm);
   return static_cast<std::size_t>(worst - left.begin());
 }
 

@@ -48,7 +48,7 @@ std::vector<SeenSample> SamplesOf(const Json& json) {
     for (const Json& seen : sample.at("support")) {
       added.image_ids.push_back(seen.at(0).get<std::uint32_t>());
     }
-    std::sort(added.image_ids.begin(), added.image_ids.end());
+    std::ranges::sort(added.image_ids);
   }
   return samples;
 }

@@ -282,7 +282,7 @@ Flag ChoiceFlag(std::string name,
               choices = std::move(choices),
               name = flag.name,
               range = flag.range](const std::string& text) -> Status {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+    if (std::ranges::find(choices, text) == choices.end()) {
       return Status::InvalidArgument(name + " is " + text +
                                      "; it must be one of " + range);
     }

@@ -59,7 +59,7 @@ Flag EnumFlag(std::string name,
   Flag flag = ChoiceFlag(std::move(name), choices, text.get(), std::move(help));
   flag.set = [=, set_text = flag.set](const std::string& value) {
     const Status status = set_text(value);
-    const auto place = std::find(choices.begin(), choices.end(), *text);
+    const auto place = std::ranges::find(choices, *text);
     *choice = static_cast<Enum>(place - choices.begin());
     return status;
   };

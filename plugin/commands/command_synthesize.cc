@@ -80,8 +80,7 @@ std::vector<std::string> CameraModels() {
 
 Flag NumberFlag(const char* name, SynthesizeSettings* settings) {
   const std::vector<OptionRow> rows = OptionTable(settings->options);
-  const auto row = std::find_if(
-      rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
+  const auto row = std::ranges::find(rows, name, &OptionRow::name);
   CURVIX_CHECK(row != rows.end(), "no option " << name);
   return RowFlag(*row);
 }

@@ -211,9 +211,8 @@ ExitCode Fail(const Status& status, ExitCode code) {
     message += '.';
   }
   // Names come from files, and a terminal obeys control characters.
-  std::replace_if(
-      message.begin(),
-      message.end(),
+  std::ranges::replace_if(
+      message,
       [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; },
       '?');
   std::cerr << "ERROR: " << message << std::endl;

@@ -313,10 +313,8 @@ Result<std::string> Drafter::Run() {
     Status status = (this->*step)();
     if (!status.ok()) return status;
   }
-  const auto num_hidden = std::count_if(
-      sheet_.curves.begin(), sheet_.curves.end(), [](const SheetCurve& curve) {
-        return curve.is_hidden;
-      });
+  const auto num_hidden = std::ranges::count_if(
+      sheet_.curves, [](const SheetCurve& curve) { return curve.is_hidden; });
   int num_unknown = 0;
   std::size_t num_far = 0;
   for (const DrawnView& view : views_) {

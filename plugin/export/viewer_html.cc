@@ -69,10 +69,8 @@ std::vector<std::pair<int, int>> SupportingViews(const Curve& curve) {
     for (const EdgeRef& ref : sample.support) ++counts[ref.view_idx];
   }
   std::vector<std::pair<int, int>> views(counts.begin(), counts.end());
-  std::stable_sort(
-      views.begin(), views.end(), [](const auto& a, const auto& b) {
-        return a.second > b.second;
-      });
+  std::ranges::stable_sort(
+      views, [](const auto& a, const auto& b) { return a.second > b.second; });
   return views;
 }
 

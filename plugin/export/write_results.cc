@@ -28,10 +28,9 @@ constexpr std::string_view kAlignedFrame =
 // Index of the view that curves.svg is to show.
 Result<int> ViewOfSvg(const std::string& image,
                       const std::vector<View>& views) {
-  const auto view =
-      std::find_if(views.begin(), views.end(), [&](const View& candidate) {
-        return image.empty() || candidate.name == image;
-      });
+  const auto view = std::ranges::find_if(views, [&](const View& candidate) {
+    return image.empty() || candidate.name == image;
+  });
   if (view != views.end()) return static_cast<int>(view - views.begin());
   return Status::InvalidArgument("svg_image is " + image +
                                  ", which is no image of the model");
@@ -46,8 +45,7 @@ Status WriteSvg(const CurveRecord& record,
 }
 
 bool AsksFor(const OutputSettings& settings, const std::string& format) {
-  return std::find(settings.formats.begin(), settings.formats.end(), format) !=
-         settings.formats.end();
+  return std::ranges::find(settings.formats, format) != settings.formats.end();
 }
 
 // A file of what `encode` gives, if all curves can be read.
@@ -145,7 +143,7 @@ Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
   std::vector<std::string> formats;
   for (const std::string_view part : SplitAt(text, ',')) {
     const std::string& name = formats.emplace_back(part);
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (std::ranges::find(known, name) == known.end()) {
       return Status::InvalidArgument(
           "output_formats has \"" + name +
           "\"; it takes, with commas between: " + choices);

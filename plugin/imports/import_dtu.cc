@@ -181,7 +181,7 @@ std::optional<Eigen::Matrix3d> SharedCalibration(
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (const CalibratedPose& pose : poses) mean += pose.calibration;
   mean /= static_cast<double>(poses.size());
-  const bool same = std::all_of(poses.begin(), poses.end(), [&](const auto& p) {
+  const bool same = std::ranges::all_of(poses, [&](const auto& p) {
     return ((p.calibration - mean).array().abs() < kSamePx).all();
   });
   return same ? std::optional(mean) : std::nullopt;

@@ -232,12 +232,12 @@ Result<json> ReadTransforms(const fs::path& file) {
                             "are not JSON); export it again.");
   }
   const auto frames = document.find("frames");
-  const bool usable =
-      frames != document.end() && frames->is_array() &&
-      std::all_of(frames->begin(), frames->end(), [](const json& frame) {
-        return frame.is_object() && frame.contains("file_path") &&
-               frame["file_path"].is_string();
-      });
+  const bool usable = frames != document.end() && frames->is_array() &&
+                      std::ranges::all_of(*frames, [](const json& frame) {
+                        return frame.is_object() &&
+                               frame.contains("file_path") &&
+                               frame["file_path"].is_string();
+                      });
   if (usable) return document;
   return Status::DataLoss(
       file.string() +
@@ -247,7 +247,7 @@ Result<json> ReadTransforms(const fs::path& file) {
 // The frame's file_path with '/' between folders, without "./".
 std::string FilePathOf(const json& frame) {
   std::string text = frame["file_path"].get<std::string>();
-  std::replace(text.begin(), text.end(), '\\', '/');
+  std::ranges::replace(text, '\\', '/');
   return fs::path(text).lexically_normal().generic_string();
 }
 

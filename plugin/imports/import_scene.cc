@@ -42,8 +42,7 @@ bool IsImageName(const std::string& name) {
   for (char& c : extension) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) !=
-         kExtensions.end();
+  return std::ranges::find(kExtensions, extension) != kExtensions.end();
 }
 
 }  // namespace
@@ -93,7 +92,7 @@ Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
 }
 
 Status CheckImageName(const std::string& name, const fs::path& source) {
-  const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
+  const bool has_control = std::ranges::any_of(name, [](char c) {
     return std::iscntrl(static_cast<unsigned char>(c)) != 0;
   });
   if (!has_control && !LeavesImageFolder(name)) return {};

@@ -26,12 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {
-  return std::any_of(
-      scene.views.begin(), scene.views.end(), [&](const View& view) {
-        return ProjectPoint(
-                   (line.start + line.end) / 2, view, CameraOf(scene, view))
-            .has_value();
-      });
+  return std::ranges::any_of(scene.views, [&](const View& view) {
+    return ProjectPoint(
+               (line.start + line.end) / 2, view, CameraOf(scene, view))
+        .has_value();
+  });
 }
 
 // Where the view, which sees it, sees the sample, and in which direction.
@@ -59,7 +58,7 @@ Curve CurveOf(const ImportedLine& line,
     const auto view = view_of_image.find(image_id);
     if (view != view_of_image.end()) views.push_back(view->second);
   }
-  std::sort(views.begin(), views.end());
+  std::ranges::sort(views);
   views.erase(std::unique(views.begin(), views.end()), views.end());
   Curve curve;
   for (const Eigen::Vector3d& position : {line.start, line.end}) {
@@ -125,7 +124,7 @@ class Words {
   void Fail(const std::string& what) {
     if (!ok()) return;
     const std::string_view read = text_.substr(0, text_.size() - rest_.size());
-    const auto line = 1 + std::count(read.begin(), read.end(), '\n');
+    const auto line = 1 + std::ranges::count(read, '\n');
     status_ = Status::DataLoss(
         path_.string() + ", line " + std::to_string(line) + ", lacks " + what +
         "; write the file again, or name the right one with --input_path.");
@@ -239,7 +238,7 @@ void ReadTrack(Words& words, Lines& lines) {
 std::size_t CountTracks(const fs::path& folder) {
   const std::vector<std::string> names = FileNames(folder);
   return static_cast<std::size_t>(
-      std::count_if(names.begin(), names.end(), [](const std::string& name) {
+      std::ranges::count_if(names, [](const std::string& name) {
         return name.starts_with("track_") && name.ends_with(".txt");
       }));
 }
@@ -290,10 +289,9 @@ Result<Lines> ReadLimapLines(const fs::path& path) {
 Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
                                  const Scene& scene) {
   LineCurves result;
-  result.num_seen = static_cast<int>(
-      std::count_if(lines.begin(), lines.end(), [&](const ImportedLine& line) {
-        return IsSeenBySome(line, scene);
-      }));
+  result.num_seen = static_cast<int>(std::ranges::count_if(
+      lines,
+      [&](const ImportedLine& line) { return IsSeenBySome(line, scene); }));
   if (result.num_seen == 0) {
     return Status::InvalidArgument(
         "no image of the model sees any of the lines: they are of another "

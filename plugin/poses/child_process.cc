@@ -34,7 +34,7 @@ std::vector<std::string> Environment(const std::vector<std::string>& changes) {
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string variable = *entry;
     const std::string name = variable.substr(0, variable.find('=') + 1);
-    if (std::none_of(changes.begin(), changes.end(), [&](const auto& change) {
+    if (std::ranges::none_of(changes, [&](const auto& change) {
           return change.starts_with(name);
         })) {
       variables.push_back(variable);

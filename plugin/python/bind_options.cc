@@ -22,10 +22,8 @@ std::vector<Flag> FlagsOf(RunSettings& settings) {
   const std::vector<Flag> paths = PathsSection(&settings).flags;
   for (FlagSection& section : ReconstructSections(&settings)) {
     for (Flag& flag : section.flags) {
-      const bool is_path =
-          std::any_of(paths.begin(), paths.end(), [&](const Flag& path) {
-            return path.name == flag.name;
-          });
+      const bool is_path = std::ranges::any_of(
+          paths, [&](const Flag& path) { return path.name == flag.name; });
       if (!is_path) flags.push_back(std::move(flag));
     }
   }

@@ -107,9 +107,8 @@ ScenePartition PartitionOf(const Json& json) {
 
 bool IsAscending(const std::vector<int>& idxs, int num_views) {
   return !idxs.empty() && idxs.front() >= 0 && idxs.back() < num_views &&
-         std::adjacent_find(idxs.begin(), idxs.end(), [](int a, int b) {
-           return a >= b;
-         }) == idxs.end();
+         std::ranges::adjacent_find(
+             idxs, [](int a, int b) { return a >= b; }) == idxs.end();
 }
 
 // Whether every cut and part is reached once from the first cut, and views
@@ -130,12 +129,11 @@ bool IsSound(const ScenePartition& partition, int num_views) {
   std::multiset<int> expected;
   for (int i = -num_parts; i < num_cuts; ++i) expected.insert(i);
   return nodes == expected && partition.overlap >= 0 &&
-         std::all_of(partition.parts.begin(),
-                     partition.parts.end(),
-                     [num_views](const ScenePart& part) {
-                       return IsAscending(part.view_idxs, num_views) &&
-                              IsAscending(part.own_view_idxs, num_views);
-                     });
+         std::ranges::all_of(
+             partition.parts, [num_views](const ScenePart& part) {
+               return IsAscending(part.view_idxs, num_views) &&
+                      IsAscending(part.own_view_idxs, num_views);
+             });
 }
 
 constexpr const char* kModelFiles[] = {

@@ -316,7 +316,7 @@ bool AreMerged(const fs::path& folder) {
   const Json report = Json::parse(*text, nullptr, false);
   if (!report.contains("stages")) return false;
   const Json& stages = report.at("stages");
-  return std::any_of(stages.begin(), stages.end(), [](const Json& stage) {
+  return std::ranges::any_of(stages, [](const Json& stage) {
     return stage.contains("name") && stage.at("name") == kJoinStage;
   });
 }

@@ -190,7 +190,7 @@ std::string StageLine(const StageReport& stage) {
   for (const auto& [name, count] : stage.counts) {
     counts += counts.empty() ? "" : ", ";
     std::string item = CountText(count, name);
-    std::replace(item.begin(), item.end(), ' ', kNoBreak);
+    std::ranges::replace(item, ' ', kNoBreak);
     counts += item;
   }
   std::string line = WrapText(counts, kCountsColumn);

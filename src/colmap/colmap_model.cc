@@ -50,18 +50,9 @@ PointsOrError ReadPoints(const fs::path& path, ColmapFormat format) {
 }
 
 void SortById(ColmapModel* model) {
-  std::stable_sort(
-      model->cameras.begin(),
-      model->cameras.end(),
-      [](const auto& a, const auto& b) { return a.camera_id < b.camera_id; });
-  std::stable_sort(
-      model->images.begin(),
-      model->images.end(),
-      [](const auto& a, const auto& b) { return a.image_id < b.image_id; });
-  std::stable_sort(
-      model->points.begin(),
-      model->points.end(),
-      [](const auto& a, const auto& b) { return a.point3D_id < b.point3D_id; });
+  std::ranges::stable_sort(model->cameras, {}, &ColmapCamera::camera_id);
+  std::ranges::stable_sort(model->images, {}, &ColmapImage::image_id);
+  std::ranges::stable_sort(model->points, {}, &ColmapPoint3D::point3D_id);
 }
 
 // Files in `folder` that COLMAP or we would read instead of, or together with,
@@ -222,7 +213,7 @@ Scene SceneFromColmapModel(const ColmapModel& model,
     scene.cameras.push_back(item.camera);
   }
   for (const ColmapImage& image : model.images) {
-    if (std::binary_search(left_out.begin(), left_out.end(), image.name)) {
+    if (std::ranges::binary_search(left_out, image.name)) {
       continue;
     }
     scene.views.push_back({image.name,
@@ -233,9 +224,7 @@ Scene SceneFromColmapModel(const ColmapModel& model,
                            {},
                            std::nullopt});
   }
-  std::sort(scene.views.begin(),
-            scene.views.end(),
-            [](const View& a, const View& b) { return a.name < b.name; });
+  std::ranges::sort(scene.views, {}, &View::name);
   std::map<std::uint32_t, SceneView> views;
   for (const View& view : scene.views) {
     views.emplace(view.image_id,

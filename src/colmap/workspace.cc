@@ -40,7 +40,7 @@ std::vector<fs::path> NumberedFolders(const fs::path& folder) {
       found.emplace_back(std::stoi(name), path);
     }
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::vector<fs::path> folders;
   folders.reserve(found.size());
   for (auto& [number, path] : found) folders.push_back(std::move(path));
@@ -97,10 +97,8 @@ std::vector<fs::path> MostImagesFirst(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     counted.emplace_back(CountColmapImages(folder), folder);
   }
-  std::stable_sort(
-      counted.begin(), counted.end(), [](const auto& a, const auto& b) {
-        return a.first > b.first;
-      });
+  std::ranges::stable_sort(
+      counted, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<fs::path> ordered;
   ordered.reserve(folders.size());
   for (auto& [count, folder] : counted) ordered.push_back(std::move(folder));
@@ -156,7 +154,7 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
     return format.status();
   }
   const std::vector<fs::path> places = ModelCandidates(paths.workspace_path);
-  const auto place = std::find_if(places.begin(), places.end(), IsModel);
+  const auto place = std::ranges::find_if(places, IsModel);
   if (place == places.end()) {
     for (const fs::path& folder : places) {
       if (!IsForbidden(folder / "cameras.bin")) continue;
@@ -183,10 +181,8 @@ fs::path ImagePathOfProject(const fs::path& model) {
   if (!text.ok()) return {};
   const auto entries = ParseProjectFile(*text);
   if (!entries.ok()) return {};
-  const auto entry = std::find_if(
-      entries->begin(), entries->end(), [](const ProjectEntry& candidate) {
-        return candidate.name == "image_path";
-      });
+  const auto entry =
+      std::ranges::find(*entries, "image_path", &ProjectEntry::name);
   return entry == entries->end() ? fs::path() : fs::path(entry->value);
 }
 
@@ -205,7 +201,7 @@ std::vector<fs::path> ImageCandidates(const ModelPlace& place) {
   }
   std::vector<fs::path> unique;
   for (const fs::path& path : places) {
-    if (std::find(unique.begin(), unique.end(), path) == unique.end()) {
+    if (std::ranges::find(unique, path) == unique.end()) {
       unique.push_back(path);
     }
   }
@@ -221,7 +217,7 @@ Status FindImages(const WorkspacePaths& paths, Workspace* found) {
   }
   const std::vector<fs::path> places =
       ImageCandidates(ModelPlace(paths.workspace_path, found->model_path));
-  const auto place = std::find_if(places.begin(), places.end(), IsFolder);
+  const auto place = std::ranges::find_if(places, IsFolder);
   if (place == places.end()) {
     return Status::NotFound("No folder of images for the model " +
                             found->model_path.string() + "." + Tried(places) +
@@ -265,7 +261,7 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
   for (const ColmapImage& image : model.images) {
     if (!IsFile(ImageFile(folder, image.name))) missing.push_back(image.name);
   }
-  std::sort(missing.begin(), missing.end());
+  std::ranges::sort(missing);
   return missing;
 }
 

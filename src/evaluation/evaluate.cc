@@ -113,8 +113,7 @@ double Mean(const std::vector<double>& values) {
 
 double CountBelow(const std::vector<double>& values, double threshold) {
   const auto below = [threshold](double value) { return value < threshold; };
-  return static_cast<double>(
-      std::count_if(values.begin(), values.end(), below));
+  return static_cast<double>(std::ranges::count_if(values, below));
 }
 
 double PercentBelow(const std::vector<double>& values, double threshold) {

@@ -25,8 +25,7 @@ Subset UsedViews(const Scene& scene,
   used.scene.cameras = scene.cameras;
   std::vector<int> new_idxs(scene.views.size(), -1);
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    if (std::binary_search(
-            held_out.begin(), held_out.end(), static_cast<int>(i))) {
+    if (std::ranges::binary_search(held_out, static_cast<int>(i))) {
       continue;
     }
     new_idxs[i] = static_cast<int>(used.view_idxs.size());

@@ -24,9 +24,7 @@ using Indices = std::vector<std::size_t>;
 // The given ones of the features, the surest first.
 template <typename SigmaOf>
 Indices BySigma(Indices order, const SigmaOf& sigma_of) {
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return sigma_of(a) < sigma_of(b);
-  });
+  std::ranges::stable_sort(order, {}, sigma_of);
   return order;
 }
 

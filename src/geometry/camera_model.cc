@@ -146,9 +146,7 @@ std::optional<Estimate> Solve(const Camera& camera,
 // The sentence that is wrong with the values of the parameters, or empty.
 std::string WrongParameter(const Camera& camera) {
   const std::vector<double>& params = camera.params;
-  if (!std::all_of(params.begin(), params.end(), [](double p) {
-        return std::isfinite(p);
-      })) {
+  if (!std::ranges::all_of(params, [](double p) { return std::isfinite(p); })) {
     return "a parameter is not a finite number";
   }
   if (!(PinholeOf(camera).focal > 0).all()) {

@@ -243,10 +243,8 @@ Status EncodePlyLines(const CurveSource& curves,
     num_vertices += curve.samples.size();
     num_edges += curve.samples.empty() ? 0 : curve.samples.size() - 1;
     num_edges += HasClosingEdge(curve) ? 1 : 0;
-    has_kinds =
-        has_kinds || std::any_of(curve.samples.begin(),
-                                 curve.samples.end(),
-                                 [](const CurveSample& sample) {
+    has_kinds = has_kinds || std::ranges::any_of(
+                                 curve.samples, [](const CurveSample& sample) {
                                    return sample.kind != CurveKind::kUnknown;
                                  });
   });

@@ -127,9 +127,9 @@ Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
                        const EdgeSketch& sketch) {
   const bool is_sound =
       sketch.edge_sigma_px > 0 && std::isfinite(sketch.edge_sigma_px) &&
-      std::all_of(sketch.edges.begin(),
-                  sketch.edges.end(),
-                  [&](const Edge3d& edge) { return IsSound(edge, edge_maps); });
+      std::ranges::all_of(sketch.edges, [&](const Edge3d& edge) {
+        return IsSound(edge, edge_maps);
+      });
   if (is_sound) return {};
   return Status::InvalidArgument(
       "the 3D edges are not sound: finite numbers, a positive edge_sigma_px "

@@ -28,8 +28,7 @@ EndTies TiesAmong(const std::vector<std::size_t>& items, const EndTies& ties) {
       std::optional<EndIdx>& tie = among.emplace_back();
       if (!ties[end]) continue;
       const auto rank =
-          std::lower_bound(items.begin(), items.end(), ItemOf(*ties[end])) -
-          items.begin();
+          std::ranges::lower_bound(items, ItemOf(*ties[end])) - items.begin();
       tie = 2 * static_cast<std::size_t>(rank) + *ties[end] % 2;
     }
   }
@@ -125,7 +124,7 @@ Result<TracedCurve> JoinedCurves::Read(int part_idx,
 Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
   std::vector<std::size_t> items;
   for (const ChainItem& link : chain.items) items.push_back(link.item);
-  std::sort(items.begin(), items.end());
+  std::ranges::sort(items);
   TracedCurve joined;
   std::vector<Curve> curves;
   for (const std::size_t item : items) {

@@ -65,9 +65,7 @@ PartResult TakePart(const ScenePartition& partition,
   }
   const ScenePart& part = partition.parts[static_cast<std::size_t>(part_idx)];
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    if (std::binary_search(part.own_view_idxs.begin(),
-                           part.own_view_idxs.end(),
-                           part.view_idxs[i])) {
+    if (std::ranges::binary_search(part.own_view_idxs, part.view_idxs[i])) {
       result.num_own_edges_2d +=
           static_cast<std::int64_t>(edge_maps[i].edges.size());
     }

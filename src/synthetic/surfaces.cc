@@ -85,11 +85,10 @@ std::uint64_t LampAt(const Vector3d& direction) {
 }
 
 bool HasPattern(const Solid& solid) {
-  return std::any_of(solid.primitives().begin(),
-                     solid.primitives().end(),
-                     [](const SolidPrimitive& primitive) {
-                       return primitive.pattern != SurfacePattern::kNone;
-                     });
+  return std::ranges::any_of(
+      solid.primitives(), [](const SolidPrimitive& primitive) {
+        return primitive.pattern != SurfacePattern::kNone;
+      });
 }
 
 }  // namespace
