@@ -4,7 +4,6 @@
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

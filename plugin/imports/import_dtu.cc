@@ -2,7 +2,6 @@
 #include "plugin/imports/importers.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 #include <utility>

@@ -2,7 +2,6 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>

@@ -3,7 +3,6 @@
 
 #include <zip.h>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 #include <array>
 #include <mutex>
-#include <type_traits>
 #include <utility>
 
 #include "geometry/camera_of.h"

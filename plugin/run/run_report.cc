@@ -2,7 +2,6 @@
 #include "plugin/run/run_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/count_text.h"

@@ -2,7 +2,6 @@
 #include "colmap/fit_to_images.h"
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>

@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "base/angles.h"

@@ -4,9 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <utility>
 
 namespace curvix {
 namespace {

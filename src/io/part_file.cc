@@ -9,7 +9,6 @@
 // but for neighbours.
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <istream>
 #include <string>
 

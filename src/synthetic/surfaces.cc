@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "synthetic/counter_random.h"
 #include "synthetic/face_frame.h"
