@@ -15,7 +15,6 @@
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/run/run_steps.h"
 
@@ -337,8 +336,7 @@ Status Check(const AlignSettings& s) {
 
 Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
                                     ProgressPrinter& progress) {
-  return CatchFileErrors(StatusCode::kInvalidArgument,
-                         [&] { return Aligner(settings, progress).Run(); });
+  return Aligner(settings, progress).Run();
 }
 
 }  // namespace curvix

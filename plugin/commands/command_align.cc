@@ -180,8 +180,8 @@ ExitCode RunAlign(const Arguments& arguments) {
   if (code) return *code;
   const Status valid = Check(settings);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto workspace = CatchFileErrors(
-      StatusCode::kInvalidArgument, [&] { return FindInput(settings.run); });
+  const auto workspace =
+      CatchFileErrors([&] { return FindInput(settings.run); });
   if (!workspace.ok()) return Fail(workspace.status());
   const fs::path path = workspace->output_path / kAlignmentName;
   auto older = ReadIfThere(path);

@@ -77,8 +77,8 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
 Status EvaluateWithTruth(const EvaluateSettings& settings) {
   std::filesystem::path curves_path = settings.curves_path;
   if (curves_path.empty()) {
-    const Result<Workspace> workspace = CatchFileErrors(
-        StatusCode::kNotFound, [&] { return FindWorkspace(settings.run); });
+    const Result<Workspace> workspace =
+        CatchFileErrors([&] { return FindWorkspace(settings.run); });
     if (!workspace.ok()) return workspace.status();
     curves_path = workspace->output_path / "curves.ply";
   }

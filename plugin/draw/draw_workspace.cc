@@ -18,7 +18,6 @@
 #include "io/svg_sheet.h"
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
@@ -362,8 +361,7 @@ Status Check(const DrawSettings& s) {
 
 Result<std::string> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress) {
-  return CatchFileErrors(StatusCode::kInvalidArgument,
-                         [&] { return Drafter(settings, progress).Run(); });
+  return Drafter(settings, progress).Run();
 }
 
 }  // namespace curvix

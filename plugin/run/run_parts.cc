@@ -16,7 +16,6 @@
 #include "base/stopwatch.h"
 #include "io/ply_lines.h"
 #include "io/stage_io.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/run/file_hashes.h"
@@ -70,50 +69,6 @@ bool HasResults(const fs::path& folder) {
                      });
 }
 
-Result<ScenePartition> Partition(const RunSettings& settings,
-                                 int max_views_per_part,
-                                 RunProgress& progress) {
-  const Result<Workspace> workspace = FindInput(settings);
-  if (!workspace.ok()) return workspace.status();
-  const Result<std::uint64_t> hash = HashModel(workspace->model_path);
-  if (!hash.ok()) return hash.status();
-  const std::string hash_text = std::to_string(*hash);
-  RunRecord record = RecordOf(settings);
-  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
-  if (!input.ok()) return input.status();
-  progress.Update("partition_scene", 0, 0);
-  Result<ScenePartition> partition =
-      PartitionScene(input->scene, max_views_per_part);
-  if (!partition.ok()) return partition;
-  progress.Finish(Plural(partition->parts.size(), "part"));
-  NoteOverlap(*partition, progress);
-
-  const fs::path folder = workspace->output_path / kPartsName;
-  const Result<PartPlan> present = ReadPlan(folder);
-  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
-  if (!output.ok()) return output.status();
-  const bool is_same =
-      present.ok() && present->text == PlanJson(*partition, input->scene);
-  const bool has_results = HasResults(folder);
-  if (present.ok() && !is_same && has_results) {
-    return Status::InvalidArgument("the plan in " + folder.string() +
-                                   " is another one, and parts of it are done; "
-                                   "to divide anew, remove this folder");
-  }
-  if (is_same) progress.Note("The plan is there already, and stays");
-  // Beside finished parts; a merge finds those of another plan or model.
-  const bool in_place = is_same || has_results;
-  const fs::path written = in_place ? folder : output->folder() / kPartsName;
-  Status status = WritePlan(*partition, input->scene, input->model, written);
-  if (status.ok()) {
-    status = WriteFileAtomically(written / kModelHashName, hash_text);
-  }
-  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  if (status.ok() && !in_place) status = output->Publish();
-  if (!status.ok()) return status;
-  return partition;
-}
-
 // Those of a model that 'partition' has written.
 Status CheckImagesAreThere(const WorkspaceScene& input) {
   if (input.missing_images.empty()) return {};
@@ -161,9 +116,64 @@ Status CheckPartIdx(const PartPlan& plan, int part_idx) {
                           std::to_string(num_parts - 1));
 }
 
-Result<RunRecord> ReconstructPart(const RunSettings& settings,
-                                  int part_idx,
-                                  RunProgress& progress) {
+// The files of the 3D edges of all parts.
+std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    paths.push_back(PartFolder(folder, static_cast<int>(i)) / kPartEdgesName);
+  }
+  return paths;
+}
+
+}  // namespace
+
+Result<ScenePartition> RunPartition(const RunSettings& settings,
+                                    int max_views_per_part,
+                                    RunProgress& progress) {
+  const Result<Workspace> workspace = FindInput(settings);
+  if (!workspace.ok()) return workspace.status();
+  const Result<std::uint64_t> hash = HashModel(workspace->model_path);
+  if (!hash.ok()) return hash.status();
+  const std::string hash_text = std::to_string(*hash);
+  RunRecord record = RecordOf(settings);
+  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
+  if (!input.ok()) return input.status();
+  progress.Update("partition_scene", 0, 0);
+  Result<ScenePartition> partition =
+      PartitionScene(input->scene, max_views_per_part);
+  if (!partition.ok()) return partition;
+  progress.Finish(Plural(partition->parts.size(), "part"));
+  NoteOverlap(*partition, progress);
+
+  const fs::path folder = workspace->output_path / kPartsName;
+  const Result<PartPlan> present = ReadPlan(folder);
+  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  if (!output.ok()) return output.status();
+  const bool is_same =
+      present.ok() && present->text == PlanJson(*partition, input->scene);
+  const bool has_results = HasResults(folder);
+  if (present.ok() && !is_same && has_results) {
+    return Status::InvalidArgument("the plan in " + folder.string() +
+                                   " is another one, and parts of it are done; "
+                                   "to divide anew, remove this folder");
+  }
+  if (is_same) progress.Note("The plan is there already, and stays");
+  // Beside finished parts; a merge finds those of another plan or model.
+  const bool in_place = is_same || has_results;
+  const fs::path written = in_place ? folder : output->folder() / kPartsName;
+  Status status = WritePlan(*partition, input->scene, input->model, written);
+  if (status.ok()) {
+    status = WriteFileAtomically(written / kModelHashName, hash_text);
+  }
+  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
+  if (status.ok() && !in_place) status = output->Publish();
+  if (!status.ok()) return status;
+  return partition;
+}
+
+Result<RunRecord> RunPart(const RunSettings& settings,
+                          int part_idx,
+                          RunProgress& progress) {
   const Stopwatch since_start;
   Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
@@ -220,16 +230,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   return record;
 }
 
-// The files of the 3D edges of all parts.
-std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
-  std::vector<fs::path> paths;
-  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    paths.push_back(PartFolder(folder, static_cast<int>(i)) / kPartEdgesName);
-  }
-  return paths;
-}
-
-Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
+Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   const Stopwatch since_start;
   Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
@@ -285,29 +286,6 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   }
   if (!status.ok()) return status;
   return record;
-}
-
-}  // namespace
-
-Result<ScenePartition> RunPartition(const RunSettings& settings,
-                                    int max_views_per_part,
-                                    RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound, [&] {
-    return Partition(settings, max_views_per_part, progress);
-  });
-}
-
-Result<RunRecord> RunPart(const RunSettings& settings,
-                          int part_idx,
-                          RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound, [&] {
-    return ReconstructPart(settings, part_idx, progress);
-  });
-}
-
-Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound,
-                         [&] { return Merge(settings, progress); });
 }
 
 bool AreMerged(const fs::path& folder) {
