@@ -2,6 +2,7 @@
 #include "plugin/base/command_line.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <boost/program_options.hpp>
 #include <cctype>
 #include <map>
@@ -265,9 +266,7 @@ Flag ChoiceFlag(std::string name,
   flag.name = std::move(name);
   flag.help = std::move(help);
   flag.default_value = *choice;
-  for (const std::string& text : choices) {
-    flag.range += (flag.range.empty() ? "" : ", ") + text;
-  }
+  flag.range = boost::algorithm::join(choices, ", ");
   flag.set = [choice,
               choices = std::move(choices),
               name = flag.name,

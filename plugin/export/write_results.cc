@@ -3,6 +3,7 @@
 
 #include <curvix/curve_io.h>
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -156,9 +157,7 @@ Flag FormatsFlag(std::vector<std::string>* formats) {
   Flag flag;
   flag.name = "output_formats";
   flag.help = "files to write, with commas between";
-  for (const std::string& format : *formats) {
-    flag.default_value += (flag.default_value.empty() ? "" : ",") + format;
-  }
+  flag.default_value = boost::algorithm::join(*formats, ",");
   for (const OutputFormat& format : OutputFormats()) {
     flag.range += (flag.range.empty() ? "" : ", ") + std::string(format.name);
   }

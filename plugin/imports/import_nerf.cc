@@ -186,8 +186,7 @@ Result<Camera> NerfCamera(const json& frame,
   const double height = fields.Number("h").value_or(image.height);
   if (width != image.width || height != image.height) {
     return Status::DataLoss("w and h are not the size of the image, " +
-                            std::to_string(image.width) + " x " +
-                            std::to_string(image.height) +
+                            SizeText(image) +
                             "; take the images that the cameras were made for");
   }
   Result<Camera> camera = Pinhole(fields, image, first_pixel);

@@ -45,24 +45,22 @@ bool IsImageName(const std::string& name) {
   return std::ranges::find(kExtensions, extension) != kExtensions.end();
 }
 
-}  // namespace
-
-Result<ImportedView> CalibratedView(const std::string& name,
+Result<ImportedView> CalibratedView(const CalibratedImage& image,
                                     const fs::path& folder,
-                                    const CalibratedPose& pose,
-                                    double first_pixel,
-                                    const std::string& source) {
-  const fs::path file = folder / name;
+                                    double first_pixel) {
+  const fs::path file = folder / image.name;
   const Result<ImageSize> size = ReadImageSize(file);
   if (!size.ok()) return size.status();
   const Result<Camera> camera = CameraFromCalibration(
-      pose.calibration, size->width, size->height, first_pixel);
+      image.pose.calibration, size->width, size->height, first_pixel);
   if (!camera.ok()) {
     return Status(camera.status().code(),
-                  source + ": " + camera.status().message());
+                  image.source + ": " + camera.status().message());
   }
-  return ImportedView{name, file, *camera, pose.cam_from_world};
+  return ImportedView{image.name, file, *camera, image.pose.cam_from_world};
 }
+
+}  // namespace
 
 Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
                                    const fs::path& source) {
@@ -89,6 +87,19 @@ Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
     return Status(status.code(), source.string() + ": " + status.message());
   }
   return scene;
+}
+
+Result<ImportedScene> SceneOfImages(const std::vector<CalibratedImage>& images,
+                                    const fs::path& folder,
+                                    double first_pixel,
+                                    const fs::path& source) {
+  std::vector<ImportedView> views;
+  for (const CalibratedImage& image : images) {
+    Result<ImportedView> view = CalibratedView(image, folder, first_pixel);
+    if (!view.ok()) return view.status();
+    views.push_back(*std::move(view));
+  }
+  return SceneOfViews(views, source);
 }
 
 Status CheckImageName(const std::string& name, const fs::path& source) {

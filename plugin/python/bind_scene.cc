@@ -122,16 +122,11 @@ void FindSizes(Scene& scene) {
 void CheckSizesInMemory(const Scene& scene) {
   for (const View& view : scene.views) {
     const Camera& camera = CameraOf(scene, view);
-    const auto text = [](int width, int height) {
-      return std::to_string(width) + " x " + std::to_string(height);
-    };
-    if (!view.image || (view.image->width == camera.width &&
-                        view.image->height == camera.height)) {
-      continue;
-    }
+    const ImageSize of_camera = {camera.width, camera.height};
+    if (!view.image || SizeOf(view) == of_camera) continue;
     RaiseArgument("the image of view " + view.name + " has " +
-                  text(view.image->width, view.image->height) +
-                  " pixels, its camera " + text(camera.width, camera.height) +
+                  SizeText(SizeOf(view)) + " pixels, its camera " +
+                  SizeText(of_camera) +
                   "; images of several sizes need a K each");
   }
 }
