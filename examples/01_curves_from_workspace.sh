@@ -21,14 +21,19 @@ program="${COLMAP_CURVIX:-$here/../build/bin/colmap_curvix}"
 workspace="$1"
 shift
 
-"$program" --workspace_path "$workspace" "$@"
+code=0
+summary="$("$program" --workspace_path "$workspace" "$@")" || code=$?
+echo "$summary"
+if ((code != 0)); then exit "$code"; fi
+results="$(sed -n 's/^Written to //p' <<<"$summary")"
 
 echo
 echo "What it left behind:"
-find "$workspace/curvix" -type f -printf '%9s bytes  %p\n' | sort -k 3
+find "$results" -type f -printf '%9s bytes  %p\n' | sort -k 3
 
-for curves in "$workspace"/curvix/*/curves.txt; do
+curves="$results/curves.txt"
+if [[ -f "$curves" ]]; then
   echo
   echo "How $curves begins:"
   head -n 6 "$curves" | cut -c 1-72
-done
+fi

@@ -22,6 +22,8 @@ std::string WhyNotOfLengths(int code) {
     why = "which GDAL does not know: " + std::string(CPLGetLastErrorMsg());
   } else if (OSRIsGeographic(system) != 0) {
     why = "whose coordinates are degrees";
+  } else if (OSRIsProjected(system) == 0) {
+    why = "whose axes are not east and north";
   }
   CPLPopErrorHandler();
   OSRDestroySpatialReference(system);

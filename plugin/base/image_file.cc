@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/base/image_file.h"
 
+#include <cstdint>
+
+#include "base/file_io.h"
+#include "base/image_header.h"
+
 namespace curvix {
 
 Result<cv::Mat> ReadImage(const std::filesystem::path& path,
                           cv::ImreadModes mode) {
   cv::Mat image;
   try {
-    image = cv::imread(path.string(), mode | cv::IMREAD_IGNORE_ORIENTATION);
+    const Result<std::string> file = ReadFile(path);
+    if (file.ok() && !file->empty()) {
+      std::vector<std::uint8_t> bytes(file->begin(), file->end());
+      IgnoreTiffOrientation(&bytes);
+      image = cv::imdecode(bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
+    }
   } catch (const cv::Exception& error) {
     return Status::DataLoss(path.string() + ": " + error.what());
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/text_fields.h"
+#include "plugin/base/json.h"
 
 namespace curvix {
 std::string WrapText(const std::string& text, std::size_t indent) {
@@ -35,6 +36,12 @@ std::string ShellWord(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
   return quoted + "'";
+}
+
+std::string ValidUtf8(const std::string& text) {
+  const std::string valid =
+      Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json::parse(valid).get<std::string>();
 }
 
 std::string DurationText(double seconds) {

@@ -19,6 +19,9 @@ std::string WrapText(const std::string& text, std::size_t indent);
 // `text` as one word of a shell: in quotes, unless it needs none.
 std::string ShellWord(const std::string& text);
 
+// `text` with U+FFFD for what is not UTF-8, as names of files may be.
+std::string ValidUtf8(const std::string& text);
+
 // "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
 std::string DurationText(double seconds);
 

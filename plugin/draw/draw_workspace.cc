@@ -19,6 +19,7 @@
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
 #include "plugin/base/staged_output.h"
+#include "plugin/base/text.h"
 #include "plugin/draw/choose_dimensions.h"
 #include "plugin/draw/choose_plane.h"
 #include "plugin/draw/draw_window.h"
@@ -251,7 +252,8 @@ Status Drafter::LayOut() {
                       .filename()
                       .string();
   }
-  sheet.subtitle = Subtitle();
+  sheet.title = ValidUtf8(sheet.title);
+  sheet.subtitle = ValidUtf8(Subtitle());
   sheet.paper = settings_.paper;
   sheet.has_dimensions = settings_.dimensions;
   if (curves_.alignment) sheet.unit = curves_.alignment->unit;

@@ -161,7 +161,7 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
       Plural(projections.size(), "camera");
   if (views.empty()) {
     return Status::NotFound(counts +
-                            ", but no number of a camera is in the name of a "
+                            ", but no number of a camera is in the name of an "
                             "image; name their folder with --image_path.");
   }
   if (views.size() < std::max(names.size(), projections.size())) {

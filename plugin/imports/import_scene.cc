@@ -136,10 +136,14 @@ Result<fs::path> FindImageFolder(const fs::path& image_path,
     return Status::NotFound("--image_path " + image_path.string() +
                             " is not a folder; name the folder of the images.");
   }
+  // Files that are named without a folder are in the current one.
+  const auto folder = [](const fs::path& place) {
+    return place.empty() ? fs::path(".") : place;
+  };
   for (const fs::path& place : places) {
-    if (IsFile(place / name)) return place;
+    if (IsFile(place / name)) return folder(place);
   }
-  return places.front();
+  return folder(places.front());
 }
 
 std::vector<std::string> FileNames(const fs::path& folder) {

@@ -24,6 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Longer ones are not meant, and products of their covariances overflow.
+constexpr double kMaxLength = 1e30;
+
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {
   return std::ranges::any_of(scene.views, [&](const View& view) {
     return ProjectPoint(
@@ -304,7 +307,8 @@ Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
   }
   result.edge_maps.resize(scene.views.size());
   for (const ImportedLine& line : lines) {
-    if ((line.end - line.start).norm() > 0) {
+    const double length = (line.end - line.start).norm();
+    if (length > 0 && length < kMaxLength) {
       result.curves.curves.push_back(
           CurveOf(line, scene, view_of_image, result.edge_maps));
     } else {

@@ -251,7 +251,9 @@ void BindScene(py::module_& module) {
   const auto of_views = [&](const char* name, const auto& f) {
     scenes.def(name, OfViews(f));
   };
-  of_views("names", [](const Scene&, const View& v) { return v.name; });
+  of_views("names", [](const Scene&, const View& v) {
+    return py::bytes(v.name);  // not always UTF-8
+  });
   of_views("image_paths",
            [](const Scene&, const View& v) { return v.image_path; });
   of_views("image_ids", [](const Scene&, const View& v) { return v.image_id; });

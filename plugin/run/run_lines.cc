@@ -39,7 +39,7 @@ Result<LineCurves> ReadCurvesOfLines(
   }
   if (curves->num_without_length > 0) {
     progress.Note("Left out " + Plural(curves->num_without_length, "line") +
-                  " without length.");
+                  " of length 0 or above 1e30.");
   }
   return curves;
 }

@@ -129,31 +129,39 @@ std::optional<ImageHeader> HeaderOfJpeg(const Bytes& bytes) {
   return header;
 }
 
-// From the first directory, whose entries are a tag, a type, a count and a
-// value of four bytes, of which short numbers take the first two. Of several,
-// which do not fit, it is the place.
+// Calls visit(tag, place) for the entries of the first directory of a TIFF: a
+// tag, a type, a count and a value of four bytes, of which short numbers take
+// the first two. Of several, which do not fit, it is the place.
+template <typename Bytes, typename Visit>
+void VisitEntries(const Bytes& bytes, bool is_big, const Visit& visit) {
+  const std::size_t directory = NumberAt(bytes, 4, 4, is_big);
+  const std::uint32_t count = NumberAt(bytes, directory, 2, is_big);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::size_t at = directory + 2 + 12 * std::size_t{i};
+    visit(NumberAt(bytes, at, 2, is_big), at);
+  }
+}
+
 template <typename Bytes>
 std::optional<ImageHeader> HeaderOfTiff(const Bytes& bytes, bool is_big) {
   constexpr std::uint32_t kWidth = 256, kHeight = 257, kBits = 258, kShort = 3;
-  const std::size_t directory = NumberAt(bytes, 4, 4, is_big);
-  const std::uint32_t count = NumberAt(bytes, directory, 2, is_big);
   std::uint32_t width = 0, height = 0, bits = 1;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::size_t at = directory + 2 + 12 * std::size_t{i};
-    const std::uint32_t tag = NumberAt(bytes, at, 2, is_big);
+  VisitEntries(bytes, is_big, [&](std::uint32_t tag, std::size_t at) {
     const bool is_short = NumberAt(bytes, at + 2, 2, is_big) == kShort;
     const std::uint32_t value =
         NumberAt(bytes, at + 8, is_short ? 2 : 4, is_big);
     if (tag == kWidth) width = value;
     if (tag == kHeight) height = value;
-    if (tag != kBits) continue;
+    if (tag != kBits) return;
     const bool is_apart = is_short && NumberAt(bytes, at + 4, 4, is_big) > 2;
     bits = is_apart
                ? NumberAt(bytes, NumberAt(bytes, at + 8, 4, is_big), 2, is_big)
                : value;
-  }
+  });
   return Checked(width, height, bits);
 }
+
+constexpr std::string_view kLittleTiff = "II*\0"sv, kBigTiff = "MM\0*"sv;
 
 // The height is below 0 where the first row comes first.
 template <typename Bytes>
@@ -199,8 +207,8 @@ std::optional<ImageHeader> HeaderOf(const Bytes& bytes) {
         NumberAt(bytes, 16, 4), NumberAt(bytes, 20, 4), NumberAt(bytes, 24, 1));
   }
   if (IsJpeg(bytes)) return HeaderOfJpeg(bytes);
-  if (StartsWith(bytes, "II*\0"sv)) return HeaderOfTiff(bytes, false);
-  if (StartsWith(bytes, "MM\0*"sv)) return HeaderOfTiff(bytes, true);
+  if (StartsWith(bytes, kLittleTiff)) return HeaderOfTiff(bytes, false);
+  if (StartsWith(bytes, kBigTiff)) return HeaderOfTiff(bytes, true);
   if (StartsWith(bytes, "BM"sv)) return HeaderOfBmp(bytes);
   if (StartsWith(bytes, "P"sv) && bytes.size() > 1 && bytes[1] >= '1' &&
       bytes[1] <= '6') {
@@ -224,6 +232,19 @@ std::optional<ImageSize> SizeInHeader(std::string_view bytes) {
 
 std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path) {
   return HeaderOf(FileBytes(path));
+}
+
+void IgnoreTiffOrientation(std::vector<std::uint8_t>* bytes) {
+  constexpr std::uint32_t kOrientation = 274;
+  const std::string_view view(reinterpret_cast<const char*>(bytes->data()),
+                              bytes->size());
+  const bool is_big = StartsWith(view, kBigTiff);
+  if (!is_big && !StartsWith(view, kLittleTiff)) return;
+  VisitEntries(view, is_big, [&](std::uint32_t tag, std::size_t at) {
+    if (tag != kOrientation || at + 10 > bytes->size()) return;
+    (*bytes)[at + 8] = is_big ? 0 : 1;
+    (*bytes)[at + 9] = is_big ? 1 : 0;
+  });
 }
 
 bool IsHeif(std::string_view bytes) {

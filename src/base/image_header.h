@@ -3,10 +3,12 @@
 // decoding them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace curvix {
 
@@ -40,6 +42,10 @@ struct ImageHeader {
 // What the header of a file says, as above; a few kilobytes of the file are
 // read. nullopt, too, if it cannot be opened.
 std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path);
+
+// Sets the orientation of a TIFF to that of its rows: OpenCV turns and mirrors
+// others even if it is asked not to. Other files stay as they are.
+void IgnoreTiffOrientation(std::vector<std::uint8_t>* bytes);
 
 // Whether a file is HEIF or AVIF, as telephones make them.
 bool IsHeif(std::string_view bytes);

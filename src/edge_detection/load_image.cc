@@ -105,7 +105,8 @@ std::optional<GrayImage> ToGrey(const cv::Mat& image) {
 // Empty if it is no image, or if there is not enough memory for it.
 cv::Mat Decode(const std::string& file) {
   try {
-    const std::vector<std::uint8_t> bytes(file.begin(), file.end());
+    std::vector<std::uint8_t> bytes(file.begin(), file.end());
+    IgnoreTiffOrientation(&bytes);
     // Unchanged: alpha kept, depth kept, EXIF rotation ignored.
     return cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {

@@ -24,7 +24,7 @@ Status Check(const LineGraph& graph) {
   for (std::size_t i = 0; i < graph.positions.size(); ++i) {
     if (graph.positions[i].allFinite()) continue;
     return Status::DataLoss("vertex " + std::to_string(i) +
-                            " has a coordinate that is not " +
+                            ", counted from 0, has a coordinate that is not "
                             "finite; export the lines again");
   }
   const auto size = static_cast<std::int64_t>(graph.positions.size());
@@ -32,7 +32,8 @@ Status Check(const LineGraph& graph) {
     for (const std::int64_t vertex : graph.edges[i]) {
       if (vertex >= 0 && vertex < size) continue;
       return Status::DataLoss("edge " + std::to_string(i) + " names vertex " +
-                              std::to_string(vertex) + " but there are " +
+                              std::to_string(vertex) +
+                              ", counted from 0, but there are " +
                               std::to_string(size) + "; the file is damaged");
     }
   }

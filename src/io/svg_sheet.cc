@@ -39,6 +39,22 @@ std::string Escaped(std::string_view text) {
   return out;
 }
 
+// The name of a file beside the drawing, as a URL.
+std::string UrlOf(std::string_view file) {
+  constexpr std::string_view kReserved = "%#?:\\";
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string url;
+  for (const char c : file) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80 && kReserved.find(c) == kReserved.npos) {
+      url += c;
+    } else {
+      url += {'%', kDigits[byte / 16], kDigits[byte % 16]};
+    }
+  }
+  return url;
+}
+
 // Points of the sheet in SVG's frame: mm, y down.
 class Page {
  public:
@@ -98,7 +114,7 @@ std::string PictureText(const Sheet& sheet, const Page& page) {
       picture.corner + Eigen::Vector2d(0, size.y());
   const std::string at = page.Of({top_left.x(), top_left.y(), 0});
   const std::size_t blank = at.find(' ');
-  return "<image xlink:href=\"" + Escaped(picture.file) + "\" x=\"" +
+  return "<image xlink:href=\"" + Escaped(UrlOf(picture.file)) + "\" x=\"" +
          at.substr(0, blank) + "\" y=\"" + at.substr(blank + 1) +
          "\" width=\"" + Number(sheet.scale * size.x()) + "\" height=\"" +
          Number(sheet.scale * size.y()) +

@@ -144,6 +144,14 @@ TEST(Sheet, DxfIsInDrawingUnits) {
   EXPECT_GT(layers["FRAME"].size(), 8u);
 }
 
+TEST(Sheet, SvgNamesItsPictureByAUrl) {
+  auto sheet = LaySheet(InMetres(), Front(), std::nullopt);
+  ASSERT_TRUE(sheet.ok());
+  sheet->picture = SheetPicture{"a#1&50%\xc3\xa4.jpg", {4, 2}, {0, 0}, 1};
+  EXPECT_THAT(EncodeSvgSheet(*sheet),
+              HasSubstr("href=\"a%231&amp;50%25%C3%A4.jpg\""));
+}
+
 TEST(Sheet, SvgIsInMillimetresOnPaper) {
   const auto sheet = LaySheet(InMetres(), Front(), std::nullopt);
   ASSERT_TRUE(sheet.ok());

@@ -175,6 +175,57 @@ TEST_F(LoadGrayImageTest, IgnoresTheExifRotation) {
   EXPECT_EQ(gray->height, 60);
 }
 
+// 3 x 2 grey pixels of 16 bits, the largest first, the others black.
+Bytes Tiff(bool is_big, int orientation) {
+  Bytes bytes;
+  const auto append = [&](int number, int size) {
+    for (int i = 0; i < size; ++i) {
+      const int shift = 8 * (is_big ? size - 1 - i : i);
+      bytes.push_back(static_cast<char>(number >> shift));
+    }
+  };
+  append(is_big ? 0x4D4D : 0x4949, 2);
+  append(42, 2);
+  append(8, 4);
+  constexpr int kPixels = 8 + 2 + 12 * 9 + 4;
+  // Tags and their values: sizes, bits, grey, where, orientation, ...
+  const int entries[][2] = {{256, 3},
+                            {257, 2},
+                            {258, 16},
+                            {262, 1},
+                            {273, kPixels},
+                            {274, orientation},
+                            {277, 1},
+                            {278, 2},
+                            {279, 12}};
+  append(9, 2);
+  for (const auto& [tag, value] : entries) {
+    append(tag, 2);
+    append(3, 2);  // a short number
+    append(1, 4);
+    append(value, 2);
+    append(0, 2);
+  }
+  append(0, 4);
+  append(0xFFFF, 2);
+  append(0, 10);
+  return bytes;
+}
+
+TEST_F(LoadGrayImageTest, IgnoresTheOrientationOfTiff) {
+  for (const bool is_big : {false, true}) {
+    for (int orientation = 1; orientation <= 8; ++orientation) {
+      const fs::path path = Written("a.tif", Tiff(is_big, orientation));
+      const Result<GrayImage> gray = LoadGrayImage(path);
+      ASSERT_TRUE(gray.ok()) << gray.status().message();
+      EXPECT_EQ(gray->width, 3);
+      EXPECT_EQ(gray->height, 2);
+      EXPECT_EQ(gray->pixels, (std::vector<float>{255, 0, 0, 0, 0, 0}))
+          << orientation;
+    }
+  }
+}
+
 TEST_F(LoadGrayImageTest, ExplainsWhatIsMissing) {
   EXPECT_EQ(CodeOf(folder_.path() / "nowhere.png"), StatusCode::kNotFound);
   EXPECT_EQ(CodeOf(folder_.path()), StatusCode::kNotFound) << "a folder";

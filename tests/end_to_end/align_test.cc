@@ -247,6 +247,7 @@ TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
 TEST_F(Align, CodesOfDegreesAndOfNothingAreRefused) {
   ExpectError("align --positions x --epsg 4326", "degrees");
   ExpectError("align --positions x --epsg 1025", "GDAL does not know");
+  ExpectError("align --positions x --epsg 4978", "not east and north");
 }
 #endif
 

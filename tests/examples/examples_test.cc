@@ -100,6 +100,26 @@ TEST(CurvesFromWorkspace, ShowsWhatTheCommandLeavesBehind) {
   }
 }
 
+TEST(CurvesFromWorkspace, FindsTheResultsOfADenseModel) {
+  const TemporaryFolder folder;
+  SyntheticOptions options;
+  options.solid = SyntheticSolid::kBlock;
+  options.num_views = 12;
+  options.width = options.height = 160;
+  const fs::path dense = folder.path() / "proj/dense/0";
+  ASSERT_TRUE(Synthesize(options, folder.path() / "block").ok());
+  fs::create_directories(dense);
+  fs::rename(folder.path() / "block/images", dense / "images");
+  fs::rename(folder.path() / "block/sparse/0", dense / "sparse");
+  const Outcome outcome =
+      RunAll("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR
+             "/examples/01_curves_from_workspace.sh' '" +
+             (folder.path() / "proj").string() +
+             "' --num_threads 1 --output_formats ply");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("bytes  " + dense.string()));
+}
+
 TEST(CurvesFromWorkspace, FailsAsTheProgramFails) {
   const Outcome outcome =
       RunAll("COLMAP_CURVIX='" CURVIX_PROGRAM "' '" CURVIX_SOURCE_DIR

@@ -2,6 +2,7 @@
 // What image files say about themselves. Decoders are OpenCV's.
 #include "base/image_header.h"
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -23,6 +24,8 @@ std::vector<std::string> FuzzSeeds() {
 
 void FuzzReader(std::string_view bytes) {
   IsTruncatedJpeg(bytes);
+  std::vector<std::uint8_t> tiff(bytes.begin(), bytes.end());
+  IgnoreTiffOrientation(&tiff);
   const std::optional<ImageSize> size = SizeInHeader(bytes);
   Require(!size || (size->width > 0 && size->height > 0), "sizes are positive");
 }

@@ -78,8 +78,11 @@ TEST(JoinPolylines, TangentsComeFromTheGraphElseFromNeighbours) {
 }
 
 TEST(JoinPolylines, ReportsEdgesOutOfRangeAndPositionsThatAreNotFinite) {
-  EXPECT_EQ(JoinPolylines(OnAxis(2, {{0, 2}})).status().code(),
-            StatusCode::kDataLoss);
+  const Status status = JoinPolylines(OnAxis(2, {{0, 2}})).status();
+  EXPECT_EQ(status.code(), StatusCode::kDataLoss);
+  EXPECT_EQ(status.message(),
+            "edge 0 names vertex 2, counted from 0, but there are 2; the file "
+            "is damaged");
   EXPECT_EQ(JoinPolylines(OnAxis(2, {{-1, 1}})).status().code(),
             StatusCode::kDataLoss);
   LineGraph graph = OnAxis(2, {{0, 1}});

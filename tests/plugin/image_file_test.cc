@@ -22,6 +22,25 @@ TEST(ImageFile, WhatIsEncodedIsReadBack) {
   EXPECT_EQ(cv::norm(*read, image), 0);
 }
 
+TEST(ImageFile, TiffsAreNotTurned) {
+  const TemporaryFolder folder;
+  const cv::Mat1b image = (cv::Mat1b(2, 3) << 0, 50, 100, 150, 200, 250);
+  std::string tiff = EncodeImage(".tiff", image).value();
+  // The number of channels, which is 1 if it is not said, becomes the
+  // orientation, the tag 274: the first row is the right side.
+  const std::size_t at = tiff.find(std::string("\x15\1\3\0\1\0\0\0\1", 9));
+  ASSERT_NE(at, tiff.npos);
+  tiff[at] = 0x12;
+  tiff[at + 8] = 6;
+  const auto path = folder.path() / "image.tiff";
+  ASSERT_TRUE(WriteFileAtomically(path, tiff).ok());
+  ASSERT_EQ(cv::imread(path.string()).rows, 3) << "OpenCV turns it";
+  const Result<cv::Mat> read = ReadImage(path, cv::IMREAD_GRAYSCALE);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  ASSERT_EQ(read->size(), image.size());
+  EXPECT_EQ(cv::norm(*read, image), 0);
+}
+
 TEST(ImageFile, SaysWhatCannotBeRead) {
   const TemporaryFolder folder;
   EXPECT_EQ(

@@ -122,6 +122,26 @@ TEST_F(Import, DtuArchiveComesBackThroughSinglePrecision) {
   EXPECT_THAT(scene->notes, IsEmpty());
 }
 
+TEST_F(Import, FilesInTheCurrentFolderHaveTheirImagesThere) {
+  Photo("000.png");
+  WriteNpz(folder_.path() / "cameras.npz",
+           {{"world_mat_0",
+             NpyOfMatrix(Eigen::Matrix4d(
+                 Eigen::Vector4d(700, 700, 1, 1).asDiagonal()))}});
+  WriteTransforms("\"fl_x\": 700, ", "", "gone");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  ImportOptions options;
+  options.input_path = "cameras.npz";
+  const auto dtu = ImportDtu(options);
+  options.input_path = "transforms.json";
+  const Status nerf = ImportNerf(options).status();
+  fs::current_path(before);
+  ASSERT_TRUE(dtu.ok()) << dtu.status().message();
+  EXPECT_EQ(dtu->model.images[0].name, "000.png");
+  EXPECT_THAT(nerf.message(), HasSubstr("not in . (gone0"));
+}
+
 TEST_F(Import, DtuNormalizeMovesTheWorldIntoTheUnitSphere) {
   std::map<std::string, std::string> entries;
   Eigen::Matrix4d world_from_unit = Eigen::Matrix4d::Identity() * 50;

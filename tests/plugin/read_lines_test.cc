@@ -187,10 +187,11 @@ TEST(CurvesOfLines, PointsAreLeftOutAndOtherWorldsRefused) {
   const ImportedLine line = {{0, 0, 0}, {0, 0, 1}, {}};
   const ImportedLine point = {{0, 0, 0}, {0, 0, 0}, {1}};
   const ImportedLine far = {{0, 0, 900}, {0, 1, 900}, {1}};
-  const auto result = CurvesOfLines({point, line, far}, scene);
+  const ImportedLine endless = {{0, 0, 0}, {0, 0, 1e31}, {1}};
+  const auto result = CurvesOfLines({point, line, far, endless}, scene);
   ASSERT_TRUE(result.ok()) << result.status().message();
   EXPECT_EQ(result->curves.curves.size(), 2u);
-  EXPECT_EQ(result->num_without_length, 1);
+  EXPECT_EQ(result->num_without_length, 2);
   EXPECT_EQ(result->num_seen, 2);
   EXPECT_EQ(CurvesOfLines({far}, scene).status().code(),
             StatusCode::kInvalidArgument);

@@ -39,6 +39,11 @@ TEST(ShellWord, IsQuotedIfItMust) {
   EXPECT_EQ(ShellWord(""), "''");
 }
 
+TEST(ValidUtf8, ReplacesWhatIsNot) {
+  EXPECT_EQ(ValidUtf8("sy \xc3\xa4 \"<\n"), "sy \xc3\xa4 \"<\n");
+  EXPECT_EQ(ValidUtf8("caf\xe9"), "caf\xef\xbf\xbd");
+}
+
 TEST(DurationText, ChoosesTheUnitsThatMatter) {
   EXPECT_EQ(DurationText(0), "0.0 s");
   EXPECT_EQ(DurationText(-1), "0.0 s");

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes from COLMAP's files, from its objects and from arrays."""
+import os
+import shutil
 import struct
 import sys
 import types
@@ -105,6 +107,17 @@ class FromColmap(WorkspaceTest):
             scene = pycurvix.Scene.from_colmap(self.workspace, fewer)
         self.assertEqual(len(scene), 8)
         self.assertIn('4 of 12 images', logs.output[0])
+
+    def test_names_need_not_be_utf8(self):
+        other = self.folder / 'proj'
+        shutil.copytree(self.workspace, other)
+        model = other / 'sparse' / '0' / 'images.bin'
+        model.write_bytes(model.read_bytes().replace(b'view_', b'vi\xe9w_'))
+        for path in list((other / 'images').iterdir()):
+            path.rename(path.with_name(os.fsdecode(path.name.encode().replace(b'view_', b'vi\xe9w_'))))
+        scene = pycurvix.Scene.from_colmap(other)
+        self.assertEqual(scene.names, sorted(os.listdir(other / 'images')))
+        self.assertEqual(scene.view_idx(scene.names[4]), 4)
 
     def test_pycolmap_gives_the_same_scene_and_curves(self):
         self.scene_curves().write(self.folder / 'a.json')

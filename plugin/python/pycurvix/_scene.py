@@ -247,7 +247,7 @@ class Scene:
     @property
     def names(self) -> list[str]:
         """Names of the images, relative to their folder; the views' order."""
-        return self._core.names()
+        return [os.fsdecode(name) for name in self._core.names()]
 
     @property
     def image_paths(self) -> list[str]:
