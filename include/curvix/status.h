@@ -27,6 +27,24 @@ class [[nodiscard]] Status {
   Status() = default;  // success
   Status(StatusCode code, std::string message)
       : code_(code), message_(std::move(message)) {}
+  static Status InvalidArgument(std::string message) {
+    return {StatusCode::kInvalidArgument, std::move(message)};
+  }
+  static Status NotFound(std::string message) {
+    return {StatusCode::kNotFound, std::move(message)};
+  }
+  static Status DataLoss(std::string message) {
+    return {StatusCode::kDataLoss, std::move(message)};
+  }
+  static Status Unsupported(std::string message) {
+    return {StatusCode::kUnsupported, std::move(message)};
+  }
+  static Status ExternalTool(std::string message) {
+    return {StatusCode::kExternalTool, std::move(message)};
+  }
+  static Status Internal(std::string message) {
+    return {StatusCode::kInternal, std::move(message)};
+  }
 
   bool ok() const { return code_ == StatusCode::kOk; }
   StatusCode code() const { return code_; }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,6 @@
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/run/run_steps.h"
 
@@ -51,7 +49,7 @@ std::string WithSigma(double value, double sigma) {
 Status CheckUp(const std::string& text) {
   const Result<Eigen::Vector3d> up = ParseVector("--up", text);
   if (!up.ok() || up->norm() > 0) return up.status();
-  return {StatusCode::kInvalidArgument, "--up has no direction"};
+  return Status::InvalidArgument("--up has no direction");
 }
 
 class Aligner {
@@ -164,7 +162,7 @@ Status Aligner::TakeAxes() {
       " lines, axes of arcs and rows of circles (x, y, z)");
   const auto& num = axes->num_directions;
   const int num_others = std::accumulate(num.begin(), num.end(), 0) -
-                         *std::max_element(num.begin(), num.end());
+                         *std::ranges::max_element(num);
   if (num_others <= kFewDirections) {
     Say("  Only " + Plural(num_others, "direction") +
         " along the other two axes: look whether they are right.");
@@ -212,10 +210,7 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
 // Index of the position that is furthest off, of one or more.
 std::size_t WorstOf(const AlignmentResult& result) {
   const auto& left = result.position_residuals;
-  const auto worst =
-      std::max_element(left.begin(), left.end(), [](auto& a, auto& b) {
-        return a.norm() < b.norm();
-      });
+  const auto worst = std::ranges::max_element(left, {}, &Eigen::Vector3d::norm);
   return static_cast<std::size_t>(worst - left.begin());
 }
 
@@ -232,16 +227,14 @@ Status Aligner::CheckPositions(const AlignmentResult& result) const {
       result.alignment.world_from_model.scale * std::sqrt(squares / n);
   if (!(result.position_sigma > kLargeShareOff * extent)) return {};
   const std::size_t worst = WorstOf(result);
-  return {StatusCode::kInvalidArgument,
-          "The positions do not fit the cameras: each coordinate is " +
-              SigmaText(result.position_sigma) +
-              " off (standard deviation), and the cameras are " +
-              SigmaText(extent) + " from their middle. " +
-              input_.positions[worst].name + " fits worst, by " +
-              SigmaText(result.position_residuals[worst].norm()) +
-              ". Look for a wrong number, degrees or a mirrored axis; if "
-              "positions are that uncertain, give a standard deviation after "
-              "each"};
+  return Status::InvalidArgument(
+      "The positions do not fit the cameras: each coordinate is " +
+      SigmaText(result.position_sigma) +
+      " off (standard deviation), and the cameras are " + SigmaText(extent) +
+      " from their middle. " + input_.positions[worst].name +
+      " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
+      ". Look for a wrong number, degrees or a mirrored axis; if positions are "
+      "that uncertain, give a standard deviation after each");
 }
 
 void Aligner::DescribePositions(const AlignmentResult& result) {
@@ -279,9 +272,9 @@ Result<AlignSummary> Aligner::Run() {
   if (!fits.ok()) return fits;
   WorldAlignment& alignment = result->alignment;
   if (settings_.unit != "none" && !alignment.has_scale) {
-    return Status(StatusCode::kInvalidArgument,
-                  "--unit needs a scale, which nothing that is given tells: "
-                  "add --distance, --markers or --positions");
+    return Status::InvalidArgument(
+        "--unit needs a scale, which nothing that is given tells: add "
+        "--distance, --markers or --positions");
   }
   if (settings_.unit != "none") alignment.unit = settings_.unit;
   if (!settings_.epsg.empty()) alignment.crs = "EPSG:" + settings_.epsg;
@@ -317,23 +310,22 @@ Result<AlignSummary> Aligner::Run() {
 }  // namespace
 
 Status Check(const AlignSettings& s) {
-  const auto bad = [](std::string message) {
-    return Status(StatusCode::kInvalidArgument, std::move(message));
-  };
   if (s.distances.empty() && s.markers.empty() && s.positions_path.empty() &&
       s.axes == "none") {
-    return bad(
+    return Status::InvalidArgument(
         "align needs something that is known: --distance, --markers, "
         "--positions or --axes auto");
   }
   if (!s.markers.empty() && !(s.marker_size > 0)) {
-    return bad("--markers needs --marker_size, the side of the black square");
+    return Status::InvalidArgument(
+        "--markers needs --marker_size, the side of the black square");
   }
   if (!s.up.empty() && s.axes == "none") {
-    return bad("--up needs --axes auto, which it corrects");
+    return Status::InvalidArgument("--up needs --axes auto, which it corrects");
   }
   if (!s.epsg.empty() && s.positions_path.empty()) {
-    return bad("--epsg needs --positions, whose coordinates it names");
+    return Status::InvalidArgument(
+        "--epsg needs --positions, whose coordinates it names");
   }
   Status status;
   if (!s.distances.empty()) status = CheckDistances(s.distances);
@@ -344,8 +336,7 @@ Status Check(const AlignSettings& s) {
 
 Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
                                     ProgressPrinter& progress) {
-  return CatchFileErrors(StatusCode::kInvalidArgument,
-                         [&] { return Aligner(settings, progress).Run(); });
+  return Aligner(settings, progress).Run();
 }
 
 }  // namespace curvix

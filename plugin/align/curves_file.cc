@@ -48,7 +48,7 @@ std::vector<SeenSample> SamplesOf(const Json& json) {
     for (const Json& seen : sample.at("support")) {
       added.image_ids.push_back(seen.at(0).get<std::uint32_t>());
     }
-    std::sort(added.image_ids.begin(), added.image_ids.end());
+    std::ranges::sort(added.image_ids);
   }
   return samples;
 }
@@ -141,15 +141,14 @@ Result<CurvesFile> CurvesOf(const Json& json, bool with_samples) {
     for (const Json& fit : curve.at("fits")) {
       fits.push_back(FitOf(fit));
       if (!IsWhole(fits.back())) {
-        return Status(StatusCode::kDataLoss, "a spline has too few knots");
+        return Status::DataLoss("a spline has too few knots");
       }
     }
     if (!with_samples) continue;
     file.samples.push_back(SamplesOf(curve.at("samples")));
     for (const CurveFit& fit : fits) {
       if (fit.first_sample + 1 > file.samples.back().size()) {
-        return Status(StatusCode::kDataLoss,
-                      "a fit has samples that are not there");
+        return Status::DataLoss("a fit has samples that are not there");
       }
     }
   }
@@ -162,11 +161,10 @@ Result<CurvesFile> ReadCurvesFile(const fs::path& folder, bool with_samples) {
   const fs::path path = folder / "curves.json";
   std::ifstream file(path);
   if (!file) {
-    return Status(StatusCode::kNotFound,
-                  "there is no " + path.string() +
-                      ", which has the nodes and lines; run 'colmap_curvix "
-                      "reconstruct' first, with json among its "
-                      "--output_formats");
+    return Status::NotFound(
+        "there is no " + path.string() +
+        ", which has the nodes and lines; run 'colmap_curvix reconstruct' "
+        "first, with json among its --output_formats");
   }
   const Json json = ReadJson(file, with_samples);
   const std::string advice = "; run 'colmap_curvix reconstruct' again";
@@ -174,15 +172,14 @@ Result<CurvesFile> ReadCurvesFile(const fs::path& folder, bool with_samples) {
     if (!json.is_discarded()) {
       Result<CurvesFile> result = CurvesOf(json, with_samples);
       if (result.ok()) return result;
-      return Status(
-          StatusCode::kDataLoss,
+      return Status::DataLoss(
           path.string() + " is broken: " + result.status().message() + advice);
     }
   } catch (const nlohmann::json::exception& error) {
-    return Status(StatusCode::kDataLoss,
-                  path.string() + " is broken: " + WhatOf(error) + advice);
+    return Status::DataLoss(path.string() + " is broken: " + WhatOf(error) +
+                            advice);
   }
-  return Status(StatusCode::kDataLoss, path.string() + " is not JSON" + advice);
+  return Status::DataLoss(path.string() + " is not JSON" + advice);
 }
 
 std::string NoSuchNode(std::string_view node, const FittedCurves& fitted) {

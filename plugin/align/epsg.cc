@@ -41,9 +41,9 @@ Status CheckEpsg(const std::string& code) {
                               ? WhyNotOfLengths(*number)
                               : "which is no code of EPSG";
   if (why.empty()) return {};
-  return {StatusCode::kInvalidArgument,
-          "--epsg is " + code + ", " + why +
-              "; it takes the number of a system with metres, as 25832"};
+  return Status::InvalidArgument(
+      "--epsg is " + code + ", " + why +
+      "; it takes the number of a system with metres, as 25832");
 }
 
 }  // namespace curvix

@@ -231,11 +231,11 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
     errors.insert(errors.end(), t.errors.begin(), t.errors.end());
   }
   if (found.markers.empty()) {
-    return Status(StatusCode::kNotFound,
-                  "no marker of " + dictionary + " is seen by " +
-                      std::to_string(kMinViews) + " images or more" +
-                      (found.notes.empty() ? "" : " (" + found.notes[0] + ")") +
-                      "; check the dictionary that --markers names");
+    return Status::NotFound(
+        "no marker of " + dictionary + " is seen by " +
+        std::to_string(kMinViews) + " images or more" +
+        (found.notes.empty() ? "" : " (" + found.notes[0] + ")") +
+        "; check the dictionary that --markers names");
   }
   // The median of the length of a normal vector of two is 1.177 of its sigma.
   found.corner_sigma_px = std::max(Median(errors) / 1.177, kLeastSigmaPx);

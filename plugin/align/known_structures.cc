@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 Status BadDistance(const std::string& text, const std::string& why) {
-  return {StatusCode::kInvalidArgument,
-          "--distance " + text + ": " + why +
-              "; it takes two nodes or points and their distance, as in "
-              "--distance 12 31 1.250 or --distance 0,0,0 1,0.5,0 1.250"};
+  return Status::InvalidArgument(
+      "--distance " + text + ": " + why +
+      "; it takes two nodes or points and their distance, as in --distance 12 "
+      "31 1.250 or --distance 0,0,0 1,0.5,0 1.250");
 }
 
 CurveNode UsualPoint(const KnownStructures& structures) {
@@ -161,9 +161,8 @@ Result<Eigen::Vector3d> ParseVector(const std::string& what,
     const Eigen::Vector3d vector = Eigen::Vector3d::Map(numbers.data());
     if (vector.allFinite()) return vector;
   }
-  return Status(StatusCode::kInvalidArgument,
-                what + " \"" + std::string(text) +
-                    "\" is not three numbers with commas between");
+  return Status::InvalidArgument(what + " \"" + std::string(text) +
+                                 "\" is not three numbers with commas between");
 }
 
 }  // namespace curvix

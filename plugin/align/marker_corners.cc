@@ -2,7 +2,6 @@
 #include "plugin/align/marker_corners.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -89,7 +89,7 @@ std::vector<SeenMarker> DetectMarkers(const cv::Mat& image,
 #endif
   std::vector<SeenMarker> seen;
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (std::count(ids.begin(), ids.end(), ids[i]) > 1) continue;
+    if (std::ranges::count(ids, ids[i]) > 1) continue;
     SeenMarker& marker = seen.emplace_back();
     marker.id = ids[i];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -97,9 +97,7 @@ std::vector<SeenMarker> DetectMarkers(const cv::Mat& image,
       marker.corners[k] = {corners[i][k].x + 0.5, corners[i][k].y + 0.5};
     }
   }
-  std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
-    return a.id < b.id;
-  });
+  std::ranges::sort(seen, {}, &SeenMarker::id);
   return seen;
 }
 

@@ -95,9 +95,8 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
   if (!file.ok()) return file.status();
   LineReader reader(*file);
   const auto broken = [&](const std::string& why) {
-    return Status(StatusCode::kDataLoss,
-                  "line " + std::to_string(reader.line_number()) + " of " +
-                      path.string() + " " + why);
+    return Status::DataLoss("line " + std::to_string(reader.line_number()) +
+                            " of " + path.string() + " " + why);
   };
   const Centers centers = CentersOf(scene);
   CameraPositions result;
@@ -122,10 +121,9 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
     result.positions.push_back(*std::move(position));
   }
   if (result.positions.empty()) {
-    return Status(StatusCode::kDataLoss,
-                  path.string() + " names no image of the model, as " +
-                      (scene.views.empty() ? "" : scene.views.front().name) +
-                      " is one");
+    return Status::DataLoss(
+        path.string() + " names no image of the model, as " +
+        (scene.views.empty() ? "" : scene.views.front().name) + " is one");
   }
   if (!unknown.empty()) {
     result.notes.push_back("no image of the model is called " +

@@ -2,6 +2,7 @@
 #include "plugin/base/command_line.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <boost/program_options.hpp>
 #include <cctype>
 #include <map>
@@ -19,20 +20,22 @@ namespace po = boost::program_options;
 
 using Values = std::map<std::string, std::string>;
 
-Status BadArgument(std::string message) {
-  return {StatusCode::kInvalidArgument, std::move(message)};
+std::vector<Flag> AllFlags(const std::vector<FlagSection>& sections) {
+  std::vector<Flag> flags;
+  for (const FlagSection& section : sections) {
+    flags.insert(flags.end(), section.flags.begin(), section.flags.end());
+  }
+  return flags;
 }
 
-po::options_description Describe(const std::vector<FlagSection>& sections) {
+po::options_description Describe(const std::vector<Flag>& flags) {
   po::options_description description;
   description.add_options()("help,h", po::bool_switch())("help_all",
                                                          po::bool_switch());
-  for (const FlagSection& section : sections) {
-    for (const Flag& flag : section.flags) {
-      auto* value = po::value<std::string>();
-      if (flag.is_switch) value->implicit_value("1");
-      description.add_options()(flag.name.c_str(), value);
-    }
+  for (const Flag& flag : flags) {
+    auto* value = po::value<std::string>();
+    if (flag.is_switch) value->implicit_value("1");
+    description.add_options()(flag.name.c_str(), value);
   }
   return description;
 }
@@ -48,44 +51,43 @@ const Values& FormerOptions() {
   return options;
 }
 
-Status UnknownFlag(std::string token,
-                   const std::vector<FlagSection>& sections) {
+Status UnknownFlag(std::string token, const std::vector<Flag>& flags) {
   token = token.substr(0, token.find('='));
   const std::size_t dashes = token.find_first_not_of('-');
   const std::string name =
       dashes == std::string::npos ? token : token.substr(dashes);
   const auto former = FormerOptions().find(name);
   if (former != FormerOptions().end()) {
-    return BadArgument("'" + token + "' is no longer an option; it is always " +
-                       former->second);
+    return Status::InvalidArgument("'" + token +
+                                   "' is no longer an option; it is always " +
+                                   former->second);
   }
   std::vector<std::string> names = {"help", "help_all"};
-  for (const FlagSection& section : sections) {
-    for (const Flag& flag : section.flags) names.push_back(flag.name);
-  }
+  for (const Flag& flag : flags) names.push_back(flag.name);
   const std::string nearest = NearestName(name, names);
-  return BadArgument("There is no option '" + token + "'" +
-                     (nearest.empty() ? "; --help_all lists all options"
+  return Status::InvalidArgument("There is no option '" + token + "'" +
+                                 (nearest.empty()
+                                      ? "; --help_all lists all options"
                                       : "; did you mean '--" + nearest + "'?"));
 }
 
 Status GivenTwice(const std::string& name) {
-  return BadArgument("The option '--" + name + "' is given twice");
+  return Status::InvalidArgument("The option '--" + name + "' is given twice");
 }
 
 // What Boost found, as one value per name.
 Result<Values> Collect(const po::parsed_options& parsed,
-                       const std::vector<FlagSection>& sections) {
+                       const std::vector<Flag>& flags) {
   Values values;
   for (const po::option& option : parsed.options) {
     const std::string token = option.original_tokens.empty()
                                   ? option.string_key
                                   : option.original_tokens.front();
     if (option.position_key >= 0) {
-      return BadArgument("'" + token +
-                         "' is not expected here; options start with --");
+      return Status::InvalidArgument(
+          "'" + token + "' is not expected here; options start with --");
     }
-    if (option.unregistered) return UnknownFlag(token, sections);
+    if (option.unregistered) return UnknownFlag(token, flags);
     // Only a switch may come without a value.
     const std::string value = option.value.empty() ? "1" : option.value.front();
     if (!values.emplace(option.string_key, value).second) {
@@ -96,46 +98,41 @@ Result<Values> Collect(const po::parsed_options& parsed,
 }
 
 Result<Values> ReadArguments(const std::vector<std::string>& arguments,
-                             const std::vector<FlagSection>& sections) {
+                             const std::vector<Flag>& flags) {
   using Style = po::command_line_style::style_t;
   const int style =
       Style::unix_style & ~Style::allow_guessing & ~Style::allow_sticky;
-  const po::options_description description = Describe(sections);
+  const po::options_description description = Describe(flags);
   try {
     return Collect(po::command_line_parser(arguments)
                        .options(description)
                        .style(style)
                        .allow_unregistered()
                        .run(),
-                   sections);
+                   flags);
   } catch (const po::error& error) {
-    return BadArgument(error.what());
+    return Status::InvalidArgument(error.what());
   }
 }
 
-bool IsFlag(const std::string& name, const std::vector<FlagSection>& sections) {
-  for (const FlagSection& section : sections) {
-    for (const Flag& flag : section.flags) {
-      if (flag.name == name) return true;
-    }
-  }
-  return false;
+bool IsFlag(const std::string& name, const std::vector<Flag>& flags) {
+  return std::ranges::find(flags, name, &Flag::name) != flags.end();
 }
 
 // The entries as one value per name, without former options that have their
 // constants and flags of others.
 Result<Values> Collect(std::vector<ProjectEntry> entries,
-                       const std::vector<FlagSection>& sections,
-                       const std::vector<FlagSection>& of_others) {
+                       const std::vector<Flag>& flags,
+                       const std::vector<Flag>& of_others) {
   Values values;
   for (ProjectEntry& entry : entries) {
     const auto former = FormerOptions().find(entry.name);
     if (former != FormerOptions().end() && entry.value == former->second) {
       continue;
     }
-    if (!IsFlag(entry.name, sections)) {
+    if (!IsFlag(entry.name, flags)) {
       if (IsFlag(entry.name, of_others)) continue;
-      return UnknownFlag(entry.name, sections);
+      return UnknownFlag(entry.name, flags);
     }
     if (!values.emplace(entry.name, std::move(entry.value)).second) {
       return GivenTwice(entry.name);
@@ -145,16 +142,17 @@ Result<Values> Collect(std::vector<ProjectEntry> entries,
 }
 
 Result<Values> ReadProjectFile(const fs::path& path,
-                               const std::vector<FlagSection>& sections,
-                               const std::vector<FlagSection>& of_others) {
+                               const std::vector<Flag>& flags,
+                               const std::vector<Flag>& of_others) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
   Result<std::vector<ProjectEntry>> entries = ParseProjectFile(*text);
-  Result<Values> values =
-      entries.ok() ? Collect(*std::move(entries), sections, of_others)
-                   : Result<Values>(entries.status());
+  Result<Values> values = entries.ok()
+                              ? Collect(*std::move(entries), flags, of_others)
+                              : Result<Values>(entries.status());
   if (values.ok()) return values;
-  return BadArgument(values.status().message() + " (in " + path.string() + ")");
+  return Status::InvalidArgument(values.status().message() + " (in " +
+                                 path.string() + ")");
 }
 
 // A workspace that is given wins over that of a project file, whose paths in
@@ -174,30 +172,39 @@ void MoveIntoWorkspace(const fs::path& given, Values* project) {
   }
 }
 
-Status SetFlags(const std::vector<FlagSection>& sections,
-                const Values& values) {
-  for (const FlagSection& section : sections) {
-    for (const Flag& flag : section.flags) {
-      const auto value = values.find(flag.name);
-      if (value == values.end()) continue;
-      Status status = flag.set(value->second);
-      if (!status.ok()) return status;
+Status SetFlags(const std::vector<Flag>& flags, const Values& values) {
+  for (const Flag& flag : flags) {
+    const auto value = values.find(flag.name);
+    if (value == values.end()) continue;
+    Status status = flag.set(value->second);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+Status CheckRequired(const std::vector<Flag>& flags, const Values& values) {
+  for (const Flag& flag : flags) {
+    if (flag.is_required && !values.contains(flag.name)) {
+      return Status::InvalidArgument("The option '--" + flag.name +
+                                     "' is required but missing");
     }
   }
   return {};
 }
 
-Status CheckRequired(const std::vector<FlagSection>& sections,
-                     const Values& values) {
-  for (const FlagSection& section : sections) {
-    for (const Flag& flag : section.flags) {
-      if (flag.is_required && !values.contains(flag.name)) {
-        return BadArgument("The option '--" + flag.name +
-                           "' is required but missing");
-      }
-    }
-  }
-  return {};
+// Its value is the text.
+template <typename Value>
+Flag PlainFlag(std::string name,
+               Value* value,
+               std::string default_value,
+               std::string help) {
+  return {.name = std::move(name),
+          .help = std::move(help),
+          .default_value = std::move(default_value),
+          .set = [value](const std::string& text) {
+            *value = text;
+            return Status();
+          }};
 }
 
 // Levenshtein's distance.
@@ -232,40 +239,23 @@ struct SplitName {
 }  // namespace
 
 Flag PathFlag(std::string name, fs::path* path, std::string help) {
-  Flag flag;
-  flag.name = std::move(name);
-  flag.help = std::move(help);
-  flag.default_value = path->string();
-  flag.set = [path](const std::string& text) {
-    *path = text;
-    return Status();
-  };
-  return flag;
+  return PlainFlag(std::move(name), path, path->string(), std::move(help));
 }
 
 Flag TextFlag(std::string name, std::string* value, std::string help) {
-  Flag flag;
-  flag.name = std::move(name);
-  flag.help = std::move(help);
-  flag.default_value = *value;
-  flag.set = [value](const std::string& text) {
-    *value = text;
-    return Status();
-  };
-  return flag;
+  return PlainFlag(std::move(name), value, *value, std::move(help));
 }
 
 Flag RowFlag(const OptionRow& row) {
-  Flag flag;
-  flag.name = row.name;
-  flag.help = row.help;
-  flag.default_value = ValueText(row);
-  flag.range = RangeText(row);
-  flag.unit = row.unit;
-  flag.symbol = row.symbol;
-  flag.row = row;
-  flag.set = [row](const std::string& text) { return SetFromText(row, text); };
-  return flag;
+  return {
+      .name = row.name,
+      .help = row.help,
+      .default_value = ValueText(row),
+      .range = RangeText(row),
+      .unit = row.unit,
+      .symbol = row.symbol,
+      .row = row,
+      .set = [row](const std::string& text) { return SetFromText(row, text); }};
 }
 
 Flag ChoiceFlag(std::string name,
@@ -276,15 +266,14 @@ Flag ChoiceFlag(std::string name,
   flag.name = std::move(name);
   flag.help = std::move(help);
   flag.default_value = *choice;
-  for (const std::string& text : choices) {
-    flag.range += (flag.range.empty() ? "" : ", ") + text;
-  }
+  flag.range = boost::algorithm::join(choices, ", ");
   flag.set = [choice,
               choices = std::move(choices),
               name = flag.name,
               range = flag.range](const std::string& text) -> Status {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
-      return BadArgument(name + " is " + text + "; it must be one of " + range);
+    if (std::ranges::find(choices, text) == choices.end()) {
+      return Status::InvalidArgument(name + " is " + text +
+                                     "; it must be one of " + range);
     }
     *choice = text;
     return {};
@@ -293,12 +282,10 @@ Flag ChoiceFlag(std::string name,
 }
 
 Flag Switch(std::string name, bool* value, std::string help) {
-  OptionRow row;
-  row.name = std::move(name);
-  row.field = value;
-  row.max = 1;
-  row.help = std::move(help);
-  Flag flag = RowFlag(row);
+  Flag flag = RowFlag({.name = std::move(name),
+                       .field = value,
+                       .max = 1,
+                       .help = std::move(help)});
   flag.is_switch = true;
   return flag;
 }
@@ -336,11 +323,13 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
     if (token == "--help_all") return Request::kHelpAll;
     if (token == "-h" || token == "--help") return Request::kHelp;
   }
-  Result<Values> values = ReadArguments(arguments, sections);
+  const std::vector<Flag> flags = AllFlags(sections);
+  Result<Values> values = ReadArguments(arguments, flags);
   if (!values.ok()) return values.status();
   const auto project = values->find("project_path");
   if (project != values->end()) {
-    Result<Values> more = ReadProjectFile(project->second, sections, of_others);
+    Result<Values> more =
+        ReadProjectFile(project->second, flags, AllFlags(of_others));
     if (!more.ok()) return more.status();
     const auto workspace = values->find("workspace_path");
     if (workspace != values->end()) {
@@ -348,9 +337,8 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
     }
     values->merge(*more);  // keeps what is there already
   }
-  Status missing = CheckRequired(sections, *values);
-  if (!missing.ok()) return missing;
-  Status status = SetFlags(sections, *values);
+  Status status = CheckRequired(flags, *values);
+  if (status.ok()) status = SetFlags(flags, *values);
   if (!status.ok()) return status;
   return Request::kRun;
 }

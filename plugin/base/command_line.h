@@ -18,13 +18,13 @@
 namespace curvix {
 
 struct Flag {
-  std::string name;              // without the leading --
-  std::string help;              // one line
-  std::string default_value;     // "": none
-  std::string range;             // "> 0"; "": anything
-  std::string unit;              // "px", "deg" or ""
-  std::string symbol;            // of the paper, or ""
-  std::optional<OptionRow> row;  // if RowFlag() or Switch() made it
+  std::string name;                   // without the leading --
+  std::string help;                   // one line
+  std::string default_value = {};     // "": none
+  std::string range = {};             // "> 0"; "": anything
+  std::string unit = {};              // "px", "deg" or ""
+  std::string symbol = {};            // of the paper, or ""
+  std::optional<OptionRow> row = {};  // if RowFlag() or Switch() made it
   bool is_required = false;
   bool is_advanced = false;  // listed by --help_all only
   bool is_switch = false;    // `--json` means `--json=1`
@@ -59,7 +59,7 @@ Flag EnumFlag(std::string name,
   Flag flag = ChoiceFlag(std::move(name), choices, text.get(), std::move(help));
   flag.set = [=, set_text = flag.set](const std::string& value) {
     const Status status = set_text(value);
-    const auto place = std::find(choices.begin(), choices.end(), *text);
+    const auto place = std::ranges::find(choices, *text);
     *choice = static_cast<Enum>(place - choices.begin());
     return status;
   };

@@ -7,14 +7,14 @@
 
 namespace curvix {
 
-// f(), a Status or a Result; `code` with the system's reason if it throws
+// f(), a Status or a Result; kNotFound with the system's reason if it throws
 // std::filesystem::filesystem_error.
 template <typename F>
-auto CatchFileErrors(StatusCode code, const F& f) -> decltype(f()) {
+auto CatchFileErrors(const F& f) -> decltype(f()) {
   try {
     return f();
   } catch (const std::filesystem::filesystem_error& error) {
-    return Status(code, error.what());
+    return Status::NotFound(error.what());
   }
 }
 

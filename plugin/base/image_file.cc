@@ -19,12 +19,11 @@ Result<cv::Mat> ReadImage(const std::filesystem::path& path,
       image = cv::imdecode(bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
     }
   } catch (const cv::Exception& error) {
-    return Status(StatusCode::kDataLoss, path.string() + ": " + error.what());
+    return Status::DataLoss(path.string() + ": " + error.what());
   }
   if (image.empty()) {
-    return Status(StatusCode::kNotFound,
-                  "Cannot read the image " + path.string() +
-                      "; check that it is there and whole.");
+    return Status::NotFound("Cannot read the image " + path.string() +
+                            "; check that it is there and whole.");
   }
   return image;
 }
@@ -39,8 +38,7 @@ Result<std::string> EncodeImage(const char* extension,
     bytes.clear();
   }
   if (bytes.empty()) {
-    return Status(StatusCode::kInternal,
-                  std::string("OpenCV cannot write ") + extension);
+    return Status::Internal(std::string("OpenCV cannot write ") + extension);
   }
   return std::string(bytes.begin(), bytes.end());
 }

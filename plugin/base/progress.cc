@@ -49,7 +49,7 @@ double SteadySeconds() {
 
 // "detect_edges" as "Detect edges".
 std::string Title(std::string stage) {
-  std::replace(stage.begin(), stage.end(), '_', ' ');
+  std::ranges::replace(stage, '_', ' ');
   if (!stage.empty()) {
     stage[0] = static_cast<char>(
         std::toupper(static_cast<unsigned char>(stage.front())));

@@ -56,9 +56,8 @@ void RemoveEmptyFolders(fs::path path, const fs::path& first_created) {
 Status CannotWrite(const fs::path& path,
                    const std::string& reason,
                    const std::string& flag = "--output_path") {
-  return {StatusCode::kNotFound,
-          "cannot write to " + path.string() + " (" + reason +
-              "); choose another folder with " + flag};
+  return Status::NotFound("cannot write to " + path.string() + " (" + reason +
+                          "); choose another folder with " + flag);
 }
 
 // In a temporary folder: what was replaced, and the names of what is to go.
@@ -167,10 +166,9 @@ Result<StagedOutput> StagedOutput::Create(const fs::path& output_path,
   }
   std::optional<FolderLock> lock = FolderLock::Take(output);
   if (!lock) {
-    return Status(StatusCode::kInvalidArgument,
-                  "another run is writing to " + output.string() +
-                      "; wait for its end, or choose another folder with " +
-                      flag);
+    return Status::InvalidArgument(
+        "another run is writing to " + output.string() +
+        "; wait for its end, or choose another folder with " + flag);
   }
   StagedOutput staged(output, first_created, *std::move(lock));
   Status status = FinishOlderRuns(output, flag);

@@ -23,16 +23,15 @@ std::string WrapText(const std::string& text, std::size_t indent) {
     line += (line.empty() ? "" : " ") + word;
   }
   wrapped += std::string(indent, ' ') + line + "\n";
-  std::replace(wrapped.begin(), wrapped.end(), kNoBreak, ' ');
+  std::ranges::replace(wrapped, kNoBreak, ' ');
   return wrapped;
 }
 
 std::string ShellWord(const std::string& text) {
-  const bool is_plain =
-      !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-               std::string_view("/._-+:@%,").find(c) != std::string_view::npos;
-      });
+  const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("/._-+:@%,").find(c) != std::string_view::npos;
+  });
   if (is_plain) return text;
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);

@@ -48,9 +48,9 @@ Flag MarkersFlag(AlignSettings* settings) {
                          "dictionary of the square markers in the images");
   if (!flag.range.empty()) return flag;
   flag.set = [](const std::string&) {
-    return Status(StatusCode::kInvalidArgument,
-                  "this program was built without OpenCV's aruco module, so "
-                  "that it finds no markers");
+    return Status::InvalidArgument(
+        "this program was built without OpenCV's aruco module, so that it "
+        "finds no markers");
   };
   return flag;
 }
@@ -180,8 +180,8 @@ ExitCode RunAlign(const Arguments& arguments) {
   if (code) return *code;
   const Status valid = Check(settings);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto workspace = CatchFileErrors(
-      StatusCode::kInvalidArgument, [&] { return FindInput(settings.run); });
+  const auto workspace =
+      CatchFileErrors([&] { return FindInput(settings.run); });
   if (!workspace.ok()) return Fail(workspace.status());
   const fs::path path = workspace->output_path / kAlignmentName;
   auto older = ReadIfThere(path);

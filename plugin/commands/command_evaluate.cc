@@ -77,8 +77,8 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
 Status EvaluateWithTruth(const EvaluateSettings& settings) {
   std::filesystem::path curves_path = settings.curves_path;
   if (curves_path.empty()) {
-    const Result<Workspace> workspace = CatchFileErrors(
-        StatusCode::kNotFound, [&] { return FindWorkspace(settings.run); });
+    const Result<Workspace> workspace =
+        CatchFileErrors([&] { return FindWorkspace(settings.run); });
     if (!workspace.ok()) return workspace.status();
     curves_path = workspace->output_path / "curves.ply";
   }
@@ -114,9 +114,9 @@ ExitCode RunEvaluate(const Arguments& arguments) {
   const bool has_workspace = !settings.run.workspace_path.empty();
   const bool has_curves = has_workspace || !settings.curves_path.empty();
   if (has_truth == holds_out || !(has_truth ? has_curves : has_workspace)) {
-    return Fail({StatusCode::kInvalidArgument,
-                 "give either --curves_path and --truth_path, or "
-                 "--workspace_path with --truth_path or --holdout_every"},
+    return Fail(Status::InvalidArgument(
+                    "give either --curves_path and --truth_path, or "
+                    "--workspace_path with --truth_path or --holdout_every"),
                 kExitCommandLine);
   }
   const Status status =

@@ -108,10 +108,9 @@ FlagSection ResultFlags(ImportSettings* settings) {
 Status CheckInput(const ImportSettings& settings) {
   std::error_code error;
   if (std::filesystem::exists(settings.options.input_path, error)) return {};
-  return {
-      StatusCode::kNotFound,
+  return Status::NotFound(
       "--input_path " + settings.options.input_path.string() +
-          " does not exist; name the cameras of the data set, or the lines"};
+      " does not exist; name the cameras of the data set, or the lines");
 }
 
 ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
@@ -140,7 +139,7 @@ Result<ImportedScene> Import(const ImportSettings& settings) {
   for (const Format& format : kFormats) {
     if (settings.format == format.name) return format.import(options);
   }
-  return Status(StatusCode::kInternal, "no format " + settings.format);
+  return Status::Internal("no format " + settings.format);
 }
 
 ExitCode ImportDataSet(const ImportSettings& settings) {
@@ -179,9 +178,8 @@ ExitCode RunImport(const Arguments& arguments) {
   if (code) return *code;
   if (settings.format == "colmap_images" &&
       settings.options.image_path.empty()) {
-    return Fail({StatusCode::kInvalidArgument,
-                 "The option '--image_path' is required with --format "
-                 "colmap_images"},
+    return Fail(Status::InvalidArgument("The option '--image_path' is required "
+                                        "with --format colmap_images"),
                 kExitCommandLine);
   }
   const Status status = CheckInput(settings);

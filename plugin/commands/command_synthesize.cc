@@ -31,8 +31,8 @@ Status MakeFolder(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (!error) return {};
-  return {StatusCode::kInvalidArgument,
-          "cannot make the folder " + path.string() + ": " + error.message()};
+  return Status::InvalidArgument("cannot make the folder " + path.string() +
+                                 ": " + error.message());
 }
 
 Status WriteImage(const RgbImage& image, const fs::path& path) {
@@ -80,8 +80,7 @@ std::vector<std::string> CameraModels() {
 
 Flag NumberFlag(const char* name, SynthesizeSettings* settings) {
   const std::vector<OptionRow> rows = OptionTable(settings->options);
-  const auto row = std::find_if(
-      rows.begin(), rows.end(), [&](const auto& r) { return r.name == name; });
+  const auto row = std::ranges::find(rows, name, &OptionRow::name);
   CURVIX_CHECK(row != rows.end(), "no option " << name);
   return RowFlag(*row);
 }

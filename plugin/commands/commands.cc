@@ -153,7 +153,7 @@ ExitCode UnknownCommand(const std::string& name) {
   } else {
     message += "; 'colmap_curvix help' lists all";
   }
-  return Fail({StatusCode::kInvalidArgument, message}, kExitCommandLine);
+  return Fail(Status::InvalidArgument(message), kExitCommandLine);
 }
 
 // The value of a flag, "--name value" or "--name=value"; "" if it is not there.
@@ -211,9 +211,8 @@ ExitCode Fail(const Status& status, ExitCode code) {
     message += '.';
   }
   // Names come from files, and a terminal obeys control characters.
-  std::replace_if(
-      message.begin(),
-      message.end(),
+  std::ranges::replace_if(
+      message,
       [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; },
       '?');
   std::cerr << "ERROR: " << message << std::endl;

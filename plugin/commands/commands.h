@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plugin/base/command_line.h"
+#include "plugin/base/file_errors.h"
 #include "plugin/base/progress.h"
 #include "plugin/run/run_report.h"
 
@@ -49,11 +50,11 @@ FlagSection RuntimeSection(RunSettings* settings);
 // What `reconstruct` can be told; the preset comes before what it changes.
 std::vector<FlagSection> ReconstructSections(RunSettings* settings);
 
-// f(progress), which is shown on stderr.
+// f(progress), which is shown on stderr; kNotFound if the file system throws.
 template <typename F>
 auto WithProgress(const F& f) {
   ProgressPrinter progress(std::cerr, isatty(STDERR_FILENO) != 0);
-  return f(progress);
+  return CatchFileErrors([&] { return f(progress); });
 }
 
 // Does a job with its progress on stderr, and prints its closing words.

@@ -14,7 +14,6 @@
 #include "base/text_fields.h"
 #include "colmap/workspace.h"
 #include "measuring/moved_curves.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/write_results.h"
@@ -295,37 +294,6 @@ void PrintHoldout(const HoldoutResult& result,
   PrintTable(result, out);
 }
 
-Status EvaluateHoldout(const RunSettings& settings,
-                       const std::filesystem::path& curves_path,
-                       int every,
-                       EvaluationFormat format,
-                       RunProgress& progress,
-                       std::ostream& out) {
-  Result<HoldoutScene> input =
-      ReadHoldoutScene(settings, curves_path, progress);
-  if (!input.ok()) return input.status();
-  const Scene& scene = input->scene;
-  const Result<std::vector<int>> view_idxs =
-      ViewsHeldOut(scene.views.size(), every);
-  if (!view_idxs.ok()) return view_idxs.status();
-  const Result<CurveSet> curves =
-      curves_path.empty()
-          ? ReconstructOthers(scene, settings.options, every, progress)
-          : ReadCurves(curves_path, scene);
-  if (!curves.ok()) return curves.status();
-  const Result<ImageAgreement> agreement = CompareWithImages(
-      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
-  if (!agreement.ok()) return agreement.status();
-  progress.Finish();
-  PrintHoldout({*std::move(input),
-                static_cast<int>(view_idxs->size()),
-                SummarizeCurves(*curves),
-                *agreement},
-               format,
-               out);
-  return {};
-}
-
 }  // namespace
 
 void PrintEvaluation(const Evaluation& evaluation,
@@ -357,9 +325,29 @@ Status RunHoldout(const RunSettings& settings,
                   EvaluationFormat format,
                   RunProgress& progress,
                   std::ostream& out) {
-  return CatchFileErrors(StatusCode::kNotFound, [&] {
-    return EvaluateHoldout(settings, curves_path, every, format, progress, out);
-  });
+  Result<HoldoutScene> input =
+      ReadHoldoutScene(settings, curves_path, progress);
+  if (!input.ok()) return input.status();
+  const Scene& scene = input->scene;
+  const Result<std::vector<int>> view_idxs =
+      ViewsHeldOut(scene.views.size(), every);
+  if (!view_idxs.ok()) return view_idxs.status();
+  const Result<CurveSet> curves =
+      curves_path.empty()
+          ? ReconstructOthers(scene, settings.options, every, progress)
+          : ReadCurves(curves_path, scene);
+  if (!curves.ok()) return curves.status();
+  const Result<ImageAgreement> agreement = CompareWithImages(
+      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
+  if (!agreement.ok()) return agreement.status();
+  progress.Finish();
+  PrintHoldout({*std::move(input),
+                static_cast<int>(view_idxs->size()),
+                SummarizeCurves(*curves),
+                *agreement},
+               format,
+               out);
+  return {};
 }
 
 }  // namespace curvix

@@ -39,7 +39,7 @@ std::string FlagHelp(const Flag& flag) {
   std::string text = FlagHead(flag);
   text = allowed.empty() || is_list ? text + "\n" : WithRange(text, allowed);
   std::string symbol = flag.symbol.empty() ? "" : "(" + flag.symbol + ")";
-  std::replace(symbol.begin(), symbol.end(), ' ', kNoBreak);
+  std::ranges::replace(symbol, ' ', kNoBreak);
   text += WrapText(flag.help + " " + symbol, 6);
   if (!is_list) return text;
   const bool says_how_many = allowed.starts_with("one or more of ");

@@ -71,18 +71,16 @@ std::vector<SheetDimension> ChooseDimensions(
   Eigen::AlignedBox2d bounds;
   for (const MeasuredDimension& m : measured) bounds.extend(MiddleOf(m));
   std::vector<MeasuredDimension> sorted = measured;
-  std::stable_sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) {
-    return a.value > b.value;
-  });
+  std::ranges::stable_sort(
+      sorted, std::ranges::greater(), &MeasuredDimension::value);
   std::vector<MeasuredDimension> chosen;
   for (const MeasuredDimension& m : sorted) {
-    const auto alike = std::find_if(
-        chosen.begin(), chosen.end(), [&](auto& c) { return AreAlike(c, m); });
+    const auto alike =
+        std::ranges::find_if(chosen, [&](auto& c) { return AreAlike(c, m); });
     if (alike == chosen.end()) {
-      const auto count =
-          std::count_if(chosen.begin(), chosen.end(), [&](auto& c) {
-            return c.drawn.is_radius == m.drawn.is_radius;
-          });
+      const auto count = std::ranges::count_if(chosen, [&](auto& c) {
+        return c.drawn.is_radius == m.drawn.is_radius;
+      });
       if (count < kMost) chosen.push_back(m);
     } else if (!m.drawn.is_radius &&
                (MiddleOf(m) - bounds.center()).norm() >

@@ -13,7 +13,7 @@ namespace curvix {
 namespace {
 
 Status BadPlane(std::string message) {
-  return {StatusCode::kInvalidArgument, "--plane: " + std::move(message)};
+  return Status::InvalidArgument("--plane: " + std::move(message));
 }
 
 bool AxesAreKnown(const CurvesFile& curves) {

@@ -24,8 +24,8 @@ std::vector<double> ParseBox(std::string_view text, std::size_t count) {
 Status BadOption(const std::string& option,
                  const std::string& text,
                  const std::string& what) {
-  return {StatusCode::kInvalidArgument,
-          option + " is \"" + text + "\"; it takes " + what};
+  return Status::InvalidArgument(option + " is \"" + text + "\"; it takes " +
+                                 what);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include "io/svg_sheet.h"
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/base/text.h"
 #include "plugin/draw/choose_dimensions.h"
@@ -36,10 +35,6 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-
-Status BadDrawing(std::string message) {
-  return {StatusCode::kInvalidArgument, std::move(message)};
-}
 
 std::string Short(double value) { return ShortText(value, 4); }
 
@@ -66,14 +61,16 @@ std::string NameOf(const DrawSettings& settings) {
 
 Status CheckName(const std::string& name) {
   if (fs::path(name).filename() != name || name.front() == '.') {
-    return BadDrawing("--name is \"" + name +
-                      "\"; it takes the name of a file, without folders");
+    return Status::InvalidArgument(
+        "--name is \"" + name +
+        "\"; it takes the name of a file, without folders");
   }
   for (const OutputFormat& format : OutputFormats()) {
     for (const char* ending : {".dxf", ".svg", ".jpg", ".gpkg", ".geojson"}) {
       if (name + ending != format.file) continue;
-      return BadDrawing("--name is \"" + name + "\", but " + format.file +
-                        " is a file of the curves; choose another name");
+      return Status::InvalidArgument(
+          "--name is \"" + name + "\", but " + format.file +
+          " is a file of the curves; choose another name");
     }
   }
   return {};
@@ -176,7 +173,7 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
       }
     }
   }
-  return BadDrawing(
+  return Status::InvalidArgument(
       "There is nothing to draw from " + Short(window_.depth.from) + " to " +
       Short(window_.depth.to) + "; " + plane.depth_name +
       " of the curves is from " + Short(low) + " to " + Short(high));
@@ -200,18 +197,20 @@ Status Drafter::TakePhotograph() {
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);
-    if (!chosen) return BadDrawing("No image shows the plane from this side");
+    if (!chosen)
+      return Status::InvalidArgument("No image shows the plane from this side");
   }
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     if (scene_.views[i].name == settings_.photograph) chosen = i;
   }
   if (!chosen) {
-    return BadDrawing("--photograph is " + settings_.photograph +
-                      ", which is no image of the model");
+    return Status::InvalidArgument("--photograph is " + settings_.photograph +
+                                   ", which is no image of the model");
   }
   if (!ShowsFront(scene_, scene_.views[*chosen], area)) {
-    return BadDrawing("--photograph is " + settings_.photograph +
-                      ", which does not show the plane from this side");
+    return Status::InvalidArgument(
+        "--photograph is " + settings_.photograph +
+        ", which does not show the plane from this side");
   }
   Result<RectifiedPhotograph> photograph =
       Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);
@@ -284,7 +283,8 @@ Status Drafter::Write() {
   Result<StagedOutput> output = StagedOutput::Create(workspace_.output_path);
   // --output_path is also where the curves are read.
   if (!output.ok()) {
-    return BadDrawing(output.status().message() + ", a copy of this one");
+    return Status::InvalidArgument(output.status().message() +
+                                   ", a copy of this one");
   }
   std::vector<std::pair<std::string, std::string>> files = {
       {name_ + ".dxf", EncodeDxfSheet(sheet_)},
@@ -314,10 +314,8 @@ Result<std::string> Drafter::Run() {
     Status status = (this->*step)();
     if (!status.ok()) return status;
   }
-  const auto num_hidden = std::count_if(
-      sheet_.curves.begin(), sheet_.curves.end(), [](const SheetCurve& curve) {
-        return curve.is_hidden;
-      });
+  const auto num_hidden = std::ranges::count_if(
+      sheet_.curves, [](const SheetCurve& curve) { return curve.is_hidden; });
   int num_unknown = 0;
   std::size_t num_far = 0;
   for (const DrawnView& view : views_) {
@@ -351,21 +349,21 @@ Status Check(const DrawSettings& s) {
   if (status.ok()) status = CheckName(NameOf(s));
   if (!status.ok()) return status;
   if (!s.scale.empty() && !ParseScale(s.scale)) {
-    return BadDrawing("--scale is \"" + s.scale +
-                      "\"; it takes a scale such as 1:50 or 2:1");
+    return Status::InvalidArgument("--scale is \"" + s.scale +
+                                   "\"; it takes a scale such as 1:50 or 2:1");
   }
   const bool is_cropped = !s.crop.empty() && s.crop != "all";
   if (s.plane.find(',') != s.plane.npos &&
       (is_cropped || !s.slice.empty() || !s.photograph.empty())) {
-    return BadDrawing("--slice, --crop and --photograph need a single --plane");
+    return Status::InvalidArgument(
+        "--slice, --crop and --photograph need a single --plane");
   }
   return {};
 }
 
 Result<std::string> DrawWorkspace(const DrawSettings& settings,
                                   ProgressPrinter& progress) {
-  return CatchFileErrors(StatusCode::kInvalidArgument,
-                         [&] { return Drafter(settings, progress).Run(); });
+  return Drafter(settings, progress).Run();
 }
 
 }  // namespace curvix

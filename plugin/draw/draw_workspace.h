@@ -3,7 +3,6 @@
 #pragma once
 
 #include <curvix/status.h>
-#include <filesystem>
 #include <string>
 
 #include "plugin/base/progress.h"

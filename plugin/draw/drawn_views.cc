@@ -72,8 +72,8 @@ void Fill(const DrawnContent& content, DrawnView& view) {
 void LeaveOutFar(const DrawnContent& content, DrawnView& view) {
   const Eigen::AlignedBox2d bounds = MainBoundsOf(view.curves);
   if (bounds.isEmpty() || bounds.contains(BoundsOf(view.curves))) return;
-  view.num_far = static_cast<std::size_t>(std::count_if(
-      view.curves.begin(), view.curves.end(), [&](const SheetCurve& curve) {
+  view.num_far = static_cast<std::size_t>(
+      std::ranges::count_if(view.curves, [&](const SheetCurve& curve) {
         return !bounds.contains(BoundsOf({curve}));
       }));
   // Bounds of arcs are those of some of their points. What is left out is much

@@ -21,9 +21,8 @@ struct CloseDataset {
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
 Status Failed(const std::filesystem::path& map) {
-  return {StatusCode::kExternalTool,
-          "GDAL cannot write " + map.filename().string() + ": " +
-              std::string(CPLGetLastErrorMsg())};
+  return Status::ExternalTool("GDAL cannot write " + map.filename().string() +
+                              ": " + std::string(CPLGetLastErrorMsg()));
 }
 
 Status WriteMapFile(const std::filesystem::path& dxf,
@@ -71,12 +70,11 @@ Status WriteMapFile(const std::filesystem::path& dxf,
 Status WriteMapFile(const std::filesystem::path& dxf,
                     const std::string& crs,
                     const std::filesystem::path& map) {
-  return {StatusCode::kUnsupported,
-          "This program was built without GDAL, which writes GeoPackage and "
-          "GeoJSON; draw without them, then 'ogr2ogr " +
-              (crs.empty() ? "" : "-a_srs " + crs + " ") +
-              map.filename().string() + " " + dxf.filename().string() +
-              "' does the same"};
+  return Status::Unsupported(
+      "This program was built without GDAL, which writes GeoPackage and "
+      "GeoJSON; draw without them, then 'ogr2ogr " +
+      (crs.empty() ? "" : "-a_srs " + crs + " ") + map.filename().string() +
+      " " + dxf.filename().string() + "' does the same");
 }
 #endif
 

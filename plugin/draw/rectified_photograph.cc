@@ -3,11 +3,9 @@
 
 #include <curvix/curves.h>
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
-#include <vector>
 
 #include "base/parallel.h"
 #include "geometry/camera_of.h"

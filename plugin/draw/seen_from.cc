@@ -40,10 +40,7 @@ SeenFrom SeenFromSide(const CurveFit& fit,
       }
       ++num_views;
       num_showing +=
-          std::binary_search(
-              sample.image_ids.begin(), sample.image_ids.end(), view.image_id)
-              ? 1
-              : 0;
+          std::ranges::binary_search(sample.image_ids, view.image_id) ? 1 : 0;
     }
   }
   if (num_views < kLeastViews * static_cast<int>(count)) {

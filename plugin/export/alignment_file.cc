@@ -51,10 +51,6 @@ bool TakeSimilarity(const Json& json, Similarity3& similarity) {
          similarity.scale > 0;
 }
 
-Status BrokenAlignment(const std::string& what) {
-  return {StatusCode::kDataLoss, what};
-}
-
 }  // namespace
 
 Json AlignmentJson(const WorldAlignment& alignment) {
@@ -86,7 +82,7 @@ Result<WorldAlignment> AlignmentFromJson(const Json& json) {
   WorldAlignment a;
   try {
     if (json.at("format") != "curvix alignment" || json.at("version") != 1) {
-      return BrokenAlignment("it is not an alignment of version 1");
+      return Status::DataLoss("it is not an alignment of version 1");
     }
     a.unit = json.at("unit").get<std::string>();
     a.crs = json.at("crs").get<std::string>();
@@ -96,16 +92,16 @@ Result<WorldAlignment> AlignmentFromJson(const Json& json) {
       a.has_translation = a.has_translation || name == "translation";
     }
     if (!TakeNumbers(json.at("offset"), a.offset)) {
-      return BrokenAlignment("\"offset\" is not three numbers");
+      return Status::DataLoss("\"offset\" is not three numbers");
     }
     if (!TakeSimilarity(json.at("world_from_model"), a.world_from_model)) {
-      return BrokenAlignment("\"world_from_model\" is not a similarity");
+      return Status::DataLoss("\"world_from_model\" is not a similarity");
     }
     if (!TakeCovariance(json.at("covariance"), a.covariance)) {
-      return BrokenAlignment("\"covariance\" is not a 7 x 7 covariance");
+      return Status::DataLoss("\"covariance\" is not a 7 x 7 covariance");
     }
   } catch (const nlohmann::json::exception& error) {
-    return BrokenAlignment(WhatOf(error));
+    return Status::DataLoss(WhatOf(error));
   }
   return a;
 }
@@ -122,15 +118,14 @@ Result<std::optional<WorldAlignment>> ReadAlignment(
   const Json json = Json::parse(*text, nullptr, false);
   Result<WorldAlignment> alignment =
       json.is_discarded()
-          ? Result<WorldAlignment>(BrokenAlignment("it is not JSON"))
+          ? Result<WorldAlignment>(Status::DataLoss("it is not JSON"))
           : AlignmentFromJson(json);
   if (alignment.ok()) {
     return std::optional<WorldAlignment>(*std::move(alignment));
   }
-  return Status(StatusCode::kDataLoss,
-                path.string() +
-                    " cannot be used: " + alignment.status().message() +
-                    "; run 'colmap_curvix align' again, or remove it");
+  return Status::DataLoss(path.string() +
+                          " cannot be used: " + alignment.status().message() +
+                          "; run 'colmap_curvix align' again, or remove it");
 }
 
 }  // namespace curvix

@@ -5,7 +5,6 @@
 #include <curvix/status.h>
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include "measuring/world_alignment.h"
 #include "plugin/export/curves_json.h"

@@ -7,7 +7,6 @@
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>

@@ -82,10 +82,7 @@ std::vector<Named> Largest(const FittedCurves& fitted,
                        size_of(fits[f])});
     }
   }
-  std::stable_sort(
-      named.begin(), named.end(), [](const Named& a, const Named& b) {
-        return a.size > b.size;
-      });
+  std::ranges::stable_sort(named, std::ranges::greater(), &Named::size);
   named.resize(std::min(named.size(), kMaxRows));
   return named;
 }
@@ -171,9 +168,8 @@ void AddCircles(const std::vector<Named>& arcs, Table& table) {
 std::vector<std::size_t> SpreadNodes(const std::vector<CurveNode>& nodes) {
   std::vector<std::size_t> order(nodes.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return nodes[a].covariance.trace() < nodes[b].covariance.trace();
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t i) { return nodes[i].covariance.trace(); });
   order.resize((order.size() + 1) / 2);
   const auto distance = [&](std::size_t i, std::size_t j) {
     return (nodes[order[i]].position - nodes[order[j]].position).norm();
@@ -182,7 +178,7 @@ std::vector<std::size_t> SpreadNodes(const std::vector<CurveNode>& nodes) {
   for (const std::size_t i : SpreadOut(order.size(), kMaxPartners, distance)) {
     chosen.push_back(order[i]);
   }
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 

@@ -53,7 +53,7 @@ std::vector<int> SpreadViews(const Scene& scene, int count) {
        SpreadOut(places.size(), static_cast<std::size_t>(count), distance)) {
     chosen.push_back(static_cast<int>(i));
   }
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 

@@ -21,7 +21,7 @@ std::vector<std::size_t> SpreadOut(std::size_t size,
   std::vector<std::size_t> chosen;
   while (chosen.size() < std::min(size, count)) {
     const auto next = static_cast<std::size_t>(
-        std::max_element(farness.begin(), farness.end()) - farness.begin());
+        std::ranges::max_element(farness) - farness.begin());
     chosen.push_back(next);
     for (std::size_t i = 0; i < size; ++i) {
       farness[i] = std::min(farness[i], distance(i, next));

@@ -4,7 +4,6 @@
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -69,10 +68,8 @@ std::vector<std::pair<int, int>> SupportingViews(const Curve& curve) {
     for (const EdgeRef& ref : sample.support) ++counts[ref.view_idx];
   }
   std::vector<std::pair<int, int>> views(counts.begin(), counts.end());
-  std::stable_sort(
-      views.begin(), views.end(), [](const auto& a, const auto& b) {
-        return a.second > b.second;
-      });
+  std::ranges::stable_sort(
+      views, [](const auto& a, const auto& b) { return a.second > b.second; });
   return views;
 }
 

@@ -3,6 +3,7 @@
 
 #include <curvix/curve_io.h>
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -28,13 +29,12 @@ constexpr std::string_view kAlignedFrame =
 // Index of the view that curves.svg is to show.
 Result<int> ViewOfSvg(const std::string& image,
                       const std::vector<View>& views) {
-  const auto view =
-      std::find_if(views.begin(), views.end(), [&](const View& candidate) {
-        return image.empty() || candidate.name == image;
-      });
+  const auto view = std::ranges::find_if(views, [&](const View& candidate) {
+    return image.empty() || candidate.name == image;
+  });
   if (view != views.end()) return static_cast<int>(view - views.begin());
-  return Status(StatusCode::kInvalidArgument,
-                "svg_image is " + image + ", which is no image of the model");
+  return Status::InvalidArgument("svg_image is " + image +
+                                 ", which is no image of the model");
 }
 
 Status WriteSvg(const CurveRecord& record,
@@ -46,8 +46,7 @@ Status WriteSvg(const CurveRecord& record,
 }
 
 bool AsksFor(const OutputSettings& settings, const std::string& format) {
-  return std::find(settings.formats.begin(), settings.formats.end(), format) !=
-         settings.formats.end();
+  return std::ranges::find(settings.formats, format) != settings.formats.end();
 }
 
 // A file of what `encode` gives, if all curves can be read.
@@ -145,10 +144,10 @@ Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
   std::vector<std::string> formats;
   for (const std::string_view part : SplitAt(text, ',')) {
     const std::string& name = formats.emplace_back(part);
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      return Status(StatusCode::kInvalidArgument,
-                    "output_formats has \"" + name +
-                        "\"; it takes, with commas between: " + choices);
+    if (std::ranges::find(known, name) == known.end()) {
+      return Status::InvalidArgument(
+          "output_formats has \"" + name +
+          "\"; it takes, with commas between: " + choices);
     }
   }
   return formats;
@@ -158,9 +157,7 @@ Flag FormatsFlag(std::vector<std::string>* formats) {
   Flag flag;
   flag.name = "output_formats";
   flag.help = "files to write, with commas between";
-  for (const std::string& format : *formats) {
-    flag.default_value += (flag.default_value.empty() ? "" : ",") + format;
-  }
+  flag.default_value = boost::algorithm::join(*formats, ",");
   for (const OutputFormat& format : OutputFormats()) {
     flag.range += (flag.range.empty() ? "" : ", ") + std::string(format.name);
   }

@@ -5,7 +5,6 @@
 #include <curvix/status.h>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "plugin/base/command_line.h"

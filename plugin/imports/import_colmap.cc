@@ -11,20 +11,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
 Status CheckSize(const fs::path& file, const Camera& camera) {
+  const ImageSize of_camera = {camera.width, camera.height};
   const Result<ImageSize> size = ReadImageSize(file);
   if (!size.ok()) return size.status();
-  if (*size == ImageSize{camera.width, camera.height}) return {};
-  return {StatusCode::kDataLoss,
-          file.string() + " has " + SizeText(size->width, size->height) +
-              " pixels and its camera " +
-              SizeText(camera.width, camera.height) +
-              "; name the folder of the images that the model was made of with "
-              "--image_path."};
+  if (*size == of_camera) return {};
+  return Status::DataLoss(
+      file.string() + " has " + SizeText(*size) + " pixels and its camera " +
+      SizeText(of_camera) +
+      "; name the folder of the images that the model was made of with "
+      "--image_path.");
 }
 
 }  // namespace

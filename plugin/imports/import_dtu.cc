@@ -2,7 +2,6 @@
 #include "plugin/imports/importers.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -29,7 +28,7 @@ struct DtuView {
 using Projections = std::map<int, Matrix34d>;  // by the number in the name
 
 Status BrokenDtu(const std::string& what) {
-  return {StatusCode::kDataLoss, what + "; download it again."};
+  return Status::DataLoss(what + "; download it again.");
 }
 
 // The number in `name` between `prefix` and `suffix`; nullopt: another name.
@@ -122,12 +121,10 @@ Result<std::map<int, std::string>> NumberedImages(
     if (!number) continue;
     const auto [other, is_new] = numbered.emplace(*number, name);
     if (!is_new) {
-      return Status(StatusCode::kInvalidArgument,
-                    folder.string() + " holds several images number " +
-                        std::to_string(*number) + " (" + other->second + ", " +
-                        name +
-                        "); choose with --image_filter, say "
-                        "--image_filter max.");
+      return Status::InvalidArgument(
+          folder.string() + " holds several images number " +
+          std::to_string(*number) + " (" + other->second + ", " + name +
+          "); choose with --image_filter, say --image_filter max.");
     }
   }
   return numbered;
@@ -163,10 +160,9 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
       Plural(names.size(), "image") + " in " + folder.string() + " and " +
       Plural(projections.size(), "camera");
   if (views.empty()) {
-    return Status(StatusCode::kNotFound,
-                  counts +
-                      ", but no number of a camera is in the name of an "
-                      "image; name their folder with --image_path.");
+    return Status::NotFound(counts +
+                            ", but no number of a camera is in the name of an "
+                            "image; name their folder with --image_path.");
   }
   if (views.size() < std::max(names.size(), projections.size())) {
     notes->push_back(counts + "; " + std::to_string(views.size()) +
@@ -179,45 +175,30 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
 
 // The mean calibration, if all are the same to within 0.02 px.
 std::optional<Eigen::Matrix3d> SharedCalibration(
-    const std::vector<CalibratedPose>& poses) {
+    const std::vector<CalibratedImage>& images) {
   constexpr double kSamePx = 0.02;
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (const CalibratedPose& pose : poses) mean += pose.calibration;
-  mean /= static_cast<double>(poses.size());
-  const bool same = std::all_of(poses.begin(), poses.end(), [&](const auto& p) {
-    return ((p.calibration - mean).array().abs() < kSamePx).all();
+  for (const CalibratedImage& image : images) mean += image.pose.calibration;
+  mean /= static_cast<double>(images.size());
+  const bool same = std::ranges::all_of(images, [&](const auto& image) {
+    return ((image.pose.calibration - mean).array().abs() < kSamePx).all();
   });
   return same ? std::optional(mean) : std::nullopt;
 }
 
-Result<std::vector<CalibratedPose>> Decompose(
+Result<std::vector<CalibratedImage>> Decompose(
     const std::vector<DtuView>& views) {
-  std::vector<CalibratedPose> poses;
+  std::vector<CalibratedImage> images;
   for (const DtuView& view : views) {
     const auto pose = DecomposeProjection(view.projection);
     if (!pose) return BrokenDtu(view.source + " is no projection matrix");
-    poses.push_back(*pose);
+    images.push_back({view.image, *pose, view.source});
   }
-  const std::optional<Eigen::Matrix3d> shared = SharedCalibration(poses);
-  for (std::size_t i = 0; shared && i < poses.size(); ++i) {
-    poses[i] = {*shared, PoseOfProjection(views[i].projection, *shared)};
+  const std::optional<Eigen::Matrix3d> shared = SharedCalibration(images);
+  for (std::size_t i = 0; shared && i < images.size(); ++i) {
+    images[i].pose = {*shared, PoseOfProjection(views[i].projection, *shared)};
   }
-  return poses;
-}
-
-Result<std::vector<ImportedView>> ViewsOf(const std::vector<DtuView>& views,
-                                          const fs::path& folder,
-                                          double first_pixel) {
-  const Result<std::vector<CalibratedPose>> poses = Decompose(views);
-  if (!poses.ok()) return poses.status();
-  std::vector<ImportedView> imported;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    Result<ImportedView> view = CalibratedView(
-        views[i].image, folder, (*poses)[i], first_pixel, views[i].source);
-    if (!view.ok()) return view.status();
-    imported.push_back(*std::move(view));
-  }
-  return imported;
+  return images;
 }
 
 // The folder of the images: the first that holds any.
@@ -261,9 +242,10 @@ Result<ImportedScene> ImportDtu(const ImportOptions& options) {
           ? PairInOrder(projections, names)
           : PairByNumber(projections, names, *folder, &notes);
   if (!pairs.ok()) return pairs.status();
-  const auto views = ViewsOf(*pairs, *folder, options.first_pixel.value_or(0));
-  if (!views.ok()) return views.status();
-  Result<ImportedScene> scene = SceneOfViews(*views, source);
+  const auto images = Decompose(*pairs);
+  if (!images.ok()) return images.status();
+  Result<ImportedScene> scene =
+      SceneOfImages(*images, *folder, options.first_pixel.value_or(0), source);
   if (scene.ok()) scene->notes = std::move(notes);
   return scene;
 }

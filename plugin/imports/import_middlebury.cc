@@ -15,26 +15,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ParLine {
-  std::string name;
-  CalibratedPose pose;
-};
-
 Status BrokenMiddlebury(const fs::path& file,
                         int line,
                         const std::string& why) {
-  return {StatusCode::kDataLoss,
-          file.string() + ", line " + std::to_string(line) + " " + why +
-              "; download it again."};
+  return Status::DataLoss(file.string() + ", line " + std::to_string(line) +
+                          " " + why + "; download it again.");
 }
 
 // `line` counts from 1.
-Result<ParLine> ParseParLine(std::string_view text,
-                             const fs::path& file,
-                             int line) {
+Result<CalibratedImage> ParseParLine(std::string_view text,
+                                     const fs::path& file,
+                                     int line) {
   using Matrix3dRowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  ParLine result;
+  CalibratedImage result;
   result.name = TakeWord(text);
+  result.source = result.name;
   std::array<double, 21> numbers;
   for (double& number : numbers) {
     const auto value = ParseNumber<double>(TakeWord(text));
@@ -56,19 +51,19 @@ Result<ParLine> ParseParLine(std::string_view text,
 }
 
 // The lines after the first, which counts them.
-Result<std::vector<ParLine>> ParsePar(std::string_view text,
-                                      const fs::path& file) {
+Result<std::vector<CalibratedImage>> ParsePar(std::string_view text,
+                                              const fs::path& file) {
   std::string_view first = TakeLine(text);
   const auto count = ParseNumber<int>(TakeWord(first));
   if (!count || *count < 1) {
     return BrokenMiddlebury(file, 1, "is not the number of images");
   }
-  std::vector<ParLine> lines;
+  std::vector<CalibratedImage> lines;
   for (int number = 2; !text.empty(); ++number) {
     const std::string_view line = TakeLine(text);
     std::string_view rest = line;
     if (TakeWord(rest).empty()) continue;
-    Result<ParLine> parsed = ParseParLine(line, file, number);
+    Result<CalibratedImage> parsed = ParseParLine(line, file, number);
     if (!parsed.ok()) return parsed.status();
     lines.push_back(std::move(parsed).value());
   }
@@ -83,19 +78,6 @@ Result<std::vector<ParLine>> ParsePar(std::string_view text,
   return lines;
 }
 
-Result<std::vector<ImportedView>> ViewsOf(const std::vector<ParLine>& lines,
-                                          const fs::path& folder,
-                                          double first_pixel) {
-  std::vector<ImportedView> views;
-  for (const ParLine& line : lines) {
-    Result<ImportedView> view =
-        CalibratedView(line.name, folder, line.pose, first_pixel, line.name);
-    if (!view.ok()) return view.status();
-    views.push_back(*std::move(view));
-  }
-  return views;
-}
-
 }  // namespace
 
 Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
@@ -107,10 +89,10 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   }
   const Result<std::string> text = ReadFile(file);
   if (!text.ok()) return text.status();
-  const Result<std::vector<ParLine>> lines = ParsePar(*text, file);
+  const Result<std::vector<CalibratedImage>> lines = ParsePar(*text, file);
   if (!lines.ok()) return lines.status();
   std::vector<std::string> names;
-  for (const ParLine& line : *lines) {
+  for (const CalibratedImage& line : *lines) {
     Status status = CheckImageName(line.name, file);
     if (!status.ok()) return status;
     names.push_back(line.name);
@@ -121,10 +103,7 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   if (!folder.ok()) return folder.status();
   Status status = CheckImagesExist(names, *folder);
   if (!status.ok()) return status;
-  const Result<std::vector<ImportedView>> views =
-      ViewsOf(*lines, *folder, options.first_pixel.value_or(0));
-  if (!views.ok()) return views.status();
-  return SceneOfViews(*views, file);
+  return SceneOfImages(*lines, *folder, options.first_pixel.value_or(0), file);
 }
 
 }  // namespace curvix

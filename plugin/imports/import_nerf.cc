@@ -2,7 +2,6 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
@@ -23,10 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-Status BrokenTransforms(const std::string& why) {
-  return {StatusCode::kDataLoss, why};
-}
 
 // What a frame says, else what the file says.
 class Fields {
@@ -63,7 +58,7 @@ class Fields {
                             "p2"}) {
       const json* const value = Find(key);
       if (value == nullptr || value->is_number()) continue;
-      return BrokenTransforms(std::string(key) + " is not a number");
+      return Status::DataLoss(std::string(key) + " is not a number");
     }
     return {};
   }
@@ -98,7 +93,7 @@ Result<Camera> Pinhole(const Fields& fields,
   if (const json* const rows = fields.Find("camera_intrinsics")) {
     const auto matrix = ReadMatrix(rows, 3, 3);
     if (!matrix) {
-      return BrokenTransforms("camera_intrinsics is not a 3 x 3 matrix");
+      return Status::DataLoss("camera_intrinsics is not a 3 x 3 matrix");
     }
     return CameraFromCalibration(
         *matrix, image.width, image.height, first_pixel.value_or(0));
@@ -110,7 +105,7 @@ Result<Camera> Pinhole(const Fields& fields,
   };
   const auto fx = focal("fl_x", "camera_angle_x", image.width);
   if (!fx) {
-    return BrokenTransforms(
+    return Status::DataLoss(
         "there is no camera_intrinsics, fl_x or camera_angle_x");
   }
   // Pixels are square unless fl_y, or an angle beside an angle, says otherwise.
@@ -146,9 +141,9 @@ Result<bool> IsFisheye(const Fields& fields) {
                             "FULL_OPENCV"}) {
     if (name == known) return false;
   }
-  return Status(StatusCode::kUnsupported,
-                "camera_model is " + model->dump() +
-                    ", which cannot be imported; undistort the images");
+  return Status::Unsupported(
+      "camera_model is " + model->dump() +
+      ", which cannot be imported; undistort the images");
 }
 
 Status AddDistortion(const Fields& fields, Camera* camera) {
@@ -164,9 +159,9 @@ Status AddDistortion(const Fields& fields, Camera* camera) {
     camera->model = CameraModel::kOpenCVFisheye;
     more = {k1, k2, k3, k4};
   } else if (k4 != 0) {
-    return {StatusCode::kUnsupported,
-            "k4 is not zero, which only fisheye cameras may have; undistort "
-            "the images"};
+    return Status::Unsupported(
+        "k4 is not zero, which only fisheye cameras may have; undistort the "
+        "images");
   } else if (k3 != 0) {
     camera->model = CameraModel::kFullOpenCV;
     more = {k1, k2, p1, p2, k3, 0, 0, 0};
@@ -190,9 +185,8 @@ Result<Camera> NerfCamera(const json& frame,
   const double width = fields.Number("w").value_or(image.width);
   const double height = fields.Number("h").value_or(image.height);
   if (width != image.width || height != image.height) {
-    return BrokenTransforms("w and h are not the size of the image, " +
-                            std::to_string(image.width) + " x " +
-                            std::to_string(image.height) +
+    return Status::DataLoss("w and h are not the size of the image, " +
+                            SizeText(image) +
                             "; take the images that the cameras were made for");
   }
   Result<Camera> camera = Pinhole(fields, image, first_pixel);
@@ -201,7 +195,7 @@ Result<Camera> NerfCamera(const json& frame,
   camera->height = image.height;
   if (Status s = AddDistortion(fields, &*camera); !s.ok()) return s;
   const Status status = Validate(*camera);
-  if (!status.ok()) return BrokenTransforms(status.message());
+  if (!status.ok()) return Status::DataLoss(status.message());
   return camera;
 }
 
@@ -212,17 +206,17 @@ Result<Rigid3> NerfPose(const json& frame) {
   const json* const rows = found == frame.end() ? nullptr : &*found;
   const auto matrix = ReadMatrix(rows, 3, 4);
   if (!matrix) {
-    return BrokenTransforms("transform_matrix is not a 4 x 4 matrix");
+    return Status::DataLoss("transform_matrix is not a 4 x 4 matrix");
   }
   const auto bottom = rows->size() > 3 ? ReadMatrix(rows, 4, 4) : std::nullopt;
   if (rows->size() > 3 &&
       (!bottom || bottom->row(3) != Eigen::RowVector4d(0, 0, 0, 1))) {
-    return BrokenTransforms("transform_matrix does not end in the row 0 0 0 1");
+    return Status::DataLoss("transform_matrix does not end in the row 0 0 0 1");
   }
   Eigen::Matrix3d axes = matrix->leftCols<3>();
   axes.rightCols<2>() *= -1;  // OpenGL's y and z
   const auto rotation = RotationFromMatrix(axes);
-  if (!rotation) return BrokenTransforms("transform_matrix holds no rotation");
+  if (!rotation) return Status::DataLoss("transform_matrix holds no rotation");
   return Rigid3{*rotation, matrix->col(3)}.Inverse();
 }
 
@@ -231,29 +225,27 @@ Result<json> ReadTransforms(const fs::path& file) {
   if (!text.ok()) return text.status();
   json document = json::parse(*text, nullptr, false);
   if (!document.is_object()) {
-    return Status(StatusCode::kDataLoss,
-                  file.string() +
-                      " is not JSON that can be read (NaN and "
-                      "Infinity are not JSON); export it again.");
+    return Status::DataLoss(file.string() +
+                            " is not JSON that can be read (NaN and Infinity "
+                            "are not JSON); export it again.");
   }
   const auto frames = document.find("frames");
-  const bool usable =
-      frames != document.end() && frames->is_array() &&
-      std::all_of(frames->begin(), frames->end(), [](const json& frame) {
-        return frame.is_object() && frame.contains("file_path") &&
-               frame["file_path"].is_string();
-      });
+  const bool usable = frames != document.end() && frames->is_array() &&
+                      std::ranges::all_of(*frames, [](const json& frame) {
+                        return frame.is_object() &&
+                               frame.contains("file_path") &&
+                               frame["file_path"].is_string();
+                      });
   if (usable) return document;
-  return Status(StatusCode::kDataLoss,
-                file.string() +
-                    " has no list of frames that each have a "
-                    "file_path; export it again.");
+  return Status::DataLoss(
+      file.string() +
+      " has no list of frames that each have a file_path; export it again.");
 }
 
 // The frame's file_path with '/' between folders, without "./".
 std::string FilePathOf(const json& frame) {
   std::string text = frame["file_path"].get<std::string>();
-  std::replace(text.begin(), text.end(), '\\', '/');
+  std::ranges::replace(text, '\\', '/');
   return fs::path(text).lexically_normal().generic_string();
 }
 
@@ -297,12 +289,10 @@ Result<std::vector<std::string>> FindNames(const json& frames,
     names.push_back(std::move(name));
   }
   if (missing.empty()) return names;
-  return Status(StatusCode::kNotFound,
-                std::to_string(missing.size()) + " of " +
-                    Plural(names.size(), "image") +
-                    OneOrMore(missing.size(), " is", " are") + " not in " +
-                    root.string() + " (" + FirstNames(missing) +
-                    "); name their folder with --image_path.");
+  return Status::NotFound(
+      std::to_string(missing.size()) + " of " + Plural(names.size(), "image") +
+      OneOrMore(missing.size(), " is", " are") + " not in " + root.string() +
+      " (" + FirstNames(missing) + "); name their folder with --image_path.");
 }
 
 Result<ImportedView> ViewOf(const json& frame,

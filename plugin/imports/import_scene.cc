@@ -42,36 +42,32 @@ bool IsImageName(const std::string& name) {
   for (char& c : extension) {
     c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) !=
-         kExtensions.end();
+  return std::ranges::find(kExtensions, extension) != kExtensions.end();
+}
+
+Result<ImportedView> CalibratedView(const CalibratedImage& image,
+                                    const fs::path& folder,
+                                    double first_pixel) {
+  const fs::path file = folder / image.name;
+  const Result<ImageSize> size = ReadImageSize(file);
+  if (!size.ok()) return size.status();
+  const Result<Camera> camera = CameraFromCalibration(
+      image.pose.calibration, size->width, size->height, first_pixel);
+  if (!camera.ok()) {
+    return Status(camera.status().code(),
+                  image.source + ": " + camera.status().message());
+  }
+  return ImportedView{image.name, file, *camera, image.pose.cam_from_world};
 }
 
 }  // namespace
 
-Result<ImportedView> CalibratedView(const std::string& name,
-                                    const fs::path& folder,
-                                    const CalibratedPose& pose,
-                                    double first_pixel,
-                                    const std::string& source) {
-  const fs::path file = folder / name;
-  const Result<ImageSize> size = ReadImageSize(file);
-  if (!size.ok()) return size.status();
-  const Result<Camera> camera = CameraFromCalibration(
-      pose.calibration, size->width, size->height, first_pixel);
-  if (!camera.ok()) {
-    return Status(camera.status().code(),
-                  source + ": " + camera.status().message());
-  }
-  return ImportedView{name, file, *camera, pose.cam_from_world};
-}
-
 Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
                                    const fs::path& source) {
   if (views.empty()) {
-    return Status(StatusCode::kDataLoss,
-                  source.string() +
-                      " describes no images; name the file that "
-                      "holds the cameras with --input_path.");
+    return Status::DataLoss(source.string() +
+                            " describes no images; name the file that holds "
+                            "the cameras with --input_path.");
   }
   ImportedScene scene;
   for (const ImportedView& view : views) {
@@ -93,16 +89,28 @@ Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
   return scene;
 }
 
+Result<ImportedScene> SceneOfImages(const std::vector<CalibratedImage>& images,
+                                    const fs::path& folder,
+                                    double first_pixel,
+                                    const fs::path& source) {
+  std::vector<ImportedView> views;
+  for (const CalibratedImage& image : images) {
+    Result<ImportedView> view = CalibratedView(image, folder, first_pixel);
+    if (!view.ok()) return view.status();
+    views.push_back(*std::move(view));
+  }
+  return SceneOfViews(views, source);
+}
+
 Status CheckImageName(const std::string& name, const fs::path& source) {
-  const bool has_control = std::any_of(name.begin(), name.end(), [](char c) {
+  const bool has_control = std::ranges::any_of(name, [](char c) {
     return std::iscntrl(static_cast<unsigned char>(c)) != 0;
   });
   if (!has_control && !LeavesImageFolder(name)) return {};
-  return {StatusCode::kDataLoss,
-          source.string() + " names an image \"" +
-              (has_control ? "with control characters" : name) +
-              "\", but names must be relative to the image folder and stay in "
-              "it; correct the name."};
+  return Status::DataLoss(source.string() + " names an image \"" +
+                          (has_control ? "with control characters" : name) +
+                          "\", but names must be relative to the image folder "
+                          "and stay in it; correct the name.");
 }
 
 Status CheckImagesExist(const std::vector<std::string>& names,
@@ -112,12 +120,11 @@ Status CheckImagesExist(const std::vector<std::string>& names,
     if (!IsFile(ImageFile(folder, name))) missing.push_back(name);
   }
   if (missing.empty()) return {};
-  return {
-      StatusCode::kNotFound,
+  return Status::NotFound(
       std::to_string(missing.size()) + " of " + Plural(names.size(), "image") +
-          OneOrMore(missing.size(), " is", " are") + " not in " +
-          folder.string() + " (" + FirstNames(missing) +
-          "); name their folder with --image_path, or remove their cameras."};
+      OneOrMore(missing.size(), " is", " are") + " not in " + folder.string() +
+      " (" + FirstNames(missing) +
+      "); name their folder with --image_path, or remove their cameras.");
 }
 
 Result<fs::path> FindImageFolder(const fs::path& image_path,
@@ -126,9 +133,8 @@ Result<fs::path> FindImageFolder(const fs::path& image_path,
   std::error_code error;
   if (!image_path.empty()) {
     if (fs::is_directory(image_path, error)) return image_path;
-    return Status(StatusCode::kNotFound,
-                  "--image_path " + image_path.string() +
-                      " is not a folder; name the folder of the images.");
+    return Status::NotFound("--image_path " + image_path.string() +
+                            " is not a folder; name the folder of the images.");
   }
   // Files that are named without a folder are in the current one.
   const auto folder = [](const fs::path& place) {
@@ -166,13 +172,12 @@ Result<fs::path> OnlyFile(const fs::path& folder,
   });
   if (names.size() == 1) return folder / names.front();
   const std::string pattern = prefix + "*" + suffix;
-  return Status(StatusCode::kNotFound,
-                names.empty()
-                    ? folder.string() + " holds no " + pattern +
-                          "; name the file of the cameras with --input_path."
-                    : folder.string() + " holds several files " + pattern +
-                          " (" + FirstNames(names) +
-                          "); name one of them with --input_path.");
+  return Status::NotFound(
+      names.empty()
+          ? folder.string() + " holds no " + pattern +
+                "; name the file of the cameras with --input_path."
+          : folder.string() + " holds several files " + pattern + " (" +
+                FirstNames(names) + "); name one of them with --input_path.");
 }
 
 }  // namespace curvix

@@ -42,15 +42,12 @@ struct ImportedView {
   Rigid3 cam_from_world;
 };
 
-// The view of the image `name` in `folder`, which must be there to tell its
-// size. `pose` counts the centre of the first pixel as (first_pixel,
-// first_pixel). Errors of ReadImageSize and, with `source` before them, of
-// CameraFromCalibration.
-Result<ImportedView> CalibratedView(const std::string& name,
-                                    const std::filesystem::path& folder,
-                                    const CalibratedPose& pose,
-                                    double first_pixel,
-                                    const std::string& source);
+// An image with what a calibration says of it.
+struct CalibratedImage {
+  std::string name;
+  CalibratedPose pose;
+  std::string source;  // what errors call it
+};
 
 // The views as a model: ids from 1 in the order of `views`, one camera for all
 // views whose cameras are the same number for number. kDataLoss, calling the
@@ -58,6 +55,14 @@ Result<ImportedView> CalibratedView(const std::string& name,
 // cannot be used.
 Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
                                    const std::filesystem::path& source);
+
+// The same of images in `folder`, whose poses count the centre of the first
+// pixel as (first_pixel, first_pixel). Errors, too, of ReadImageSize and
+// CameraFromCalibration.
+Result<ImportedScene> SceneOfImages(const std::vector<CalibratedImage>& images,
+                                    const std::filesystem::path& folder,
+                                    double first_pixel,
+                                    const std::filesystem::path& source);
 
 // kDataLoss if the name of an image may lead out of its folder, or holds
 // control characters, which a model cannot keep.

@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Status CannotWrite(const fs::path& path, const std::error_code& error) {
-  return {StatusCode::kInvalidArgument,
-          "cannot write " + path.string() + " (" + error.message() + ")."};
+  return Status::InvalidArgument("cannot write " + path.string() + " (" +
+                                 error.message() + ").");
 }
 
 bool AreInPlace(const ColmapModel& model,
@@ -63,10 +63,10 @@ Status CheckUnused(const fs::path& path) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(path, error))) return {};
   if (fs::is_directory(path, error) && fs::is_empty(path, error)) return {};
-  return {StatusCode::kInvalidArgument,
-          path.string() +
-              " is there already and would be overwritten; name another "
-              "--workspace_path or remove it first."};
+  return Status::InvalidArgument(
+      path.string() +
+      " is there already and would be overwritten; name another "
+      "--workspace_path or remove it first.");
 }
 
 Status CheckWorkspaceUnused(const fs::path& workspace) {

@@ -3,7 +3,6 @@
 
 #include <zip.h>
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -20,8 +19,8 @@ namespace curvix {
 namespace {
 
 Status BrokenNpy(const std::string& name, const std::string& why) {
-  return {StatusCode::kDataLoss,
-          name + " " + why + "; save it again with numpy.save or numpy.savez."};
+  return Status::DataLoss(name + " " + why +
+                          "; save it again with numpy.save or numpy.savez.");
 }
 
 // What the header says, a Python dictionary:
@@ -144,10 +143,9 @@ Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
   const std::string& type = header->descr;
   const bool is_double = type == "<f8" || type == ">f8";
   if (!is_double && type != "<f4" && type != ">f4") {
-    return Status(StatusCode::kUnsupported,
-                  name + " holds values of the type " + type +
-                      " and must hold float32 or float64; convert it with "
-                      "numpy's astype.");
+    return Status::Unsupported(
+        name + " holds values of the type " + type +
+        " and must hold float32 or float64; convert it with numpy's astype.");
   }
   const std::size_t size = is_double ? sizeof(double) : sizeof(float);
   const std::optional<std::size_t> count =
@@ -195,16 +193,16 @@ using Archive = std::unique_ptr<zip_t, Closer>;
 using ArchiveFile = std::unique_ptr<zip_file_t, Closer>;
 
 Status BrokenArchive(const std::string& name, const std::string& why) {
-  return {StatusCode::kDataLoss,
-          name + " " + why +
-              "; copy or download it again, it must be a .npz file."};
+  return Status::DataLoss(
+      name + " " + why +
+      "; copy or download it again, it must be a .npz file.");
 }
 
 Result<Archive> OpenArchive(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    return Status(StatusCode::kNotFound,
-                  path.string() + " is not a file; name a .npz file.");
+    return Status::NotFound(path.string() +
+                            " is not a file; name a .npz file.");
   }
   int code = 0;
   Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));

@@ -91,15 +91,14 @@ Result<Camera> CameraFromCalibration(const Eigen::Matrix3d& calibration,
   constexpr double kMaxSkewPx = 0.05;
   const Eigen::Matrix3d k = calibration / calibration(2, 2);
   if (!k.allFinite() || k(1, 0) != 0 || k(2, 0) != 0 || k(2, 1) != 0) {
-    return Status(StatusCode::kDataLoss,
-                  "the calibration matrix is not upper triangular and finite");
+    return Status::DataLoss(
+        "the calibration matrix is not upper triangular and finite");
   }
   const double skew_px = std::abs(k(0, 1) / k(1, 1)) * height / 2;
   if (!(skew_px <= kMaxSkewPx)) {
-    return Status(StatusCode::kUnsupported,
-                  "the calibration matrix has skew, " +
-                      std::to_string(skew_px) +
-                      " px at the border, and COLMAP's cameras have none");
+    return Status::Unsupported(
+        "the calibration matrix has skew, " + std::to_string(skew_px) +
+        " px at the border, and COLMAP's cameras have none");
   }
   const double shift = 0.5 - first_pixel;
   Camera camera;
@@ -107,7 +106,7 @@ Result<Camera> CameraFromCalibration(const Eigen::Matrix3d& calibration,
   camera.height = height;
   camera.params = {k(0, 0), k(1, 1), k(0, 2) + shift, k(1, 2) + shift};
   const Status status = Validate(camera);
-  if (!status.ok()) return Status(StatusCode::kDataLoss, status.message());
+  if (!status.ok()) return Status::DataLoss(status.message());
   return camera;
 }
 

@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "base/file_io.h"
@@ -30,12 +29,11 @@ namespace fs = std::filesystem;
 constexpr double kMaxLength = 1e30;
 
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {
-  return std::any_of(
-      scene.views.begin(), scene.views.end(), [&](const View& view) {
-        return ProjectPoint(
-                   (line.start + line.end) / 2, view, CameraOf(scene, view))
-            .has_value();
-      });
+  return std::ranges::any_of(scene.views, [&](const View& view) {
+    return ProjectPoint(
+               (line.start + line.end) / 2, view, CameraOf(scene, view))
+        .has_value();
+  });
 }
 
 // Where the view, which sees it, sees the sample, and in which direction.
@@ -63,7 +61,7 @@ Curve CurveOf(const ImportedLine& line,
     const auto view = view_of_image.find(image_id);
     if (view != view_of_image.end()) views.push_back(view->second);
   }
-  std::sort(views.begin(), views.end());
+  std::ranges::sort(views);
   views.erase(std::unique(views.begin(), views.end()), views.end());
   Curve curve;
   for (const Eigen::Vector3d& position : {line.start, line.end}) {
@@ -129,12 +127,10 @@ class Words {
   void Fail(const std::string& what) {
     if (!ok()) return;
     const std::string_view read = text_.substr(0, text_.size() - rest_.size());
-    const auto line = 1 + std::count(read.begin(), read.end(), '\n');
-    status_ = {StatusCode::kDataLoss,
-               path_.string() + ", line " + std::to_string(line) + ", lacks " +
-                   what +
-                   "; write the file again, or name the right one with "
-                   "--input_path."};
+    const auto line = 1 + std::ranges::count(read, '\n');
+    status_ = Status::DataLoss(
+        path_.string() + ", line " + std::to_string(line) + ", lacks " + what +
+        "; write the file again, or name the right one with --input_path.");
   }
 
   fs::path path_;
@@ -146,10 +142,9 @@ class Words {
 // The lines of a file, at least one.
 Result<Lines> SomeLines(const fs::path& path, Lines lines) {
   if (!lines.empty()) return lines;
-  return Status(StatusCode::kUnsupported,
-                path.string() +
-                    " holds no lines; name the right file with "
-                    "--input_path.");
+  return Status::Unsupported(
+      path.string() +
+      " holds no lines; name the right file with --input_path.");
 }
 
 // What `read` finds in a file, at least one line.
@@ -246,7 +241,7 @@ void ReadTrack(Words& words, Lines& lines) {
 std::size_t CountTracks(const fs::path& folder) {
   const std::vector<std::string> names = FileNames(folder);
   return static_cast<std::size_t>(
-      std::count_if(names.begin(), names.end(), [](const std::string& name) {
+      std::ranges::count_if(names, [](const std::string& name) {
         return name.starts_with("track_") && name.ends_with(".txt");
       }));
 }
@@ -268,11 +263,9 @@ Result<Lines> ReadLine3dppLines(const fs::path& path) {
   if (IsFolder(path)) {
     const Result<fs::path> file = OnlyFile(path, "Line3D++", ".txt");
     if (file.ok()) return ReadLine3dppLines(*file);
-    return Status(StatusCode::kNotFound,
-                  path.string() +
-                      " does not hold just one Line3D++*.txt; name "
-                      "the .txt or .obj of Line3D++ with "
-                      "--input_path.");
+    return Status::NotFound(path.string() +
+                            " does not hold just one Line3D++*.txt; name the "
+                            ".txt or .obj of Line3D++ with --input_path.");
   }
   if (path.extension() == ".obj") return ReadObj(path);
   return ReadWords(path, ReadLine3dppRows);
@@ -290,25 +283,23 @@ Result<Lines> ReadLimapLines(const fs::path& path) {
   }
   const fs::path all = path / "alltracks.txt";
   if (IsFile(all)) return ReadWords(all, ReadAllTracks);
-  return Status(StatusCode::kNotFound,
-                path.string() +
-                    " holds no finaltracks/, track_<i>.txt or "
-                    "alltracks.txt; name the output folder of "
-                    "LIMAP with --input_path.");
+  return Status::NotFound(
+      path.string() +
+      " holds no finaltracks/, track_<i>.txt or alltracks.txt; name the output "
+      "folder of LIMAP with --input_path.");
 }
 
 Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
                                  const Scene& scene) {
   LineCurves result;
-  result.num_seen = static_cast<int>(
-      std::count_if(lines.begin(), lines.end(), [&](const ImportedLine& line) {
-        return IsSeenBySome(line, scene);
-      }));
+  result.num_seen = static_cast<int>(std::ranges::count_if(
+      lines,
+      [&](const ImportedLine& line) { return IsSeenBySome(line, scene); }));
   if (result.num_seen == 0) {
-    return Status(StatusCode::kInvalidArgument,
-                  "no image of the model sees any of the lines: they are of "
-                  "another world; name the workspace that they were made of "
-                  "with --workspace_path");
+    return Status::InvalidArgument(
+        "no image of the model sees any of the lines: they are of another "
+        "world; name the workspace that they were made of with "
+        "--workspace_path");
   }
   std::map<std::uint32_t, std::int32_t> view_of_image;
   for (const View& view : scene.views) {

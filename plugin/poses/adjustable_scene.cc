@@ -63,7 +63,7 @@ Scene AdjustableScene(const ColmapModel& model) {
     const std::vector<std::string> weak = WeakViews(scene);
     if (weak.empty()) return scene;
     left_out.insert(left_out.end(), weak.begin(), weak.end());
-    std::sort(left_out.begin(), left_out.end());
+    std::ranges::sort(left_out);
   }
 }
 

@@ -34,7 +34,7 @@ std::vector<std::string> Environment(const std::vector<std::string>& changes) {
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string variable = *entry;
     const std::string name = variable.substr(0, variable.find('=') + 1);
-    if (std::none_of(changes.begin(), changes.end(), [&](const auto& change) {
+    if (std::ranges::none_of(changes, [&](const auto& change) {
           return change.starts_with(name);
         })) {
       variables.push_back(variable);
@@ -163,9 +163,9 @@ Result<ChildEnd> RunChildProcess(const ChildProcess& child) {
   pid_t pid = 0;
   const int error = Start(child, &pid);
   if (error != 0) {
-    return Status(StatusCode::kExternalTool,
-                  "cannot start " + child.program.string() + " (" +
-                      std::generic_category().message(error) + ")");
+    return Status::ExternalTool("cannot start " + child.program.string() +
+                                " (" + std::generic_category().message(error) +
+                                ")");
   }
   ChildEnd end{Wait(pid, child), 0};
   // Before the child is reaped: until then its number is that of no other

@@ -44,10 +44,9 @@ class ScratchFolder {
     const fs::path parent = fs::temp_directory_path(error);
     std::string name = (parent / "colmap_curvix-XXXXXX").string();
     if (!error && mkdtemp(name.data()) != nullptr) return fs::path(name);
-    return Status(StatusCode::kInvalidArgument,
-                  "cannot make a temporary folder in " + parent.string() +
-                      "; let TMPDIR name one with room, or use "
-                      "--refiner none");
+    return Status::InvalidArgument(
+        "cannot make a temporary folder in " + parent.string() +
+        "; let TMPDIR name one with room, or use --refiner none");
   }
   explicit ScratchFolder(fs::path path) : path_(std::move(path)) {}
   ~ScratchFolder() {
@@ -62,10 +61,6 @@ class ScratchFolder {
  private:
   fs::path path_;
 };
-
-Status ToolFailure(const std::string& sentence) {
-  return {StatusCode::kExternalTool, sentence};
-}
 
 // COLMAP squares the errors: observations that are this many times the median
 // off would pull at the poses.
@@ -107,7 +102,8 @@ ColmapModel ModelForColmap(Scene scene) {
 
 // `scene` with what COLMAP made of it; points that it dropped stay.
 Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
-  if (!FindColmapFormat(folder).ok()) return ToolFailure("it wrote no model");
+  if (!FindColmapFormat(folder).ok())
+    return Status::ExternalTool("it wrote no model");
   const Result<ColmapModel> model = ReadColmapModel(folder);
   if (!model.ok()) {
     // The folder is gone when this is read.
@@ -116,7 +112,8 @@ Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
     for (std::size_t at; (at = reason.find(path)) != std::string::npos;) {
       reason.erase(at, path.size());
     }
-    return ToolFailure("it wrote a model that cannot be read: " + reason);
+    return Status::ExternalTool("it wrote a model that cannot be read: " +
+                                reason);
   }
   bool same = model->images.size() == scene.views.size() &&
               model->cameras.size() == scene.cameras.size();
@@ -136,7 +133,8 @@ Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
     camera.params = item.camera.params;
   }
   if (!same) {
-    return ToolFailure("its model has other images or cameras than it got");
+    return Status::ExternalTool(
+        "its model has other images or cameras than it got");
   }
   for (const ColmapPoint3D& point : model->points) {
     if (point.point3D_id == 0 || point.point3D_id > scene.points.size()) {
@@ -178,15 +176,18 @@ Status CheckEnd(const ChildEnd& end, double timeout_s) {
     case ChildEnd::Kind::kStopped:
       return CancelledStatus();
     case ChildEnd::Kind::kTimedOut:
-      return ToolFailure("it was not done after " + DurationText(timeout_s) +
-                         " (--refiner_timeout_s)");
+      return Status::ExternalTool("it was not done after " +
+                                  DurationText(timeout_s) +
+                                  " (--refiner_timeout_s)");
     case ChildEnd::Kind::kKilled:
-      return ToolFailure("it was ended by signal " + std::to_string(end.code));
+      return Status::ExternalTool("it was ended by signal " +
+                                  std::to_string(end.code));
     case ChildEnd::Kind::kExited:
       break;
   }
   if (end.code == 0) return {};
-  return ToolFailure("it ended with exit code " + std::to_string(end.code));
+  return Status::ExternalTool("it ended with exit code " +
+                              std::to_string(end.code));
 }
 
 // What COLMAP prints when it is called with `arguments`, which ask for help.
@@ -208,8 +209,8 @@ Result<std::string> HelpText(const std::vector<std::string>& arguments,
   if (!end.ok()) return end.status();
   if (end->kind == ChildEnd::Kind::kStopped) return CancelledStatus();
   if (end->kind == ChildEnd::Kind::kTimedOut) {
-    return ToolFailure("its help was not done after " +
-                       DurationText(timeout_s));
+    return Status::ExternalTool("its help was not done after " +
+                                DurationText(timeout_s));
   }
   constexpr std::size_t kMaxHelpBytes = 100000;
   return BeginningOf(text_path, kMaxHelpBytes);
@@ -253,9 +254,8 @@ std::vector<std::string> BundleAdjusterArguments(
 Result<fs::path> FindColmap(const fs::path& given) {
   if (!given.empty()) {
     if (IsProgram(given)) return fs::absolute(given);
-    return Status(StatusCode::kNotFound,
-                  "--colmap_path " + given.string() + " is not a program; " +
-                      kHowToInstall);
+    return Status::NotFound("--colmap_path " + given.string() +
+                            " is not a program; " + kHowToInstall);
   }
   if (const char* const folder = std::getenv("COLMAP_EXE_PATH")) {
     fs::path program = fs::absolute(fs::path(folder) / "colmap");
@@ -263,8 +263,8 @@ Result<fs::path> FindColmap(const fs::path& given) {
   }
   fs::path program = FindInPath("colmap");
   if (!program.empty()) return program;
-  return Status(StatusCode::kNotFound,
-                std::string("COLMAP is not installed; ") + kHowToInstall);
+  return Status::NotFound(std::string("COLMAP is not installed; ") +
+                          kHowToInstall);
 }
 
 Result<std::string> ColmapVersion(const ColmapRun& run,
@@ -315,8 +315,8 @@ Result<Scene> RefineWithColmap(const Scene& scene,
   if (ended.code() == StatusCode::kExternalTool) {
     const std::string model = UnknownModel(scene, run.log_path);
     if (!model.empty()) {
-      return ToolFailure("it does not know the camera model " + model +
-                         "; a newer COLMAP may");
+      return Status::ExternalTool("it does not know the camera model " + model +
+                                  "; a newer COLMAP may");
     }
   }
   if (!ended.ok()) return ended;

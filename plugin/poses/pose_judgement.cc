@@ -87,7 +87,7 @@ void MeasureMoves(const Scene& before,
     judgement->max_turn_deg = std::max(judgement->max_turn_deg, RadToDeg(turn));
   }
   const std::vector<double> shifts = Shifts(before, after);
-  const auto largest = std::max_element(shifts.begin(), shifts.end());
+  const auto largest = std::ranges::max_element(shifts);
   judgement->max_shift_px = *largest;
   judgement->max_shift_view_idx =
       static_cast<std::size_t>(largest - shifts.begin());

@@ -38,10 +38,9 @@ void Write(const PythonCurves& curves,
   const bool needs_scene = format == "json" || format == "html" ||
                            format == "svg" || format == "colmap";
   if (needs_scene && curves.scene() == nullptr) {
-    Raise({StatusCode::kInvalidArgument,
-           "format '" + format +
-               "' shows the curves with their views; read them with "
-               "pycurvix.read(path, scene)"});
+    Raise(Status::InvalidArgument("format '" + format +
+                                  "' shows the curves with their views; read "
+                                  "them with pycurvix.read(path, scene)"));
   }
   Check(WithoutLock([&] {
     const Scene none;

@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 #include <array>
 #include <mutex>
-#include <type_traits>
 #include <utility>
 
 #include "geometry/camera_of.h"
@@ -76,8 +75,8 @@ std::vector<double> LengthsOf(const PythonCurves& curves) {
 
 const View& ViewAt(const Scene& scene, std::size_t view_idx) {
   if (view_idx >= scene.views.size()) {
-    Raise({StatusCode::kInvalidArgument,
-           "there is no view " + std::to_string(view_idx)});
+    Raise(Status::InvalidArgument("there is no view " +
+                                  std::to_string(view_idx)));
   }
   return scene.views[view_idx];
 }
@@ -112,8 +111,7 @@ std::unique_ptr<PythonCurves> Select(const PythonCurves& curves,
                                      const std::vector<std::size_t>& ids) {
   for (const std::size_t id : ids) {
     if (id >= curves.table().size()) {
-      Raise({StatusCode::kInvalidArgument,
-             "there is no curve " + std::to_string(id)});
+      Raise(Status::InvalidArgument("there is no curve " + std::to_string(id)));
     }
   }
   return WithoutLock([&] { return curves.Select(ids); });
@@ -123,32 +121,27 @@ using Class = py::class_<PythonCurves>;
 
 void BindColumns(Class& curves) {
   using C = CurveColumns;
-  curves
-      .def_property_readonly("offsets",
-                             ViewerOf<std::int64_t>(&C::sample_offsets))
-      .def_property_readonly("closed", ViewerOf<bool>(&C::closed))
-      .def_property_readonly("start_junction",
-                             ViewerOf<std::int32_t>(&C::start_junction))
-      .def_property_readonly("end_junction",
-                             ViewerOf<std::int32_t>(&C::end_junction))
-      .def_property_readonly("positions", ViewerOf<double>(&C::positions, {3}))
-      .def_property_readonly("tangents", ViewerOf<double>(&C::tangents, {3}))
-      .def_property_readonly("covariances",
-                             ViewerOf<double>(&C::covariances, {3, 3}))
-      .def_property_readonly("sigmas", ViewerOf<double>(&C::sigmas))
-      .def_property_readonly("evidence", ViewerOf<double>(&C::evidence))
-      .def_property_readonly("kinds", ViewerOf<std::uint8_t>(&C::kinds))
-      .def_property_readonly("kind_probabilities",
-                             ViewerOf<float>(&C::kind_probabilities))
-      .def_property_readonly("support_offsets",
-                             ViewerOf<std::int64_t>(&C::support_offsets))
-      .def_property_readonly("support",
-                             ViewerOf<std::int32_t>(&C::support, {2}))
-      .def_property_readonly("junctions", [](const py::object& self) {
-        const auto& junctions =
-            self.cast<const PythonCurves&>().table().junctions();
-        return ViewOf<double>(self, junctions, {3});
-      });
+  const auto add = [&](const char* name, const auto& column) {
+    curves.def_property_readonly(name, column);
+  };
+  add("offsets", ViewerOf<std::int64_t>(&C::sample_offsets));
+  add("closed", ViewerOf<bool>(&C::closed));
+  add("start_junction", ViewerOf<std::int32_t>(&C::start_junction));
+  add("end_junction", ViewerOf<std::int32_t>(&C::end_junction));
+  add("positions", ViewerOf<double>(&C::positions, {3}));
+  add("tangents", ViewerOf<double>(&C::tangents, {3}));
+  add("covariances", ViewerOf<double>(&C::covariances, {3, 3}));
+  add("sigmas", ViewerOf<double>(&C::sigmas));
+  add("evidence", ViewerOf<double>(&C::evidence));
+  add("kinds", ViewerOf<std::uint8_t>(&C::kinds));
+  add("kind_probabilities", ViewerOf<float>(&C::kind_probabilities));
+  add("support_offsets", ViewerOf<std::int64_t>(&C::support_offsets));
+  add("support", ViewerOf<std::int32_t>(&C::support, {2}));
+  add("junctions", [](const py::object& self) {
+    const auto& junctions =
+        self.cast<const PythonCurves&>().table().junctions();
+    return ViewOf<double>(self, junctions, {3});
+  });
 }
 
 // Tells NumPy, which takes long to import, of the rows when they are asked for.
@@ -187,21 +180,18 @@ void DescribeFitRows() {
 
 void BindFits(Class& curves) {
   using F = FitTable;
-  curves
-      .def_property_readonly("fits",
-                             [](const py::object& self) {
-                               DescribeFitRows();
-                               return FitViewerOf<FitRow>(&F::rows)(self);
-                             })
-      .def_property_readonly("fit_offsets",
-                             FitViewerOf<std::int64_t>(&F::fit_offsets))
-      .def_property_readonly("spline_points",
-                             FitViewerOf<double>(&F::spline_points, {3}))
-      .def_property_readonly("spline_knots",
-                             FitViewerOf<double>(&F::spline_knots))
-      .def_property_readonly("nodes", FitViewerOf<double>(&F::nodes, {3}))
-      .def_property_readonly("node_covariances",
-                             FitViewerOf<double>(&F::node_covariances, {3, 3}));
+  const auto add = [&](const char* name, const auto& column) {
+    curves.def_property_readonly(name, column);
+  };
+  add("fits", [](const py::object& self) {
+    DescribeFitRows();
+    return FitViewerOf<FitRow>(&F::rows)(self);
+  });
+  add("fit_offsets", FitViewerOf<std::int64_t>(&F::fit_offsets));
+  add("spline_points", FitViewerOf<double>(&F::spline_points, {3}));
+  add("spline_knots", FitViewerOf<double>(&F::spline_knots));
+  add("nodes", FitViewerOf<double>(&F::nodes, {3}));
+  add("node_covariances", FitViewerOf<double>(&F::node_covariances, {3, 3}));
 }
 
 }  // namespace

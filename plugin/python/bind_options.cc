@@ -22,10 +22,8 @@ std::vector<Flag> FlagsOf(RunSettings& settings) {
   const std::vector<Flag> paths = PathsSection(&settings).flags;
   for (FlagSection& section : ReconstructSections(&settings)) {
     for (Flag& flag : section.flags) {
-      const bool is_path =
-          std::any_of(paths.begin(), paths.end(), [&](const Flag& path) {
-            return path.name == flag.name;
-          });
+      const bool is_path = std::ranges::any_of(
+          paths, [&](const Flag& path) { return path.name == flag.name; });
       if (!is_path) flags.push_back(std::move(flag));
     }
   }
@@ -39,10 +37,10 @@ Flag FlagNamed(const std::string& name, RunSettings& settings) {
     names.push_back(flag.name);
   }
   const std::string nearest = NearestName(name, names);
-  Raise({StatusCode::kInvalidArgument,
-         "There is no option '" + name + "'" +
-             (nearest.empty() ? "; list(pycurvix.Options()) has all"
-                              : "; did you mean '" + nearest + "'?")});
+  Raise(Status::InvalidArgument("There is no option '" + name + "'" +
+                                (nearest.empty()
+                                     ? "; list(pycurvix.Options()) has all"
+                                     : "; did you mean '" + nearest + "'?")));
 }
 
 py::object ValueOf(const Flag& flag) {

@@ -52,7 +52,7 @@ ImageInMemory ImageOf(const py::array& array) {
 }
 
 [[noreturn]] void RaiseArgument(const std::string& sentence) {
-  Raise({StatusCode::kInvalidArgument, sentence});
+  Raise(Status::InvalidArgument(sentence));
 }
 
 Camera MakeCamera(const std::string& model_name,
@@ -61,8 +61,7 @@ Camera MakeCamera(const std::string& model_name,
                   std::vector<double> params) {
   const auto model = ModelFromName(model_name);
   if (!model) {
-    Raise({StatusCode::kUnsupported,
-           "there is no camera model '" + model_name + "'"});
+    Raise(Status::Unsupported("there is no camera model '" + model_name + "'"));
   }
   return {*model, width, height, std::move(params)};
 }
@@ -123,16 +122,11 @@ void FindSizes(Scene& scene) {
 void CheckSizesInMemory(const Scene& scene) {
   for (const View& view : scene.views) {
     const Camera& camera = CameraOf(scene, view);
-    const auto text = [](int width, int height) {
-      return std::to_string(width) + " x " + std::to_string(height);
-    };
-    if (!view.image || (view.image->width == camera.width &&
-                        view.image->height == camera.height)) {
-      continue;
-    }
+    const ImageSize of_camera = {camera.width, camera.height};
+    if (!view.image || SizeOf(view) == of_camera) continue;
     RaiseArgument("the image of view " + view.name + " has " +
-                  text(view.image->width, view.image->height) +
-                  " pixels, its camera " + text(camera.width, camera.height) +
+                  SizeText(SizeOf(view)) + " pixels, its camera " +
+                  SizeText(of_camera) +
                   "; images of several sizes need a K each");
   }
 }
@@ -237,8 +231,8 @@ auto OfViews(const F& f) {
 
 void BindScene(py::module_& module) {
   BindInput(module);
-  py::class_<PythonScene>(module, "Scene")
-      .def_static("from_colmap", FromColmap)
+  py::class_<PythonScene> scenes(module, "Scene");
+  scenes.def_static("from_colmap", FromColmap)
       .def_static("make", SceneOf)
       .def("with_edges", WithEdges)
       .def("__len__",
@@ -247,34 +241,6 @@ void BindScene(py::module_& module) {
            [](const PythonScene& scene) { return scene.scene->cameras.size(); })
       .def("has_edges",
            [](const PythonScene& scene) { return scene.edge_maps != nullptr; })
-      .def("names", OfViews([](const Scene&, const View& view) {
-             return py::bytes(view.name);  // not always UTF-8
-           }))
-      .def("image_paths", OfViews([](const Scene&, const View& view) {
-             return view.image_path;
-           }))
-      .def("image_ids", OfViews([](const Scene&, const View& view) {
-             return view.image_id;
-           }))
-      .def("camera_models", OfViews([](const Scene& scene, const View& view) {
-             return std::string(ModelName(CameraOf(scene, view).model));
-           }))
-      .def("camera_params", OfViews([](const Scene& scene, const View& view) {
-             return CameraOf(scene, view).params;
-           }))
-      .def("sizes", OfViews([](const Scene& scene, const View& view) {
-             const Camera& camera = CameraOf(scene, view);
-             return std::pair(camera.width, camera.height);
-           }))
-      .def("calibrations", OfViews([](const Scene& scene, const View& view) {
-             return PinholeCalibration(CameraOf(scene, view));
-           }))
-      .def("rotations", OfViews([](const Scene&, const View& view) {
-             return view.cam_from_world.rotation.toRotationMatrix().eval();
-           }))
-      .def("translations", OfViews([](const Scene&, const View& view) {
-             return view.cam_from_world.translation;
-           }))
       .def("points", [](const PythonScene& scene) {
         std::vector<Eigen::Vector3d> points;
         for (const ScenePoint& point : scene.scene->points) {
@@ -282,6 +248,34 @@ void BindScene(py::module_& module) {
         }
         return points;
       });
+  const auto of_views = [&](const char* name, const auto& f) {
+    scenes.def(name, OfViews(f));
+  };
+  of_views("names", [](const Scene&, const View& v) {
+    return py::bytes(v.name);  // not always UTF-8
+  });
+  of_views("image_paths",
+           [](const Scene&, const View& v) { return v.image_path; });
+  of_views("image_ids", [](const Scene&, const View& v) { return v.image_id; });
+  of_views("camera_models", [](const Scene& scene, const View& view) {
+    return std::string(ModelName(CameraOf(scene, view).model));
+  });
+  of_views("camera_params", [](const Scene& scene, const View& view) {
+    return CameraOf(scene, view).params;
+  });
+  of_views("sizes", [](const Scene& scene, const View& view) {
+    const Camera& camera = CameraOf(scene, view);
+    return std::pair(camera.width, camera.height);
+  });
+  of_views("calibrations", [](const Scene& scene, const View& view) {
+    return PinholeCalibration(CameraOf(scene, view));
+  });
+  of_views("rotations", [](const Scene&, const View& view) {
+    return view.cam_from_world.rotation.toRotationMatrix().eval();
+  });
+  of_views("translations", [](const Scene&, const View& view) {
+    return view.cam_from_world.translation;
+  });
 }
 
 }  // namespace curvix

@@ -9,7 +9,6 @@
 #include <curvix/scene.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>

@@ -106,7 +106,7 @@ void BindErrors(py::module_& module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const std::logic_error& broken) {
-      Set({StatusCode::kInternal, broken.what()});
+      Set(Status::Internal(broken.what()));
     }
   });
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "plugin/base/file_errors.h"
 #include "plugin/base/progress.h"
 
 namespace curvix {
@@ -74,11 +75,13 @@ class PythonProgress : public RunProgress {
   std::optional<pybind11::error_already_set> raised_;
 };
 
-// The value of `run(progress)`, which works without Python's lock.
+// The value of `run(progress)`, which works without Python's lock; kNotFound if
+// the file system throws.
 template <typename F>
 auto RunWithProgress(const pybind11::object& callback, const F& run) {
   PythonProgress progress(callback);
-  auto result = WithoutLock([&] { return run(progress); });
+  auto result = WithoutLock(
+      [&] { return CatchFileErrors([&] { return run(progress); }); });
   progress.RaiseWhatStopped();
   return Take(std::move(result));
 }

@@ -19,8 +19,8 @@ namespace fs = std::filesystem;
 Status AddFile(const fs::path& path, std::uint64_t& hash) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return {StatusCode::kNotFound,
-            "cannot open " + path.string() + "; check that it may be read"};
+    return Status::NotFound("cannot open " + path.string() +
+                            "; check that it may be read");
   }
   std::vector<char> buffer(1 << 20);
   std::uint64_t num_bytes = 0;
@@ -31,8 +31,8 @@ Status AddFile(const fs::path& path, std::uint64_t& hash) {
     num_bytes += num_read;
   }
   if (file.bad()) {
-    return {StatusCode::kDataLoss,
-            "cannot read " + path.string() + " to its end; copy it again"};
+    return Status::DataLoss("cannot read " + path.string() +
+                            " to its end; copy it again");
   }
   hash = HashBytes(":" + std::to_string(num_bytes), hash);
   return {};

@@ -107,9 +107,8 @@ ScenePartition PartitionOf(const Json& json) {
 
 bool IsAscending(const std::vector<int>& idxs, int num_views) {
   return !idxs.empty() && idxs.front() >= 0 && idxs.back() < num_views &&
-         std::adjacent_find(idxs.begin(), idxs.end(), [](int a, int b) {
-           return a >= b;
-         }) == idxs.end();
+         std::ranges::adjacent_find(
+             idxs, [](int a, int b) { return a >= b; }) == idxs.end();
 }
 
 // Whether every cut and part is reached once from the first cut, and views
@@ -130,12 +129,11 @@ bool IsSound(const ScenePartition& partition, int num_views) {
   std::multiset<int> expected;
   for (int i = -num_parts; i < num_cuts; ++i) expected.insert(i);
   return nodes == expected && partition.overlap >= 0 &&
-         std::all_of(partition.parts.begin(),
-                     partition.parts.end(),
-                     [num_views](const ScenePart& part) {
-                       return IsAscending(part.view_idxs, num_views) &&
-                              IsAscending(part.own_view_idxs, num_views);
-                     });
+         std::ranges::all_of(
+             partition.parts, [num_views](const ScenePart& part) {
+               return IsAscending(part.view_idxs, num_views) &&
+                      IsAscending(part.own_view_idxs, num_views);
+             });
 }
 
 constexpr const char* kModelFiles[] = {
@@ -166,10 +164,10 @@ Status PartsNotDone(const std::vector<int>& missing,
       "these parts are broken, or of other images, masks or options, or of "
       "another version",
       other);
-  return {StatusCode::kNotFound,
-          text +
-              "; run 'colmap_curvix reconstruct' with --part and the paths "
-              "and options of this command for each of them"};
+  return Status::NotFound(
+      text +
+      "; run 'colmap_curvix reconstruct' with --part and the paths and options "
+      "of this command for each of them");
 }
 
 }  // namespace
@@ -212,9 +210,9 @@ Status CheckModelIsThere(const fs::path& folder) {
   std::error_code error;
   for (const char* file : kModelFiles) {
     if (fs::exists(folder / file, error)) continue;
-    return {StatusCode::kNotFound,
-            "there is no " + (folder / file).string() +
-                "; run 'colmap_curvix partition' again, which brings it back"};
+    return Status::NotFound(
+        "there is no " + (folder / file).string() +
+        "; run 'colmap_curvix partition' again, which brings it back");
   }
   return {};
 }
@@ -222,9 +220,9 @@ Status CheckModelIsThere(const fs::path& folder) {
 Result<PartPlan> ReadPlan(const fs::path& folder) {
   Result<std::string> text = ReadFile(folder / kPlanName);
   if (!text.ok()) {
-    return Status(StatusCode::kNotFound,
-                  "there is no plan " + (folder / kPlanName).string() +
-                      "; run 'colmap_curvix partition' first");
+    return Status::NotFound("there is no plan " +
+                            (folder / kPlanName).string() +
+                            "; run 'colmap_curvix partition' first");
   }
   PartPlan plan;
   bool is_sound = false;
@@ -238,9 +236,8 @@ Result<PartPlan> ReadPlan(const fs::path& folder) {
     is_sound = false;
   }
   if (!is_sound) {
-    return Status(StatusCode::kDataLoss,
-                  (folder / kPlanName).string() +
-                      " is broken; run 'colmap_curvix partition' again");
+    return Status::DataLoss((folder / kPlanName).string() +
+                            " is broken; run 'colmap_curvix partition' again");
   }
   plan.text = *std::move(text);
   return plan;

@@ -40,9 +40,9 @@ ColmapModel ModelForPart(const ColmapModel& model,
   for (const int idx : view_idxs) {
     image_ids.push_back(scene.views[static_cast<std::size_t>(idx)].image_id);
   }
-  std::sort(image_ids.begin(), image_ids.end());
+  std::ranges::sort(image_ids);
   const auto is_in_part = [&](std::uint32_t id) {
-    return std::binary_search(image_ids.begin(), image_ids.end(), id);
+    return std::ranges::binary_search(image_ids, id);
   };
   std::vector<std::uint64_t> point_ids;
   for (const ColmapImage& image : model.images) {
@@ -52,17 +52,13 @@ ColmapModel ModelForPart(const ColmapModel& model,
       if (point.point3D_id != kNoPoint3D) point_ids.push_back(point.point3D_id);
     }
   }
-  std::sort(point_ids.begin(), point_ids.end());
+  std::ranges::sort(point_ids);
   point_ids.erase(std::unique(point_ids.begin(), point_ids.end()),
                   point_ids.end());
   auto point = model.points.begin();
   for (const std::uint64_t id : point_ids) {
-    point = std::lower_bound(point,
-                             model.points.end(),
-                             id,
-                             [](const ColmapPoint3D& p, std::uint64_t sought) {
-                               return p.point3D_id < sought;
-                             });
+    point = std::ranges::lower_bound(
+        point, model.points.end(), id, {}, &ColmapPoint3D::point3D_id);
     if (point == model.points.end()) break;
     if (point->point3D_id != id) continue;
     part.points.push_back(*point);
@@ -81,7 +77,7 @@ ColmapModel ModelForMerge(const ColmapModel& model, const Scene& scene) {
   merged.cameras = model.cameras;
   std::vector<std::uint32_t> image_ids;
   for (const View& view : scene.views) image_ids.push_back(view.image_id);
-  std::sort(image_ids.begin(), image_ids.end());
+  std::ranges::sort(image_ids);
   for (const std::uint32_t id : image_ids) {
     merged.images.push_back(*from.at(id));
     merged.images.back().points2D.clear();

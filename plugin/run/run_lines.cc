@@ -7,7 +7,6 @@
 
 #include "base/count_text.h"
 #include "base/stopwatch.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/imports/read_lines.h"
 #include "plugin/run/run_steps.h"
@@ -45,7 +44,9 @@ Result<LineCurves> ReadCurvesOfLines(
   return curves;
 }
 
-Result<RunRecord> FitLines(
+}  // namespace
+
+Result<RunRecord> RunLines(
     const RunSettings& settings,
     const std::function<Result<std::vector<ImportedLine>>()>& read,
     ProgressPrinter& progress) {
@@ -72,16 +73,6 @@ Result<RunRecord> FitLines(
   }
   if (!status.ok()) return status;
   return record;
-}
-
-}  // namespace
-
-Result<RunRecord> RunLines(
-    const RunSettings& settings,
-    const std::function<Result<std::vector<ImportedLine>>()>& read,
-    ProgressPrinter& progress) {
-  return CatchFileErrors(StatusCode::kNotFound,
-                         [&] { return FitLines(settings, read, progress); });
 }
 
 }  // namespace curvix

@@ -16,7 +16,6 @@
 #include "base/stopwatch.h"
 #include "io/ply_lines.h"
 #include "io/stage_io.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/json.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/run/file_hashes.h"
@@ -70,9 +69,67 @@ bool HasResults(const fs::path& folder) {
                      });
 }
 
-Result<ScenePartition> Partition(const RunSettings& settings,
-                                 int max_views_per_part,
-                                 RunProgress& progress) {
+// Those of a model that 'partition' has written.
+Status CheckImagesAreThere(const WorkspaceScene& input) {
+  if (input.missing_images.empty()) return {};
+  return Status::NotFound("image " + input.missing_images.front() +
+                          " is gone; bring it back");
+}
+
+// kNotFound if the model is no longer the one that was divided.
+Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
+  const Result<std::uint64_t> hash = HashModel(model_path);
+  if (!hash.ok()) return hash.status();
+  const Result<std::string> divided = ReadFile(folder / kModelHashName);
+  if (!divided.ok()) {
+    return Status::NotFound("there is no " +
+                            (folder / kModelHashName).string() +
+                            "; run 'colmap_curvix partition' again");
+  }
+  if (*divided == std::to_string(*hash)) return {};
+  return Status::NotFound(
+      "the model " + model_path.string() +
+      " has changed since it was divided; run 'colmap_curvix " +
+      "partition' again");
+}
+
+// What a merge needs besides the parts.
+Status CheckScene(const WorkspaceScene& input,
+                  const PartPlan& plan,
+                  const fs::path& model_path,
+                  const fs::path& folder) {
+  Status status = CheckImagesAreThere(input);
+  if (status.ok()) status = CheckModelIsSame(model_path, folder);
+  if (!status.ok() || input.scene.views.size() == plan.num_views) return status;
+  return Status::DataLoss(
+      (folder / "scene").string() +
+      " does not fit the plan; run 'colmap_curvix partition' again");
+}
+
+Status CheckPartIdx(const PartPlan& plan, int part_idx) {
+  const std::size_t num_parts = plan.partition.parts.size();
+  if (part_idx >= 0 && static_cast<std::size_t>(part_idx) < num_parts) {
+    return {};
+  }
+  return Status::NotFound("there is no part " + std::to_string(part_idx) +
+                          "; the plan has the parts 0 to " +
+                          std::to_string(num_parts - 1));
+}
+
+// The files of the 3D edges of all parts.
+std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
+    paths.push_back(PartFolder(folder, static_cast<int>(i)) / kPartEdgesName);
+  }
+  return paths;
+}
+
+}  // namespace
+
+Result<ScenePartition> RunPartition(const RunSettings& settings,
+                                    int max_views_per_part,
+                                    RunProgress& progress) {
   const Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
   const Result<std::uint64_t> hash = HashModel(workspace->model_path);
@@ -96,10 +153,9 @@ Result<ScenePartition> Partition(const RunSettings& settings,
       present.ok() && present->text == PlanJson(*partition, input->scene);
   const bool has_results = HasResults(folder);
   if (present.ok() && !is_same && has_results) {
-    return Status(StatusCode::kInvalidArgument,
-                  "the plan in " + folder.string() +
-                      " is another one, and parts of it are done; to divide "
-                      "anew, remove this folder");
+    return Status::InvalidArgument("the plan in " + folder.string() +
+                                   " is another one, and parts of it are done; "
+                                   "to divide anew, remove this folder");
   }
   if (is_same) progress.Note("The plan is there already, and stays");
   // Beside finished parts; a merge finds those of another plan or model.
@@ -115,56 +171,9 @@ Result<ScenePartition> Partition(const RunSettings& settings,
   return partition;
 }
 
-// Those of a model that 'partition' has written.
-Status CheckImagesAreThere(const WorkspaceScene& input) {
-  if (input.missing_images.empty()) return {};
-  return {StatusCode::kNotFound,
-          "image " + input.missing_images.front() + " is gone; bring it back"};
-}
-
-// kNotFound if the model is no longer the one that was divided.
-Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
-  const Result<std::uint64_t> hash = HashModel(model_path);
-  if (!hash.ok()) return hash.status();
-  const Result<std::string> divided = ReadFile(folder / kModelHashName);
-  if (!divided.ok()) {
-    return {StatusCode::kNotFound,
-            "there is no " + (folder / kModelHashName).string() +
-                "; run 'colmap_curvix partition' again"};
-  }
-  if (*divided == std::to_string(*hash)) return {};
-  return {StatusCode::kNotFound,
-          "the model " + model_path.string() +
-              " has changed since it was divided; run 'colmap_curvix " +
-              "partition' again"};
-}
-
-// What a merge needs besides the parts.
-Status CheckScene(const WorkspaceScene& input,
-                  const PartPlan& plan,
-                  const fs::path& model_path,
-                  const fs::path& folder) {
-  Status status = CheckImagesAreThere(input);
-  if (status.ok()) status = CheckModelIsSame(model_path, folder);
-  if (!status.ok() || input.scene.views.size() == plan.num_views) return status;
-  return {StatusCode::kDataLoss,
-          (folder / "scene").string() +
-              " does not fit the plan; run 'colmap_curvix partition' again"};
-}
-
-Status CheckPartIdx(const PartPlan& plan, int part_idx) {
-  const std::size_t num_parts = plan.partition.parts.size();
-  if (part_idx >= 0 && static_cast<std::size_t>(part_idx) < num_parts) {
-    return {};
-  }
-  return {StatusCode::kNotFound,
-          "there is no part " + std::to_string(part_idx) +
-              "; the plan has the parts 0 to " + std::to_string(num_parts - 1)};
-}
-
-Result<RunRecord> ReconstructPart(const RunSettings& settings,
-                                  int part_idx,
-                                  RunProgress& progress) {
+Result<RunRecord> RunPart(const RunSettings& settings,
+                          int part_idx,
+                          RunProgress& progress) {
   const Stopwatch since_start;
   Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
@@ -221,16 +230,7 @@ Result<RunRecord> ReconstructPart(const RunSettings& settings,
   return record;
 }
 
-// The files of the 3D edges of all parts.
-std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
-  std::vector<fs::path> paths;
-  for (std::size_t i = 0; i < plan.partition.parts.size(); ++i) {
-    paths.push_back(PartFolder(folder, static_cast<int>(i)) / kPartEdgesName);
-  }
-  return paths;
-}
-
-Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
+Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   const Stopwatch since_start;
   Result<Workspace> workspace = FindInput(settings);
   if (!workspace.ok()) return workspace.status();
@@ -288,36 +288,13 @@ Result<RunRecord> Merge(const RunSettings& settings, RunProgress& progress) {
   return record;
 }
 
-}  // namespace
-
-Result<ScenePartition> RunPartition(const RunSettings& settings,
-                                    int max_views_per_part,
-                                    RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound, [&] {
-    return Partition(settings, max_views_per_part, progress);
-  });
-}
-
-Result<RunRecord> RunPart(const RunSettings& settings,
-                          int part_idx,
-                          RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound, [&] {
-    return ReconstructPart(settings, part_idx, progress);
-  });
-}
-
-Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound,
-                         [&] { return Merge(settings, progress); });
-}
-
 bool AreMerged(const fs::path& folder) {
   const Result<std::string> text = ReadFile(folder / "report.json");
   if (!text.ok()) return false;
   const Json report = Json::parse(*text, nullptr, false);
   if (!report.contains("stages")) return false;
   const Json& stages = report.at("stages");
-  return std::any_of(stages.begin(), stages.end(), [](const Json& stage) {
+  return std::ranges::any_of(stages, [](const Json& stage) {
     return stage.contains("name") && stage.at("name") == kJoinStage;
   });
 }

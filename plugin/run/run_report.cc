@@ -2,7 +2,6 @@
 #include "plugin/run/run_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/count_text.h"
@@ -190,7 +189,7 @@ std::string StageLine(const StageReport& stage) {
   for (const auto& [name, count] : stage.counts) {
     counts += counts.empty() ? "" : ", ";
     std::string item = CountText(count, name);
-    std::replace(item.begin(), item.end(), ' ', kNoBreak);
+    std::ranges::replace(item, ' ', kNoBreak);
     counts += item;
   }
   std::string line = WrapText(counts, kCountsColumn);

@@ -31,10 +31,9 @@ Status CheckOutputPath(const Workspace& workspace) {
   for (const fs::path& input :
        {workspace.model_path, workspace.image_path, workspace.mask_path}) {
     if (!input.empty() && IsInside(fs::weakly_canonical(input), output)) {
-      return {StatusCode::kInvalidArgument,
-              "the results would be written among the inputs in " +
-                  output.string() +
-                  "; choose another folder with --output_path"};
+      return Status::InvalidArgument(
+          "the results would be written among the inputs in " +
+          output.string() + "; choose another folder with --output_path");
     }
   }
   return {};

@@ -9,7 +9,6 @@
 
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
-#include "plugin/base/file_errors.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/poses/pose_refinement.h"
 #include "plugin/run/run_stages.h"
@@ -47,9 +46,11 @@ Result<bool> AdjustBundles(const Workspace& workspace,
   return true;
 }
 
+}  // namespace
+
 // From the first file read to the last one written.
-Result<WorkspaceRun> ReconstructWorkspace(const RunSettings& settings,
-                                          RunProgress& progress) {
+Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
+                                  RunProgress& progress) {
   const Stopwatch since_start;
   WorkspaceRun run;
   RunRecord& record = run.record;
@@ -101,15 +102,6 @@ Result<WorkspaceRun> ReconstructWorkspace(const RunSettings& settings,
   run.curves = std::move(reconstruction.curves);
   run.fitted = *std::move(fitted);
   return run;
-}
-
-}  // namespace
-
-Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
-                                  RunProgress& progress) {
-  return CatchFileErrors(StatusCode::kNotFound, [&] {
-    return ReconstructWorkspace(settings, progress);
-  });
 }
 
 }  // namespace curvix

@@ -36,7 +36,8 @@ struct WorkspaceRun {
 //
 // kInvalidArgument and kNotFound: the workspace, or an output folder that
 // cannot be used; kDataLoss and kUnsupported: broken or foreign files;
-// kCancelled: interrupted.
+// kCancelled: interrupted. What the file system throws is left to the caller,
+// as by all runs (file_errors.h).
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress);
 

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <system_error>
 #include <type_traits>
-#include <utility>
 
 #include "base/option_table.h"
 #include "io/stage_io.h"

@@ -23,7 +23,7 @@ void AppendLittleEndian(T value, std::string& out) {
   std::array<char, sizeof(T)> bytes;
   std::memcpy(bytes.data(), &value, sizeof(T));
   if constexpr (std::endian::native == std::endian::big) {
-    std::reverse(bytes.begin(), bytes.end());
+    std::ranges::reverse(bytes);
   }
   out.append(bytes.data(), bytes.size());
 }
@@ -33,7 +33,7 @@ template <typename T>
 T LoadBytes(const char* bytes, std::endian order) {
   std::array<char, sizeof(T)> copy;
   std::memcpy(copy.data(), bytes, sizeof(T));
-  if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+  if (order != std::endian::native) std::ranges::reverse(copy);
   T value;
   std::memcpy(&value, copy.data(), sizeof(T));
   return value;

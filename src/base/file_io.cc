@@ -21,9 +21,8 @@ std::string Reason(int error) {
 }
 
 Status CannotWrite(const fs::path& path, int error) {
-  return {StatusCode::kDataLoss,
-          "Cannot write to " + path.string() + Reason(error) +
-              "; check the free space of the disk and its quota."};
+  return Status::DataLoss("Cannot write to " + path.string() + Reason(error) +
+                          "; check the free space of the disk and its quota.");
 }
 
 }  // namespace
@@ -37,9 +36,9 @@ FileWriter::FileWriter(fs::path path)
   // "x": fails if anything is there, so that no link is followed.
   file_.reset(std::fopen(temporary_.c_str(), "wbx"));
   if (file_ == nullptr) {
-    status_ = {StatusCode::kNotFound,
-               "Cannot create " + temporary_.string() + Reason(errno) +
-                   "; check that the folder exists and may be written."};
+    status_ = Status::NotFound(
+        "Cannot create " + temporary_.string() + Reason(errno) +
+        "; check that the folder exists and may be written.");
   }
 }
 
@@ -69,11 +68,10 @@ Status FileWriter::Finish() {
   if (status_.ok()) {
     fs::rename(temporary_, path_, error);
     if (!error) return {};
-    status_ = {StatusCode::kDataLoss,
-               "Cannot rename " + temporary_.string() + " to " +
-                   path_.string() + " (" + error.message() +
-                   "); check that the target is not a folder and may be " +
-                   "replaced."};
+    status_ = Status::DataLoss(
+        "Cannot rename " + temporary_.string() + " to " + path_.string() +
+        " (" + error.message() +
+        "); check that the target is not a folder and may be " + "replaced.");
   }
   fs::remove(temporary_, error);
   return status_;
@@ -92,15 +90,14 @@ Status InFile(const std::filesystem::path& path, const Status& status) {
 Result<std::string> ReadFile(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
-    return Status(StatusCode::kNotFound,
-                  "There is no file " + path.string() + "; check the path.");
+    return Status::NotFound("There is no file " + path.string() +
+                            "; check the path.");
   }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
-    return Status(StatusCode::kNotFound,
-                  "Cannot open " + path.string() + Reason(errno) +
-                      "; check that it may be read.");
+    return Status::NotFound("Cannot open " + path.string() + Reason(errno) +
+                            "; check that it may be read.");
   }
   // Iterators would throw where read() tells of an error.
   std::array<char, 1 << 16> block;
@@ -110,9 +107,8 @@ Result<std::string> ReadFile(const fs::path& path) {
     bytes.append(block.data(), static_cast<std::size_t>(stream.gcount()));
   } while (stream);
   if (stream.bad()) {
-    return Status(StatusCode::kDataLoss,
-                  "Cannot read " + path.string() + " to its end" +
-                      Reason(errno) + "; check the disk.");
+    return Status::DataLoss("Cannot read " + path.string() + " to its end" +
+                            Reason(errno) + "; check the disk.");
   }
   return bytes;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct ImageSize {
     return a.width == b.width && a.height == b.height;
   }
 };
+
+// "480 x 320".
+inline std::string SizeText(const ImageSize& size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
 
 // Whether one is the other, enlarged alike in both directions, to a pixel of
 // the smaller one.

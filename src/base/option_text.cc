@@ -52,9 +52,9 @@ std::string SetText(const OptionRow& row, const CurveKindSet& kinds) {
 Status OutOfRange(const OptionRow& row, const std::string& text) {
   const bool is_part =
       std::holds_alternative<int*>(row.field) && !ParseNumber<int>(text);
-  return {StatusCode::kInvalidArgument,
-          row.name + " is " + text + "; it must be " +
-              (is_part ? "a whole number " : "") + RangeText(row)};
+  return Status::InvalidArgument(row.name + " is " + text + "; it must be " +
+                                 (is_part ? "a whole number " : "") +
+                                 RangeText(row));
 }
 
 // Also catches NaN.
@@ -163,14 +163,14 @@ Status Validate(const Options& options) {
     if (!status.ok()) return status;
   }
   if (copy.hypotheses.min_ray_angle_deg > copy.hypotheses.max_ray_angle_deg) {
-    return {StatusCode::kInvalidArgument,
-            "Hypotheses.min_ray_angle_deg is larger than "
-            "Hypotheses.max_ray_angle_deg"};
+    return Status::InvalidArgument(
+        "Hypotheses.min_ray_angle_deg is larger than "
+        "Hypotheses.max_ray_angle_deg");
   }
   if (!copy.curve_kinds.enabled && !HasAllKinds(copy.curve_filter.kinds)) {
-    return {StatusCode::kInvalidArgument,
-            "CurveFilter.kinds leaves out kinds of curves, which are not told "
-            "apart; set CurveKinds.enabled to 1"};
+    return Status::InvalidArgument(
+        "CurveFilter.kinds leaves out kinds of curves, which are not told "
+        "apart; set CurveKinds.enabled to 1");
   }
   return {};
 }

@@ -29,7 +29,7 @@ class Collector {
   }
   // Nodes at exactly this distance are not searched, hence the next number.
   double worstDist() const { return std::nextafter(max_squared_, HUGE_VAL); }
-  void sort() { std::sort(indices_.begin(), indices_.end()); }
+  void sort() { std::ranges::sort(indices_); }
 
   std::vector<std::size_t> Take() {
     sort();

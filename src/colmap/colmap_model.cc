@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <string_view>
 #include <system_error>
 
 #include "base/file_io.h"
@@ -50,18 +49,9 @@ PointsOrError ReadPoints(const fs::path& path, ColmapFormat format) {
 }
 
 void SortById(ColmapModel* model) {
-  std::stable_sort(
-      model->cameras.begin(),
-      model->cameras.end(),
-      [](const auto& a, const auto& b) { return a.camera_id < b.camera_id; });
-  std::stable_sort(
-      model->images.begin(),
-      model->images.end(),
-      [](const auto& a, const auto& b) { return a.image_id < b.image_id; });
-  std::stable_sort(
-      model->points.begin(),
-      model->points.end(),
-      [](const auto& a, const auto& b) { return a.point3D_id < b.point3D_id; });
+  std::ranges::stable_sort(model->cameras, {}, &ColmapCamera::camera_id);
+  std::ranges::stable_sort(model->images, {}, &ColmapImage::image_id);
+  std::ranges::stable_sort(model->points, {}, &ColmapPoint3D::point3D_id);
 }
 
 // Files in `folder` that COLMAP or we would read instead of, or together with,
@@ -75,9 +65,9 @@ Status RefuseForeignFiles(const fs::path& folder) {
                            "images.txt",
                            "points3D.txt"}) {
     if (IsFile(folder / name)) {
-      return {StatusCode::kInvalidArgument,
-              "Cannot write a model to " + folder.string() + ": it holds " +
-                  name + " of another model; choose an empty folder."};
+      return Status::InvalidArgument(
+          "Cannot write a model to " + folder.string() + ": it holds " + name +
+          " of another model; choose an empty folder.");
     }
   }
   return {};
@@ -127,9 +117,8 @@ Status UnsupportedCameraModel(const std::string& file,
             "views first."
           : "which this program does not know; convert the images with "
             "'colmap image_undistorter' and use its output.";
-  return {StatusCode::kUnsupported,
-          file + ": camera " + std::to_string(camera_id) +
-              " has the camera model " + model + ", " + why};
+  return Status::Unsupported(file + ": camera " + std::to_string(camera_id) +
+                             " has the camera model " + model + ", " + why);
 }
 
 Eigen::Quaterniond RotationFromColmap(const std::array<double, 4>& wxyz) {
@@ -154,10 +143,9 @@ Result<ColmapFormat> FindColmapFormat(const fs::path& folder) {
   for (const ColmapFormat format : kFormats) {
     if (has_poses(format)) return format;
   }
-  return Status(StatusCode::kNotFound,
-                folder.string() +
-                    " holds no COLMAP model: cameras and images are needed, "
-                    "both as .bin or both as .txt.");
+  return Status::NotFound(folder.string() +
+                          " holds no COLMAP model: cameras and images are "
+                          "needed, both as .bin or both as .txt.");
 }
 
 std::size_t CountColmapImages(const fs::path& folder) {
@@ -185,9 +173,8 @@ Result<ColmapModel> ReadColmapModel(const fs::path& folder) {
                     std::move(points).value()};
   SortById(&model);
   if (const std::optional<ColmapFlaw> flaw = FindFlaw(model)) {
-    return Status(
-        StatusCode::kDataLoss,
-        FilePath(folder, flaw->list, *format).string() + ": " + flaw->sentence);
+    return Status::DataLoss(FilePath(folder, flaw->list, *format).string() +
+                            ": " + flaw->sentence);
   }
   return model;
 }
@@ -199,9 +186,9 @@ Status WriteColmapModel(const ColmapModel& model, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    return {StatusCode::kInvalidArgument,
-            "Cannot make the folder " + folder.string() + " (" +
-                error.message() + "); choose one that may be written."};
+    return Status::InvalidArgument("Cannot make the folder " + folder.string() +
+                                   " (" + error.message() +
+                                   "); choose one that may be written.");
   }
   const std::pair<const char*, std::string> files[] = {
       {"cameras.bin", FormatCamerasBinary(model.cameras)},
@@ -225,7 +212,7 @@ Scene SceneFromColmapModel(const ColmapModel& model,
     scene.cameras.push_back(item.camera);
   }
   for (const ColmapImage& image : model.images) {
-    if (std::binary_search(left_out.begin(), left_out.end(), image.name)) {
+    if (std::ranges::binary_search(left_out, image.name)) {
       continue;
     }
     scene.views.push_back({image.name,
@@ -236,9 +223,7 @@ Scene SceneFromColmapModel(const ColmapModel& model,
                            {},
                            std::nullopt});
   }
-  std::sort(scene.views.begin(),
-            scene.views.end(),
-            [](const View& a, const View& b) { return a.name < b.name; });
+  std::ranges::sort(scene.views, {}, &View::name);
   std::map<std::uint32_t, SceneView> views;
   for (const View& view : scene.views) {
     views.emplace(view.image_id,

@@ -25,10 +25,10 @@ Status Truncated(const std::string& file,
                  const std::string& item,
                  std::size_t index,
                  std::size_t count) {
-  return {StatusCode::kDataLoss,
-          file + " ends inside " + item + " " + std::to_string(index + 1) +
-              " of " + std::to_string(count) +
-              ", or a count in it is wrong; export the model again."};
+  return Status::DataLoss(
+      file + " ends inside " + item + " " + std::to_string(index + 1) + " of " +
+      std::to_string(count) +
+      ", or a count in it is wrong; export the model again.");
 }
 
 // Parses a count and as many items with `parse_item(reader)`, which returns a
@@ -42,9 +42,9 @@ Result<std::vector<Item>> ParseAll(std::string_view bytes,
   ByteReader reader(bytes);
   const std::size_t count = reader.TakeCount(min_item_size);
   if (!reader.ok()) {
-    return Status(StatusCode::kDataLoss,
-                  file + " is too short for the number of " + item_name +
-                      "s that it announces; export the model again.");
+    return Status::DataLoss(file + " is too short for the number of " +
+                            item_name +
+                            "s that it announces; export the model again.");
   }
   std::vector<Item> items;
   items.reserve(count);
@@ -55,11 +55,10 @@ Result<std::vector<Item>> ParseAll(std::string_view bytes,
     items.push_back(std::move(item).value());
   }
   if (!reader.AtEnd()) {
-    return Status(StatusCode::kDataLoss,
-                  file + " has " + Plural(reader.rest().size(), "byte") +
-                      " more than its " + Plural(count, item_name) +
-                      OneOrMore(count, " takes", " take") +
-                      "; export the model again.");
+    return Status::DataLoss(
+        file + " has " + Plural(reader.rest().size(), "byte") +
+        " more than its " + Plural(count, item_name) +
+        OneOrMore(count, " takes", " take") + "; export the model again.");
   }
   return items;
 }

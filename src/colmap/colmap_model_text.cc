@@ -57,10 +57,9 @@ class WordReader {
 Status Malformed(const std::string& file,
                  const LineReader& lines,
                  const std::string& expected) {
-  return {StatusCode::kDataLoss,
-          file + ", line " + std::to_string(lines.line_number()) +
-              " is not \"" + expected +
-              "\"; correct it or export the model again."};
+  return Status::DataLoss(
+      file + ", line " + std::to_string(lines.line_number()) + " is not \"" +
+      expected + "\"; correct it or export the model again.");
 }
 
 Result<ColmapCamera> ParseCamera(std::string_view line,

@@ -123,8 +123,8 @@ std::optional<ColmapFlaw> FindFlaw(const ColmapModel& model) {
 Status ValidateColmapModel(const ColmapModel& model) {
   const std::optional<ColmapFlaw> flaw = FindFlaw(model);
   if (!flaw) return {};
-  return {StatusCode::kDataLoss,
-          "The model is broken in its " + flaw->list + ": " + flaw->sentence};
+  return Status::DataLoss("The model is broken in its " + flaw->list + ": " +
+                          flaw->sentence);
 }
 
 }  // namespace curvix

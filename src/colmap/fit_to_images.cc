@@ -2,7 +2,6 @@
 #include "colmap/fit_to_images.h"
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -73,10 +72,6 @@ void Rescale(const Scale& scale, const ImageSize& size, Camera* camera) {
   camera->height = size.height;
 }
 
-std::string Sides(const ImageSize& size) {
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
-}
-
 }  // namespace
 
 std::string FitToImages(const fs::path& folder, ColmapModel* model) {
@@ -89,8 +84,8 @@ std::string FitToImages(const fs::path& folder, ColmapModel* model) {
     const auto scale = ScaleTo(*size->second, item.camera);
     if (!scale) continue;
     if (scales.empty()) {
-      first = Sides(*size->second) + " pixels instead of " +
-              Sides({item.camera.width, item.camera.height});
+      first = SizeText(*size->second) + " pixels instead of " +
+              SizeText({item.camera.width, item.camera.height});
     }
     scales.emplace(item.camera_id, *scale);
     Rescale(*scale, *size->second, &item.camera);

@@ -21,11 +21,10 @@ bool LiesIn(const fs::path& path, const std::vector<fs::path>& folders) {
   std::error_code error;
   const fs::path real = fs::weakly_canonical(path, error);
   if (error) return false;
-  return std::any_of(
-      folders.begin(), folders.end(), [&](const fs::path& folder) {
-        const fs::path root = fs::canonical(folder, error);
-        return !error && IsInside(real, root);
-      });
+  return std::ranges::any_of(folders, [&](const fs::path& folder) {
+    const fs::path root = fs::canonical(folder, error);
+    return !error && IsInside(real, root);
+  });
 }
 
 std::vector<fs::path> EntriesOf(const fs::path& folder) {
@@ -35,7 +34,7 @@ std::vector<fs::path> EntriesOf(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     entries.push_back(entry->path());
   }
-  std::sort(entries.begin(), entries.end());
+  std::ranges::sort(entries);
   return entries;
 }
 

@@ -54,7 +54,7 @@ inline std::filesystem::path ImageFile(const std::filesystem::path& folder,
       std::filesystem::exists(file, error)) {
     return file;
   }
-  std::replace(name.begin(), name.end(), '\\', '/');
+  std::ranges::replace(name, '\\', '/');
   return folder / name;
 }
 

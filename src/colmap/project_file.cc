@@ -20,9 +20,9 @@ Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text) {
     const std::size_t equals = line.find('=');
     const std::string name(Trimmed(line.substr(0, equals)));
     if (equals == std::string_view::npos || name.empty()) {
-      return Status(StatusCode::kInvalidArgument,
-                    "line " + std::to_string(lines.line_number()) +
-                        " is neither name=value nor [Section]");
+      return Status::InvalidArgument("line " +
+                                     std::to_string(lines.line_number()) +
+                                     " is neither name=value nor [Section]");
     }
     entries.push_back(
         {section + name, std::string(Trimmed(line.substr(equals + 1)))});

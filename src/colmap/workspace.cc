@@ -40,7 +40,7 @@ std::vector<fs::path> NumberedFolders(const fs::path& folder) {
       found.emplace_back(std::stoi(name), path);
     }
   }
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::vector<fs::path> folders;
   folders.reserve(found.size());
   for (auto& [number, path] : found) folders.push_back(std::move(path));
@@ -56,15 +56,11 @@ std::string Tried(const std::vector<fs::path>& places) {
   return text + ".";
 }
 
-Status NotFound(const std::string& sentence) {
-  return {StatusCode::kNotFound, sentence};
-}
-
 Status MayNotBeRead(const fs::path& folder, const std::string& flag) {
-  return NotFound(folder.string() +
-                  " may not be read (Permission denied); change its "
-                  "permissions, or name another folder with " +
-                  flag + ".");
+  return Status::NotFound(folder.string() +
+                          " may not be read (Permission denied); change its "
+                          "permissions, or name another folder with " +
+                          flag + ".");
 }
 
 // The folder beside whose sparse/ the model lies: what holds sparse/<k> or
@@ -101,10 +97,8 @@ std::vector<fs::path> MostImagesFirst(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     counted.emplace_back(CountColmapImages(folder), folder);
   }
-  std::stable_sort(
-      counted.begin(), counted.end(), [](const auto& a, const auto& b) {
-        return a.first > b.first;
-      });
+  std::ranges::stable_sort(
+      counted, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<fs::path> ordered;
   ordered.reserve(folders.size());
   for (auto& [count, folder] : counted) ordered.push_back(std::move(folder));
@@ -143,10 +137,11 @@ Status CheckModelFiles(const fs::path& workspace, const fs::path& model) {
     for (const char* extension : {".bin", ".txt"}) {
       const fs::path file = model / (std::string(list) + extension);
       if (LiesIn(file, {workspace, model})) continue;
-      return NotFound(file.string() +
-                      " is a link that leads out of the workspace; copy the "
-                      "file, or name the model's folder with --input_path if "
-                      "the link is meant.");
+      return Status::NotFound(
+          file.string() +
+          " is a link that leads out of the workspace; copy the "
+          "file, or name the model's folder with --input_path if "
+          "the link is meant.");
     }
   }
   return {};
@@ -159,13 +154,13 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
     return format.status();
   }
   const std::vector<fs::path> places = ModelCandidates(paths.workspace_path);
-  const auto place = std::find_if(places.begin(), places.end(), IsModel);
+  const auto place = std::ranges::find_if(places, IsModel);
   if (place == places.end()) {
     for (const fs::path& folder : places) {
       if (!IsForbidden(folder / "cameras.bin")) continue;
       return MayNotBeRead(folder, "--input_path");
     }
-    return NotFound(
+    return Status::NotFound(
         "No COLMAP model (cameras and images, as .bin or .txt) in " +
         paths.workspace_path.string() + "." + Tried(places) +
         " Name its folder with --input_path.");
@@ -186,10 +181,8 @@ fs::path ImagePathOfProject(const fs::path& model) {
   if (!text.ok()) return {};
   const auto entries = ParseProjectFile(*text);
   if (!entries.ok()) return {};
-  const auto entry = std::find_if(
-      entries->begin(), entries->end(), [](const ProjectEntry& candidate) {
-        return candidate.name == "image_path";
-      });
+  const auto entry =
+      std::ranges::find(*entries, "image_path", &ProjectEntry::name);
   return entry == entries->end() ? fs::path() : fs::path(entry->value);
 }
 
@@ -208,7 +201,7 @@ std::vector<fs::path> ImageCandidates(const ModelPlace& place) {
   }
   std::vector<fs::path> unique;
   for (const fs::path& path : places) {
-    if (std::find(unique.begin(), unique.end(), path) == unique.end()) {
+    if (std::ranges::find(unique, path) == unique.end()) {
       unique.push_back(path);
     }
   }
@@ -219,16 +212,16 @@ Status FindImages(const WorkspacePaths& paths, Workspace* found) {
   if (!paths.image_path.empty()) {
     found->image_path = paths.image_path;
     if (IsFolder(paths.image_path)) return {};
-    return NotFound("--image_path " + paths.image_path.string() +
-                    " is not a folder; name the folder of the images.");
+    return Status::NotFound("--image_path " + paths.image_path.string() +
+                            " is not a folder; name the folder of the images.");
   }
   const std::vector<fs::path> places =
       ImageCandidates(ModelPlace(paths.workspace_path, found->model_path));
-  const auto place = std::find_if(places.begin(), places.end(), IsFolder);
+  const auto place = std::ranges::find_if(places, IsFolder);
   if (place == places.end()) {
-    return NotFound("No folder of images for the model " +
-                    found->model_path.string() + "." + Tried(places) +
-                    " Name it with --image_path.");
+    return Status::NotFound("No folder of images for the model " +
+                            found->model_path.string() + "." + Tried(places) +
+                            " Name it with --image_path.");
   }
   found->image_path = *place;
   return {};
@@ -252,10 +245,10 @@ Status CheckOutputPath(const WorkspacePaths& paths, const fs::path& output) {
   for (fs::path folder = output;; folder = folder.parent_path()) {
     std::error_code error;
     if (fs::is_symlink(folder, error)) {
-      return {StatusCode::kInvalidArgument,
-              folder.string() +
-                  " is a link, and the results would go where it leads; name "
-                  "that folder with --output_path if it is meant."};
+      return Status::InvalidArgument(
+          folder.string() +
+          " is a link, and the results would go where it leads; name that "
+          "folder with --output_path if it is meant.");
     }
     if (folder.filename() == "curvix") return {};
   }
@@ -268,7 +261,7 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
   for (const ColmapImage& image : model.images) {
     if (!IsFile(ImageFile(folder, image.name))) missing.push_back(image.name);
   }
-  std::sort(missing.begin(), missing.end());
+  std::ranges::sort(missing);
   return missing;
 }
 
@@ -285,8 +278,8 @@ Status FindMasks(const WorkspacePaths& paths, Workspace* found) {
   if (paths.mask_path.empty()) return {};
   found->mask_path = fs::absolute(paths.mask_path);
   if (IsFolder(paths.mask_path)) return {};
-  return NotFound("--mask_path " + paths.mask_path.string() +
-                  " is not a folder; name the folder of the masks.");
+  return Status::NotFound("--mask_path " + paths.mask_path.string() +
+                          " is not a folder; name the folder of the masks.");
 }
 
 // Images without masks are used whole, which people should know.
@@ -313,36 +306,36 @@ Status TooFewViews(const Workspace& workspace,
                    std::size_t num_views,
                    const std::vector<std::string>& missing) {
   if (missing.empty()) {
-    return {StatusCode::kInvalidArgument,
-            "The model " + workspace.model_path.string() + " has " +
-                Plural(num_views, "image") +
-                ", and curves need at least three; register more "
-                "images."};
+    return Status::InvalidArgument(
+        "The model " + workspace.model_path.string() + " has " +
+        Plural(num_views, "image") +
+        ", and curves need at least three; register more images.");
   }
   if (IsForbidden(ImageFile(workspace.image_path, missing.front()))) {
     return MayNotBeRead(workspace.image_path, "--image_path");
   }
-  return NotFound("Only " + std::to_string(num_views) + " of the " +
-                  Plural(num_views + missing.size(), "image") +
-                  " of the model " + workspace.model_path.string() +
-                  OneOrMore(num_views, " is in ", " are in ") +
-                  workspace.image_path.string() +
-                  " (missing: " + FirstNames(missing) +
-                  "), and curves need at least three. Name the right folder "
-                  "with --image_path.");
+  return Status::NotFound(
+      "Only " + std::to_string(num_views) + " of the " +
+      Plural(num_views + missing.size(), "image") + " of the model " +
+      workspace.model_path.string() +
+      OneOrMore(num_views, " is in ", " are in ") +
+      workspace.image_path.string() + " (missing: " + FirstNames(missing) +
+      "), and curves need at least three. Name the right folder "
+      "with --image_path.");
 }
 
 }  // namespace
 
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   if (paths.workspace_path.empty()) {
-    return Status(StatusCode::kInvalidArgument,
-                  "The option --workspace_path is required but missing.");
+    return Status::InvalidArgument(
+        "The option --workspace_path is required but missing.");
   }
   if (!IsFolder(paths.workspace_path)) {
-    return NotFound("--workspace_path " + paths.workspace_path.string() +
-                    " is not a folder; name the folder that holds sparse/ and "
-                    "images/.");
+    return Status::NotFound(
+        "--workspace_path " + paths.workspace_path.string() +
+        " is not a folder; name the folder that holds sparse/ and "
+        "images/.");
   }
   Workspace found;
   Status status = FindModel(paths, &found);

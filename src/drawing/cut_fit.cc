@@ -167,7 +167,7 @@ std::vector<CurveFit> PartsWithin(const CurveFit& fit,
   std::vector<double> cuts = Crossings(fit, axis, low);
   const std::vector<double> more = Crossings(fit, axis, high);
   cuts.insert(cuts.end(), more.begin(), more.end());
-  std::sort(cuts.begin(), cuts.end());
+  std::ranges::sort(cuts);
   const bool goes_round =
       fit.closed && fit.kind != FitKind::kSpline && !cuts.empty();
   // A whole circle is cut open at a crossing, anything else at its ends.

@@ -114,12 +114,10 @@ void PlaceDimensions(std::vector<SheetDimension> dimensions,
     for (int step = 0; step <= kMostSteps; ++step) {
       d.shift = (is_out ? 1 : -1) * (kFirstShift + step * kStep);
       const Eigen::AlignedBox2d place = PlaceOf(d, sheet);
-      if (std::none_of(
-              sheet.dimensions.begin(), sheet.dimensions.end(), is_taken) &&
-          std::none_of(
-              other_views.begin(), other_views.end(), [&](const auto& other) {
-                return other.intersects(place);
-              })) {
+      if (std::ranges::none_of(sheet.dimensions, is_taken) &&
+          std::ranges::none_of(other_views, [&](const auto& other) {
+            return other.intersects(place);
+          })) {
         sheet.dimensions.push_back(std::move(d));
         break;
       }

@@ -72,8 +72,8 @@ Result<DrawingPlane> PlaneThrough(const Eigen::Vector3d& a,
   constexpr double kOnALine = 1e-6;  // radians
   const double angle = AngleBetween(b - a, c - a);
   if (!(angle > kOnALine && angle < kPi - kOnALine)) {
-    return Status(StatusCode::kInvalidArgument,
-                  "the three points are on a line, which is in many planes");
+    return Status::InvalidArgument(
+        "the three points are on a line, which is in many planes");
   }
   DrawingPlane plane;
   plane.origin = a;
@@ -149,7 +149,7 @@ double MainDepth(const FittedCurves& fitted,
     }
   }
   if (depths.empty()) return 0;
-  std::sort(depths.begin(), depths.end());
+  std::ranges::sort(depths);
   const double width = kMainDepthWidth * (Quantile(depths, total, 0.75) -
                                           Quantile(depths, total, 0.25));
   std::vector<double> lengths;  // in a plane that begins at each depth
@@ -162,11 +162,9 @@ double MainDepth(const FittedCurves& fitted,
     lengths.push_back(within);
     within -= length;
   }
-  const double most = *std::max_element(lengths.begin(), lengths.end());
-  const auto nearest =
-      std::find_if(lengths.begin(), lengths.end(), [&](double length) {
-        return length >= kNearlyMost * most;
-      });
+  const double most = *std::ranges::max_element(lengths);
+  const auto nearest = std::ranges::find_if(
+      lengths, [&](double length) { return length >= kNearlyMost * most; });
   return away *
          Quantile({depths.begin() + (nearest - lengths.begin()), depths.end()},
                   *nearest,

@@ -18,8 +18,8 @@ struct WeightedBox {
 // Of one axis, what the curves take without a break: the run with most length.
 // Ties: the lowest.
 Eigen::Vector2d HeaviestRun(int axis, std::vector<WeightedBox> boxes) {
-  std::sort(boxes.begin(), boxes.end(), [&](const auto& a, const auto& b) {
-    return a.bounds.min()[axis] < b.bounds.min()[axis];
+  std::ranges::sort(boxes, {}, [&](const WeightedBox& box) {
+    return box.bounds.min()[axis];
   });
   Eigen::Vector2d heaviest, run;
   double most = -1;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/text_fields.h"
@@ -89,12 +88,11 @@ void AddTitle(const SheetSettings& settings, Sheet& s) {
 Status TooLarge(const Eigen::Vector2d& needed,
                 const SheetSettings& settings,
                 double denominator) {
-  return {StatusCode::kInvalidArgument,
-          "At " + ScaleText(denominator) + " the drawing takes " +
-              Short(std::ceil(needed.x())) + " x " +
-              Short(std::ceil(needed.y())) + " mm, more than " + 'A' +
-              settings.paper.substr(1) +
-              " has; use a larger --paper or a smaller --scale"};
+  return Status::InvalidArgument(
+      "At " + ScaleText(denominator) + " the drawing takes " +
+      Short(std::ceil(needed.x())) + " x " + Short(std::ceil(needed.y())) +
+      " mm, more than " + 'A' + settings.paper.substr(1) +
+      " has; use a larger --paper or a smaller --scale");
 }
 
 }  // namespace
@@ -133,14 +131,14 @@ Result<Sheet> LaySheet(const SheetSettings& settings,
                        std::optional<SheetPicture> picture) {
   Eigen::AlignedBox2d bounds = BoundsOf(curves);
   if (bounds.isEmpty() || !(bounds.sizes().maxCoeff() > 0)) {
-    return Status(StatusCode::kInvalidArgument,
-                  "There is nothing to draw; no curve lies in the window");
+    return Status::InvalidArgument(
+        "There is nothing to draw; no curve lies in the window");
   }
   const double mm = settings.millimetres;
   if (!(mm > 0) && settings.denominator > 0) {
-    return Status(StatusCode::kInvalidArgument,
-                  "--scale needs curves in mm, cm, m, in or ft; give them a "
-                  "unit with 'colmap_curvix align --distance ... --unit mm'");
+    return Status::InvalidArgument(
+        "--scale needs curves in mm, cm, m, in or ft; give them a unit with "
+        "'colmap_curvix align --distance ... --unit mm'");
   }
   Sheet sheet;
   sheet.size = PaperSize(settings.paper);

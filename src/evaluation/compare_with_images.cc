@@ -23,10 +23,9 @@ constexpr double kSpacingPx = 2;
 constexpr double kBorderPx = 2;
 
 bool IsSupportedBy(const CurveSample& sample, std::size_t view_idx) {
-  return std::any_of(
-      sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {
-        return ref.view_idx == static_cast<std::int32_t>(view_idx);
-      });
+  return std::ranges::any_of(sample.support, [&](const EdgeRef& ref) {
+    return ref.view_idx == static_cast<std::int32_t>(view_idx);
+  });
 }
 
 // Draws curves in one view.
@@ -176,8 +175,7 @@ Result<ImageAgreement> CompareWithImages(const std::vector<Curve>& curves,
                                          int num_threads) {
   std::vector<std::size_t> used;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    if (std::find(view_idxs.begin(), view_idxs.end(), static_cast<int>(i)) ==
-        view_idxs.end()) {
+    if (std::ranges::find(view_idxs, static_cast<int>(i)) == view_idxs.end()) {
       used.push_back(i);
     }
   }

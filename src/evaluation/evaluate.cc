@@ -6,7 +6,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "base/angles.h"
@@ -66,26 +65,27 @@ constexpr double kMaxNumSteps = 1e8;
 Status Check(const CurveSet& curves,
              const GroundTruth& truth,
              const EvaluationOptions& options) {
-  const auto bad = [](const std::string& message) {
-    return Status(StatusCode::kInvalidArgument, message);
-  };
   if (!(options.step > 0) || !std::isfinite(options.step)) {
-    return bad("The step of the evaluation must be a finite number > 0.");
+    return Status::InvalidArgument(
+        "The step of the evaluation must be a finite number > 0.");
   }
   if (!(options.unit_mm > 0) || !std::isfinite(options.unit_mm)) {
-    return bad("The millimetres per world unit must be a finite number > 0.");
+    return Status::InvalidArgument(
+        "The millimetres per world unit must be a finite number > 0.");
   }
   if (truth.samples.empty()) {
-    return bad("There is no ground truth to compare with.");
+    return Status::InvalidArgument("There is no ground truth to compare with.");
   }
   const double num_steps = CountSteps(curves, options.step);
   if (num_steps > 0 && num_steps < 1) {
-    return bad("The step of the evaluation is longer than all curves " +
-               std::string("together; choose a shorter one."));
+    return Status::InvalidArgument(
+        "The step of the evaluation is longer than all curves together; choose "
+        "a shorter one.");
   }
   if (!(num_steps <= kMaxNumSteps)) {
-    return bad("The curves are too long for this step of the evaluation; " +
-               std::string("choose a longer one."));
+    return Status::InvalidArgument(
+        "The curves are too long for this step of the evaluation; choose a "
+        "longer one.");
   }
   return {};
 }
@@ -112,8 +112,7 @@ double Mean(const std::vector<double>& values) {
 
 double CountBelow(const std::vector<double>& values, double threshold) {
   const auto below = [threshold](double value) { return value < threshold; };
-  return static_cast<double>(
-      std::count_if(values.begin(), values.end(), below));
+  return static_cast<double>(std::ranges::count_if(values, below));
 }
 
 double PercentBelow(const std::vector<double>& values, double threshold) {

@@ -58,11 +58,10 @@ TrueSample MakeSample(const std::vector<double>& row) {
 }
 
 Status Broken(std::size_t line_number) {
-  return {StatusCode::kDataLoss,
-          "line " + std::to_string(line_number) +
-              " is not \"x y z [tx ty tz [curve_id [views_seen "
-              "[views_edge [kind]]]]]\", the kind from 0 to 4, with as many "
-              "numbers as the rows before it"};
+  return Status::DataLoss("line " + std::to_string(line_number) +
+                          " is not \"x y z [tx ty tz [curve_id [views_seen "
+                          "[views_edge [kind]]]]]\", the kind from 0 to 4, "
+                          "with as many numbers as the rows before it");
 }
 
 }  // namespace
@@ -81,7 +80,7 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
     truth.samples.push_back(MakeSample(*row));
   }
   if (truth.samples.empty()) {
-    return Status(StatusCode::kDataLoss, "there is no ground-truth sample");
+    return Status::DataLoss("there is no ground-truth sample");
   }
   truth.has_tangents = num_columns >= 6;
   truth.has_curve_ids = num_columns >= 7;
@@ -100,13 +99,13 @@ Status ParseCurveKinds(std::string_view text, GroundTruth& truth) {
     const std::optional<int> curve_id = ParseNumber<int>(id);
     const std::string_view kind = TakeWord(line);
     if (!curve_id || kind.empty()) {
-      return {StatusCode::kDataLoss,
-              "line " + std::to_string(number) + " is not \"curve_id kind\""};
+      return Status::DataLoss("line " + std::to_string(number) +
+                              " is not \"curve_id kind\"");
     }
     kinds[*curve_id] = KindFromName(kind).value_or(CurveKind::kUnknown);
   }
   if (!truth.has_curve_ids) {
-    return {StatusCode::kDataLoss, "the ground truth has no curve ids"};
+    return Status::DataLoss("the ground truth has no curve ids");
   }
   for (TrueSample& sample : truth.samples) {
     const auto kind = kinds.find(sample.curve_id);

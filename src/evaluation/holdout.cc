@@ -25,8 +25,7 @@ Subset UsedViews(const Scene& scene,
   used.scene.cameras = scene.cameras;
   std::vector<int> new_idxs(scene.views.size(), -1);
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    if (std::binary_search(
-            held_out.begin(), held_out.end(), static_cast<int>(i))) {
+    if (std::ranges::binary_search(held_out, static_cast<int>(i))) {
       continue;
     }
     new_idxs[i] = static_cast<int>(used.view_idxs.size());
@@ -59,17 +58,16 @@ void RestoreViewIdxs(const std::vector<std::int32_t>& view_idxs,
 
 Result<std::vector<int>> ViewsHeldOut(std::size_t num_views, int every) {
   if (every < 2) {
-    return Status(StatusCode::kInvalidArgument,
-                  "at least every second view must be left in");
+    return Status::InvalidArgument(
+        "at least every second view must be left in");
   }
   std::vector<int> view_idxs;
   const int n = static_cast<int>(num_views);
   for (int i = every / 2; i < n; i += every) view_idxs.push_back(i);
   if (view_idxs.empty()) {
-    return Status(StatusCode::kInvalidArgument,
-                  "none of " + Plural(num_views, "view") +
-                      " is held out if it is one of " + std::to_string(every) +
-                      "; hold out more");
+    return Status::InvalidArgument("none of " + Plural(num_views, "view") +
+                                   " is held out if it is one of " +
+                                   std::to_string(every) + "; hold out more");
   }
   return view_idxs;
 }

@@ -63,7 +63,7 @@ class Finder {
     }
     for (std::size_t g = 0; g < groups.size(); ++g) {
       groups[g].members = members[g];
-      std::sort(groups[g].members.begin(), groups[g].members.end());
+      std::ranges::sort(groups[g].members);
       Update(groups[g]);
     }
     std::erase_if(groups,
@@ -77,8 +77,7 @@ class Finder {
     const Eigen::Vector2d off = v.value - group.mean;
     if (!(off.norm() <= v.bound)) return kInfinity;
     const bool is_member =
-        std::find(group.members.begin(), group.members.end(), i) !=
-        group.members.end();
+        std::ranges::find(group.members, i) != group.members.end();
     // A member's own part of the mean makes it nearer than it is.
     const Eigen::Matrix2d covariance =
         is_member ? v.covariance
@@ -175,9 +174,7 @@ double ChiSquaredLimit(int degrees_of_freedom) {
 }
 
 double LargestChance(std::vector<Test> tests) {
-  std::sort(tests.begin(), tests.end(), [](const Test& a, const Test& b) {
-    return a.chance < b.chance;
-  });
+  std::ranges::sort(tests, {}, &Test::chance);
   double failed = 0, passed = 0, largest = -1;
   for (const Test& test : tests) {
     if (test.chance == 1) failed += test.weight;

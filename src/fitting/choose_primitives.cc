@@ -121,7 +121,7 @@ std::vector<std::size_t> SearchJoints(const FitSamples& curve,
     joints.push_back(places[j] * stride);
   }
   joints.push_back(0);
-  std::reverse(joints.begin(), joints.end());
+  std::ranges::reverse(joints);
   return joints;
 }
 

@@ -3,7 +3,6 @@
 // made of.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "fitting/primitive.h"

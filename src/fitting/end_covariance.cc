@@ -105,13 +105,8 @@ double ReachOf(const std::vector<double>& angles, double middle) {
 // The mean squared distance of the samples in squares of their sigmas, which is
 // 2 if these are right.
 double Excess(const Conic& circle, const FitSamples& samples) {
-  const std::vector<double> squared = SquaredDistances(circle, samples);
-  double sum = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    sum += ResidualCost(squared[i], samples[i].sigma);
-  }
   const double free = 2 * static_cast<double>(samples.size()) - 6;
-  return std::max(1.0, sum / std::max(1.0, free));
+  return std::max(1.0, CostOf(circle, samples) / std::max(1.0, free));
 }
 
 // Edges this near to each other share pixels, and so do those at a corner.

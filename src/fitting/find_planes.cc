@@ -110,10 +110,8 @@ class PlaneFinder {
         }
       }
     }
-    std::stable_sort(
-        seeds.begin(), seeds.end(), [](const auto& a, const auto& b) {
-          return a.first > b.first;
-        });
+    std::ranges::stable_sort(
+        seeds, [](const auto& a, const auto& b) { return a.first > b.first; });
     std::vector<Indices> sorted;
     for (auto& [size, seed] : seeds) sorted.push_back(std::move(seed));
     return sorted;
@@ -287,7 +285,7 @@ class PlaneFinder {
       chances.push_back(2 * std::min(std::sqrt(limit * o.variance), o.bound) /
                         o.chance_scale);
     }
-    std::sort(chances.begin(), chances.end());
+    std::ranges::sort(chances);
     const double n = static_cast<double>(chances.size());
     double accidents = static_cast<double>(num_candidates);
     for (std::size_t k = 3; k < chances.size(); ++k) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -24,9 +25,7 @@ using Indices = std::vector<std::size_t>;
 // The given ones of the features, the surest first.
 template <typename SigmaOf>
 Indices BySigma(Indices order, const SigmaOf& sigma_of) {
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return sigma_of(a) < sigma_of(b);
-  });
+  std::ranges::stable_sort(order, {}, sigma_of);
   return order;
 }
 
@@ -206,19 +205,9 @@ void AddDirections(const std::vector<Direction>& directions,
 }  // namespace
 
 std::string_view KindName(GroupKind kind) {
-  switch (kind) {
-    case GroupKind::kParallel:
-      return "parallel";
-    case GroupKind::kCollinear:
-      return "collinear";
-    case GroupKind::kConcentric:
-      return "concentric";
-    case GroupKind::kEqualRadius:
-      return "equal_radius";
-    case GroupKind::kCoplanar:
-      return "coplanar";
-  }
-  return "";
+  constexpr std::array<std::string_view, 5> kNames = {
+      "parallel", "collinear", "concentric", "equal_radius", "coplanar"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 FitStructure FindStructure(const FittedCurves& fitted) {

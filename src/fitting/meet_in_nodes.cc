@@ -4,9 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <utility>
 
 namespace curvix {
 namespace {
@@ -98,7 +96,7 @@ void Meet(const std::vector<CurvePrimitives>& curves, CurveNode& node) {
     for (const End& end : node.ends) {
       misses.push_back(Miss(node.position, end, curves));
     }
-    const auto worst = std::max_element(misses.begin(), misses.end());
+    const auto worst = std::ranges::max_element(misses);
     if (*worst <= kMaxMissSigmas) return;
     node.ends.erase(node.ends.begin() + (worst - misses.begin()));
   }

@@ -146,9 +146,7 @@ std::optional<Estimate> Solve(const Camera& camera,
 // The sentence that is wrong with the values of the parameters, or empty.
 std::string WrongParameter(const Camera& camera) {
   const std::vector<double>& params = camera.params;
-  if (!std::all_of(params.begin(), params.end(), [](double p) {
-        return std::isfinite(p);
-      })) {
+  if (!std::ranges::all_of(params, [](double p) { return std::isfinite(p); })) {
     return "a parameter is not a finite number";
   }
   if (!(PinholeOf(camera).focal > 0).all()) {
@@ -183,28 +181,27 @@ std::optional<CameraModel> ModelFromId(int colmap_model_id) {
 }
 
 Status Validate(const Camera& camera) {
-  const auto invalid = [](const std::string& sentence) {
-    return Status(StatusCode::kInvalidArgument, sentence);
-  };
   const int id = static_cast<int>(camera.model);
   if (!IsKnown(id)) {
-    return invalid("Camera model id " + std::to_string(id) + " is not known.");
+    return Status::InvalidArgument("Camera model id " + std::to_string(id) +
+                                   " is not known.");
   }
   const std::string name(ModelName(camera.model));
   if (camera.width <= 0 || camera.height <= 0) {
-    return invalid(name + " camera of size " + std::to_string(camera.width) +
-                   " x " + std::to_string(camera.height) +
-                   ": width and height must be positive.");
+    return Status::InvalidArgument(
+        name + " camera of size " + std::to_string(camera.width) + " x " +
+        std::to_string(camera.height) + ": width and height must be positive.");
   }
   const std::size_t expected =
       static_cast<std::size_t>(NumParams(camera.model));
   if (camera.params.size() != expected) {
-    return invalid(name + " camera with " +
-                   Plural(camera.params.size(), "parameter") +
-                   ": the model has " + std::to_string(expected) + ".");
+    return Status::InvalidArgument(
+        name + " camera with " + Plural(camera.params.size(), "parameter") +
+        ": the model has " + std::to_string(expected) + ".");
   }
   const std::string wrong = WrongParameter(camera);
-  if (!wrong.empty()) return invalid(name + " camera: " + wrong + ".");
+  if (!wrong.empty())
+    return Status::InvalidArgument(name + " camera: " + wrong + ".");
   return {};
 }
 

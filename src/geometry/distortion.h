@@ -7,7 +7,6 @@
 #include <curvix/scene.h>
 #include <Eigen/Core>
 #include <cmath>
-#include <vector>
 
 namespace curvix {
 

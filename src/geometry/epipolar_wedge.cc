@@ -35,10 +35,9 @@ SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
     max_half_width_ = std::max(max_half_width_, wedge->half_width);
   }
   if (entries.empty()) return;
-  const auto [least, largest] = std::minmax_element(
-      entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-        return a.angle < b.angle;
-      });
+  const auto [least, largest] = std::ranges::minmax_element(
+      entries,
+      [](const Entry& a, const Entry& b) { return a.angle < b.angle; });
   const auto size = static_cast<double>(entries.size());
   least_angle_ = least->angle;
   if (largest->angle > least_angle_) {
@@ -59,7 +58,7 @@ std::vector<std::int32_t> SortedByAngle::Meeting(const Wedge& wedge) const {
   std::vector<std::int32_t> found;
   VisitMeeting(wedge,
                [&](std::size_t i) { found.push_back(entries_[i].edge_idx); });
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

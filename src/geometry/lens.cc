@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -37,14 +38,15 @@ std::size_t NumUsed(const Camera& camera) {
                   static_cast<std::size_t>(LensChange::SizeAtCompileTime));
 }
 
-Camera WithParams(const Camera& camera,
-                  CameraModel model,
-                  std::vector<double> params) {
-  Camera result = camera;
-  result.model = model;
-  result.params = std::move(params);
-  return result;
-}
+// What a model is a special case of.
+constexpr std::array<std::pair<CameraModel, CameraModel>, 7> kMoreTerms = {
+    {{CameraModel::kSimplePinhole, CameraModel::kSimpleRadial},
+     {CameraModel::kSimpleRadial, CameraModel::kRadial},
+     {CameraModel::kPinhole, CameraModel::kOpenCV},
+     {CameraModel::kRadial, CameraModel::kOpenCV},
+     {CameraModel::kSimpleFisheye, CameraModel::kSimpleRadialFisheye},
+     {CameraModel::kSimpleRadialFisheye, CameraModel::kRadialFisheye},
+     {CameraModel::kRadialFisheye, CameraModel::kOpenCVFisheye}}};
 
 // One parameter changed. The second focal length keeps its ratio to the first.
 Camera WithStep(Camera camera, std::size_t param_idx, double step) {
@@ -147,34 +149,16 @@ LensChange Lens::ChangeTo(const Camera& camera) const {
 }
 
 Camera WithMoreTerms(const Camera& camera) {
-  const std::vector<double>& p = camera.params;
-  switch (camera.model) {
-    case CameraModel::kSimplePinhole:
-      return WithParams(
-          camera, CameraModel::kSimpleRadial, {p[0], p[1], p[2], 0});
-    case CameraModel::kSimpleRadial:
-      return WithParams(
-          camera, CameraModel::kRadial, {p[0], p[1], p[2], p[3], 0});
-    case CameraModel::kPinhole:
-      return WithParams(
-          camera, CameraModel::kOpenCV, {p[0], p[1], p[2], p[3], 0, 0, 0, 0});
-    case CameraModel::kRadial:
-      return WithParams(camera,
-                        CameraModel::kOpenCV,
-                        {p[0], p[0], p[1], p[2], p[3], p[4], 0, 0});
-    case CameraModel::kSimpleFisheye:
-      return WithParams(
-          camera, CameraModel::kSimpleRadialFisheye, {p[0], p[1], p[2], 0});
-    case CameraModel::kSimpleRadialFisheye:
-      return WithParams(
-          camera, CameraModel::kRadialFisheye, {p[0], p[1], p[2], p[3], 0});
-    case CameraModel::kRadialFisheye:
-      return WithParams(camera,
-                        CameraModel::kOpenCVFisheye,
-                        {p[0], p[0], p[1], p[2], p[3], p[4], 0, 0});
-    default:
-      return camera;
+  Camera more = camera;
+  for (const auto& [model, general] : kMoreTerms) {
+    if (model != camera.model) continue;
+    more.model = general;
+    if (NumFocalLengths(general) > NumFocalLengths(model)) {
+      more.params.insert(more.params.begin(), camera.params[0]);
+    }
+    more.params.resize(static_cast<std::size_t>(NumParams(general)), 0);
   }
+  return more;
 }
 
 }  // namespace curvix

@@ -2,7 +2,6 @@
 #include "geometry/occluding_contour.h"
 
 #include <Eigen/Dense>
-#include <cmath>
 #include <cstddef>
 
 #include "geometry/directions.h"

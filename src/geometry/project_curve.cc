@@ -17,10 +17,9 @@ namespace {
 std::vector<bool> AreShown(const Curve& curve, int view_idx) {
   constexpr std::size_t kMaxGap = 20;
   const auto is_supported = [&](const CurveSample& sample) {
-    return std::any_of(
-        sample.support.begin(), sample.support.end(), [&](const EdgeRef& ref) {
-          return ref.view_idx == view_idx;
-        });
+    return std::ranges::any_of(sample.support, [&](const EdgeRef& ref) {
+      return ref.view_idx == view_idx;
+    });
   };
   const std::size_t size = curve.samples.size();
   std::vector<bool> are_shown(size);

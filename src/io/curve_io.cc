@@ -32,10 +32,10 @@ Status Encode(const std::string& extension,
   } else if (extension == ".vtp") {
     EncodeVtpCurves(curves, sink);
   } else {
-    return {StatusCode::kInvalidArgument,
-            "curves are written as .ply, .pcd, .obj, .txt, .vtp or .glb, "
-            "not as \"" +
-                extension + "\""};
+    return Status::InvalidArgument(
+        "curves are written as .ply, .pcd, .obj, .txt, .vtp or .glb, not as "
+        "\"" +
+        extension + "\"");
   }
   return {};
 }
@@ -46,9 +46,9 @@ Result<CurveSet> Decode(const std::string& extension,
   if (extension == ".ply") return DecodePlyLines(bytes);
   if (extension == ".obj") return DecodeObjLines(bytes);
   if (extension == ".txt") return DecodeTxtCurves(bytes, scene);
-  return Status(StatusCode::kInvalidArgument,
-                "curves are read from .ply, .obj or .txt, not from \"" +
-                    extension + "\"");
+  return Status::InvalidArgument(
+      "curves are read from .ply, .obj or .txt, not from \"" + extension +
+      "\"");
 }
 
 // A file of what `encode` gives.
@@ -92,8 +92,7 @@ Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
 
 Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
   if (path.extension() != ".ply") {
-    return InFile(path,
-                  {StatusCode::kInvalidArgument, "edges are written as .ply"});
+    return InFile(path, Status::InvalidArgument("edges are written as .ply"));
   }
   return Write(
       path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
@@ -105,9 +104,9 @@ Status WriteDrawing(const fs::path& path,
   const std::string extension = path.extension().string();
   if (extension != ".dxf" && extension != ".step") {
     return InFile(path,
-                  {StatusCode::kInvalidArgument,
-                   "fitted curves are written as .dxf or .step, not as \"" +
-                       extension + "\""});
+                  Status::InvalidArgument(
+                      "fitted curves are written as .dxf or .step, not as \"" +
+                      extension + "\""));
   }
   return Write(path, [&](const ByteSink& sink) {
     extension == ".dxf" ? EncodeDxfDrawing(fitted, unit, sink)
@@ -122,9 +121,9 @@ Status WriteProjection(const fs::path& path,
                        int view_idx) {
   if (path.extension() != ".svg") {
     return InFile(path,
-                  {StatusCode::kInvalidArgument,
-                   "projected curves are written as .svg, not as \"" +
-                       path.extension().string() + "\""});
+                  Status::InvalidArgument(
+                      "projected curves are written as .svg, not as \"" +
+                      path.extension().string() + "\""));
   }
   return Write(path, curves, [&](const ByteSink& sink) {
     EncodeSvgCurves(curves, scene, view_idx, sink);

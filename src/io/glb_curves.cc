@@ -162,8 +162,8 @@ Status EncodeGlbCurves(const CurveSource& curves, const ByteSink& sink) {
   const std::size_t size =
       12 + 8 + json.size() + (num_binary > 0 ? 8 + num_binary : 0);
   if (size > std::numeric_limits<std::uint32_t>::max()) {
-    return {StatusCode::kUnsupported,
-            "the curves need more than the 4 GB that GLB can hold"};
+    return Status::Unsupported(
+        "the curves need more than the 4 GB that GLB can hold");
   }
   PutWords({kMagic, 2, size, json.size(), kJson}, sink);
   sink(json);

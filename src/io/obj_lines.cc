@@ -65,9 +65,9 @@ bool ParseLine(std::string_view words, LineGraph& graph) {
 }
 
 Status Broken(std::size_t line_number, std::string_view line) {
-  return {StatusCode::kDataLoss,
-          "line " + std::to_string(line_number) + " is not understood: \"" +
-              std::string(line.substr(0, 80)) + "\""};
+  return Status::DataLoss("line " + std::to_string(line_number) +
+                          " is not understood: \"" +
+                          std::string(line.substr(0, 80)) + "\"");
 }
 
 }  // namespace
@@ -111,8 +111,8 @@ Result<CurveSet> DecodeObjLines(std::string_view bytes) {
     if (!understood) return Broken(number, line);
   }
   if (!any_line && !only_comments) {
-    return Status(StatusCode::kUnsupported,
-                  "the OBJ has no line (\"l\"), so it holds no curves");
+    return Status::Unsupported(
+        "the OBJ has no line (\"l\"), so it holds no curves");
   }
   return JoinPolylines(graph);
 }

@@ -9,7 +9,6 @@
 // but for neighbours.
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <istream>
 #include <string>
 
@@ -96,7 +95,7 @@ Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
   PartFile file(path);
   file.stream_.open(path, std::ios::binary);
   if (!file.stream_) {
-    return Status(StatusCode::kNotFound, "Cannot open " + path.string() + ".");
+    return Status::NotFound("Cannot open " + path.string() + ".");
   }
   const Result<StageHead> head =
       ReadStageHead(path,

@@ -40,9 +40,9 @@ Status EncodePcd(const CurveSource& curves, const ByteSink& sink) {
   });
   // PCL takes the largest number for none given.
   if (num_points >= std::numeric_limits<int>::max()) {
-    return {StatusCode::kUnsupported,
-            "PCL counts points with 32 bits, too few for " +
-                std::to_string(num_points) + " of them; write .txt instead"};
+    return Status::Unsupported("PCL counts points with 32 bits, too few for " +
+                               std::to_string(num_points) +
+                               " of them; write .txt instead");
   }
   sink(pcl::PCDWriter::generateHeader<CurvePoint>(
            {}, static_cast<int>(num_points)) +

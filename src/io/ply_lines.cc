@@ -30,9 +30,9 @@ std::optional<std::vector<std::size_t>> FindScalars(
 }
 
 Status NoColumns(const std::string& what) {
-  return {StatusCode::kUnsupported,
-          "the PLY has no " + what + ", so it is not a set of lines; a point " +
-              "cloud or a mesh holds no curves"};
+  return Status::Unsupported("the PLY has no " + what +
+                             ", so it is not a set of lines; a point " +
+                             "cloud or a mesh holds no curves");
 }
 
 // Unknown for numbers of no kind.
@@ -118,9 +118,9 @@ constexpr std::size_t kEdgeBytes = 31;  // of edges before they are grouped
 constexpr std::size_t kMaxVertices = std::numeric_limits<std::int32_t>::max();
 
 Status TooManyVertices(std::size_t count) {
-  return {StatusCode::kUnsupported,
-          "A PLY file names vertices with 32 bits, too few for " +
-              std::to_string(count) + " of them; write .txt instead"};
+  return Status::Unsupported(
+      "A PLY file names vertices with 32 bits, too few for " +
+      std::to_string(count) + " of them; write .txt instead");
 }
 
 void AppendVector(const Eigen::Vector3d& vector, std::string& out) {
@@ -215,9 +215,9 @@ Result<std::string_view> FindEdges(std::string_view bytes) {
       return body;
     }
   }
-  return Status(StatusCode::kDataLoss,
-                "it is broken, or was not written by curvix; reconstruct "
-                "this part again");
+  return Status::DataLoss(
+      "it is broken, or was not written by curvix; reconstruct this part "
+      "again");
 }
 
 Status ForEachEdges(const std::vector<fs::path>& parts, const ByteSink& take) {
@@ -243,10 +243,8 @@ Status EncodePlyLines(const CurveSource& curves,
     num_vertices += curve.samples.size();
     num_edges += curve.samples.empty() ? 0 : curve.samples.size() - 1;
     num_edges += HasClosingEdge(curve) ? 1 : 0;
-    has_kinds =
-        has_kinds || std::any_of(curve.samples.begin(),
-                                 curve.samples.end(),
-                                 [](const CurveSample& sample) {
+    has_kinds = has_kinds || std::ranges::any_of(
+                                 curve.samples, [](const CurveSample& sample) {
                                    return sample.kind != CurveKind::kUnknown;
                                  });
   });

@@ -13,35 +13,39 @@
 namespace curvix {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames = {{
-    {"char", PlyType::kInt8},
-    {"int8", PlyType::kInt8},
-    {"uchar", PlyType::kUint8},
-    {"uint8", PlyType::kUint8},
-    {"short", PlyType::kInt16},
-    {"int16", PlyType::kInt16},
-    {"ushort", PlyType::kUint16},
-    {"uint16", PlyType::kUint16},
-    {"int", PlyType::kInt32},
-    {"int32", PlyType::kInt32},
-    {"uint", PlyType::kUint32},
-    {"uint32", PlyType::kUint32},
-    {"float", PlyType::kFloat32},
-    {"float32", PlyType::kFloat32},
-    {"double", PlyType::kFloat64},
-    {"float64", PlyType::kFloat64},
-}};
-
-std::optional<PlyType> TypeOf(std::string_view name) {
-  for (const auto& [known, type] : kTypeNames) {
-    if (known == name) return type;
-  }
-  return std::nullopt;
+template <typename T>
+double Load(const char* bytes, std::endian order) {
+  return static_cast<double>(LoadBytes<T>(bytes, order));
 }
 
-std::size_t SizeOf(PlyType type) {
-  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes[static_cast<std::size_t>(type)];
+struct TypeRow {
+  std::string_view name, other_name;
+  std::size_t size;  // bytes
+  double (*load)(const char* bytes, std::endian order);
+};
+
+// In the order of PlyType.
+constexpr std::array<TypeRow, 8> kTypes = {
+    {{"char", "int8", 1, Load<std::int8_t>},
+     {"uchar", "uint8", 1, Load<std::uint8_t>},
+     {"short", "int16", 2, Load<std::int16_t>},
+     {"ushort", "uint16", 2, Load<std::uint16_t>},
+     {"int", "int32", 4, Load<std::int32_t>},
+     {"uint", "uint32", 4, Load<std::uint32_t>},
+     {"float", "float32", 4, Load<float>},
+     {"double", "float64", 8, Load<double>}}};
+
+const TypeRow& RowOf(PlyType type) {
+  return kTypes[static_cast<std::size_t>(type)];
+}
+
+std::optional<PlyType> TypeOf(std::string_view name) {
+  for (std::size_t i = 0; i < kTypes.size(); ++i) {
+    if (name == kTypes[i].name || name == kTypes[i].other_name) {
+      return static_cast<PlyType>(i);
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<PlyFormat> FormatOf(std::string_view name) {
@@ -101,42 +105,19 @@ bool ParseHeaderLine(std::string_view line, PlyHeader& header) {
   return false;
 }
 
-double LoadScalar(const char* bytes, PlyType type, std::endian order) {
-  switch (type) {
-    case PlyType::kInt8:
-      return LoadBytes<std::int8_t>(bytes, order);
-    case PlyType::kUint8:
-      return LoadBytes<std::uint8_t>(bytes, order);
-    case PlyType::kInt16:
-      return LoadBytes<std::int16_t>(bytes, order);
-    case PlyType::kUint16:
-      return LoadBytes<std::uint16_t>(bytes, order);
-    case PlyType::kInt32:
-      return LoadBytes<std::int32_t>(bytes, order);
-    case PlyType::kUint32:
-      return LoadBytes<std::uint32_t>(bytes, order);
-    case PlyType::kFloat32:
-      return static_cast<double>(LoadBytes<float>(bytes, order));
-    case PlyType::kFloat64:
-      return LoadBytes<double>(bytes, order);
-  }
-  return 0;
-}
-
 std::optional<double> TakeScalar(PlyType type,
                                  PlyFormat format,
                                  std::string_view& body) {
   if (format == PlyFormat::kAscii) {
     return ParseNumber<double>(TakeWord(body));
   }
-  const std::size_t size = SizeOf(type);
-  if (body.size() < size) return std::nullopt;
+  const TypeRow& row = RowOf(type);
+  if (body.size() < row.size) return std::nullopt;
   const double value =
-      LoadScalar(body.data(),
-                 type,
-                 format == PlyFormat::kBinaryBigEndian ? std::endian::big
-                                                       : std::endian::little);
-  body.remove_prefix(size);
+      row.load(body.data(),
+               format == PlyFormat::kBinaryBigEndian ? std::endian::big
+                                                     : std::endian::little);
+  body.remove_prefix(row.size);
   return value;
 }
 
@@ -176,36 +157,33 @@ std::uint64_t MinRowBytes(const PlyElement& element, PlyFormat format) {
   for (const PlyProperty& property : element.properties) {
     bytes += format == PlyFormat::kAscii
                  ? 2  // a digit and the blank or line end after it
-                 : SizeOf(property.count_type.value_or(property.type));
+                 : RowOf(property.count_type.value_or(property.type)).size;
   }
   return bytes;
 }
 
 Status Broken(const PlyElement& element, std::uint64_t row) {
-  return {StatusCode::kDataLoss,
-          "element " + element.name + " announces " +
-              Plural(element.count, "row") + " but ends or breaks in " +
-              "row " + std::to_string(row) +
-              "; the file is truncated or "
-              "damaged"};
+  return Status::DataLoss(
+      "element " + element.name + " announces " + Plural(element.count, "row") +
+      " but ends or breaks in " + "row " + std::to_string(row) +
+      "; the file is truncated or damaged");
 }
 
 }  // namespace
 
 Result<PlyHeader> TakePlyHeader(std::string_view& bytes) {
-  Status not_ply(StatusCode::kDataLoss, "the file is not PLY");
-  if (TakeLine(bytes) != "ply") return not_ply;
+  if (TakeLine(bytes) != "ply") return Status::DataLoss("the file is not PLY");
   PlyHeader header;
   while (!bytes.empty()) {
     const std::string_view line = TakeLine(bytes);
     if (line == "end_header") return header;
     if (ParseHeaderLine(line, header)) continue;
-    return Status(StatusCode::kDataLoss,
-                  "the PLY header has a line that is not understood: \"" +
-                      std::string(line.substr(0, 80)) + "\"");
+    return Status::DataLoss(
+        "the PLY header has a line that is not understood: \"" +
+        std::string(line.substr(0, 80)) + "\"");
   }
-  return Status(StatusCode::kDataLoss,
-                "the PLY header has no end_header; the file is truncated");
+  return Status::DataLoss(
+      "the PLY header has no end_header; the file is truncated");
 }
 
 std::optional<std::size_t> FindScalar(const PlyElement& element,

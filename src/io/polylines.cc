@@ -23,18 +23,18 @@ struct Path {
 Status Check(const LineGraph& graph) {
   for (std::size_t i = 0; i < graph.positions.size(); ++i) {
     if (graph.positions[i].allFinite()) continue;
-    return {StatusCode::kDataLoss,
-            "vertex " + std::to_string(i) + ", counted from 0, has a " +
-                "coordinate that is not finite; export the lines again"};
+    return Status::DataLoss("vertex " + std::to_string(i) +
+                            ", counted from 0, has a coordinate that is not "
+                            "finite; export the lines again");
   }
   const auto size = static_cast<std::int64_t>(graph.positions.size());
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     for (const std::int64_t vertex : graph.edges[i]) {
       if (vertex >= 0 && vertex < size) continue;
-      return {StatusCode::kDataLoss,
-              "edge " + std::to_string(i) + " names vertex " +
-                  std::to_string(vertex) + ", counted from 0, but there are " +
-                  std::to_string(size) + "; the file is damaged"};
+      return Status::DataLoss("edge " + std::to_string(i) + " names vertex " +
+                              std::to_string(vertex) +
+                              ", counted from 0, but there are " +
+                              std::to_string(size) + "; the file is damaged");
     }
   }
   return {};
@@ -49,14 +49,14 @@ Edges DistinctEdges(const LineGraph& graph) {
     const auto b = static_cast<std::size_t>(graph.edges[i][1]);
     if (a != b) keys.push_back({{std::min(a, b), std::max(a, b)}, i});
   }
-  std::sort(keys.begin(), keys.end());
+  std::ranges::sort(keys);
   const auto same = [](const Key& a, const Key& b) {
     return a.first == b.first;
   };
   keys.erase(std::unique(keys.begin(), keys.end(), same), keys.end());
   std::vector<std::size_t> kept;
   for (const Key& key : keys) kept.push_back(key.second);
-  std::sort(kept.begin(), kept.end());
+  std::ranges::sort(kept);
 
   Edges edges;
   for (const std::size_t i : kept) {
@@ -91,10 +91,7 @@ class Walker {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       if (!used_[e]) paths.push_back(Walk(edges_[e][0], e));
     }
-    const auto by_first_edge = [](const Path& a, const Path& b) {
-      return a.first_edge < b.first_edge;
-    };
-    std::sort(paths.begin(), paths.end(), by_first_edge);
+    std::ranges::sort(paths, {}, &Path::first_edge);
     return paths;
   }
 

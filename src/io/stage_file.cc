@@ -14,9 +14,9 @@ constexpr std::uint64_t kMagic = 0x4547415453585643;
 constexpr std::uint32_t kVersion = 9;
 
 Status Other(const fs::path& path) {
-  return {StatusCode::kNotFound,
-          path.string() + " is the result of another input, of other options " +
-              "or of another program."};
+  return Status::NotFound(path.string() +
+                          " is the result of another input, of other options " +
+                          "or of another program.");
 }
 
 }  // namespace
@@ -29,8 +29,8 @@ std::uint64_t HashBytes(std::string_view bytes, std::uint64_t hash) {
 }
 
 Status BrokenStage(const fs::path& path) {
-  return {StatusCode::kDataLoss,
-          path.string() + " is broken or truncated; remove it."};
+  return Status::DataLoss(path.string() +
+                          " is broken or truncated; remove it.");
 }
 
 Status WriteStage(const fs::path& path,

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>

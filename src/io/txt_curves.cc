@@ -95,9 +95,9 @@ std::optional<CurveSample> ParseSample(std::string_view line,
 }
 
 Status Broken(std::size_t line_number, const std::string& expected) {
-  return {StatusCode::kDataLoss,
-          "line " + std::to_string(line_number) + " is not " + expected +
-              "; the file is truncated or was changed by hand"};
+  return Status::DataLoss("line " + std::to_string(line_number) + " is not " +
+                          expected +
+                          "; the file is truncated or was changed by hand");
 }
 
 // Reads the samples that `head` announces into `curve`.

@@ -92,11 +92,8 @@ DirectionsOfCurves DirectionsOf(const FittedCurves& fitted) {
     return !(d.length > 0 && d.variance < limit);
   };
   const std::size_t num_unknown = std::erase_if(directions, is_unknown);
-  std::stable_sort(directions.begin(),
-                   directions.end(),
-                   [](const KnownDirection& a, const KnownDirection& b) {
-                     return a.length > b.length;
-                   });
+  std::ranges::stable_sort(
+      directions, std::ranges::greater(), &KnownDirection::length);
   return {std::move(directions), num_unknown};
 }
 

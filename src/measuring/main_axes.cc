@@ -232,7 +232,7 @@ Status NothingPerpendicular(std::size_t num_known, std::size_t num_unknown) {
                "direction is above " +
                FixedText(kKnownDeg, 1) + " degrees";
   }
-  return Status(StatusCode::kUnsupported, message);
+  return Status::Unsupported(message);
 }
 
 // `axis`: of each camera.

@@ -9,7 +9,6 @@
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "measuring/world_alignment.h"

@@ -21,10 +21,6 @@ constexpr double kOnALine = 1e-3;
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-Status Unusable(std::string message) {
-  return {StatusCode::kInvalidArgument, std::move(message)};
-}
-
 // A step by (s, w, t) of WorldAlignment::covariance.
 Similarity3 Moved(const Similarity3& from, const Vector7d& step) {
   Similarity3 to = from;
@@ -108,23 +104,25 @@ Status Estimator::StartAtPositions() {
     start.rotation = Eigen::Matrix3d(m.block<3, 3>(0, 0) / start.scale);
     a.has_rotation = a.has_scale = true;
   } else if (!a.has_rotation) {
-    return Unusable(
+    return Status::InvalidArgument(
         "The positions do not fix the axes: give three or more that are not on "
         "a line, or --axes auto as well");
   } else if (n > 1) {
     const double from = (model.colwise() - model.rowwise().mean()).norm();
     const double to = (world.colwise() - world.rowwise().mean()).norm();
     if (!(from > 0 && to > 0)) {
-      return Unusable("All positions are at one place, which gives no scale");
+      return Status::InvalidArgument(
+          "All positions are at one place, which gives no scale");
     }
     if (!a.has_scale) start.scale = to / from;
     a.has_scale = true;
   }
   if (!(start.scale > 0) || !std::isfinite(start.scale)) {
-    return Unusable("The positions coincide, which gives no scale");
+    return Status::InvalidArgument(
+        "The positions coincide, which gives no scale");
   }
   if (n == 1 && !(input_.positions.front().sigma > 0)) {
-    return Unusable(
+    return Status::InvalidArgument(
         "The uncertainty of a single position cannot be estimated: give its "
         "standard deviation, too");
   }
@@ -143,7 +141,8 @@ Status Estimator::Start() {
   }
   for (const KnownDistance& d : input_.distances) {
     if (!((d.a - d.b).norm() > 0)) {
-      return Unusable("The two points of a distance are the same point");
+      return Status::InvalidArgument(
+          "The two points of a distance are the same point");
     }
   }
   if (!input_.scales.empty()) {
@@ -156,7 +155,7 @@ Status Estimator::Start() {
   }
   if (input_.positions.empty()) {
     if (a.has_scale || a.has_rotation) return {};
-    return Unusable("Nothing is given to align to");
+    return Status::InvalidArgument("Nothing is given to align to");
   }
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const KnownPosition& p : input_.positions) mean += p.world;
@@ -279,7 +278,7 @@ Result<AlignmentResult> Estimator::Run() {
   }
   if (!a.covariance.allFinite() ||
       !a.world_from_model.translation.allFinite()) {
-    return Unusable("What is given does not fix scale and axes");
+    return Status::InvalidArgument("What is given does not fix scale and axes");
   }
   KeepResiduals();
   return std::move(result_);

@@ -17,24 +17,22 @@ namespace {
 // of places stay small numbers.
 constexpr double kFarthestPx = 1e6;
 
-Status Invalid(const std::string& message) {
-  return {StatusCode::kInvalidArgument, message};
-}
-
 Status CheckView(const Scene& scene, const View& view) {
   if (view.camera_idx < 0 ||
       static_cast<std::size_t>(view.camera_idx) >= scene.cameras.size()) {
-    return Invalid("view " + view.name + " has camera index " +
-                   std::to_string(view.camera_idx) + ", but there " +
-                   OneOrMore(scene.cameras.size(), "is ", "are ") +
-                   Plural(scene.cameras.size(), "camera"));
+    return Status::InvalidArgument(
+        "view " + view.name + " has camera index " +
+        std::to_string(view.camera_idx) + ", but there " +
+        OneOrMore(scene.cameras.size(), "is ", "are ") +
+        Plural(scene.cameras.size(), "camera"));
   }
   const Rigid3& pose = view.cam_from_world;
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite() ||
       std::abs(pose.rotation.norm() - 1) > 1e-6) {
-    return Invalid("the pose of view " + view.name +
-                   " is no rigid motion: a number is not finite or the "
-                   "quaternion is not of unit length");
+    return Status::InvalidArgument(
+        "the pose of view " + view.name +
+        " is no rigid motion: a number is not finite or the "
+        "quaternion is not of unit length");
   }
   return {};
 }
@@ -81,8 +79,9 @@ bool IsSound(const Edge3d& edge, const std::vector<EdgeMap>& edge_maps) {
 
 Status CheckScene(const Scene& scene) {
   if (scene.views.size() < 3) {
-    return Invalid("curves need at least three views, and there are " +
-                   std::to_string(scene.views.size()));
+    return Status::InvalidArgument(
+        "curves need at least three views, and there are " +
+        std::to_string(scene.views.size()));
   }
   for (const Camera& camera : scene.cameras) {
     if (Status status = Validate(camera); !status.ok()) return status;
@@ -98,7 +97,9 @@ Status CheckScene(const Scene& scene) {
       sound = sound && idx >= 0 &&
               static_cast<std::size_t>(idx) < scene.views.size();
     }
-    if (!sound) return Invalid("a sparse point is not finite or has no view");
+    if (!sound)
+      return Status::InvalidArgument(
+          "a sparse point is not finite or has no view");
   }
   return {};
 }
@@ -106,17 +107,18 @@ Status CheckScene(const Scene& scene) {
 Status CheckEdgeMaps(const Scene& scene,
                      const std::vector<EdgeMap>& edge_maps) {
   if (edge_maps.size() != scene.views.size()) {
-    return Invalid("there " + OneOrMore(edge_maps.size(), "is ", "are ") +
-                   Plural(edge_maps.size(), "edge map") + " for " +
-                   Plural(scene.views.size(), "view") +
-                   "; one per view is needed");
+    return Status::InvalidArgument(
+        "there " + OneOrMore(edge_maps.size(), "is ", "are ") +
+        Plural(edge_maps.size(), "edge map") + " for " +
+        Plural(scene.views.size(), "view") + "; one per view is needed");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     if (IsSound(edge_maps[i])) continue;
-    return Invalid("the edges of view " + scene.views[i].name +
-                   " are not sound: one entry of neighbors per edge, "
-                   "neighbors among the edges, finite numbers, and "
-                   "positions within a million pixels are needed");
+    return Status::InvalidArgument(
+        "the edges of view " + scene.views[i].name +
+        " are not sound: one entry of neighbors per edge, "
+        "neighbors among the edges, finite numbers, and "
+        "positions within a million pixels are needed");
   }
   return {};
 }
@@ -125,11 +127,11 @@ Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
                        const EdgeSketch& sketch) {
   const bool is_sound =
       sketch.edge_sigma_px > 0 && std::isfinite(sketch.edge_sigma_px) &&
-      std::all_of(sketch.edges.begin(),
-                  sketch.edges.end(),
-                  [&](const Edge3d& edge) { return IsSound(edge, edge_maps); });
+      std::ranges::all_of(sketch.edges, [&](const Edge3d& edge) {
+        return IsSound(edge, edge_maps);
+      });
   if (is_sound) return {};
-  return Invalid(
+  return Status::InvalidArgument(
       "the 3D edges are not sound: finite numbers, a positive edge_sigma_px "
       "and, in the order of views, "
       "at most one 2D edge per view are needed, and these among the edges");

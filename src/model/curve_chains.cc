@@ -39,7 +39,7 @@ Curve StringOne(const EndChain& chain,
 }  // namespace
 
 Curve Reversed(Curve curve) {
-  std::reverse(curve.samples.begin(), curve.samples.end());
+  std::ranges::reverse(curve.samples);
   for (CurveSample& sample : curve.samples) sample.tangent = -sample.tangent;
   return curve;
 }
@@ -63,7 +63,7 @@ std::vector<Curve> CutAfter(const Curve& curve,
   for (std::size_t k = 0; k < size; ++k) {
     const std::size_t i = (start + k) % size;
     pieces.back().samples.push_back(curve.samples[i]);
-    const bool is_last = std::binary_search(samples.begin(), samples.end(), i);
+    const bool is_last = std::ranges::binary_search(samples, i);
     if (is_last && k + 1 < size) pieces.emplace_back();
   }
   return pieces;
@@ -115,7 +115,7 @@ EndChain ChainThrough(const EndTies& ties, std::size_t start) {
   chain.closed = IsClosed(ties, start, ahead);
   if (!chain.closed) {
     chain.items = Walk(ties, 2 * start + 1, false);
-    std::reverse(chain.items.begin(), chain.items.end());
+    std::ranges::reverse(chain.items);
   }
   chain.items.push_back({start, false});
   chain.items.insert(chain.items.end(), ahead.begin(), ahead.end());
@@ -147,7 +147,7 @@ EndTies TieCheapestFirst(std::vector<EndPair> pairs, std::size_t num_items) {
   for (EndPair& pair : pairs) {
     if (pair.b < pair.a) std::swap(pair.a, pair.b);
   }
-  std::sort(pairs.begin(), pairs.end(), [](const auto& x, const auto& y) {
+  std::ranges::sort(pairs, [](const auto& x, const auto& y) {
     return std::tie(x.cost, x.a, x.b) < std::tie(y.cost, y.a, y.b);
   });
   EndTies ties(2 * num_items);

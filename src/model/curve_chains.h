@@ -5,7 +5,6 @@
 
 #include <curvix/curves.h>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>

@@ -29,7 +29,7 @@ CurveKind MainKind(const Curve& curve) {
   for (const CurveSample& sample : curve.samples) {
     ++num_samples[static_cast<std::size_t>(sample.kind)];
   }
-  const auto most = std::max_element(num_samples.begin(), num_samples.end());
+  const auto most = std::ranges::max_element(num_samples);
   return static_cast<CurveKind>(most - num_samples.begin());
 }
 

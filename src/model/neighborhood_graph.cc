@@ -106,9 +106,7 @@ NeighborLink AddedCounts(const NeighborLink& a, const NeighborLink& b) {
 
 // Brings `row` into ascending order, counts of repeats added.
 void SortAndAdd(Row& row) {
-  std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) {
-    return a.edge_idx < b.edge_idx;
-  });
+  std::ranges::sort(row, {}, &NeighborLink::edge_idx);
   std::size_t size = 0;
   for (const NeighborLink& link : row) {
     if (size > 0 && row[size - 1].edge_idx == link.edge_idx) {

@@ -11,7 +11,7 @@ namespace {
 // A closed curve of which not all samples are kept becomes an open one that
 // begins with one that is not; `kept` turns with it.
 void OpenAtGap(Curve& curve, std::vector<bool>& kept) {
-  const auto gap = std::find(kept.begin(), kept.end(), false);
+  const auto gap = std::ranges::find(kept, false);
   if (!curve.closed || gap == kept.end()) return;
   const auto offset = gap - kept.begin();
   std::rotate(curve.samples.begin(),

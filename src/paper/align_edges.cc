@@ -52,7 +52,7 @@ double Step(const std::vector<OrientedPoint>& now,
         (now[i].tangent + options.step_size * pull.torque).normalized();
     forces[i] = pull.force.norm();
   });
-  return *std::max_element(forces.begin(), forces.end());
+  return *std::ranges::max_element(forces);
 }
 
 }  // namespace

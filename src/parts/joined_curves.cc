@@ -28,8 +28,7 @@ EndTies TiesAmong(const std::vector<std::size_t>& items, const EndTies& ties) {
       std::optional<EndIdx>& tie = among.emplace_back();
       if (!ties[end]) continue;
       const auto rank =
-          std::lower_bound(items.begin(), items.end(), ItemOf(*ties[end])) -
-          items.begin();
+          std::ranges::lower_bound(items, ItemOf(*ties[end])) - items.begin();
       tie = 2 * static_cast<std::size_t>(rank) + *ties[end] % 2;
     }
   }
@@ -117,16 +116,15 @@ Result<TracedCurve> JoinedCurves::Read(int part_idx,
     ref.view_idx = view_idxs[view_idx];
   });
   if (is_sound) return traced;
-  return Status(StatusCode::kDataLoss,
-                "a curve of part " + std::to_string(part_idx) +
-                    " names views or edges that are not there; reconstruct "
-                    "this part again");
+  return Status::DataLoss(
+      "a curve of part " + std::to_string(part_idx) +
+      " names views or edges that are not there; reconstruct this part again");
 }
 
 Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
   std::vector<std::size_t> items;
   for (const ChainItem& link : chain.items) items.push_back(link.item);
-  std::sort(items.begin(), items.end());
+  std::ranges::sort(items);
   TracedCurve joined;
   std::vector<Curve> curves;
   for (const std::size_t item : items) {

@@ -100,9 +100,7 @@ class Partitioner {
     const auto place = [&](int i) {
       return std::pair(normal.dot(CenterOf(i)), i);
     };
-    std::sort(own.begin(), own.end(), [&](int a, int b) {
-      return place(a) < place(b);
-    });
+    std::ranges::sort(own, {}, place);
     const int num_below = num_parts / 2;
     const std::size_t middle = own.size() *
                                static_cast<std::size_t>(num_below) /
@@ -135,13 +133,9 @@ class Partitioner {
   static void AddPart(std::vector<int> own,
                       const std::vector<int>& near,
                       ScenePartition& partition) {
-    std::sort(own.begin(), own.end());
+    std::ranges::sort(own);
     ScenePart part;
-    std::set_union(own.begin(),
-                   own.end(),
-                   near.begin(),
-                   near.end(),
-                   std::back_inserter(part.view_idxs));
+    std::ranges::set_union(own, near, std::back_inserter(part.view_idxs));
     part.own_view_idxs = std::move(own);
     partition.parts.push_back(std::move(part));
   }
@@ -153,7 +147,7 @@ class Partitioner {
     for (const int i : views) {
       const std::vector<Vector3d>& seen = places_[static_cast<std::size_t>(i)];
       const auto num_near =
-          std::count_if(seen.begin(), seen.end(), [&](const Vector3d& place) {
+          std::ranges::count_if(seen, [&](const Vector3d& place) {
             return DistanceBeyond(borders, place) <= 2 * overlap_;
           });
       const auto num_seen = static_cast<double>(seen.size());

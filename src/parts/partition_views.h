@@ -6,7 +6,6 @@
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <Eigen/Core>
-#include <cstddef>
 #include <optional>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "base/count_text.h"
@@ -45,12 +44,11 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
   std::optional<ScenePartition> partition = PartitionViews(
       places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
   if (partition) return *std::move(partition);
-  return Status(StatusCode::kInvalidArgument,
-                "the " + Plural(views.size(), "view") +
-                    " cannot be divided into parts of " +
-                    Plural(max_views_per_part, "view") +
-                    ", because too many of them see the same places; "
-                    "allow more views per part");
+  return Status::InvalidArgument("the " + Plural(views.size(), "view") +
+                                 " cannot be divided into parts of " +
+                                 Plural(max_views_per_part, "view") +
+                                 ", because too many of them see the same "
+                                 "places; allow more views per part");
 }
 
 PartResult TakePart(const ScenePartition& partition,
@@ -66,9 +64,7 @@ PartResult TakePart(const ScenePartition& partition,
   }
   const ScenePart& part = partition.parts[static_cast<std::size_t>(part_idx)];
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    if (std::binary_search(part.own_view_idxs.begin(),
-                           part.own_view_idxs.end(),
-                           part.view_idxs[i])) {
+    if (std::ranges::binary_search(part.own_view_idxs, part.view_idxs[i])) {
       result.num_own_edges_2d +=
           static_cast<std::int64_t>(edge_maps[i].edges.size());
     }

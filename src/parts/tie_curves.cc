@@ -106,11 +106,10 @@ bool DuplicateSamples::Stays(const SampleRef& ref) const {
       part(ref) < part(duplicates.front()) ? ref : duplicates.front();
   const int owner = OwnerOf(partition_, At(part_curves_, first).position);
   const bool owner_is_there =
-      part(ref) == owner || std::any_of(duplicates.begin(),
-                                        duplicates.end(),
-                                        [&](const SampleRef& duplicate) {
-                                          return part(duplicate) == owner;
-                                        });
+      part(ref) == owner ||
+      std::ranges::any_of(duplicates, [&](const SampleRef& duplicate) {
+        return part(duplicate) == owner;
+      });
   return part(ref) == (owner_is_there ? owner : part(first));
 }
 
@@ -173,10 +172,8 @@ class Tier {
   SampleRef RefTo(std::size_t curve, std::size_t sample) const {
     const std::vector<BorderSample>& border =
         part_curves_[curve].border_samples;
-    const auto found = std::partition_point(
-        border.begin(), border.end(), [&](const BorderSample& s) {
-          return s.sample < sample;
-        });
+    const auto found = std::ranges::partition_point(
+        border, [&](const BorderSample& s) { return s.sample < sample; });
     return {curve, static_cast<std::size_t>(found - border.begin())};
   }
 

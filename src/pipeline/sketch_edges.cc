@@ -43,8 +43,8 @@ EdgeSketch SketchEdges(const std::vector<PosedView>& views,
       input.sigma_px = EstimateEdgeSigma(input, step_done);
       input.finds_seeds = CurvesGrow(edge_maps, options);
       EdgeSketch sketch = SketchByViews(input, step_done);
-      sketch.counts.repeated_views = std::count(
-          distinct.are_repeated.begin(), distinct.are_repeated.end(), true);
+      sketch.counts.repeated_views =
+          std::ranges::count(distinct.are_repeated, true);
       return sketch;
     }
   }

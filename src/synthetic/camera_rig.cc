@@ -91,14 +91,13 @@ Result<Camera> MakeCamera(const SyntheticOptions& options) {
   const std::string name(ModelName(model));
   const DistortionRange range = RangeOf(model);
   if (!(options.distortion >= range.min && options.distortion <= range.max)) {
-    return Status(
-        StatusCode::kInvalidArgument,
+    return Status::InvalidArgument(
         "distortion is " + std::to_string(options.distortion) +
-            (range.max == 0
-                 ? "; it must be 0, as " + name + " has no radial coefficient"
-                 : "; with " + name + " it must be between " +
-                       std::to_string(range.min) + " and " +
-                       std::to_string(range.max)));
+        (range.max == 0
+             ? "; it must be 0, as " + name + " has no radial coefficient"
+             : "; with " + name + " it must be between " +
+                   std::to_string(range.min) + " and " +
+                   std::to_string(range.max)));
   }
   Camera camera{model, options.width, options.height, {}};
   camera.params.assign(static_cast<std::size_t>(NumParams(model)), 0.0);

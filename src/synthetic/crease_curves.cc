@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 namespace curvix {
 namespace {
@@ -186,10 +185,9 @@ std::vector<TrueCurve> Candidates(const Solid& solid) {
   const double tolerance = 1e-6 * solid.detail();
   std::vector<TrueCurve> candidates;
   const auto is_new = [&](const TrueCurve& curve) {
-    return std::none_of(
-        candidates.begin(), candidates.end(), [&](const TrueCurve& other) {
-          return IsSame(curve, other, tolerance);
-        });
+    return std::ranges::none_of(candidates, [&](const TrueCurve& other) {
+      return IsSame(curve, other, tolerance);
+    });
   };
   for (std::size_t i = 0; i < faces.size(); ++i) {
     for (std::size_t j = i + 1; j < faces.size(); ++j) {
@@ -216,10 +214,8 @@ bool TouchesAnotherSheet(const Solid& solid,
                          const SolidPrimitive& sheet,
                          const Vector3d& x) {
   const double tolerance = 1e-6 * solid.detail();
-  return std::any_of(
-      solid.primitives().begin(),
-      solid.primitives().end(),
-      [&](const SolidPrimitive& other) {
+  return std::ranges::any_of(
+      solid.primitives(), [&](const SolidPrimitive& other) {
         if (other.shape != PrimitiveShape::kSheet || &other == &sheet) {
           return false;
         }
@@ -252,8 +248,8 @@ void AppendRim(const Solid& solid,
       };
       for (const TrueCurve& part :
            PartsWhere(whole, detail / 200, 1e-2 * detail, has_kind)) {
-        const bool is_new = std::none_of(
-            curves.begin(), curves.end(), [&](const TrueCurve& other) {
+        const bool is_new =
+            std::ranges::none_of(curves, [&](const TrueCurve& other) {
               return other.kind == kind && Covers(other, part, 1e-6 * detail);
             });
         if (is_new) curves.push_back(part);

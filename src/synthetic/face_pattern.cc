@@ -125,8 +125,7 @@ class Grain : public FacePattern {
     const double t = uv[along_] - area_.low[along_];
     const double s = uv[1 - along_] - Wave(t);
     const auto stripe = static_cast<std::uint64_t>(
-        std::upper_bound(borders_.begin(), borders_.end(), s) -
-        borders_.begin());
+        std::ranges::upper_bound(borders_, s) - borders_.begin());
     const double share = Uniform(Mix(seed_ + 1, stripe));
     return {stripe % 2 == 0 ? 0.85 + 0.15 * share : 0.5 + 0.15 * share,
             stripe + 1};

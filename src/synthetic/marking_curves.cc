@@ -179,8 +179,7 @@ std::vector<TrueSample> EdgeShadow::Sample(double begin,
   for (int i = 0; i <= num_steps; ++i) {
     const double length = lengths.back() * i / num_steps;
     const auto after = std::clamp<std::ptrdiff_t>(
-        std::lower_bound(lengths.begin(), lengths.end(), length) -
-            lengths.begin(),
+        std::ranges::lower_bound(lengths, length) - lengths.begin(),
         1,
         static_cast<std::ptrdiff_t>(lengths.size()) - 1);
     const auto k = static_cast<std::size_t>(after);
@@ -207,7 +206,7 @@ std::vector<std::vector<TrueSample>> EdgeShadow::Sample(double step) const {
     const int face = EdgeAt(caster_.length * i / num_steps);
     if (face >= 0) faces.push_back(face);
   }
-  std::sort(faces.begin(), faces.end());
+  std::ranges::sort(faces);
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   std::vector<std::vector<TrueSample>> shadows;
   for (const int face : faces) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 namespace curvix {
@@ -35,10 +34,9 @@ double MeanGrey(const Cell& cell) {
 }
 
 bool IsUniform(const Cell& cell) {
-  return std::all_of(
-      cell.corners.begin(), cell.corners.end(), [&](const Look& corner) {
-        return corner.id == cell.corners[0].id;
-      });
+  return std::ranges::all_of(cell.corners, [&](const Look& corner) {
+    return corner.id == cell.corners[0].id;
+  });
 }
 
 class Renderer {

@@ -32,7 +32,7 @@ Solid::Solid(std::vector<SolidPrimitive> primitives)
   }
   box_ = BoundingBox(primitives_);
   Vector3d sides = box_.sizes();
-  std::sort(sides.begin(), sides.end());
+  std::ranges::sort(sides);
   detail_ = std::min(radius_, sides[1]);
 }
 
@@ -146,10 +146,9 @@ void PaintMixed(std::vector<SolidPrimitive>& primitives) {
 }
 
 void Paint(SurfacePattern pattern, std::vector<SolidPrimitive>& primitives) {
-  const bool has_own =
-      std::any_of(primitives.begin(), primitives.end(), [](const auto& p) {
-        return p.pattern != SurfacePattern::kNone;
-      });
+  const bool has_own = std::ranges::any_of(primitives, [](const auto& p) {
+    return p.pattern != SurfacePattern::kNone;
+  });
   if (pattern == SurfacePattern::kMixed) {
     if (!has_own) PaintMixed(primitives);
     return;

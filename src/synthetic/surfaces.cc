@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "synthetic/counter_random.h"
 #include "synthetic/face_frame.h"
@@ -85,11 +84,10 @@ std::uint64_t LampAt(const Vector3d& direction) {
 }
 
 bool HasPattern(const Solid& solid) {
-  return std::any_of(solid.primitives().begin(),
-                     solid.primitives().end(),
-                     [](const SolidPrimitive& primitive) {
-                       return primitive.pattern != SurfacePattern::kNone;
-                     });
+  return std::ranges::any_of(
+      solid.primitives(), [](const SolidPrimitive& primitive) {
+        return primitive.pattern != SurfacePattern::kNone;
+      });
 }
 
 }  // namespace

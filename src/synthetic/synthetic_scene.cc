@@ -135,8 +135,8 @@ Status Validate(const SyntheticOptions& options) {
   }
   constexpr double kMaxPixels = 1e9;
   if (1.0 * options.num_views * options.width * options.height > kMaxPixels) {
-    return {StatusCode::kInvalidArgument,
-            "num_views * width * height is more than 1e9"};
+    return Status::InvalidArgument(
+        "num_views * width * height is more than 1e9");
   }
   return MakeCamera(options).status();
 }
