@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_extension.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"
@@ -273,14 +274,14 @@ Result<Lines> ReadLine3dppLines(const fs::path& path) {
                       "the .txt or .obj of Line3D++ with "
                       "--input_path.");
   }
-  if (path.extension() == ".obj") return ReadObj(path);
+  if (ExtensionOf(path) == ".obj") return ReadObj(path);
   return ReadWords(path, ReadLine3dppRows);
 }
 
 Result<Lines> ReadLimapLines(const fs::path& path) {
   if (!IsFolder(path)) {
-    return path.extension() == ".obj" ? ReadObj(path)
-                                      : ReadWords(path, ReadAllTracks);
+    return ExtensionOf(path) == ".obj" ? ReadObj(path)
+                                       : ReadWords(path, ReadAllTracks);
   }
   for (const fs::path& folder : {path, path / "finaltracks"}) {
     if (const std::size_t count = CountTracks(folder); count > 0) {

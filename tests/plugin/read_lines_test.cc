@@ -77,7 +77,7 @@ TEST_F(ReadLines, Line3dppInItsFormats) {
 
 TEST_F(ReadLines, ObjHasNoImages) {
   const fs::path path = folder_.Write(
-      "a.obj", "v 0 0 1\nv 1 0 1\nv 0 2 1\nv 0 2 3\nl 1 2\nl 3 4\n");
+      "a.OBJ", "v 0 0 1\nv 1 0 1\nv 0 2 1\nv 0 2 3\nl 1 2\nl 3 4\n");
   for (const auto& lines : {ReadLimapLines(path), ReadLine3dppLines(path)}) {
     ASSERT_TRUE(lines.ok()) << lines.status().message();
     ASSERT_EQ(lines->size(), 2u);
