@@ -16,6 +16,7 @@
 
 #include "base/file_extension.h"
 #include "base/file_io.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"
 #include "geometry/camera_of.h"
@@ -157,7 +158,7 @@ template <typename Read>
 Result<Lines> ReadWords(const fs::path& path, const Read& read) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
-  Words words(path, *text);
+  Words words(path, WithoutByteOrderMark(*text));
   Lines lines;
   read(words, lines);
   if (!words.ok()) return words.status();

@@ -77,13 +77,20 @@ TEST_F(ReadLines, Line3dppInItsFormats) {
 
 TEST_F(ReadLines, ObjHasNoImages) {
   const fs::path path = folder_.Write(
-      "a.OBJ", "v 0 0 1\nv 1 0 1\nv 0 2 1\nv 0 2 3\nl 1 2\nl 3 4\n");
+      "a.OBJ",
+      "\xEF\xBB\xBFv 0 0 1\nv 1 0 1\nv 0 2 1\nv 0 2 3\nl 1 2\nl 3 4\n");
   for (const auto& lines : {ReadLimapLines(path), ReadLine3dppLines(path)}) {
     ASSERT_TRUE(lines.ok()) << lines.status().message();
     ASSERT_EQ(lines->size(), 2u);
     EXPECT_EQ((*lines)[1].end, Eigen::Vector3d(0, 2, 3));
     EXPECT_THAT((*lines)[1].image_ids, IsEmpty());
   }
+}
+
+TEST_F(ReadLines, TextMayBeginWithAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  ExpectBoth(ReadLimapLines(folder_.Write("a.txt", mark + AllTracks())));
+  ExpectBoth(ReadLine3dppLines(folder_.Write("b.txt", mark + Line3dpp())));
 }
 
 TEST_F(ReadLines, WhateverIsCutOffIsRefusedWithItsLine) {
