@@ -27,8 +27,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Longer ones are not meant, and products of their covariances overflow.
-constexpr double kMaxLength = 1e30;
+// Outside, a point is less than a pixel away from where it would be seen if it
+// were infinitely far, in whichever two images: its distance is not known.
+struct KnownSpace {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double radius = 0;
+
+  bool Holds(const ImportedLine& line) const {
+    return (line.start - middle).norm() <= radius &&
+           (line.end - middle).norm() <= radius;
+  }
+};
+
+KnownSpace KnownSpaceOf(const Scene& scene) {
+  Eigen::AlignedBox3d centers;
+  double focal_length = 0;
+  for (const View& view : scene.views) {
+    centers.extend(view.cam_from_world.Inverse().translation);
+    focal_length =
+        std::max(focal_length, PinholeCalibration(CameraOf(scene, view))(0, 0));
+  }
+  return {centers.center(), focal_length * centers.diagonal().norm()};
+}
 
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {
   return std::any_of(
@@ -317,13 +337,13 @@ Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
     view_of_image.emplace(view.image_id, view_idx);
   }
   result.edge_maps.resize(scene.views.size());
+  const KnownSpace known = KnownSpaceOf(scene);
   for (const ImportedLine& line : lines) {
-    const double length = (line.end - line.start).norm();
-    if (length > 0 && length < kMaxLength) {
+    if (line.start != line.end && known.Holds(line)) {
       result.curves.curves.push_back(
           CurveOf(line, scene, view_of_image, result.edge_maps));
     } else {
-      ++result.num_without_length;
+      ++result.num_left_out;
     }
   }
   return result;
