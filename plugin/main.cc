@@ -4,12 +4,15 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
 
 int main(int argc, char** argv) {
   google::InitGoogleLogging(argv[0]);
+  // What is wrong with an image, the program says itself.
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   curvix::CatchSignals();
   try {
     return curvix::RunProgram({argv + std::min(argc, 1), argv + argc});

@@ -277,7 +277,10 @@ Result<AlignSummary> Aligner::Run() {
         "--distance, --markers or --positions");
   }
   if (settings_.unit != "none") alignment.unit = settings_.unit;
-  if (!settings_.epsg.empty()) alignment.crs = "EPSG:" + settings_.epsg;
+  if (!settings_.epsg.empty()) {
+    alignment.crs = "EPSG:" + settings_.epsg;
+    if (alignment.has_scale) alignment.unit = "m";
+  }
   if (alignment.has_scale) DescribeScale(*result);
   if (!input_.positions.empty()) DescribePositions(*result);
   if (result->misfit > kLargeMisfit) {
@@ -326,6 +329,10 @@ Status Check(const AlignSettings& s) {
   if (!s.epsg.empty() && s.positions_path.empty()) {
     return Status::InvalidArgument(
         "--epsg needs --positions, whose coordinates it names");
+  }
+  if (!s.epsg.empty() && s.unit != "none" && s.unit != "m") {
+    return bad("--unit is " + s.unit +
+               ", and positions with --epsg are in metres; leave --unit out");
   }
   Status status;
   if (!s.distances.empty()) status = CheckDistances(s.distances);

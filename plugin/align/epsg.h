@@ -8,7 +8,7 @@
 namespace curvix {
 
 // kInvalidArgument unless `code` is the number of a coordinate system of EPSG
-// whose coordinates are lengths, as far as GDAL knows; without GDAL, unless it
+// whose coordinates are metres, as far as GDAL knows; without GDAL, unless it
 // is a number of one.
 Status CheckEpsg(const std::string& code);
 

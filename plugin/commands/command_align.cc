@@ -73,7 +73,8 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
                  &s->positions_path,
                  "file with lines 'image_name x y z' or 'image_name x y z "
                  "sigma': where cameras are"),
-        TextFlag("epsg", &s->epsg, "number of the EPSG code of the positions"),
+        TextFlag(
+            "epsg", &s->epsg, "EPSG number of the positions; sets --unit m"),
         ChoiceFlag("axes",
                    {"none", "auto"},
                    &s->axes,

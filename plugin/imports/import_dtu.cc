@@ -8,6 +8,7 @@
 
 #include "base/count_text.h"
 #include "base/file_io.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"
 #include "plugin/imports/npy.h"
@@ -87,7 +88,7 @@ Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
 Result<Matrix34d> ReadPos(const fs::path& file) {
   const Result<std::string> text = ReadFile(file);
   if (!text.ok()) return text.status();
-  std::string_view rest = *text;
+  std::string_view rest = WithoutByteOrderMark(*text);
   Matrix34d projection;
   for (int i = 0; i < 12; ++i) {
     const auto value = ParseNumber<double>(TakeWord(rest));

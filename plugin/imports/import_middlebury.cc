@@ -6,6 +6,7 @@
 
 #include "base/count_text.h"
 #include "base/file_io.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"
 #include "plugin/imports/projection_matrix.h"
@@ -89,7 +90,8 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   }
   const Result<std::string> text = ReadFile(file);
   if (!text.ok()) return text.status();
-  const Result<std::vector<CalibratedImage>> lines = ParsePar(*text, file);
+  const Result<std::vector<CalibratedImage>> lines =
+      ParsePar(WithoutByteOrderMark(*text), file);
   if (!lines.ok()) return lines.status();
   std::vector<std::string> names;
   for (const CalibratedImage& line : *lines) {

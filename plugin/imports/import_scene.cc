@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 #include <system_error>
 
 #include "base/count_text.h"
+#include "base/file_extension.h"
 #include "colmap/links.h"
 
 namespace curvix {
@@ -38,11 +38,7 @@ bool IsImageName(const std::string& name) {
                                                            ".ppm",
                                                            ".pgm",
                                                            ".webp"};
-  std::string extension = fs::path(name).extension().string();
-  for (char& c : extension) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return std::ranges::find(kExtensions, extension) != kExtensions.end();
+  return std::ranges::find(kExtensions, ExtensionOf(name)) != kExtensions.end();
 }
 
 Result<ImportedView> CalibratedView(const CalibratedImage& image,

@@ -13,7 +13,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/file_extension.h"
 #include "base/file_io.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 #include "colmap/links.h"
 #include "geometry/camera_of.h"
@@ -24,9 +26,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Longer lines are errors of what wrote them; products of much longer ones
-// overflow.
-constexpr double kMaxLength = 1e30;
+// Outside, a point is less than a pixel away from where it would be seen if it
+// were infinitely far, in whichever two images: its distance is not known.
+struct KnownSpace {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double radius = 0;
+
+  bool Holds(const ImportedLine& line) const {
+    return (line.start - middle).norm() <= radius &&
+           (line.end - middle).norm() <= radius;
+  }
+};
+
+KnownSpace KnownSpaceOf(const Scene& scene) {
+  Eigen::AlignedBox3d centers;
+  double focal_length = 0;
+  for (const View& view : scene.views) {
+    centers.extend(view.cam_from_world.Inverse().translation);
+    focal_length =
+        std::max(focal_length, PinholeCalibration(CameraOf(scene, view))(0, 0));
+  }
+  return {centers.center(), focal_length * centers.diagonal().norm()};
+}
 
 bool IsSeenBySome(const ImportedLine& line, const Scene& scene) {
   return std::ranges::any_of(scene.views, [&](const View& view) {
@@ -152,7 +173,7 @@ template <typename Read>
 Result<Lines> ReadWords(const fs::path& path, const Read& read) {
   const Result<std::string> text = ReadFile(path);
   if (!text.ok()) return text.status();
-  Words words(path, *text);
+  Words words(path, WithoutByteOrderMark(*text));
   Lines lines;
   read(words, lines);
   if (!words.ok()) return words.status();
@@ -267,14 +288,14 @@ Result<Lines> ReadLine3dppLines(const fs::path& path) {
                             " does not hold just one Line3D++*.txt; name the "
                             ".txt or .obj of Line3D++ with --input_path.");
   }
-  if (path.extension() == ".obj") return ReadObj(path);
+  if (ExtensionOf(path) == ".obj") return ReadObj(path);
   return ReadWords(path, ReadLine3dppRows);
 }
 
 Result<Lines> ReadLimapLines(const fs::path& path) {
   if (!IsFolder(path)) {
-    return path.extension() == ".obj" ? ReadObj(path)
-                                      : ReadWords(path, ReadAllTracks);
+    return ExtensionOf(path) == ".obj" ? ReadObj(path)
+                                       : ReadWords(path, ReadAllTracks);
   }
   for (const fs::path& folder : {path, path / "finaltracks"}) {
     if (const std::size_t count = CountTracks(folder); count > 0) {
@@ -307,13 +328,13 @@ Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
     view_of_image.emplace(view.image_id, view_idx);
   }
   result.edge_maps.resize(scene.views.size());
+  const KnownSpace known = KnownSpaceOf(scene);
   for (const ImportedLine& line : lines) {
-    const double length = (line.end - line.start).norm();
-    if (length > 0 && length < kMaxLength) {
+    if (line.start != line.end && known.Holds(line)) {
       result.curves.curves.push_back(
           CurveOf(line, scene, view_of_image, result.edge_maps));
     } else {
-      ++result.num_without_length;
+      ++result.num_left_out;
     }
   }
   return result;

@@ -37,7 +37,7 @@ Result<std::vector<ImportedLine>> ReadLimapLines(
 struct LineCurves {
   CurveSet curves;
   std::vector<EdgeMap> edge_maps;  // one per view: what the samples refer to
-  int num_without_length = 0;      // lines of length 0 or above 1e30, left out
+  int num_left_out = 0;            // lines of length 0 or too far to be known
   int num_seen = 0;                // lines whose middle some view sees
 };
 

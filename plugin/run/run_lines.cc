@@ -28,7 +28,7 @@ Result<LineCurves> ReadCurvesOfLines(
   record.stages.push_back(stopwatch.Read("read_lines"));
   record.stages.back().counts = {
       {"lines", static_cast<std::int64_t>(lines->size())},
-      {"without length", curves->num_without_length}};
+      {"left out", curves->num_left_out}};
   progress.Finish(Plural(lines->size(), "line"));
   if (curves->num_seen < static_cast<int>(lines->size()) / 2) {
     progress.Note("Only " + std::to_string(curves->num_seen) +
@@ -37,9 +37,9 @@ Result<LineCurves> ReadCurvesOfLines(
                   "were made of another model, name its workspace with "
                   "--workspace_path.");
   }
-  if (curves->num_without_length > 0) {
-    progress.Note("Left out " + Plural(curves->num_without_length, "line") +
-                  " of length 0 or above 1e30.");
+  if (curves->num_left_out > 0) {
+    progress.Note("Left out " + Plural(curves->num_left_out, "line") +
+                  " of length 0 or with an end too far away to be known.");
   }
   return curves;
 }
@@ -65,7 +65,7 @@ Result<RunRecord> RunLines(
   const CurvesInMemory curves(lines->curves, &lines->edge_maps);
   Findings findings{curves};
   findings.is_repeatable = false;
-  if (curves.size() == 0) findings.why_empty = "no line has a length";
+  if (curves.size() == 0) findings.why_empty = "all lines were left out";
   Status status =
       WriteFindings(input->scene, findings, output->folder(), record).status();
   if (status.ok()) {

@@ -10,16 +10,21 @@
 
 namespace curvix {
 
+// Some editors begin a text in UTF-8 with this mark.
+inline std::string_view WithoutByteOrderMark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  return text;
+}
+
 // The lines of a text that are not comments, which begin with "#", without the
 // blanks around them.
 class LineReader {
  public:
-  explicit LineReader(std::string_view text) : text_(text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text_.starts_with(kByteOrderMark)) {
-      text_.remove_prefix(kByteOrderMark.size());
-    }
-  }
+  explicit LineReader(std::string_view text)
+      : text_(WithoutByteOrderMark(text)) {}
 
   // Of the line given last, from 1; at the end, of the last line.
   std::size_t line_number() const { return line_number_; }

@@ -27,17 +27,14 @@ Result<std::string> ReadImageFile(const std::filesystem::path& path,
   const std::filesystem::file_status file =
       std::filesystem::status(path, error);
   if (!std::filesystem::exists(file)) {
-    return Status(StatusCode::kNotFound,
-                  name + " does not exist. Check its folder.");
+    return Status::NotFound(name + " does not exist. Check its folder.");
   }
   if (!std::filesystem::is_regular_file(file)) {
-    return Status(StatusCode::kNotFound,
-                  name + " is a folder or a device, not a file.");
+    return Status::NotFound(name + " is a folder or a device, not a file.");
   }
   Result<std::string> bytes = ReadFile(path);
   if (bytes.ok() && bytes->empty()) {
-    return Status(StatusCode::kDataLoss,
-                  name + " is an empty file. Copy it again.");
+    return Status::DataLoss(name + " is an empty file. Copy it again.");
   }
   return bytes;
 }
@@ -129,7 +126,7 @@ Status WrongSize(const std::string& name,
   }
   message << " Give the images from which the model was made, or export the "
              "model at the size of these images.";
-  return {StatusCode::kInvalidArgument, message.str()};
+  return Status::InvalidArgument(message.str());
 }
 
 Status WrongShape(const std::string& name,
@@ -141,27 +138,27 @@ Status WrongShape(const std::string& name,
           << expected.height
           << ". A mask may be larger or smaller than its image, but has the "
              "same shape.";
-  return {StatusCode::kInvalidArgument, message.str()};
+  return Status::InvalidArgument(message.str());
 }
 
 Status Broken(const std::string& name, const std::string& bytes) {
   if (IsHeif(bytes)) {
-    return {StatusCode::kUnsupported,
-            name +
-                " is HEIF or AVIF, which is not read here. Convert all images "
-                "to JPEG or PNG, and make the model of these."};
+    return Status::Unsupported(
+        name +
+        " is HEIF or AVIF, which is not read here. Convert all images "
+        "to JPEG or PNG, and make the model of these.");
   }
-  return {StatusCode::kDataLoss,
-          name +
-              " is broken, cut short or in an unknown format. Copy it "
-              "again, or convert it to PNG or JPEG."};
+  return Status::DataLoss(
+      name +
+      " is broken, cut short or in an unknown format. Copy it "
+      "again, or convert it to PNG or JPEG.");
 }
 
 Status WrongPixels(const std::string& name) {
-  return {StatusCode::kUnsupported,
-          name +
-              " has neither 8 nor 16 bits per channel, or an unusual number of "
-              "channels. Convert it to an 8-bit PNG."};
+  return Status::Unsupported(
+      name +
+      " has neither 8 nor 16 bits per channel, or an unusual number of "
+      "channels. Convert it to an 8-bit PNG.");
 }
 
 std::string ImageNamed(const std::filesystem::path& path) {
@@ -283,10 +280,10 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
       },
       image.values);
   if (gray) return *std::move(gray);
-  return Status(StatusCode::kInvalidArgument,
-                "Image " + view.name +
-                    " in memory has no values, or a number of channels other "
-                    "than 1, 3 and 4.");
+  return Status::InvalidArgument(
+      "Image " + view.name +
+      " in memory has no values, or a number of channels other "
+      "than 1, 3 and 4.");
 }
 
 Result<std::optional<GrayImage>> LoadMask(const View& view,

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 
 namespace curvix {
@@ -69,6 +70,7 @@ Status Broken(std::size_t line_number) {
 Result<GroundTruth> ParseGroundTruth(std::string_view text) {
   GroundTruth truth;
   std::size_t num_columns = 0;
+  text = WithoutByteOrderMark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const auto row = ParseRow(TakeLine(text));
     if (!row) return Broken(number);
@@ -91,6 +93,7 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
 
 Status ParseCurveKinds(std::string_view text, GroundTruth& truth) {
   std::map<int, CurveKind> kinds;
+  text = WithoutByteOrderMark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = TakeLine(text);
     line = line.substr(0, line.find('#'));

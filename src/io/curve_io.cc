@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/file_extension.h"
 #include "base/file_io.h"
 #include "io/curve_formats.h"
 #include "io/dxf_drawing.h"
@@ -78,20 +79,20 @@ Status WriteCurves(const fs::path& path,
                    const Scene& scene,
                    std::string_view frame) {
   return Write(path, curves, [&](const ByteSink& sink) {
-    return Encode(path.extension().string(), curves, scene, frame, sink);
+    return Encode(ExtensionOf(path), curves, scene, frame, sink);
   });
 }
 
 Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
   const Result<std::string> bytes = ReadFile(path);
   if (!bytes.ok()) return bytes.status();
-  Result<CurveSet> curves = Decode(path.extension().string(), *bytes, scene);
+  Result<CurveSet> curves = Decode(ExtensionOf(path), *bytes, scene);
   if (!curves.ok()) return InFile(path, curves.status());
   return curves;
 }
 
 Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
-  if (path.extension() != ".ply") {
+  if (ExtensionOf(path) != ".ply") {
     return InFile(path, Status::InvalidArgument("edges are written as .ply"));
   }
   return Write(
@@ -101,7 +102,7 @@ Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
 Status WriteDrawing(const fs::path& path,
                     const FittedCurves& fitted,
                     std::string_view unit) {
-  const std::string extension = path.extension().string();
+  const std::string extension = ExtensionOf(path);
   if (extension != ".dxf" && extension != ".step") {
     return InFile(path,
                   Status::InvalidArgument(
@@ -119,11 +120,11 @@ Status WriteProjection(const fs::path& path,
                        const CurveSource& curves,
                        const Scene& scene,
                        int view_idx) {
-  if (path.extension() != ".svg") {
+  if (ExtensionOf(path) != ".svg") {
     return InFile(path,
                   Status::InvalidArgument(
                       "projected curves are written as .svg, not as \"" +
-                      path.extension().string() + "\""));
+                      ExtensionOf(path) + "\""));
   }
   return Write(path, curves, [&](const ByteSink& sink) {
     EncodeSvgCurves(curves, scene, view_idx, sink);

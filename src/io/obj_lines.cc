@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/line_reader.h"
 #include "base/text_fields.h"
 #include "io/curve_style.h"
 #include "io/polylines.h"
@@ -96,6 +97,7 @@ Result<CurveSet> DecodeObjLines(std::string_view bytes) {
   LineGraph graph;
   bool any_line = false;
   bool only_comments = true;
+  bytes = WithoutByteOrderMark(bytes);
   for (std::size_t number = 1; !bytes.empty(); ++number) {
     const std::string_view line = TakeLine(bytes);
     std::string_view words = line;

@@ -27,8 +27,8 @@ namespace curvix {
 namespace {
 
 Status CannotBeInverted(const View& view) {
-  return {StatusCode::kInvalidArgument,
-          "the camera of " + view.name + " cannot be inverted at an edge"};
+  return Status::InvalidArgument("the camera of " + view.name +
+                                 " cannot be inverted at an edge");
 }
 
 // Query edges in all views. About half of them lead to a place, and a view sees
@@ -347,10 +347,10 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
     return status;
   }
   if (cameras.size() < scene.cameras.size()) {
-    return Status(StatusCode::kInvalidArgument,
-                  "there " + OneOrMore(cameras.size(), "is ", "are ") +
-                      Plural(cameras.size(), "camera") + " for the " +
-                      std::to_string(scene.cameras.size()) + " of the scene");
+    return Status::InvalidArgument(
+        "there " + OneOrMore(cameras.size(), "is ", "are ") +
+        Plural(cameras.size(), "camera") + " for the " +
+        std::to_string(scene.cameras.size()) + " of the scene");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);

@@ -192,6 +192,7 @@ TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const json after = Curves();
   EXPECT_EQ(after["alignment"]["crs"], "EPSG:25832");
+  EXPECT_EQ(after["alignment"]["unit"], "m");
   for (std::size_t i = 0; i < before_["nodes"].size(); ++i) {
     const json& a = before_["nodes"][i]["position"];
     const json& b = after["nodes"][i]["position"];
@@ -244,7 +245,8 @@ TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
 }
 
 #ifdef CURVIX_HAS_GDAL
-TEST_F(Align, CodesOfDegreesAndOfNothingAreRefused) {
+TEST_F(Align, CodesOfOtherUnitsAndOfNothingAreRefused) {
+  ExpectError("align --positions x --epsg 2263", "in the unit US survey foot");
   ExpectError("align --positions x --epsg 4326", "degrees");
   ExpectError("align --positions x --epsg 1025", "GDAL does not know");
   ExpectError("align --positions x --epsg 4978", "not east and north");
@@ -300,6 +302,7 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
         std::pair("--up 0,0,1", "--axes auto"),
         std::pair("--axes auto --up 0,0,0", "no direction"),
         std::pair("--distance 0 1 1 --epsg 1", "--positions"),
+        std::pair("--positions x --epsg 25832 --unit mm", "leave --unit out"),
         std::pair("--positions x --epsg 99999999", "no code of EPSG"),
         std::pair("--positions x --epsg utm", "no code of EPSG")}) {
     ExpectError(std::string("align ") + words, why);

@@ -6,6 +6,8 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -195,6 +197,23 @@ TEST_F(Draw, APhotographLiesBeneath) {
   // A drawing without one takes the old one away.
   ASSERT_EQ(Run("draw").exit_code, 0);
   EXPECT_FALSE(fs::exists(results_ / "drawing_auto.jpg"));
+}
+
+TEST_F(Draw, SaysItselfThatAPhotographIsDamaged) {
+  std::vector<unsigned char> bytes;
+  ASSERT_TRUE(cv::imencode(".tiff", cv::Mat::zeros(40, 40, CV_8UC3), bytes));
+  std::string tiff(bytes.begin(), bytes.end());
+  // Where the pixels are.
+  const std::size_t at = tiff.find(std::string("\x11\1\4\0\1\0\0\0", 8));
+  ASSERT_NE(at, tiff.npos);
+  tiff[at + 9] = '\x7f';
+  for (const auto& file : fs::directory_iterator(workspace_ / "images")) {
+    std::ofstream(file.path(), std::ios::binary) << tiff;
+  }
+  const Outcome outcome = Run("draw --photograph auto");
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("Cannot read the image"));
+  EXPECT_THAT(outcome.output, testing::Not(HasSubstr("WARN")));
 }
 
 TEST_F(Draw, RemovesNoFileThatIsNotOfADrawing) {

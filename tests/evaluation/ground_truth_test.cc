@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 TEST(ParseGroundTruth, NineColumnsGiveEverything) {
   const auto truth = ParseGroundTruth(
-      "# x y z\n\n1 2 3 0 0 1 4 7 5 # here\r\n+1e0 2 3 0 0 1 "
+      "\xEF\xBB\xBF# x y z\n\n1 2 3 0 0 1 4 7 5 # here\r\n+1e0 2 3 0 0 1 "
       "4.0 8 6");
   ASSERT_TRUE(truth.ok()) << truth.status().message();
   ASSERT_EQ(truth->samples.size(), 2u);

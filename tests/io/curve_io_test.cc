@@ -17,7 +17,8 @@ TEST(CurveIo, ExtensionChoosesTheFormat) {
   const TemporaryFolder folder;
   const CurveSet curves = MakeTestCurves();
   const Scene scene = MakeTestScene();
-  for (const char* name : {"a.ply", "a.obj", "a.txt"}) {
+  for (const char* name :
+       {"a.ply", "a.obj", "a.txt", "b.PLY", "b.OBJ", "b.Txt"}) {
     const auto path = folder.path() / name;
     ASSERT_TRUE(WriteCurves(path, curves, scene).ok());
     const auto read = ReadCurves(path, scene);

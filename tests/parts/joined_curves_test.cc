@@ -73,7 +73,7 @@ class PartsInMemory : public PartResults {
     return curves_[static_cast<std::size_t>(part_idx)].size();
   }
   Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) override {
-    if (num_reads_left-- == 0) return Status(StatusCode::kDataLoss, "gone");
+    if (num_reads_left-- == 0) return Status::DataLoss("gone");
     return curves_[static_cast<std::size_t>(part_idx)][curve_idx];
   }
 

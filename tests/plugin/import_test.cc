@@ -79,7 +79,7 @@ class Import : public testing::Test {
 };
 
 TEST_F(Import, MiddleburyComesBackWithPixelsFromZero) {
-  std::string text = std::to_string(kNumViews) + "\r\n";
+  std::string text = "\xEF\xBB\xBF" + std::to_string(kNumViews) + "\r\n";
   for (int i = 0; i < kNumViews; ++i) {
     const Rigid3& pose = poses_[static_cast<std::size_t>(i)];
     const std::string name = "set" + std::to_string(i) + ".png";

@@ -77,13 +77,20 @@ TEST_F(ReadLines, Line3dppInItsFormats) {
 
 TEST_F(ReadLines, ObjHasNoImages) {
   const fs::path path = folder_.Write(
-      "a.obj", "v 0 0 1\nv 1 0 1\nv 0 2 1\nv 0 2 3\nl 1 2\nl 3 4\n");
+      "a.OBJ",
+      "\xEF\xBB\xBFv 0 0 1\nv 1 0 1\nv 0 2 1\nv 0 2 3\nl 1 2\nl 3 4\n");
   for (const auto& lines : {ReadLimapLines(path), ReadLine3dppLines(path)}) {
     ASSERT_TRUE(lines.ok()) << lines.status().message();
     ASSERT_EQ(lines->size(), 2u);
     EXPECT_EQ((*lines)[1].end, Eigen::Vector3d(0, 2, 3));
     EXPECT_THAT((*lines)[1].image_ids, IsEmpty());
   }
+}
+
+TEST_F(ReadLines, TextMayBeginWithAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  ExpectBoth(ReadLimapLines(folder_.Write("a.txt", mark + AllTracks())));
+  ExpectBoth(ReadLine3dppLines(folder_.Write("b.txt", mark + Line3dpp())));
 }
 
 TEST_F(ReadLines, WhateverIsCutOffIsRefusedWithItsLine) {
@@ -187,11 +194,15 @@ TEST(CurvesOfLines, PointsAreLeftOutAndOtherWorldsRefused) {
   const ImportedLine line = {{0, 0, 0}, {0, 0, 1}, {}};
   const ImportedLine point = {{0, 0, 0}, {0, 0, 0}, {1}};
   const ImportedLine far = {{0, 0, 900}, {0, 1, 900}, {1}};
-  const ImportedLine endless = {{0, 0, 0}, {0, 0, 1e31}, {1}};
-  const auto result = CurvesOfLines({point, line, far, endless}, scene);
+  // The focal length is 800 px, and the cameras are 5 * sqrt(2) apart.
+  const ImportedLine near = {{0, 0, 0}, {0, 0, 5600}, {1}};
+  const ImportedLine endless = {{0, 0, 0}, {0, 0, 6000}, {1}};
+  const ImportedLine huge = {{0, 0, 0}, {0, 0, 1e300}, {1}};
+  const auto result =
+      CurvesOfLines({point, line, far, near, endless, huge}, scene);
   ASSERT_TRUE(result.ok()) << result.status().message();
-  EXPECT_EQ(result->curves.curves.size(), 2u);
-  EXPECT_EQ(result->num_without_length, 2);
+  EXPECT_EQ(result->curves.curves.size(), 3u);
+  EXPECT_EQ(result->num_left_out, 3);
   EXPECT_EQ(result->num_seen, 2);
   EXPECT_EQ(CurvesOfLines({far}, scene).status().code(),
             StatusCode::kInvalidArgument);

@@ -75,7 +75,7 @@ class Arrays(WorkspaceTest):
         for positions, curve in zip(self.curves, curves):
             np.testing.assert_array_equal(positions, [sample['position'] for sample in curve['samples']])
         np.testing.assert_array_equal(self.curves[-1], self.curves[len(curves) - 1])
-        with self.assertRaises(IndexError):
+        with self.assertRaisesRegex(IndexError, f'among {len(curves)} curves'):
             self.curves[len(curves)]
         for wrong in (slice(0, 2), '0', 0.5):
             with self.assertRaises(TypeError):

@@ -60,7 +60,10 @@ class Curves:
         """The positions of one curve's samples, (n, 3)."""
         if isinstance(curve_idx, slice):
             raise TypeError('curves[i] is one curve; select() takes several')
-        idx = range(len(self))[curve_idx]
+        try:
+            idx = range(len(self))[curve_idx]
+        except IndexError:
+            raise IndexError(f'there is no curve {curve_idx} among {plural(len(self), "curve")}') from None
         return self.positions[self.offsets[idx]:self.offsets[idx + 1]]
 
     def __iter__(self) -> Iterator[NDArray[np.float64]]:
