@@ -331,8 +331,9 @@ Status Check(const AlignSettings& s) {
         "--epsg needs --positions, whose coordinates it names");
   }
   if (!s.epsg.empty() && s.unit != "none" && s.unit != "m") {
-    return bad("--unit is " + s.unit +
-               ", and positions with --epsg are in metres; leave --unit out");
+    return Status::InvalidArgument(
+        "--unit is " + s.unit +
+        ", and positions with --epsg are in metres; leave --unit out");
   }
   Status status;
   if (!s.distances.empty()) status = CheckDistances(s.distances);
