@@ -55,7 +55,7 @@ class SampleFilter {
   }
   bool IsDuplicate(std::size_t k) const {
     const CurveSample& sample = Sample(k);
-    const double unit = PixelSize(sample.position, sample.support, views_);
+    const double unit = PixelSize(sample, views_);
     const double max_normal = options_.max_duplicate_distance_px * unit;
     const double max_along = options_.sample_spacing_px * unit;
     const double radius = std::hypot(max_normal, max_along);

@@ -39,7 +39,7 @@ JoinableEnd EndOf(const Curve& curve,
   }
   return {last.position,
           sum.normalized(),
-          curve.closed ? 0 : PixelSize(last.position, last.support, views)};
+          curve.closed ? 0 : PixelSize(last, views)};
 }
 
 // The cost of joining two ends; nullopt if they do not continue each other.

@@ -36,7 +36,7 @@ class CornerFinder {
     for (std::size_t k = 0; k < size; ++k) {
       const CurveSample& a = curve.samples[k];
       const CurveSample& b = curve.samples[(k + 1) % size];
-      const double unit = PixelSize(a.position, a.support, views);
+      const double unit = PixelSize(a, views);
       const double step = (b.position - a.position).norm();
       steps_px_.push_back(unit > 0 ? step / unit : 0);
     }

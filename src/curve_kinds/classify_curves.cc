@@ -192,7 +192,7 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
   Places places;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const CurveSample& first = curves[i].samples.front();
-    places.pixels.push_back(PixelSize(first.position, first.support, views));
+    places.pixels.push_back(PixelSize(first, views));
     places.samples.emplace_back();
     if (!(places.pixels.back() > 0)) continue;
     places.samples.back() =

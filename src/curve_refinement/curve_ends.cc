@@ -226,7 +226,7 @@ EndFit FitEnd(const Curve& curve,
       front ? curve.samples.back() : curve.samples.front();
   EndFit fit;
   fit.position = last.position;
-  fit.pixel = PixelSize(last.position, last.support, views);
+  fit.pixel = PixelSize(last, views);
   if (curve.closed || !(fit.pixel > 0)) return fit;
   std::vector<Placed> placed = Take(curve, front, segment, fit.pixel);
   if (placed.size() < kMinNumFitted) return fit;

@@ -48,7 +48,7 @@ Neighbors FindNeighbors(const std::vector<Curve>& curves,
   Neighbors neighbors;
   for (const SamplePlace& a : samples.Places()) {
     const CurveSample& sample = curves[a.curve_idx].samples[a.sample_idx];
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel = PixelSize(sample, views);
     if (!(pixel > 0)) continue;
     for (const std::size_t i :
          samples.Within(sample.position, kBesideTouchPx * pixel)) {
@@ -138,7 +138,7 @@ std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
       continue;
     }
     const CurveSample& nearest = curves[a].samples[touch.a.sample_idx];
-    const double pixel = PixelSize(nearest.position, nearest.support, views);
+    const double pixel = PixelSize(nearest, views);
     const auto of_a = SegmentAround(
         curves[a], touch.a.sample_idx, neighbors.beside.at({a, b}), pixel);
     const auto of_b = SegmentAround(

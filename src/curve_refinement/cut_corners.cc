@@ -57,7 +57,7 @@ std::optional<Turn> TurnAt(const Curve& curve,
                            double max_turn,
                            const std::vector<PosedView>& views) {
   const CurveSample& sample = curve.samples[k];
-  const double pixel = PixelSize(sample.position, sample.support, views);
+  const double pixel = PixelSize(sample, views);
   // Straight on, as nearly everywhere.
   if (!(pixel > 0) || TurnAround(curve, k, pixel) < max_turn / 2) {
     return std::nullopt;

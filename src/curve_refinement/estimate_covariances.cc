@@ -99,8 +99,8 @@ class CurveInViews {
     std::map<std::int32_t, std::size_t> places;
     for (std::size_t k = 0; k < curve.samples.size(); ++k) {
       const CurveSample& sample = curve.samples[k];
-      const std::optional<Bend> bend = BendAround(
-          curve, k, PixelSize(sample.position, sample.support, views));
+      const std::optional<Bend> bend =
+          BendAround(curve, k, PixelSize(sample, views));
       std::vector<Evidence>& evidence = evidence_.emplace_back();
       for (const EdgeRef& ref : sample.support) {
         const auto v = static_cast<std::size_t>(ref.view_idx);
@@ -206,8 +206,7 @@ std::vector<Agreement> MeasureAgreement(const Curve& curve,
   std::vector<Agreement> agreements;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];
-    const double pixel =
-        PixelSize(sample.position, sample.support, input.views);
+    const double pixel = PixelSize(sample, input.views);
     agreements.push_back(in_views.About(k, bandwidth_px * pixel));
   }
   return agreements;

@@ -48,8 +48,7 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
   return StringTogether(std::move(curves),
                         ties,
                         [&](const CurveSample& from, const CurveSample& to) {
-                          const double pixel =
-                              PixelSize(from.position, from.support, views);
+                          const double pixel = PixelSize(from, views);
                           return SamplesBetween(from, to, pixel, images);
                         });
 }

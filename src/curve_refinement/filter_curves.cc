@@ -81,7 +81,7 @@ CurveQualities Measure(const Curve& curve,
   std::vector<double> pixels, num_views, sigmas_px;
   for (const CurveSample& sample : curve.samples) {
     num_views.push_back(static_cast<double>(sample.support.size()));
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel = PixelSize(sample, views);
     if (!(pixel > 0)) continue;
     pixels.push_back(pixel);
     if (sample.sigma > 0) sigmas_px.push_back(sample.sigma / pixel);

@@ -61,7 +61,7 @@ Place Look(const CurveSample& sample,
       axis, 0, MeanSide(axis, SupportingCenters(sample, views))};
   const AcrossAxes across = AxesAcross(sample.tangent);
   Place place;
-  place.pixel = PixelSize(sample.position, sample.support, views);
+  place.pixel = PixelSize(sample, views);
   double num_edges = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const auto projected = ProjectInto(views[v], axis);
@@ -208,7 +208,7 @@ double ContourLogLikelihoodRatio(const Curve& curve,
   double to_next = kPlaceSpacingPx / 2;
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& sample = curve.samples[i];
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel = PixelSize(sample, views);
     if (!(pixel > 0)) continue;
     if (i > 0) {
       to_next -=

@@ -180,8 +180,7 @@ NormalEquations OfCurve(const Curve& curve,
   double since_last_px = kResponseStepPx;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     const CurveSample& sample = curve.samples[k];
-    const double pixel =
-        PixelSize(sample.position, sample.support, input.views);
+    const double pixel = PixelSize(sample, input.views);
     if (k > 0) {
       since_last_px +=
           (sample.position - curve.samples[k - 1].position).norm() / pixel;

@@ -109,7 +109,7 @@ BarPlace Look(const CurveSample& sample,
 double PixelOf(const Curve& curve, const std::vector<PosedView>& views) {
   std::vector<double> pixels;
   for (const CurveSample& sample : curve.samples) {
-    pixels.push_back(PixelSize(sample.position, sample.support, views));
+    pixels.push_back(PixelSize(sample, views));
   }
   return MedianOr(0, std::move(pixels));
 }

@@ -64,7 +64,7 @@ double LeastDilution(const CurveSample& sample,
     if (projected) measurements.push_back(MeasurePlane(view, *projected));
   }
   if (measurements.size() < 2) return kInfinity;
-  const double pixel = PixelSize(sample.position, sample.support, views);
+  const double pixel = PixelSize(sample, views);
   const Eigen::Matrix2d covariance =
       AdjustEdge(edge, measurements, 1).covariance;
   return std::sqrt(covariance.trace() / 2) / pixel;
@@ -111,7 +111,7 @@ double SharpDilution(const CurveSample& sample,
   const Eigen::Matrix2d covariance =
       AdjustEdge({sample.position, sample.tangent}, measurements, edge_sigma_px)
           .covariance;
-  const double pixel = PixelSize(sample.position, sample.support, views);
+  const double pixel = PixelSize(sample, views);
   return std::sqrt(covariance.trace() / 2) / (edge_sigma_px * pixel);
 }
 
@@ -192,7 +192,7 @@ std::optional<CurveTraits> MeasureCurve(
   std::vector<double> dilutions;
   Support support;
   for (const CurveSample& sample : curve.samples) {
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel = PixelSize(sample, views);
     if (!(sample.sigma > 0) || !(pixel > 0)) continue;
     dilutions.push_back(sample.sigma / (input.edge_sigma_px * pixel));
     AddSupport(sample, views, input.edge_maps, support);

@@ -66,7 +66,7 @@ OpenEnd MakeEnd(const Curve& curve,
   end.position = last.position;
   end.outward = front ? last.tangent : Eigen::Vector3d(-last.tangent);
   if (curve.closed) return end;
-  const double pixel = PixelSize(last.position, last.support, views);
+  const double pixel = PixelSize(last, views);
   end.branch = BranchTo(curve,
                         front ? curve.samples.size() - 1 : 0,
                         front,
@@ -279,8 +279,7 @@ void CutBentEnd(EndIdx end,
   Curve& curve = curves[ItemOf(end)];
   const CurveSample last =
       IsFront(end) ? curve.samples.back() : curve.samples.front();
-  const double bent =
-      kBentEndPx * PixelSize(last.position, last.support, views);
+  const double bent = kBentEndPx * PixelSize(last, views);
   CutEnd(curve, IsFront(end), [&](const CurveSample& sample) {
     return (sample.position - last.position).norm() >= bent;
   });

@@ -50,7 +50,7 @@ Curve SmoothCurve(const Curve& curve,
   Curve result = curve;
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& sample = curve.samples[i];
-    const double pixel = PixelSize(sample.position, sample.support, views);
+    const double pixel = PixelSize(sample, views);
     if (!(pixel > 0)) continue;
     result.samples[i] = Smoothed(curve, i, smoothing_px * pixel);
   }

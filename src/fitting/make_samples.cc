@@ -79,7 +79,7 @@ FitSamples MakeSamples(const Curve& curve,
   const std::vector<double> to_end = DistancesToEnd(curve);
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& s = curve.samples[i];
-    const double pixel = PixelSize(s.position, s.support, views);
+    const double pixel = PixelSize(s, views);
     const double common = kCommonErrorPx * pixel;
     const double bent = to_end[i] < kBentPx * pixel ? kBentFactor : 1;
     const double own =

@@ -61,7 +61,7 @@ std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
   std::vector<double> sizes;
   sizes.reserve(edges.size());
   for (const Edge3d& edge : edges) {
-    sizes.push_back(PixelSize(edge.position, edge.support, views));
+    sizes.push_back(PixelSize(edge, views));
   }
   return sizes;
 }
@@ -73,8 +73,7 @@ double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views) {
   for (std::size_t k = 0; k < num_segments; ++k) {
     const CurveSample& a = curve.samples[k];
     const CurveSample& b = curve.samples[(k + 1) % size];
-    const double unit = std::min(PixelSize(a.position, a.support, views),
-                                 PixelSize(b.position, b.support, views));
+    const double unit = std::min(PixelSize(a, views), PixelSize(b, views));
     if (unit > 0) length_px += (b.position - a.position).norm() / unit;
   }
   return length_px;

@@ -23,6 +23,12 @@ double PixelSize(const Eigen::Vector3d& position,
                  const std::vector<EdgeRef>& support,
                  const std::vector<PosedView>& views);
 
+// At an edge or a sample of a curve: what has a position and support.
+template <typename Supported>
+double PixelSize(const Supported& place, const std::vector<PosedView>& views) {
+  return PixelSize(place.position, place.support, views);
+}
+
 // Edges and ends further off each other's tangent lines, in pixels of this
 // size, are not of one curve: traces would jump between parallel tracks.
 inline constexpr double kMaxNormalDistancePx = 1.5;

@@ -45,8 +45,7 @@ void TrimSecond(EndIdx first,
       IsFront(first) ? curve.samples.back() : curve.samples.front();
   const Eigen::Vector3d outward =
       IsFront(first) ? from.tangent : Eigen::Vector3d(-from.tangent);
-  const double min_step =
-      kMinStepPx * PixelSize(from.position, from.support, views);
+  const double min_step = kMinStepPx * PixelSize(from, views);
   std::vector<CurveSample>& next = curves[ItemOf(second)].samples;
   while (next.size() > 2) {
     const auto nearest = IsFront(second) ? next.end() - 1 : next.begin();

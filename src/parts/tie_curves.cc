@@ -33,10 +33,7 @@ PartCurve MakePartCurve(int part_idx,
     const CurveSample& sample = curve.samples[k];
     if (DistanceBeyond(core, sample.position) < -overlap) continue;
     part_curve.border_samples.push_back(
-        {k,
-         sample.position,
-         sample.tangent,
-         PixelSize(sample.position, sample.support, views)});
+        {k, sample.position, sample.tangent, PixelSize(sample, views)});
   }
   return part_curve;
 }
