@@ -14,7 +14,6 @@
 #include "curve_refinement/response_curve.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
-#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -95,23 +94,20 @@ class CurveInViews {
                const RefinementInput& input,
                const ResponseCurve& response)
       : curve_(curve), edge_sigma_px_(input.edge_sigma_px) {
-    const std::vector<PosedView>& views = input.views;
     std::map<std::int32_t, std::size_t> places;
     for (std::size_t k = 0; k < curve.samples.size(); ++k) {
       const CurveSample& sample = curve.samples[k];
-      const std::optional<Bend> bend =
-          BendAround(curve, k, PixelSize(sample, views));
+      const double pixel = PixelSize(sample, input.views);
+      const std::vector<PlaneMeasurement> measured =
+          MeasureUnblurred(curve, k, pixel, input, response);
       std::vector<Evidence>& evidence = evidence_.emplace_back();
-      for (const EdgeRef& ref : sample.support) {
-        const auto v = static_cast<std::size_t>(ref.view_idx);
+      for (std::size_t i = 0; i < measured.size(); ++i) {
         const auto [place, is_new] =
-            places.emplace(ref.view_idx, centers_.size());
-        if (is_new) centers_.push_back(views[v].center);
-        const Edge2d& edge = EdgeOf(ref, input.edge_maps);
-        evidence.push_back(Measure(sample.position,
-                                   views[v],
-                                   Unblurred(edge, views[v], bend, response),
-                                   place->second));
+            places.emplace(sample.support[i].view_idx, centers_.size());
+        if (is_new) centers_.push_back(measured[i].center);
+        const SeenDistance distance =
+            DistanceFrom(measured[i], sample.position);
+        evidence.push_back({place->second, 1, distance.px, distance.gradient});
       }
     }
   }
@@ -137,15 +133,6 @@ class CurveInViews {
   }
 
  private:
-  static Evidence Measure(const Eigen::Vector3d& position,
-                          const PosedView& view,
-                          const ImageEdge& edge,
-                          std::size_t view_place) {
-    const SeenDistance distance =
-        DistanceFrom(MeasurePlane(view, edge), position);
-    return {view_place, 1, distance.px, distance.gradient};
-  }
-
   Agreement Summary(const CurveSample& sample,
                     const std::vector<Evidence>& sums,
                     double total_weight) const {

@@ -17,7 +17,6 @@
 #include "curve_refinement/weak_directions.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
-#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 
@@ -176,15 +175,8 @@ class CurveFitter {
 
   void AddEdges(const RefinementInput& input, const ResponseCurve& response) {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
-      const std::optional<Bend> bend = BendAround(curve_, k, pixel_);
-      std::vector<PlaneMeasurement> measured;
-      for (const EdgeRef& ref : curve_.samples[k].support) {
-        const PosedView& view =
-            input.views[static_cast<std::size_t>(ref.view_idx)];
-        const Edge2d& edge = EdgeOf(ref, input.edge_maps);
-        measured.push_back(
-            MeasurePlane(view, Unblurred(edge, view, bend, response)));
-      }
+      std::vector<PlaneMeasurement> measured =
+          MeasureUnblurred(curve_, k, pixel_, input, response);
       if (measured.empty()) continue;
       for (const PlaneMeasurement& plane : measured) {
         const Eigen::Vector3d gradient =

@@ -11,7 +11,6 @@
 #include "base/angles.h"
 #include "base/parallel.h"
 #include "curve_refinement/curve_ends.h"
-#include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
@@ -97,6 +96,22 @@ ImageEdge Unblurred(const Edge2d& edge,
   return unblurred;
 }
 
+std::vector<PlaneMeasurement> MeasureUnblurred(const Curve& curve,
+                                               std::size_t index,
+                                               double pixel,
+                                               const RefinementInput& input,
+                                               const ResponseCurve& response) {
+  const std::optional<Bend> bend = BendAround(curve, index, pixel);
+  std::vector<PlaneMeasurement> measurements;
+  for (const EdgeRef& ref : curve.samples[index].support) {
+    const PosedView& view = input.views[static_cast<std::size_t>(ref.view_idx)];
+    const Edge2d& edge = EdgeOf(ref, input.edge_maps);
+    measurements.push_back(
+        MeasurePlane(view, Unblurred(edge, view, bend, response)));
+  }
+  return measurements;
+}
+
 namespace {
 
 constexpr double kResponseStepPx = 10;
@@ -133,14 +148,11 @@ ResponsePlace PlaceOf(const Curve& curve,
                       const RefinementInput& input,
                       const ResponseCurve& response) {
   const CurveSample& sample = curve.samples[index];
-  ResponsePlace place = {{sample.position, sample.tangent}, {}, {}};
-  const std::optional<Bend> bend = BendAround(curve, index, pixel);
+  ResponsePlace place = {{sample.position, sample.tangent},
+                         MeasureUnblurred(curve, index, pixel, input, response),
+                         {}};
   for (const EdgeRef& ref : sample.support) {
-    const PosedView& view = input.views[static_cast<std::size_t>(ref.view_idx)];
-    const Edge2d& edge = EdgeOf(ref, input.edge_maps);
-    place.measurements.push_back(
-        MeasurePlane(view, Unblurred(edge, view, bend, response)));
-    place.levers.push_back(ResponseShift(edge));
+    place.levers.push_back(ResponseShift(EdgeOf(ref, input.edge_maps)));
   }
   return place;
 }

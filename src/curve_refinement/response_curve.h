@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "curve_refinement/refinement_input.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 
@@ -60,6 +61,14 @@ ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
                     const std::optional<Bend>& bend,
                     const ResponseCurve& response);
+
+// The 2D edges of a sample, one after the other, where they would be without
+// blur. `pixel`: the size of a pixel there, world units.
+std::vector<PlaneMeasurement> MeasureUnblurred(const Curve& curve,
+                                               std::size_t index,
+                                               double pixel,
+                                               const RefinementInput& input,
+                                               const ResponseCurve& response);
 
 // The response curve with which the views agree best about the curves. A curve
 // that some views see against the sky and others against a wall has an edge of
