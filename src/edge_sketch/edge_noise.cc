@@ -9,8 +9,6 @@
 
 #include "base/median.h"
 #include "edge_sketch/sketch_by_views.h"
-#include "geometry/adjust_edge.h"
-#include "geometry/image_edge.h"
 #include "geometry/occluding_contour.h"
 
 namespace curvix {
@@ -32,12 +30,8 @@ void AddDistances(const Edge3d& edge,
                   const SketchInput& input,
                   double sigma_px,
                   std::vector<double>& distances_px) {
-  std::vector<PlaneMeasurement> measurements;
-  for (const EdgeRef& ref : edge.support) {
-    measurements.push_back(
-        MeasurePlane(input.views[static_cast<std::size_t>(ref.view_idx)],
-                     ToImageEdge(EdgeOf(ref, input.edge_maps))));
-  }
+  const std::vector<PlaneMeasurement> measurements =
+      MeasurePlanes(edge.support, input.indices);
   OccludingContour start;
   start.axis = {edge.position, edge.tangent};
   const OccludingContour contour =
