@@ -53,8 +53,21 @@ void AddSupport(const CurveSample& sample,
   }
 }
 
+// Of the place of a sample that is so measured, if edges have this sigma.
+// Infinite with fewer than two measurements.
+double DilutionOf(const CurveSample& sample,
+                  const std::vector<PlaneMeasurement>& measurements,
+                  double edge_sigma_px,
+                  const std::vector<PosedView>& views) {
+  if (measurements.size() < 2) return kInfinity;
+  const Eigen::Matrix2d covariance =
+      AdjustEdge({sample.position, sample.tangent}, measurements, edge_sigma_px)
+          .covariance;
+  return std::sqrt(covariance.trace() / 2) /
+         (edge_sigma_px * PixelSize(sample, views));
+}
+
 // If all views that look at the sample had an edge where it is projected.
-// Infinite, if less than two look at it.
 double LeastDilution(const CurveSample& sample,
                      const std::vector<PosedView>& views) {
   const SpaceEdge edge{sample.position, sample.tangent};
@@ -63,11 +76,7 @@ double LeastDilution(const CurveSample& sample,
     const auto projected = ProjectInto(view, edge);
     if (projected) measurements.push_back(MeasurePlane(view, *projected));
   }
-  if (measurements.size() < 2) return kInfinity;
-  const double pixel = PixelSize(sample, views);
-  const Eigen::Matrix2d covariance =
-      AdjustEdge(edge, measurements, 1).covariance;
-  return std::sqrt(covariance.trace() / 2) / pixel;
+  return DilutionOf(sample, measurements, 1, views);
 }
 
 // Whether the curve is not blurred, by view.
@@ -93,26 +102,18 @@ double BlurredShare(const Support& support,
   return num_edges > 0 ? num_blurred / num_edges : 0;
 }
 
-// The dilution of the place that the edges of sharp views alone determine;
-// infinite without two of them.
+// By the edges of sharp views alone.
 double SharpDilution(const CurveSample& sample,
                      const RefinementInput& input,
                      const std::vector<bool>& are_sharp) {
-  const auto& [views, edge_maps, edge_sigma_px, options, num_threads, _] =
-      input;
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : sample.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
     if (!are_sharp[v]) continue;
-    measurements.push_back(
-        MeasurePlane(views[v], ToImageEdge(EdgeOf(ref, edge_maps))));
+    measurements.push_back(MeasurePlane(
+        input.views[v], ToImageEdge(EdgeOf(ref, input.edge_maps))));
   }
-  if (measurements.size() < 2) return kInfinity;
-  const Eigen::Matrix2d covariance =
-      AdjustEdge({sample.position, sample.tangent}, measurements, edge_sigma_px)
-          .covariance;
-  const double pixel = PixelSize(sample, views);
-  return std::sqrt(covariance.trace() / 2) / (edge_sigma_px * pixel);
+  return DilutionOf(sample, measurements, input.edge_sigma_px, input.views);
 }
 
 double SharpDilution(const Curve& curve,
