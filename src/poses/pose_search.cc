@@ -224,7 +224,8 @@ void PoseSearch::Fit(PoseObservationSet* observations) const {
     place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
   });
   ParallelFor(observations->points.size(), num_threads_, [&](std::size_t i) {
-    observations->points[i].position = Fitted(observations->points[i]);
+    PointSample& point = observations->points[i];
+    point.position = FitPoint(point.position, edges_.Observed(point));
   });
 }
 
@@ -261,25 +262,13 @@ double PoseSearch::MedianShift(const PoseObservationSet& observations,
   return MedianOr(0, std::move(medians));
 }
 
-Eigen::Vector3d PoseSearch::Fitted(const PointSample& point) const {
-  return FitPoint(point.position, edges_.Observed(point));
-}
-
 std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
-    const PoseObservationSet& observations) {
+    PoseObservationSet observations) {
   const MovedCameras moved = edges_.moved();
   edges_.Move(edges_.Unmoved());
-  const std::size_t num_places = observations.places.size();
-  std::vector<Eigen::Vector3d> positions(num_places +
-                                         observations.points.size());
-  ParallelFor(positions.size(), num_threads_, [&](std::size_t i) {
-    positions[i] =
-        i < num_places
-            ? MiddleOf(edges_.Adjusted(observations.places[i], kPlaceSigmaPx))
-            : Fitted(observations.points[i - num_places]);
-  });
+  Fit(&observations);
   edges_.Move(moved);
-  return positions;
+  return PositionsOf(observations);
 }
 
 // Not from camera centres, which depend on the focal length. About the middle

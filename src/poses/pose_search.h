@@ -71,8 +71,6 @@ class PoseSearch {
                      const MovedCameras& before) const;
 
  private:
-  // The position, fitted to the present poses and cameras.
-  Eigen::Vector3d Fitted(const PointSample& point) const;
   std::vector<std::vector<double>> DistancesByView(
       const std::vector<CurvePlace>& places) const;
   void UpdateSigmas(const std::vector<CurvePlace>& places);
@@ -80,8 +78,9 @@ class PoseSearch {
   AdjustedPoses Solve(const PoseObservationSet& observations,
                       double prior_px,
                       const std::vector<bool>& free_lenses);
+  // Fitted to the poses and cameras of the scene.
   std::vector<Eigen::Vector3d> PositionsByInput(
-      const PoseObservationSet& observations);
+      PoseObservationSet observations);
   void RestoreScale(PoseObservationSet* observations);
 
   const Scene& scene_;
