@@ -26,18 +26,13 @@
 namespace curvix {
 namespace {
 
-Status CannotBeInverted(const View& view) {
-  return Status::InvalidArgument("the camera of " + view.name +
-                                 " cannot be inverted at an edge");
-}
-
-// Query edges in all views. About half of them lead to a place, and a view sees
-// about half of the places.
 // Of a place, whose unknowns are two of its axis and a radius; the larger where
 // there are many such places.
 constexpr std::size_t kFewSupports = 5;
 constexpr std::size_t kUsualSupports = 6;
 constexpr std::ptrdiff_t kManyPlaces = 1000;
+// Query edges in all views. About half of them lead to a place, and a view sees
+// about half of the places.
 constexpr std::size_t kNumQueryEdges = 2500;
 constexpr std::size_t kNumQueryEdgesPerView = 50;
 constexpr double kEdgeGateSigmas = 4;
@@ -47,6 +42,19 @@ constexpr double kMinCosine = 0.9659258;  // 15 degrees
 constexpr std::size_t kMaxViewsOfPlace = 40;
 // Edges along one contour are one.
 constexpr double kSameContourPx = 0.2;
+
+// The edges of a view with the one of `cameras` that is its own.
+Result<EdgeMap> EdgesWithCamera(const Scene& scene,
+                                std::size_t view_idx,
+                                const EdgeMap& edges,
+                                const std::vector<Camera>& cameras) {
+  const View& view = scene.views[view_idx];
+  const auto k = static_cast<std::size_t>(view.camera_idx);
+  auto carried = CarryEdges(edges, scene.cameras[k], cameras[k]);
+  if (carried) return *std::move(carried);
+  return Status::InvalidArgument("the camera of " + view.name +
+                                 " cannot be inverted at an edge");
+}
 
 }  // namespace
 
@@ -295,8 +303,7 @@ std::optional<Eigen::Vector2d> PosedEdges::PixelByInputCamera(
     std::size_t view_idx, const Eigen::Vector3d& x) const {
   const auto seen = Project(CameraOf(view_idx), PoseOf(view_idx), x);
   if (!seen) return std::nullopt;
-  const auto k = static_cast<std::size_t>(scene_.views[view_idx].camera_idx);
-  const auto ideal = IdealFromImage(scene_.cameras[k], *seen);
+  const auto ideal = IdealFromImage(InputCameraOf(view_idx), *seen);
   if (!ideal) return std::nullopt;
   return (input_views_[view_idx].calibration * ideal->homogeneous()).head<2>();
 }
@@ -330,11 +337,8 @@ Status CanCarryEdges(const Scene& scene,
                      const std::vector<EdgeMap>& edge_maps,
                      const std::vector<Camera>& cameras) {
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
-    if (cameras[k] != scene.cameras[k] &&
-        !CarryEdges(edge_maps[i], scene.cameras[k], cameras[k])) {
-      return CannotBeInverted(scene.views[i]);
-    }
+    const auto edges = EdgesWithCamera(scene, i, edge_maps[i], cameras);
+    if (!edges.ok()) return edges.status();
   }
   return {};
 }
@@ -353,10 +357,8 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
         std::to_string(scene.cameras.size()) + " of the scene");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    const auto k = static_cast<std::size_t>(scene.views[i].camera_idx);
-    if (cameras[k] == scene.cameras[k]) continue;
-    auto edges = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
-    if (!edges) return CannotBeInverted(scene.views[i]);
+    auto edges = EdgesWithCamera(scene, i, edge_maps[i], cameras);
+    if (!edges.ok()) return edges.status();
     edge_maps[i] = *std::move(edges);
   }
   return edge_maps;
