@@ -17,7 +17,6 @@
 #include "geometry/directions.h"
 #include "geometry/lens.h"
 #include "poses/pose_equations.h"
-#include "poses/pose_observations.h"
 
 namespace curvix {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (beyond it). The residuals of AdjustPoses and their derivatives.
+// Paper: none (beyond it). The observations of AdjustPoses in one form, their
+// residuals and derivatives.
 #pragma once
 
 #include <ceres/cost_function.h>
@@ -7,12 +8,29 @@
 #include <ceres/loss_function.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "geometry/lens.h"
-#include "poses/pose_observations.h"
+#include "poses/adjust_poses.h"
 
 namespace curvix {
+
+// Where a view sees a sample or a point.
+struct PoseObservation {
+  std::size_t view_idx;
+  std::size_t camera_idx;
+  std::size_t sample_idx;    // indices of points follow those of samples
+  Eigen::Vector3d position;  // in the camera with its input pose
+  Eigen::Matrix3d moves;     // Jacobian of position by the sample's unknowns
+  Eigen::Vector2d pixel;
+  // By row what is measured from `pixel`, over sigma: of a point x and y, of an
+  // edge the distance across and nothing.
+  Eigen::Matrix2d axes;
+};
+
+// One for each edge of a sample, then for each pixel of a point.
+std::vector<PoseObservation> ObservationsOf(const PoseProblem& problem);
 
 // A small increment of a camera in its own frame: rotation vector, translation.
 using PoseIncrement = Eigen::Matrix<double, 6, 1>;
