@@ -29,13 +29,12 @@ struct JoinableEnd {
 JoinableEnd EndOf(const Curve& curve,
                   bool front,
                   const std::vector<PosedView>& views) {
-  const std::vector<CurveSample>& samples = curve.samples;
-  const CurveSample& last = front ? samples.back() : samples.front();
-  const std::size_t num_used = std::min(kNumEndSamples, samples.size());
+  const CurveSample& last = SampleFromEnd(curve, front);
+  const double sign = front ? 1 : -1;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < num_used; ++k) {
-    sum += front ? samples[samples.size() - 1 - k].tangent
-                 : Eigen::Vector3d(-samples[k].tangent);
+  for (std::size_t k = 0; k < std::min(kNumEndSamples, curve.samples.size());
+       ++k) {
+    sum += sign * SampleFromEnd(curve, front, k).tangent;
   }
   return {last.position,
           sum.normalized(),
@@ -84,9 +83,8 @@ std::vector<Curve> JoinCurves(std::vector<Curve> curves,
                               const ConnectivityOptions& options) {
   if (!(options.max_gap_px > 0)) return curves;
   std::vector<JoinableEnd> ends;
-  for (const Curve& curve : curves) {
-    ends.push_back(EndOf(curve, true, views));
-    ends.push_back(EndOf(curve, false, views));
+  for (EndIdx end = 0; end < 2 * curves.size(); ++end) {
+    ends.push_back(EndOf(curves[ItemOf(end)], IsFront(end), views));
   }
   const EndTies ties =
       TieCheapestFirst(FindPairs(ends, options), curves.size());

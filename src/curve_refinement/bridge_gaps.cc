@@ -96,19 +96,16 @@ class GapFinder {
     return kCostOfGap * gap + std::max(*forth, *back);
   }
 
-  const CurveSample& Last(EndIdx end) const {
-    const std::vector<CurveSample>& samples = curves_[ItemOf(end)].samples;
-    return IsFront(end) ? samples.back() : samples.front();
-  }
-
   bool ImagesShow(EndIdx a, EndIdx b, double unit) const {
-    CurveSample from = Last(a);
-    CurveSample to = Last(b);
+    const Curve& curve_a = curves_[ItemOf(a)];
+    const Curve& curve_b = curves_[ItemOf(b)];
+    CurveSample from = SampleFromEnd(curve_a, IsFront(a));
+    CurveSample to = SampleFromEnd(curve_b, IsFront(b));
     from.tangent = ends_[a].outward;
     to.tangent = -ends_[b].outward;
-    return AreShown(SamplesBetween(from, to, unit, images_),
-                    std::min(SupportBefore(curves_[ItemOf(a)], IsFront(a)),
-                             SupportBefore(curves_[ItemOf(b)], IsFront(b))));
+    const std::size_t usual = std::min(SupportBefore(curve_a, IsFront(a)),
+                                       SupportBefore(curve_b, IsFront(b)));
+    return IsGapShown(from, to, unit, usual, images_);
   }
 
   const std::vector<Curve>& curves_;

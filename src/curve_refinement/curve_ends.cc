@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "geometry/pixel_size.h"
+#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -116,17 +117,16 @@ std::vector<Placed> Take(const Curve& curve,
                          bool front,
                          const EndSegment& segment,
                          double pixel) {
-  const std::size_t size = curve.samples.size();
-  const auto sample = [&](std::size_t k) -> const Eigen::Vector3d& {
-    return curve.samples[front ? size - 1 - k : k].position;
+  const auto position = [&](std::size_t k) -> const Eigen::Vector3d& {
+    return SampleFromEnd(curve, front, k).position;
   };
   std::vector<Placed> placed;
   double along = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    if (k > 0) along += (sample(k) - sample(k - 1)).norm();
+  for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+    if (k > 0) along += (position(k) - position(k - 1)).norm();
     if (along > segment.end_px * pixel) break;
     if (along < segment.begin_px * pixel) continue;
-    placed.push_back({-along, sample(k) - sample(0), 1});
+    placed.push_back({-along, position(k) - position(0), 1});
   }
   return placed;
 }
@@ -222,8 +222,7 @@ EndFit FitEnd(const Curve& curve,
               bool front,
               const EndSegment& segment,
               const std::vector<PosedView>& views) {
-  const CurveSample& last =
-      front ? curve.samples.back() : curve.samples.front();
+  const CurveSample& last = SampleFromEnd(curve, front);
   EndFit fit;
   fit.position = last.position;
   fit.pixel = PixelSize(last, views);

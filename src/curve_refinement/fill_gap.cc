@@ -16,8 +16,6 @@ constexpr double kMinSupportShare = 0.5;    // of the usual support
 constexpr double kMinSupportedShare = 0.8;  // of the samples
 constexpr std::size_t kNumEndSamples = 10;
 
-}  // namespace
-
 std::vector<CurveSample> SamplesBetween(const CurveSample& from,
                                         const CurveSample& to,
                                         double pixel,
@@ -41,6 +39,8 @@ std::vector<CurveSample> SamplesBetween(const CurveSample& from,
   return filled;
 }
 
+}  // namespace
+
 std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                                         const EndTies& ties,
                                         const std::vector<PosedView>& views,
@@ -54,18 +54,22 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
 }
 
 std::size_t SupportBefore(const Curve& curve, bool front) {
-  const std::vector<CurveSample>& samples = curve.samples;
-  const std::size_t num_samples = std::min(kNumEndSamples, samples.size());
   std::vector<std::size_t> counts;
-  for (std::size_t k = 0; k < num_samples; ++k) {
-    counts.push_back(
-        samples[front ? samples.size() - 1 - k : k].support.size());
+  for (std::size_t k = 0; k < std::min(kNumEndSamples, curve.samples.size());
+       ++k) {
+    counts.push_back(SampleFromEnd(curve, front, k).support.size());
   }
   std::sort(counts.begin(), counts.end());
   return counts[counts.size() / 2];
 }
 
-bool AreShown(const std::vector<CurveSample>& filled, std::size_t usual) {
+bool IsGapShown(const CurveSample& from,
+                const CurveSample& to,
+                double pixel,
+                std::size_t usual,
+                const ImageSupport& images) {
+  const std::vector<CurveSample> filled =
+      SamplesBetween(from, to, pixel, images);
   const auto num_shown =
       std::count_if(filled.begin(), filled.end(), [&](const auto& sample) {
         return static_cast<double>(sample.support.size()) >=

@@ -12,15 +12,10 @@
 
 namespace curvix {
 
-// The samples between two others on the cubic that passes both with their
-// tangents, about 1.5 px apart; `pixel` in world units. Sigma and evidence are
-// those of the weaker of both; support is what `images` have within 1 px.
-std::vector<CurveSample> SamplesBetween(const CurveSample& from,
-                                        const CurveSample& to,
-                                        double pixel,
-                                        const ImageSupport& images);
-
-// StringTogether (curve_chains.h) with such samples in the gaps.
+// StringTogether (curve_chains.h) with samples in each gap on the cubic that
+// passes those at both ends with their tangents, about 1.5 px apart. Sigma and
+// evidence are those of the weaker of both; support is what `images` have
+// within 1 px.
 std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                                         const EndTies& ties,
                                         const std::vector<PosedView>& views,
@@ -29,7 +24,12 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
 // The median number of 2D edges of the last samples before an end.
 std::size_t SupportBefore(const Curve& curve, bool front);
 
-// Whether four fifths of the samples have at least half of `usual` 2D edges.
-bool AreShown(const std::vector<CurveSample>& filled, std::size_t usual);
+// Whether four fifths of the samples in such a gap have at least half of
+// `usual` 2D edges. `pixel`: its size, world units.
+bool IsGapShown(const CurveSample& from,
+                const CurveSample& to,
+                double pixel,
+                std::size_t usual,
+                const ImageSupport& images);
 
 }  // namespace curvix

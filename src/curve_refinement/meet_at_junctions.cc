@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
+#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {
@@ -71,9 +72,8 @@ std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
   using Place = std::array<double, 3>;
   std::map<Place, std::vector<Eigen::Vector3d>> directions;
   const auto place_of = [&](const CurveEnd& end) {
-    const auto& samples = curves[end.curve_idx].samples;
     const Eigen::Vector3d& last =
-        (end.at_back ? samples.back() : samples.front()).position;
+        SampleFromEnd(curves[end.curve_idx], end.at_back).position;
     return Place{last.x(), last.y(), last.z()};
   };
   for (const CurveEnd& end : ends) {

@@ -60,8 +60,7 @@ struct Passage {
 OpenEnd MakeEnd(const Curve& curve,
                 bool front,
                 const std::vector<PosedView>& views) {
-  const CurveSample& last =
-      front ? curve.samples.back() : curve.samples.front();
+  const CurveSample& last = SampleFromEnd(curve, front);
   OpenEnd end;
   end.position = last.position;
   end.outward = front ? last.tangent : Eigen::Vector3d(-last.tangent);
@@ -217,9 +216,9 @@ class MeetingFinder {
   bool ImagesShow(const Curve& from, const Curve& to, double pixel) const {
     CurveSample arrival = to.samples.back();
     arrival.tangent = -arrival.tangent;
-    return AreShown(
-        SamplesBetween(from.samples.back(), arrival, pixel, images_),
-        std::min(SupportBefore(from, true), SupportBefore(to, true)));
+    const std::size_t usual =
+        std::min(SupportBefore(from, true), SupportBefore(to, true));
+    return IsGapShown(from.samples.back(), arrival, pixel, usual, images_);
   }
 
   const std::vector<Curve>& curves_;
@@ -277,8 +276,7 @@ void CutBentEnd(EndIdx end,
                 const std::vector<PosedView>& views,
                 std::vector<Curve>& curves) {
   Curve& curve = curves[ItemOf(end)];
-  const CurveSample last =
-      IsFront(end) ? curve.samples.back() : curve.samples.front();
+  const CurveSample last = SampleFromEnd(curve, IsFront(end));
   const double bent = kBentEndPx * PixelSize(last, views);
   CutEnd(curve, IsFront(end), [&](const CurveSample& sample) {
     return (sample.position - last.position).norm() >= bent;

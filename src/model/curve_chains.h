@@ -19,6 +19,14 @@ inline EndIdx OtherEnd(EndIdx end) { return end ^ 1; }
 inline std::size_t ItemOf(EndIdx end) { return end / 2; }
 inline bool IsFront(EndIdx end) { return end % 2 == 0; }
 
+// The sample `k` before the last one at the front, or after the first one at
+// the back.
+inline const CurveSample& SampleFromEnd(const Curve& curve,
+                                        bool front,
+                                        std::size_t k = 0) {
+  return curve.samples[front ? curve.samples.size() - 1 - k : k];
+}
+
 // The end that each end is tied to, if any; mutual. The two ends of one item
 // may be tied to each other.
 using EndTies = std::vector<std::optional<EndIdx>>;

@@ -41,8 +41,7 @@ void TrimSecond(EndIdx first,
                 const std::vector<PosedView>& views,
                 std::vector<Curve>& curves) {
   const Curve& curve = curves[ItemOf(first)];
-  const CurveSample& from =
-      IsFront(first) ? curve.samples.back() : curve.samples.front();
+  const CurveSample& from = SampleFromEnd(curve, IsFront(first));
   const Eigen::Vector3d outward =
       IsFront(first) ? from.tangent : Eigen::Vector3d(-from.tangent);
   const double min_step = kMinStepPx * PixelSize(from, views);
