@@ -3,17 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <optional>
-#include <unsupported/Eigen/BVH>
 #include <utility>
 
 #include "base/angles.h"
 #include "base/median.h"
-#include "base/point_tree.h"
 #include "geometry/epipolar.h"
 
 namespace curvix {
@@ -49,50 +46,23 @@ std::optional<double> DepthNearestTo(const PosedView& view,
   return depth;
 }
 
-// Finds the cameras nearest to one of them, nearest first, without those in its
+// The cameras nearest to one of them, nearest first, without those in its
 // place.
-class NearestCameras {
- public:
-  explicit NearestCameras(const std::vector<PosedView>& views)
-      : views_(views), tree_(views, &PosedView::center) {
-    Eigen::AlignedBox3d box;
-    for (const PosedView& view : views) box.extend(view.center);
-    size_ = box.isEmpty() ? 0 : box.diagonal().norm();
+std::vector<std::size_t> NearestCameras(const std::vector<PosedView>& views,
+                                        std::size_t view_idx) {
+  std::vector<std::size_t> near;
+  for (std::size_t other = 0; other < views.size(); ++other) {
+    if (!ShareCenter(views[view_idx], views[other])) near.push_back(other);
   }
+  std::ranges::stable_sort(near, {}, [&](std::size_t other) {
+    return (views[other].center - views[view_idx].center).norm();
+  });
+  near.resize(std::min(near.size(), kMaxNumCameras));
+  return near;
+}
 
-  std::vector<std::size_t> To(std::size_t view_idx) const {
-    const Eigen::Vector3d& center = views_[view_idx].center;
-    std::vector<std::size_t> near;
-    for (double radius = size_ / static_cast<double>(views_.size());
-         near.size() < kMaxNumCameras;
-         radius *= 2) {
-      near = tree_.Within(center, std::min(radius, 2 * size_));
-      std::erase_if(near, [&](std::size_t other) {
-        return other == view_idx ||
-               ShareCenter(views_[view_idx], views_[other]);
-      });
-      if (radius >= 2 * size_) break;
-    }
-    const auto distance = [&](std::size_t other) {
-      return (views_[other].center - center).norm();
-    };
-    std::stable_sort(near.begin(), near.end(), [&](auto a, auto b) {
-      return distance(a) < distance(b);
-    });
-    near.resize(std::min(near.size(), kMaxNumCameras));
-    return near;
-  }
-
- private:
-  const std::vector<PosedView>& views_;
-  PointTree tree_;
-  double size_ = 0;  // no two cameras are further apart
-};
-
-double WorkingDepth(const std::vector<PosedView>& views,
-                    const NearestCameras& cameras,
-                    std::size_t view_idx) {
-  const std::vector<std::size_t> near = cameras.To(view_idx);
+double WorkingDepth(const std::vector<PosedView>& views, std::size_t view_idx) {
+  const std::vector<std::size_t> near = NearestCameras(views, view_idx);
   std::vector<double> depths;
   for (const std::size_t other : near) {
     if (const auto depth = DepthNearestTo(views[view_idx], views[other])) {
@@ -116,85 +86,6 @@ std::vector<Eigen::Vector3d> PlacesOnGrid(const PosedView& view, double depth) {
   }
   return places;
 }
-
-// The half spaces of what a view sees.
-class Frustum {
- public:
-  explicit Frustum(const PosedView& view) {
-    const double fx = view.calibration(0, 0), cx = view.calibration(0, 2);
-    const double fy = view.calibration(1, 1), cy = view.calibration(1, 2);
-    const double m = view.margin_px;
-    const std::array<Eigen::Vector3d, 5> inward = {
-        {{0, 0, 1},
-         {fx, 0, cx + m},
-         {-fx, 0, view.width + m - cx},
-         {0, fy, cy + m},
-         {0, -fy, view.height + m - cy}}};
-    for (std::size_t i = 0; i < inward.size(); ++i) {
-      normals_[i] = view.rotation.transpose() * inward[i];
-      offsets_[i] = inward[i].dot(view.translation);
-    }
-  }
-
-  // False if the view sees nothing in the box.
-  bool MayMeet(const Eigen::AlignedBox3d& box) const {
-    constexpr double kRounding = 1e-9;
-    const Eigen::Vector3d center = box.center();
-    const Eigen::Vector3d half = box.sizes() / 2;
-    for (std::size_t i = 0; i < normals_.size(); ++i) {
-      const Eigen::Vector3d reach = normals_[i].cwiseAbs();
-      const double rounding = kRounding * (reach.dot(center.cwiseAbs() + half) +
-                                           std::abs(offsets_[i]));
-      if (normals_[i].dot(center) + reach.dot(half) + offsets_[i] < -rounding) {
-        return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  std::array<Eigen::Vector3d, 5> normals_;
-  std::array<double, 5> offsets_;
-};
-
-// Finds the views some of whose places another view may see.
-class PlacesIndex {
- public:
-  explicit PlacesIndex(
-      const std::vector<std::vector<Eigen::Vector3d>>& places) {
-    std::vector<std::size_t> view_idxs;
-    for (const std::vector<Eigen::Vector3d>& seen : places) {
-      view_idxs.push_back(view_idxs.size());
-      Eigen::AlignedBox3d& box = boxes_.emplace_back();
-      for (const Eigen::Vector3d& place : seen) box.extend(place);
-    }
-    tree_.init(
-        view_idxs.begin(), view_idxs.end(), boxes_.begin(), boxes_.end());
-  }
-
-  std::vector<std::size_t> SeenBy(const PosedView& view) const {
-    Query query{Frustum(view), boxes_, {}};
-    Eigen::BVIntersect(tree_, query);
-    return std::move(query.found);
-  }
-
- private:
-  struct Query {
-    bool intersectVolume(const Eigen::AlignedBox3d& box) const {
-      return frustum.MayMeet(box);
-    }
-    bool intersectObject(std::size_t view_idx) {
-      if (frustum.MayMeet(boxes[view_idx])) found.push_back(view_idx);
-      return false;  // go on
-    }
-    Frustum frustum;
-    const std::vector<Eigen::AlignedBox3d>& boxes;
-    std::vector<std::size_t> found;
-  };
-
-  std::vector<Eigen::AlignedBox3d> boxes_;  // of the places of each view
-  Eigen::KdBVH<double, 3, std::size_t> tree_;
-};
 
 std::optional<ViewOverlap> Overlap(const PosedView& view,
                                    const std::vector<Eigen::Vector3d>& places,
@@ -225,16 +116,9 @@ Overlaps FindAllOverlaps(const std::vector<PosedView>& views,
                          const std::vector<ScenePoint>& points) {
   const auto places = FindPlaces(views, points);
   Overlaps overlaps(views.size());
-  if (views.size() < 2) return overlaps;
-  const PlacesIndex index(places);
-  std::vector<std::vector<std::size_t>> candidates(views.size());
-  for (std::size_t j = 0; j < views.size(); ++j) {
-    for (const std::size_t i : index.SeenBy(views[j])) {
-      if (i != j) candidates[i].push_back(j);
-    }
-  }
   for (std::size_t i = 0; i < views.size(); ++i) {
-    for (const std::size_t j : candidates[i]) {
+    for (std::size_t j = 0; j < views.size(); ++j) {
+      if (i == j) continue;
       if (auto overlap = Overlap(views[i], places[i], views[j])) {
         overlap->other = static_cast<int>(j);
         overlaps[i].push_back(*overlap);
@@ -298,11 +182,10 @@ std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
       places[static_cast<std::size_t>(view_idx)].push_back(point.position);
     }
   }
-  const NearestCameras cameras(views);
   for (std::size_t i = 0; i < views.size(); ++i) {
     std::vector<Eigen::Vector3d>& seen = places[i];
     if (seen.size() < kMinNumPoints) {
-      seen = PlacesOnGrid(views[i], WorkingDepth(views, cameras, i));
+      seen = PlacesOnGrid(views[i], WorkingDepth(views, i));
     } else if (seen.size() > kMaxNumPlaces) {
       std::vector<Eigen::Vector3d> some;
       for (std::size_t k = 0; k < kMaxNumPlaces; ++k) {

@@ -26,7 +26,7 @@ struct ViewOverlap {
 // The places that each view sees: up to 64 of its sparse points, if it has
 // eight or more; else a grid in its image at its working depth, which is the
 // median, over the 64 nearest cameras, of the depth at which its optical axis
-// passes nearest to theirs. O(n log n) for n views.
+// passes nearest to theirs.
 std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views, const std::vector<ScenePoint>& points);
 
@@ -37,8 +37,7 @@ const ViewOverlap* OverlapWith(const std::vector<ViewOverlap>& overlaps,
 using Overlaps = std::vector<std::vector<ViewOverlap>>;  // by view_idx
 
 // For each view the views that overlap it, by view_idx: those that see some of
-// its places. Views with the same centre do not overlap. The time grows with
-// the number of overlapping pairs.
+// its places. Views with the same centre do not overlap.
 Overlaps FindOverlaps(const std::vector<PosedView>& views,
                       const std::vector<ScenePoint>& points);
 
