@@ -22,60 +22,16 @@ namespace {
 // other.
 constexpr std::size_t kMinLoop = 6;
 
-// All samples of all curves, which of them stay, and which are near.
-class SampleFilter {
- public:
-  SampleFilter(const std::vector<Curve>& curves,
-               const std::vector<PosedView>& views,
-               const ConnectivityOptions& options)
-      : curves_(curves),
-        views_(views),
-        options_(options),
-        samples_(curves),
-        stays_(samples_.Places().size(), false) {}
-
-  // Decides on sample `k` in the order of curves and samples.
-  void Visit(std::size_t k) { stays_[k] = !IsDuplicate(k); }
-  bool Stays(std::size_t k) const { return stays_[k]; }
-
- private:
-  const CurveSample& Sample(std::size_t k) const {
-    const SamplePlace& place = samples_.Places()[k];
-    return curves_[place.curve_idx].samples[place.sample_idx];
-  }
-  bool AreNeighbors(std::size_t k, std::size_t j) const {
-    const SamplePlace& a = samples_.Places()[k];
-    const SamplePlace& b = samples_.Places()[j];
-    if (a.curve_idx != b.curve_idx) return false;
-    const std::size_t gap = std::max(a.sample_idx, b.sample_idx) -
-                            std::min(a.sample_idx, b.sample_idx);
-    const Curve& curve = curves_[a.curve_idx];
-    return gap < kMinLoop ||
-           (curve.closed && curve.samples.size() - gap < kMinLoop);
-  }
-  bool IsDuplicate(std::size_t k) const {
-    const CurveSample& sample = Sample(k);
-    const double unit = PixelSize(sample, views_);
-    const double max_normal = options_.max_duplicate_distance_px * unit;
-    const double max_along = options_.sample_spacing_px * unit;
-    const double radius = std::hypot(max_normal, max_along);
-    for (const std::size_t j : samples_.Within(sample.position, radius)) {
-      if (!stays_[j] || AreNeighbors(k, j)) continue;
-      const EdgeDistances between = MeasureDistances(sample, Sample(j));
-      if (between.normal <= max_normal && between.tangential <= max_along &&
-          between.angle <= DegToRad(options_.max_angle_deg)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  const std::vector<Curve>& curves_;
-  const std::vector<PosedView>& views_;
-  const ConnectivityOptions& options_;
-  SampleTree samples_;
-  std::vector<bool> stays_;
-};
+bool AreNeighbors(const SamplePlace& a,
+                  const SamplePlace& b,
+                  const std::vector<Curve>& curves) {
+  if (a.curve_idx != b.curve_idx) return false;
+  const std::size_t gap = std::max(a.sample_idx, b.sample_idx) -
+                          std::min(a.sample_idx, b.sample_idx);
+  const Curve& curve = curves[a.curve_idx];
+  return gap < kMinLoop ||
+         (curve.closed && curve.samples.size() - gap < kMinLoop);
+}
 
 // Curve indices by decreasing length.
 std::vector<std::size_t> ByLength(const std::vector<Curve>& curves,
@@ -98,26 +54,42 @@ std::vector<Curve> DropDuplicates(std::vector<Curve> curves,
                                   const std::vector<PosedView>& views,
                                   const ConnectivityOptions& options) {
   if (!(options.max_duplicate_distance_px > 0)) return curves;
-  std::vector<std::size_t> bases;
-  std::size_t num_samples = 0;
+  const SampleTree samples(curves);
+  const auto sample_at = [&](const SamplePlace& place) -> const CurveSample& {
+    return curves[place.curve_idx].samples[place.sample_idx];
+  };
+  // By curve and sample: whether it was visited and stays.
+  std::vector<std::vector<bool>> stays;
   for (const Curve& curve : curves) {
-    bases.push_back(num_samples);
-    num_samples += curve.samples.size();
+    stays.emplace_back(curve.samples.size(), false);
   }
-  SampleFilter filter(curves, views, options);
+  const auto is_duplicate = [&](const SamplePlace& place) {
+    const CurveSample& sample = sample_at(place);
+    const double unit = PixelSize(sample, views);
+    const double max_normal = options.max_duplicate_distance_px * unit;
+    const double max_along = options.sample_spacing_px * unit;
+    const std::vector<std::size_t> near =
+        samples.Within(sample.position, std::hypot(max_normal, max_along));
+    return std::ranges::any_of(near, [&](std::size_t i) {
+      const SamplePlace& other = samples.Places()[i];
+      if (!stays[other.curve_idx][other.sample_idx] ||
+          AreNeighbors(place, other, curves)) {
+        return false;
+      }
+      const EdgeDistances between = MeasureDistances(sample, sample_at(other));
+      return between.normal <= max_normal && between.tangential <= max_along &&
+             between.angle <= DegToRad(options.max_angle_deg);
+    });
+  };
   for (const std::size_t c : ByLength(curves, views)) {
     for (std::size_t s = 0; s < curves[c].samples.size(); ++s) {
-      filter.Visit(bases[c] + s);
+      stays[c][s] = !is_duplicate({c, s});
     }
   }
   std::vector<Curve> kept;
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    std::vector<bool> stays;
-    for (std::size_t s = 0; s < curves[c].samples.size(); ++s) {
-      stays.push_back(filter.Stays(bases[c] + s));
-    }
-    std::vector<Curve> pieces = KeepRanges(curves[c], std::move(stays), 1);
-    std::move(pieces.begin(), pieces.end(), std::back_inserter(kept));
+    std::ranges::move(KeepRanges(std::move(curves[c]), std::move(stays[c]), 1),
+                      std::back_inserter(kept));
   }
   return kept;
 }
