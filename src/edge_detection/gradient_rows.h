@@ -6,11 +6,19 @@
 #include <cstddef>
 #include <vector>
 
-#include "edge_detection/detection_scale.h"
 #include "edge_detection/gray_image.h"
 #include "edge_detection/steep_tiles.h"
 
 namespace curvix {
+
+// At which edges of an image are detected.
+struct DetectionScale {
+  double sigma_px = 1;     // of the Gaussian derivatives, > 0
+  int samples_per_px = 2;  // along each axis, 1 or 2
+
+  // Of edges along a contour.
+  double spacing_px() const { return 1.0 / samples_per_px; }
+};
 
 // One row of a grid with n points per pixel along each axis. Grid point (i, j)
 // is the pixel (i / n, j / n) counted between pixel centres from (0, 0), that

@@ -10,7 +10,6 @@
 
 #include "base/wide_vectors.h"
 #include "edge_detection/gaussian_derivatives.h"
-#include "edge_detection/gradient_rows.h"
 #include "edge_detection/steep_tiles.h"
 
 namespace curvix {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "edge_detection/detection_scale.h"
+#include "edge_detection/gradient_rows.h"
 #include "edge_detection/gray_image.h"
 
 namespace curvix {
