@@ -114,8 +114,8 @@ EdgeMap DetectAtScale(const ViewImage& image,
   EdgeMap map = std::move(located.map);
   const bool is_coarse = scale.samples_per_px == 1;
   // Between pixels the parabola is less exact than between half pixels.
-  const auto orient = is_coarse ? OrientAndRefineEdges : OrientEdges;
-  orient(image.pixels, scale.sigma_px, &map.edges);
+  const bool refine = is_coarse;
+  OrientEdges(image.pixels, scale.sigma_px, refine, &map.edges);
   map.neighbors = LinkNeighbors(map.edges, options);
   if (options.separate_edges) SeparateEdges(map.spacing_px, &map.edges);
   const std::int64_t max_edges =

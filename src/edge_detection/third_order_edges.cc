@@ -255,19 +255,13 @@ std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges) {
 
 void OrientEdges(const GrayImage& image,
                  double sigma_px,
+                 bool refine,
                  std::vector<Edge2d>* edges) {
-  ImageDerivatives derivatives(image, sigma_px);
-  for (Edge2d& edge : *edges) OrientEdge(derivatives.At(edge.position), edge);
-}
-
-void OrientAndRefineEdges(const GrayImage& image,
-                          double sigma_px,
-                          std::vector<Edge2d>* edges) {
   ImageDerivatives derivatives(image, sigma_px);
   for (Edge2d& edge : *edges) {
     const Eigen::Matrix4d d = derivatives.At(edge.position);
     OrientEdge(d, edge);
-    edge.position += StepToPeak(d);
+    if (refine) edge.position += StepToPeak(d);
   }
 }
 

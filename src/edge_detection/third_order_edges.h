@@ -44,16 +44,12 @@ std::vector<Edge2d> AcrossGradients(const std::vector<LocatedEdge>& edges);
 // Gives edges of `image` from AcrossGradients() their orientation: the
 // tangent of the curve F = g^T H g = 0 (g gradient, H Hessian) at their
 // position, from derivatives up to the third order. Strength and sharpness are
-// those at the position, too.
+// those at the position, too. If `refine`, then moves them along the gradient
+// to where its magnitude peaks, by a step of Newton's method of at most 0.3 px:
+// the parabola of LocateEdges() is some hundredths of a pixel off.
 void OrientEdges(const GrayImage& image,
                  double sigma_px,
+                 bool refine,
                  std::vector<Edge2d>* edges);
-
-// The same; then moves them along the gradient to where its magnitude peaks, by
-// a step of Newton's method of at most 0.3 px. The parabola of LocateEdges() is
-// some hundredths of a pixel off.
-void OrientAndRefineEdges(const GrayImage& image,
-                          double sigma_px,
-                          std::vector<Edge2d>* edges);
 
 }  // namespace curvix

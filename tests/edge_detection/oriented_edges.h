@@ -13,7 +13,7 @@ inline std::vector<Edge2d> OrientedEdges(const GrayImage& image,
                                          double min_gradient) {
   std::vector<Edge2d> edges =
       AcrossGradients(LocateEdges(image, scale, min_gradient));
-  OrientAndRefineEdges(image, scale.sigma_px, &edges);
+  OrientEdges(image, scale.sigma_px, /*refine=*/true, &edges);
   return edges;
 }
 

@@ -63,7 +63,7 @@ std::vector<Edge2d> ReadReference(const fs::path& path) {
 std::vector<Edge2d> DetectLikeReference(const fs::path& image_path) {
   const GrayImage image = RoundedGrey(image_path);
   std::vector<Edge2d> edges = AcrossGradients(LocateEdges(image, {}, 1));
-  OrientEdges(image, 1, &edges);
+  OrientEdges(image, 1, /*refine=*/false, &edges);
   return WithoutBorder(std::move(edges), image, 10);
 }
 
