@@ -2,7 +2,6 @@
 #include "edge_detection/undistort_edges.h"
 
 #include <curvix/scene.h>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,25 +37,22 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   CURVIX_CHECK(distorted.edges.size() == distorted.neighbors.size(),
                distorted.edges.size() << " edges");
   if (IsPinhole(camera)) return distorted;
-  EdgeMap ideal;
-  ideal.noise = distorted.noise;
-  ideal.spacing_px = distorted.spacing_px;
-  ideal.num_dropped_isolated = distorted.num_dropped_isolated;
-  ideal.num_dropped_over_limit = distorted.num_dropped_over_limit;
-  ideal.num_dropped_masked = distorted.num_dropped_masked;
-  NewIndices new_idx(distorted.edges.size());
-  for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
-    const auto edge = EdgeInIdealImage(ToImageEdge(distorted.edges[i]), camera);
+  EdgeMap ideal = std::move(distorted);
+  const std::vector<Edge2d> edges = std::exchange(ideal.edges, {});
+  const std::vector<EdgeNeighbors> neighbors =
+      std::exchange(ideal.neighbors, {});
+  NewIndices new_idx(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto edge = EdgeInIdealImage(ToImageEdge(edges[i]), camera);
     if (!edge) continue;
     new_idx[i] = static_cast<std::int32_t>(ideal.edges.size());
-    ideal.edges.push_back(Moved(distorted.edges[i], *edge));
+    ideal.edges.push_back(Moved(edges[i], *edge));
   }
   ideal.neighbors.reserve(ideal.edges.size());
-  for (std::size_t i = 0; i < distorted.edges.size(); ++i) {
+  for (std::size_t i = 0; i < edges.size(); ++i) {
     if (!new_idx[i]) continue;
-    const EdgeNeighbors& links = distorted.neighbors[i];
-    ideal.neighbors.push_back(
-        {Renumbered(new_idx, links.previous), Renumbered(new_idx, links.next)});
+    ideal.neighbors.push_back({Renumbered(new_idx, neighbors[i].previous),
+                               Renumbered(new_idx, neighbors[i].next)});
   }
   return ideal;
 }
@@ -82,10 +78,7 @@ std::int32_t DropMaskedEdges(const GrayImage& mask,
     if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) return false;
     return mask.at(static_cast<int>(x), static_cast<int>(y)) == 0;
   };
-  const auto begin = std::remove_if(edges->begin(), edges->end(), is_masked);
-  const auto num_masked = static_cast<std::int32_t>(edges->end() - begin);
-  edges->erase(begin, edges->end());
-  return num_masked;
+  return static_cast<std::int32_t>(std::erase_if(*edges, is_masked));
 }
 
 }  // namespace curvix
