@@ -30,7 +30,7 @@ struct GrowthInput {
   const std::vector<ViewIndex>& indices;  // by view
   const std::vector<bool>& are_repeated;  // by view; these are not queried
   // By view.
-  const std::vector<std::vector<ViewNeighbor>>& neighbors;
+  const NeighborsByView& neighbors;
   double edge_sigma_px = 0;
   const CurveGrowthOptions& options;
   const ValidationOptions& validation;  // which edges are near enough

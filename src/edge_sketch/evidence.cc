@@ -36,8 +36,7 @@ double VoteWithSupport(const SupportFit& fit, double density) {
 
 double VoteWithoutSupport() { return std::log(1 - kSeenAndDetected); }
 
-double Evidence(const Votes& votes,
-                const std::vector<std::vector<ViewNeighbor>>& neighbors) {
+double Evidence(const Votes& votes, const NeighborsByView& neighbors) {
   double evidence = 0;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     if (!votes[i]) continue;

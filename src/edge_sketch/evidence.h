@@ -29,6 +29,7 @@ struct ViewNeighbor {
   int view_idx = 0;
   double weight = 0;  // exp(-(angle / 25 deg)^2 / 2)
 };
+using NeighborsByView = std::vector<std::vector<ViewNeighbor>>;
 
 // A supporting edge relative to the projected 3D edge.
 struct SupportFit {
@@ -47,8 +48,7 @@ double VoteWithoutSupport();
 using Votes = std::vector<std::optional<double>>;  // by view; none: no query
 
 // The log-likelihood ratio; `votes` and `neighbors` by view index. >= 0.
-double Evidence(const Votes& votes,
-                const std::vector<std::vector<ViewNeighbor>>& neighbors);
+double Evidence(const Votes& votes, const NeighborsByView& neighbors);
 
 // Indices of the edges by falling log-likelihood ratio, rounded to 1e-6; ties
 // by ascending position.

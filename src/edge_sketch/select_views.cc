@@ -42,11 +42,10 @@ double Quality(const ViewOverlap& overlap) {
 
 }  // namespace
 
-std::optional<ViewPair> NextViewPair(
-    const std::vector<std::vector<ViewOverlap>>& overlaps,
-    const std::vector<int>& num_unused_edges,
-    const std::vector<ViewPair>& done,
-    const HypothesisOptions& options) {
+std::optional<ViewPair> NextViewPair(const Overlaps& overlaps,
+                                     const std::vector<int>& num_unused_edges,
+                                     const std::vector<ViewPair>& done,
+                                     const HypothesisOptions& options) {
   std::optional<ViewPair> best;
   std::tuple<int, int, int> best_rank;
   for (std::size_t i = 0; i < overlaps.size(); ++i) {

@@ -20,11 +20,10 @@ struct ViewPair {
 // together; ties: smaller h1, then smaller h2. H1 is the view with more unused
 // edges; ties: the smaller index. nullopt when no pair with an unused edge is
 // left.
-std::optional<ViewPair> NextViewPair(
-    const std::vector<std::vector<ViewOverlap>>& overlaps,
-    const std::vector<int>& num_unused_edges,
-    const std::vector<ViewPair>& done,
-    const HypothesisOptions& options);
+std::optional<ViewPair> NextViewPair(const Overlaps& overlaps,
+                                     const std::vector<int>& num_unused_edges,
+                                     const std::vector<ViewPair>& done,
+                                     const HypothesisOptions& options);
 
 // Deviation: every view as H1. Its partners, best first, at most
 // options.num_partners. They overlap it, at ray angles that give depth without

@@ -44,8 +44,8 @@ struct Partner {
 // All partners of an H1 view.
 struct H1View {
   std::vector<Partner> partners;
-  std::vector<std::vector<ViewNeighbor>> neighbors;  // among query views
-  std::vector<std::int32_t> not_asked;               // others that overlap it
+  NeighborsByView neighbors;            // among query views
+  std::vector<std::int32_t> not_asked;  // others that overlap it
 };
 
 class ViewSketcher {
@@ -136,7 +136,7 @@ class ViewSketcher {
 
   // The views next to either in direction, then both.
   static std::vector<std::int32_t> FirstViews(
-      int h1, int h2, const std::vector<std::vector<ViewNeighbor>>& neighbors) {
+      int h1, int h2, const NeighborsByView& neighbors) {
     std::vector<std::int32_t> first;
     for (const int view_idx : {h1, h2}) {
       for (const ViewNeighbor& neighbor :
@@ -151,10 +151,9 @@ class ViewSketcher {
     return first;
   }
 
-  std::optional<TrackedEdge> Track(
-      const Hypothesis& hypothesis,
-      const Partner& partner,
-      const std::vector<std::vector<ViewNeighbor>>& neighbors) const {
+  std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
+                                   const Partner& partner,
+                                   const NeighborsByView& neighbors) const {
     if (!MayBeSupported(hypothesis.edge, indices_, partner.to_ask)) {
       return std::nullopt;
     }

@@ -161,13 +161,12 @@ bool MayBeSupported(const SpaceEdge& edge,
   return false;
 }
 
-std::optional<TrackedEdge> TrackSupport(
-    const EdgeEstimate& start,
-    const std::vector<ViewIndex>& views,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const QueryViews& to_ask,
-    double sigma_px,
-    const ValidationOptions& options) {
+std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
+                                        const std::vector<ViewIndex>& views,
+                                        const NeighborsByView& neighbors,
+                                        const QueryViews& to_ask,
+                                        double sigma_px,
+                                        const ValidationOptions& options) {
   const Search search{sigma_px, WidestGate(options)};
   auto support =
       FindSupport(start, views, to_ask.first, FewestToGoOn(to_ask), search);

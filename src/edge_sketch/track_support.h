@@ -62,13 +62,12 @@ bool MayBeSupported(const SpaceEdge& edge,
 // or if the log-likelihood ratio at the end is below
 // options.min_log_likelihood_ratio. `sigma_px`: standard deviation of an edge's
 // location.
-std::optional<TrackedEdge> TrackSupport(
-    const EdgeEstimate& start,
-    const std::vector<ViewIndex>& views,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const QueryViews& to_ask,
-    double sigma_px,
-    const ValidationOptions& options);
+std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
+                                        const std::vector<ViewIndex>& views,
+                                        const NeighborsByView& neighbors,
+                                        const QueryViews& to_ask,
+                                        double sigma_px,
+                                        const ValidationOptions& options);
 
 // The edges that show `tracked` in the views of `asked`, also views that
 // TrackSupport() did not query: at most one per view, ascending. They change

@@ -107,9 +107,8 @@ void AddPresence(const ValidationOptions& options,
   });
 }
 
-std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
-    const std::vector<std::vector<ViewOverlap>>& overlaps) {
-  std::vector<std::vector<ViewNeighbor>> neighbors(overlaps.size());
+NeighborsByView NeighborsInDirection(const Overlaps& overlaps) {
+  NeighborsByView neighbors(overlaps.size());
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
     for (const ViewOverlap& overlap : NearestInDirection(overlaps[i])) {
       const double r = RadToDeg(overlap.ray_angle_rad) / kNeighborAngleDeg;

@@ -58,7 +58,6 @@ void AddPresence(const ValidationOptions& options,
 
 // The views nearest in direction to each view, nearest first, with the weights
 // of their votes.
-std::vector<std::vector<ViewNeighbor>> NeighborsInDirection(
-    const std::vector<std::vector<ViewOverlap>>& overlaps);
+NeighborsByView NeighborsInDirection(const Overlaps& overlaps);
 
 }  // namespace curvix

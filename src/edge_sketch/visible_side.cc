@@ -84,11 +84,10 @@ bool IsInFront(const Vector3d& center,
   return across.dot(center - edge.position) > 0;
 }
 
-VisibleSide FindVisibleSide(
-    const SpaceEdge& edge,
-    const Votes& votes,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const std::vector<ViewIndex>& views) {
+VisibleSide FindVisibleSide(const SpaceEdge& edge,
+                            const Votes& votes,
+                            const NeighborsByView& neighbors,
+                            const std::vector<ViewIndex>& views) {
   const Azimuths azimuths(edge);
   std::vector<double> all;
   std::vector<double> in_favour;

@@ -35,10 +35,9 @@ bool IsInFront(const Eigen::Vector3d& center,
 // one half. That of a half turn is proportional to the angle by which it can
 // turn before the views in front change. Ties: all around, then the larger
 // probability. `votes` and `neighbors` by view index.
-VisibleSide FindVisibleSide(
-    const SpaceEdge& edge,
-    const Votes& votes,
-    const std::vector<std::vector<ViewNeighbor>>& neighbors,
-    const std::vector<ViewIndex>& views);
+VisibleSide FindVisibleSide(const SpaceEdge& edge,
+                            const Votes& votes,
+                            const NeighborsByView& neighbors,
+                            const std::vector<ViewIndex>& views);
 
 }  // namespace curvix

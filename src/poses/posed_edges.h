@@ -117,7 +117,7 @@ class PosedEdges {
   std::vector<ViewIndex> indices_;
   DistinctViews distinct_;
   std::vector<DepthRange> depths_;
-  std::vector<std::vector<ViewNeighbor>> neighbors_;
+  NeighborsByView neighbors_;
   MovedCameras moved_;
   std::size_t min_supports_ = 0;
 };

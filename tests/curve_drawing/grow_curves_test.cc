@@ -122,7 +122,7 @@ class Seen {
   std::vector<PosedView> views_;
   std::vector<EdgeMap> maps_;
   std::vector<bool> are_repeated_ = std::vector<bool>(kNumViews, false);
-  std::vector<std::vector<ViewNeighbor>> neighbors_;
+  NeighborsByView neighbors_;
 };
 
 const TestCurve kLine = LineCurve({-1, -1, -0.5}, {1, 0.5, 1});

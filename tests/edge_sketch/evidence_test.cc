@@ -11,7 +11,7 @@
 namespace curvix {
 namespace {
 
-using Neighbors = std::vector<std::vector<ViewNeighbor>>;
+using Neighbors = NeighborsByView;
 
 // A row of views, each next to the one before and the one after.
 Neighbors Row(std::size_t size, double weight) {

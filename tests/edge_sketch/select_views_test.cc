@@ -26,8 +26,8 @@ ViewOverlap Overlap(int other,
 }
 
 // Every view overlaps every other.
-std::vector<std::vector<ViewOverlap>> AllOverlap(int num_views) {
-  std::vector<std::vector<ViewOverlap>> overlaps;
+Overlaps AllOverlap(int num_views) {
+  Overlaps overlaps;
   for (int i = 0; i < num_views; ++i) {
     auto& row = overlaps.emplace_back();
     for (int j = 0; j < num_views; ++j) {
@@ -51,7 +51,7 @@ TEST(NextViewPair, BreaksTiesBySmallerH1ThenSmallerH2) {
   ExpectPair(NextViewPair(AllOverlap(4), {5, 5, 5, 5}, {}, {}), 0, 1);
   ExpectPair(NextViewPair(AllOverlap(4), {5, 9, 5, 5}, {}, {}), 1, 0);
   // (2, 0) and (1, 3) have 15 each; only these two overlap.
-  const std::vector<std::vector<ViewOverlap>> overlaps = {
+  const Overlaps overlaps = {
       {Overlap(2)}, {Overlap(3)}, {Overlap(0)}, {Overlap(1)}};
   ExpectPair(NextViewPair(overlaps, {5, 10, 10, 5}, {}, {}), 1, 3);
 }

@@ -84,7 +84,7 @@ class TrackSupportTest : public ::testing::Test {
   std::vector<PosedView> views_;
   std::vector<EdgeMap> maps_;
   std::vector<ViewIndex> indices_;
-  std::vector<std::vector<ViewNeighbor>> neighbors_;
+  NeighborsByView neighbors_;
 };
 
 // The offset from the truth across the tangent, on the axes of the estimate.

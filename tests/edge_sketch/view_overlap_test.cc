@@ -22,8 +22,7 @@ using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-std::optional<ViewOverlap> OverlapOf(
-    const std::vector<std::vector<ViewOverlap>>& overlaps, int i, int j) {
+std::optional<ViewOverlap> OverlapOf(const Overlaps& overlaps, int i, int j) {
   for (const ViewOverlap& overlap : overlaps[static_cast<std::size_t>(i)]) {
     if (overlap.other == j) return overlap;
   }

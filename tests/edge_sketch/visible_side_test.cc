@@ -33,9 +33,8 @@ class Views {
   }
 
   // Without neighbours, unless given.
-  VisibleSide Find(
-      const std::vector<double>& votes,
-      std::vector<std::vector<ViewNeighbor>> neighbors = {}) const {
+  VisibleSide Find(const std::vector<double>& votes,
+                   NeighborsByView neighbors = {}) const {
     neighbors.resize(votes.size());
     return FindVisibleSide(
         kEdge, Votes(votes.begin(), votes.end()), neighbors, indices_);
@@ -53,8 +52,8 @@ class Views {
 const std::vector<double> kAround = {0, 45, 90, 135, 180, 225, 270, 315};
 
 // Each view is next to those 45 degrees away.
-std::vector<std::vector<ViewNeighbor>> NextAround(double weight) {
-  std::vector<std::vector<ViewNeighbor>> neighbors(kAround.size());
+NeighborsByView NextAround(double weight) {
+  NeighborsByView neighbors(kAround.size());
   for (int i = 0; i < 8; ++i) {
     neighbors[static_cast<std::size_t>(i)] = {{(i + 1) % 8, weight},
                                               {(i + 7) % 8, weight}};
