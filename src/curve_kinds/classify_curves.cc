@@ -91,48 +91,39 @@ SurfaceEvidence SumAround(const std::vector<SurfaceEvidence>& evidence,
   return sum;
 }
 
-// The mean of Bayes factors, of which logarithms are given, over the directions
-// that views face.
-class MeanFactor {
- public:
-  void Add(double log_factor) {
-    if (std::isfinite(log_factor)) logs_.push_back(log_factor);
-  }
-  // Minus infinity without any.
-  double Log() const {
-    if (logs_.empty()) return -kInfinity;
-    const double largest = *std::max_element(logs_.begin(), logs_.end());
-    double sum = 0;
-    for (double log : logs_) sum += std::exp(log - largest);
-    return largest + std::log(sum / static_cast<double>(logs_.size()));
-  }
-
- private:
-  std::vector<double> logs_;
-};
+// The logarithm of the mean of Bayes factors, of which logarithms are given,
+// over the directions that views face; minus infinity without any.
+double LogMean(std::vector<double> logs) {
+  std::erase_if(logs, [](double log) { return !std::isfinite(log); });
+  if (logs.empty()) return -kInfinity;
+  const double largest = std::ranges::max(logs);
+  double sum = 0;
+  for (const double log : logs) sum += std::exp(log - largest);
+  return largest + std::log(sum / static_cast<double>(logs.size()));
+}
 
 KindProbability Judge(const SurfaceEvidence& evidence) {
   const auto& [left, right] = evidence.log_bayes;
-  MeanFactor marking, crease, boundary;
+  std::vector<double> marking, crease, boundary;
   for (int a = 0; a < kNumDirections; ++a) {
     const double on_left =
         static_cast<double>(left[static_cast<std::size_t>(a)]);
-    boundary.Add(on_left);
-    boundary.Add(static_cast<double>(right[static_cast<std::size_t>(a)]));
+    boundary.push_back(on_left);
+    boundary.push_back(static_cast<double>(right[static_cast<std::size_t>(a)]));
     for (int b = 0; b < kNumDirections; ++b) {
       const double both =
           on_left + static_cast<double>(right[static_cast<std::size_t>(b)]);
       const int apart = std::abs(a - b);
       const int bend = std::abs(std::min(apart, kNumDirections - apart) -
                                 kNumDirections / 2);
-      if (bend <= kMaxMarkingSteps) marking.Add(both);
-      if (bend >= kMinCreaseSteps) crease.Add(both);
+      if (bend <= kMaxMarkingSteps) marking.push_back(both);
+      if (bend >= kMinCreaseSteps) crease.push_back(both);
     }
   }
   const std::array<std::pair<CurveKind, double>, 3> scores = {
-      {{CurveKind::kCrease, std::log(kPriorCrease) + crease.Log()},
-       {CurveKind::kBoundary, std::log(kPriorBoundary) + boundary.Log()},
-       {CurveKind::kMarking, std::log(kPriorMarking) + marking.Log()}}};
+      {{CurveKind::kCrease, std::log(kPriorCrease) + LogMean(crease)},
+       {CurveKind::kBoundary, std::log(kPriorBoundary) + LogMean(boundary)},
+       {CurveKind::kMarking, std::log(kPriorMarking) + LogMean(marking)}}};
   const auto best = std::max_element(
       scores.begin(), scores.end(), [](const auto& a, const auto& b) {
         return a.second < b.second;

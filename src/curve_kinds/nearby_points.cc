@@ -29,12 +29,6 @@ constexpr double kMaxPoints = 6;
 constexpr double kMaxAlongPx = 6;
 constexpr double kMinBesidePx = 1;
 
-// The angle of a vector about the tangent, from the normal, radians.
-double AngleOf(const Vector3d& offset, const StripPlace& place) {
-  const Vector3d binormal = place.tangent.cross(place.normal);
-  return std::atan2(offset.dot(binormal), offset.dot(place.normal));
-}
-
 double DistanceAcross(const Vector3d& offset, const StripPlace& place) {
   return (offset - offset.dot(place.tangent) * place.tangent).norm();
 }
@@ -77,7 +71,7 @@ CurveDistances DistancesByDirection(const StripPlace& place,
     }
     // The directions to either side of the exact one.
     const double steps =
-        AngleOf(offset, place) / (2 * kPi) * kNumDirections + kNumDirections;
+        place.AngleOf(offset) / (2 * kPi) * kNumDirections + kNumDirections;
     for (const double step : {std::floor(steps), std::floor(steps) + 1}) {
       double& nearest =
           distances[static_cast<std::size_t>(step) % kNumDirections];
@@ -95,14 +89,14 @@ void AddNearbyPoints(const StripPlace& place,
   std::vector<double> azimuths;
   for (const EdgeRef& ref : place.support) {
     const PosedView& view = views[static_cast<std::size_t>(ref.view_idx)];
-    azimuths.push_back(AngleOf(view.center - place.position, place));
+    azimuths.push_back(place.AngleOf(view.center - place.position));
   }
   std::array<std::vector<Direction>, 2> sides;
   for (const Vector3d& point : points) {
     const Vector3d offset = point - place.position;
     const double distance_px = DistanceAcross(offset, place) / pixel;
     if (distance_px < kMinDistancePx) continue;
-    const double angle = AngleOf(offset, place);
+    const double angle = place.AngleOf(offset);
     sides[IsOnFirstSide(angle, azimuths) ? 0 : 1].push_back(
         {angle, std::hypot(kDirectionSigma, kPointSigmaPx / distance_px)});
   }

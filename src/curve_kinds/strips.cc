@@ -81,9 +81,8 @@ std::optional<LocalView> Locate(const StripPlace& place,
   const Eigen::Matrix<double, 2, 3> jacobian =
       image.scale * PixelJacobian(camera, x) * view.rotation;
   const Vector3d binormal = place.tangent.cross(place.normal);
-  const Vector3d ray = view.center - place.position;
   return LocalView{&image,
-                   std::atan2(ray.dot(binormal), ray.dot(place.normal)),
+                   place.AngleOf(view.center - place.position),
                    x.z() / view.calibration(0, 0),
                    pixel * image.scale - Vector2d(0.5, 0.5),
                    jacobian * place.tangent,

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "curve_kinds/blurred_images.h"
@@ -25,6 +26,11 @@ struct StripPlace {
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();   // unit, across it
   std::vector<EdgeRef> support;
+
+  // About the tangent, from `normal`, of an offset from the place; radians.
+  double AngleOf(const Eigen::Vector3d& offset) const {
+    return std::atan2(offset.dot(tangent.cross(normal)), offset.dot(normal));
+  }
 };
 
 // What the images say about surfaces that begin at a curve, for the two sides
