@@ -154,18 +154,19 @@ void CutOverlaps(const EndTies& ties,
   }
 }
 
-// Joins the pairs of ends that `may_join` is true for.
-template <typename MayJoin>
+// Joins ends that continue each other; if `only_rings`, those of one curve.
 std::vector<Curve> Join(std::vector<Curve> curves,
                         const std::vector<PosedView>& views,
                         const ImageSupport& images,
                         const CurveRefinementOptions& options,
-                        int num_threads,
-                        const MayJoin& may_join) {
+                        bool only_rings,
+                        int num_threads) {
   const std::vector<EndFit> ends = FitLongEnds(curves, views, num_threads);
   std::vector<EndPair> pairs =
       GapFinder(curves, ends, images, options).Pairs(num_threads);
-  std::erase_if(pairs, [&](const EndPair& pair) { return !may_join(pair); });
+  std::erase_if(pairs, [&](const EndPair& pair) {
+    return only_rings && ItemOf(pair.a) != ItemOf(pair.b);
+  });
   const EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
   CutOverlaps(ties, ends, curves);
   return StringTogetherFilled(std::move(curves), ties, views, images);
@@ -182,20 +183,12 @@ std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     CutBentEnds(views, curves[i]);
   });
-  curves = Join(std::move(curves),
-                views,
-                images,
-                options,
-                num_threads,
-                [](const EndPair&) { return true; });
-  // Now whole, some close.
-  return Join(
-      std::move(curves),
-      views,
-      images,
-      options,
-      num_threads,
-      [](const EndPair& pair) { return ItemOf(pair.a) == ItemOf(pair.b); });
+  // Curves that are whole after the first time may close.
+  for (const bool only_rings : {false, true}) {
+    curves = Join(
+        std::move(curves), views, images, options, only_rings, num_threads);
+  }
+  return curves;
 }
 
 }  // namespace curvix
