@@ -30,8 +30,7 @@ constexpr double kMeetingStepPx = 1.5;
 
 // One open end of a curve and how it goes on.
 struct CurveEnd {
-  std::size_t curve_idx = 0;
-  bool at_back = false;
+  EndIdx idx = 0;
   EndFit fit;
   // The line on which it goes on, where that matters.
   Eigen::Vector3d direction;  // unit, out of the curve
@@ -52,13 +51,14 @@ std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
                               int num_threads) {
   std::vector<std::vector<CurveEnd>> ends(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    for (const bool at_back : {false, true}) {
-      EndFit fit = FitEnd(curves[i], at_back, {kRoundedPx, kFittedPx}, views);
+    for (const EndIdx end : {2 * i + 1, 2 * i}) {
+      const bool front = IsFront(end);
+      EndFit fit = FitEnd(curves[i], front, {kRoundedPx, kFittedPx}, views);
       if (!(fit.length > 0)) {
-        fit = FitEnd(curves[i], at_back, {kShortRoundedPx, kFittedPx}, views);
+        fit = FitEnd(curves[i], front, {kShortRoundedPx, kFittedPx}, views);
       }
       if (fit.length > 0) {
-        ends[i].push_back({i, at_back, fit, fit.outward, fit.position});
+        ends[i].push_back({end, fit, fit.outward, fit.position});
       }
     }
   });
@@ -73,7 +73,7 @@ std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
   std::map<Place, std::vector<Eigen::Vector3d>> directions;
   const auto place_of = [&](const CurveEnd& end) {
     const Eigen::Vector3d& last =
-        SampleFromEnd(curves[end.curve_idx], end.at_back).position;
+        SampleFromEnd(curves[ItemOf(end.idx)], IsFront(end.idx)).position;
     return Place{last.x(), last.y(), last.z()};
   };
   for (const CurveEnd& end : ends) {
@@ -216,20 +216,19 @@ void CarryOn(const CurveEnd& end,
              const Eigen::Vector3d& junction,
              Curve& curve) {
   const EndFit& fit = end.fit;
-  std::vector<CurveSample>& samples = curve.samples;
-  if (!end.at_back) std::reverse(samples.begin(), samples.end());
-  CurveSample last = samples.back();
+  const bool front = IsFront(end.idx);
+  CurveSample last = SampleFromEnd(curve, front);
   const double arrival = fit.ArcLengthTo(junction);
   const double limit = std::min(arrival, 0.0) - kRoundedPx * fit.pixel;
-  while (samples.size() > 2 &&
-         fit.ArcLengthTo(samples.back().position) > limit) {
-    samples.pop_back();
-  }
-  const double start = fit.ArcLengthTo(samples.back().position);
+  CutEnd(curve, front, [&](const CurveSample& sample) {
+    return fit.ArcLengthTo(sample.position) <= limit;
+  });
+  const double start = fit.ArcLengthTo(SampleFromEnd(curve, front).position);
   const int num_steps = std::max(
       1, static_cast<int>((arrival - start) / (kMeetingStepPx * fit.pixel)));
   const Eigen::Vector3d miss = junction - fit.PointAt(arrival);
-  const double sign = end.at_back ? 1 : -1;
+  const double sign = front ? 1 : -1;
+  std::vector<CurveSample> added;
   for (int k = 1; k <= num_steps; ++k) {
     const double share = static_cast<double>(k) / num_steps;
     const double arc_length = start + share * (arrival - start);
@@ -238,10 +237,13 @@ void CarryOn(const CurveEnd& end,
             ? junction
             : Eigen::Vector3d(fit.PointAt(arc_length) + share * miss);
     last.tangent = sign * fit.DirectionAt(arc_length);
-    samples.push_back(last);
+    added.push_back(last);
     last.support.clear();
   }
-  if (!end.at_back) std::reverse(samples.begin(), samples.end());
+  if (!front) std::ranges::reverse(added);
+  curve.samples.insert(front ? curve.samples.end() : curve.samples.begin(),
+                       added.begin(),
+                       added.end());
 }
 
 }  // namespace
@@ -255,7 +257,7 @@ std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
       WithoutTouches(FitEnds(curves, views, num_threads), curves);
   for (const Junction& junction : FormJunctions(ends, options, num_threads)) {
     for (const std::size_t i : junction.members) {
-      CarryOn(ends[i], junction.point, curves[ends[i].curve_idx]);
+      CarryOn(ends[i], junction.point, curves[ItemOf(ends[i].idx)]);
     }
   }
   return curves;
