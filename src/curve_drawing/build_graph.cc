@@ -84,7 +84,7 @@ NeighborhoodGraph LinkBySupport(const std::vector<Edge3d>& edges,
         }
       }
     }
-    std::sort(others.begin(), others.end());
+    std::ranges::sort(others);
     std::vector<NeighborLink> row;  // ascending
     for (const std::int32_t other : others) {
       if (static_cast<std::size_t>(other) == i) continue;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -42,9 +44,8 @@ std::vector<std::size_t> ByLength(const std::vector<Curve>& curves,
   }
   std::vector<std::size_t> order(curves.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return lengths[a] > lengths[b];
-  });
+  std::ranges::stable_sort(
+      order, std::greater<>(), [&](std::size_t c) { return lengths[c]; });
   return order;
 }
 

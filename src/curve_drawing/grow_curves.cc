@@ -21,9 +21,8 @@ constexpr std::size_t kNumAtOnce = 64;
 constexpr int kLinksClaimed = 2;
 
 bool AreFree(const std::vector<EdgeRef>& refs, const UsedEdges& claimed) {
-  return std::none_of(refs.begin(), refs.end(), [&](const EdgeRef& ref) {
-    return claimed.Contains(ref);
-  });
+  return std::ranges::none_of(
+      refs, [&](const EdgeRef& ref) { return claimed.Contains(ref); });
 }
 
 std::vector<GrownCurve> Grow(const std::vector<Edge3d>& seeds,

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <tuple>
+
 #include <unordered_set>
 #include <utility>
 
@@ -115,13 +117,9 @@ class Grower {
     std::vector<PlaneMeasurement> measurements =
         MeasurePlanes(refs, input_.indices);
     // Sums must not depend on the order of views.
-    std::sort(
-        measurements.begin(),
-        measurements.end(),
-        [](const PlaneMeasurement& m, const PlaneMeasurement& n) {
-          return std::lexicographical_compare(
-              m.plane.begin(), m.plane.end(), n.plane.begin(), n.plane.end());
-        });
+    std::ranges::sort(measurements, {}, [](const PlaneMeasurement& m) {
+      return std::tuple(m.plane.x(), m.plane.y(), m.plane.z());
+    });
     return measurements;
   }
 
@@ -288,7 +286,7 @@ class Grower {
     tip.Reverse();
     first.edge = tip.edge();
     std::vector<GrownSample> path = Follow(tip, first, closed);
-    std::reverse(path.begin(), path.end());
+    std::ranges::reverse(path);
     for (GrownSample& grown : path) grown.edge.tangent = -grown.edge.tangent;
     return path;
   }

@@ -60,7 +60,7 @@ void TrimEnds(std::vector<GrownSample>& path) {
   };
   path.erase(std::find_if(path.rbegin(), path.rend(), is_shown).base(),
              path.end());
-  path.erase(path.begin(), std::find_if(path.begin(), path.end(), is_shown));
+  path.erase(path.begin(), std::ranges::find_if(path, is_shown));
 }
 
 CurveSample ToCurveSample(GrownSample grown) {

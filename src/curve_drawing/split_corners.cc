@@ -52,7 +52,7 @@ class CornerFinder {
         corners.push_back(SharpestNear(k));
       }
     }
-    std::sort(corners.begin(), corners.end());
+    std::ranges::sort(corners);
     return corners;
   }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -65,9 +67,8 @@ std::vector<std::size_t> ByCrowd(const std::vector<Edge3d>& edges,
   }
   std::vector<std::size_t> order(edges.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return crowd[a] > crowd[b];
-  });
+  std::ranges::stable_sort(
+      order, std::greater<>(), [&](std::size_t i) { return crowd[i]; });
   return order;
 }
 
@@ -85,7 +86,7 @@ std::vector<Group> FormGroups(const std::vector<std::size_t>& order,
     for (const std::size_t member : group) is_taken[member] = true;
     groups.push_back(std::move(group));
   }
-  std::sort(groups.begin(), groups.end());
+  std::ranges::sort(groups);
   return groups;
 }
 

@@ -120,14 +120,12 @@ KindProbability Judge(const SurfaceEvidence& evidence) {
       if (bend >= kMinCreaseSteps) crease.push_back(both);
     }
   }
-  const std::array<std::pair<CurveKind, double>, 3> scores = {
+  using Score = std::pair<CurveKind, double>;
+  const std::array<Score, 3> scores = {
       {{CurveKind::kCrease, std::log(kPriorCrease) + LogMean(crease)},
        {CurveKind::kBoundary, std::log(kPriorBoundary) + LogMean(boundary)},
        {CurveKind::kMarking, std::log(kPriorMarking) + LogMean(marking)}}};
-  const auto best = std::max_element(
-      scores.begin(), scores.end(), [](const auto& a, const auto& b) {
-        return a.second < b.second;
-      });
+  const auto best = std::ranges::max_element(scores, {}, &Score::second);
   if (!std::isfinite(best->second)) return {};
   double sum = 0;
   for (const auto& score : scores) sum += std::exp(score.second - best->second);
@@ -304,7 +302,7 @@ void ClassifyCurves(const Scene& scene,
   if (!keep_going(0)) return;
   const std::vector<BlurredImage> images =
       LoadBlurredImages(scene, kMaxImageBytes, num_threads);
-  if (std::all_of(images.begin(), images.end(), [](const BlurredImage& image) {
+  if (std::ranges::all_of(images, [](const BlurredImage& image) {
         return image.pixels.empty();
       })) {
     return;

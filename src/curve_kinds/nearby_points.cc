@@ -40,10 +40,8 @@ struct Direction {
 
 // Whether most cameras see the direction on side 0.
 bool IsOnFirstSide(double angle, const std::vector<double>& azimuths) {
-  const auto num =
-      std::count_if(azimuths.begin(), azimuths.end(), [&](double azimuth) {
-        return std::sin(angle - azimuth) > 0;
-      });
+  const auto num = std::ranges::count_if(
+      azimuths, [&](double azimuth) { return std::sin(angle - azimuth) > 0; });
   return 2 * num > static_cast<std::ptrdiff_t>(azimuths.size());
 }
 

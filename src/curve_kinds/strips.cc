@@ -98,10 +98,7 @@ std::vector<LocalView> ChooseViews(std::vector<LocalView> seen) {
   const double usual = MedianOr(0, std::move(sizes));
   std::erase_if(
       seen, [&](const LocalView& view) { return view.pixel_size > 2 * usual; });
-  std::stable_sort(
-      seen.begin(), seen.end(), [](const LocalView& a, const LocalView& b) {
-        return a.azimuth < b.azimuth;
-      });
+  std::ranges::stable_sort(seen, {}, &LocalView::azimuth);
   if (seen.size() <= kMaxViews) return seen;
   std::vector<LocalView> chosen;
   for (std::size_t i = 0; i < kMaxViews; ++i) {
@@ -198,7 +195,7 @@ double DropWorst(const Gram& gram, int num, std::vector<int>* left) {
       return std::accumulate(sums.begin(), sums.end(), 0.0);
     }
     left->erase(left->begin() +
-                (std::max_element(sums.begin(), sums.end()) - sums.begin()));
+                (std::ranges::max_element(sums) - sums.begin()));
   }
 }
 

@@ -58,7 +58,7 @@ Curve BranchTo(const Curve& curve,
         branch.samples.emplace_back(curve.samples[around.index]);
     if (!with_direction) sample.tangent = -sample.tangent;
   }
-  std::reverse(branch.samples.begin(), branch.samples.end());
+  std::ranges::reverse(branch.samples);
   return branch;
 }
 

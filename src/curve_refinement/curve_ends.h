@@ -55,9 +55,9 @@ double DistanceFromParabola(const Curve& from, const Curve& to);
 template <typename Keep>
 void CutEnd(Curve& curve, bool front, const Keep& keep) {
   std::vector<CurveSample>& samples = curve.samples;
-  if (!front) std::reverse(samples.begin(), samples.end());
+  if (!front) std::ranges::reverse(samples);
   while (samples.size() > 2 && !keep(samples.back())) samples.pop_back();
-  if (!front) std::reverse(samples.begin(), samples.end());
+  if (!front) std::ranges::reverse(samples);
 }
 
 // A segment of a curve before one of its ends, in pixels (pixel_size.h) from

@@ -68,11 +68,7 @@ Neighbors FindNeighbors(const std::vector<Curve>& curves,
       }
     }
   }
-  std::stable_sort(neighbors.touches.begin(),
-                   neighbors.touches.end(),
-                   [](const NearPair& x, const NearPair& y) {
-                     return x.distance_px < y.distance_px;
-                   });
+  std::ranges::stable_sort(neighbors.touches, {}, &NearPair::distance_px);
   return neighbors;
 }
 
@@ -109,19 +105,14 @@ std::optional<TouchingSegment> SegmentAround(const Curve& curve,
   }
   const double middle = (reach[0] - reach[1]) / 2;
   segment.middle =
-      std::min_element(around.begin(),
-                       around.end(),
-                       [&](const SampleAround& x, const SampleAround& y) {
-                         return std::abs(x.along - middle) <
-                                std::abs(y.along - middle);
-                       })
-          ->index;
+      std::ranges::min_element(around, {}, [&](const SampleAround& place) {
+        return std::abs(place.along - middle);
+      })->index;
   return segment;
 }
 
 bool Overlap(const Samples& a, const Samples& b) {
-  return std::any_of(
-      a.begin(), a.end(), [&](std::size_t k) { return b.contains(k); });
+  return std::ranges::any_of(a, [&](std::size_t k) { return b.contains(k); });
 }
 
 }  // namespace

@@ -35,10 +35,8 @@ struct Turn {
 // Between tangents half a branch before and behind a sample.
 double TurnAround(const Curve& curve, std::size_t k, double pixel) {
   const auto around = SamplesAround(curve, k, kCornerBranchPx / 2 * pixel);
-  const auto [first, last] = std::minmax_element(
-      around.begin(), around.end(), [](const auto& a, const auto& b) {
-        return a.along < b.along;
-      });
+  const auto [first, last] =
+      std::ranges::minmax_element(around, {}, &SampleAround::along);
   return AngleBetween(curve.samples[first->index].tangent,
                       curve.samples[last->index].tangent);
 }
@@ -99,7 +97,7 @@ std::vector<std::size_t> CornersOf(const Curve& curve,
   }
   const auto fits_best = [&](std::size_t k) {
     const auto around = SamplesAround(curve, k, kApartPx * turns[k]->pixel);
-    return std::all_of(around.begin(), around.end(), [&](const auto& other) {
+    return std::ranges::all_of(around, [&](const auto& other) {
       const auto& turn = turns[other.index];
       return !turn || std::pair(turns[k]->misfit_px, k) <=
                           std::pair(turn->misfit_px, other.index);

@@ -59,7 +59,7 @@ std::size_t SupportBefore(const Curve& curve, bool front) {
        ++k) {
     counts.push_back(SampleFromEnd(curve, front, k).support.size());
   }
-  std::sort(counts.begin(), counts.end());
+  std::ranges::sort(counts);
   return counts[counts.size() / 2];
 }
 
@@ -70,11 +70,10 @@ bool IsGapShown(const CurveSample& from,
                 const ImageSupport& images) {
   const std::vector<CurveSample> filled =
       SamplesBetween(from, to, pixel, images);
-  const auto num_shown =
-      std::count_if(filled.begin(), filled.end(), [&](const auto& sample) {
-        return static_cast<double>(sample.support.size()) >=
-               kMinSupportShare * static_cast<double>(usual);
-      });
+  const auto num_shown = std::ranges::count_if(filled, [&](const auto& sample) {
+    return static_cast<double>(sample.support.size()) >=
+           kMinSupportShare * static_cast<double>(usual);
+  });
   return static_cast<double>(num_shown) >=
          kMinSupportedShare * static_cast<double>(filled.size());
 }

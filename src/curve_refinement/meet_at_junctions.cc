@@ -82,7 +82,7 @@ std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
   std::vector<CurveEnd> others;
   for (const CurveEnd& end : ends) {
     const auto& here = directions[place_of(end)];
-    if (std::none_of(here.begin(), here.end(), [&](const auto& direction) {
+    if (std::ranges::none_of(here, [&](const auto& direction) {
           return -direction.dot(end.fit.outward) >
                  std::cos(DegToRad(kMinCornerDeg));
         })) {
@@ -178,10 +178,9 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
     }
   });
   std::vector<Junction> pairs = Concatenate(std::move(pairs_of));
-  std::sort(
-      pairs.begin(), pairs.end(), [](const Junction& a, const Junction& b) {
-        return std::tie(a.gap_px, a.members) < std::tie(b.gap_px, b.members);
-      });
+  std::ranges::sort(pairs, {}, [](const Junction& pair) {
+    return std::tie(pair.gap_px, pair.members);
+  });
   return pairs;
 }
 

@@ -59,13 +59,11 @@ std::optional<Bend> BendAround(const Curve& curve,
   std::vector<SampleAround> around =
       SamplesAround(curve, index, kResponseReachPx * pixel);
   if (around.size() < 3) return std::nullopt;
-  const auto by_place = [](const SampleAround& a, const SampleAround& b) {
-    return a.along < b.along;
-  };
-  std::sort(around.begin(), around.end(), by_place);
+
+  std::ranges::sort(around, {}, &SampleAround::along);
   const double middle = (around.front().along + around.back().along) / 2;
-  const auto between = std::lower_bound(
-      around.begin() + 1, around.end() - 2, SampleAround{0, middle}, by_place);
+  const auto between = std::ranges::lower_bound(
+      around.begin() + 1, around.end() - 2, middle, {}, &SampleAround::along);
   return Bend{curve.samples[around.front().index].position,
               curve.samples[between->index].position,
               curve.samples[around.back().index].position};

@@ -87,7 +87,7 @@ BarPlace Look(const CurveSample& sample,
     const Vector3d side = SideSeenFrom(contour, views[v].center);
     if (side.dot(outward) < kMinCosine) continue;
     std::vector<double> edges_px = images.Beside(v, *projected, kBarReachPx);
-    if (std::none_of(edges_px.begin(), edges_px.end(), [](double edge_px) {
+    if (std::ranges::none_of(edges_px, [](double edge_px) {
           return std::abs(edge_px) < kMaxBarRadiusPx;
         })) {
       continue;

@@ -245,7 +245,7 @@ std::optional<double> ScatterOfSharp(const std::vector<Curve>& curves,
     scatter_and_weight.emplace_back(traits->scatter_px, weight);
     total += weight;
   }
-  std::sort(scatter_and_weight.begin(), scatter_and_weight.end());
+  std::ranges::sort(scatter_and_weight);
   double sum = 0;
   for (const auto& [scatter, weight] : scatter_and_weight) {
     sum += weight;

@@ -241,9 +241,8 @@ std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
                                   int num_threads) {
   std::vector<Meeting> meetings =
       MeetingFinder(curves, views, images, num_threads).Find();
-  std::sort(meetings.begin(), meetings.end(), [](const auto& x, const auto& y) {
-    return std::tie(x.rms_px, x.a, x.b, x.passing_idx) <
-           std::tie(y.rms_px, y.a, y.b, y.passing_idx);
+  std::ranges::sort(meetings, {}, [](const Meeting& m) {
+    return std::tie(m.rms_px, m.a, m.b, m.passing_idx);
   });
   return meetings;
 }
@@ -293,9 +292,8 @@ EndTies TieMeetings(const std::vector<Meeting>& meetings,
   for (Meeting meeting : meetings) {
     const auto members = {
         ItemOf(meeting.a), ItemOf(meeting.b), meeting.passing_idx};
-    if (std::any_of(members.begin(), members.end(), [&](std::size_t c) {
-          return is_busy[c];
-        })) {
+    if (std::ranges::any_of(members,
+                            [&](std::size_t c) { return is_busy[c]; })) {
       continue;
     }
     for (const std::size_t c : members) is_busy[c] = true;

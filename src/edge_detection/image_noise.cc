@@ -79,17 +79,10 @@ void AppendSamples(const Columns& columns,
 float MedianLaplacianOfFlatterHalf(std::vector<Sample> samples) {
   const auto half = static_cast<std::ptrdiff_t>((samples.size() + 1) / 2);
   const auto flat_end = samples.begin() + half;
-  std::nth_element(samples.begin(),
-                   flat_end - 1,
-                   samples.end(),
-                   [](const Sample& a, const Sample& b) {
-                     return a.steepness < b.steepness;
-                   });
+  std::ranges::nth_element(samples, flat_end - 1, {}, &Sample::steepness);
   const auto median = samples.begin() + half / 2;
-  std::nth_element(
-      samples.begin(), median, flat_end, [](const Sample& a, const Sample& b) {
-        return a.laplacian < b.laplacian;
-      });
+  std::ranges::nth_element(
+      samples.begin(), median, flat_end, {}, &Sample::laplacian);
   return median->laplacian;
 }
 

@@ -94,8 +94,7 @@ std::vector<double> MeasureStructure(const std::vector<Edge2d>& edges,
 std::vector<Edge2d> Selected(const std::vector<Edge2d>& edges,
                              const std::vector<bool>& is_kept) {
   std::vector<Edge2d> selected;
-  selected.reserve(static_cast<std::size_t>(
-      std::count(is_kept.begin(), is_kept.end(), true)));
+  selected.reserve(static_cast<std::size_t>(std::ranges::count(is_kept, true)));
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (is_kept[i]) selected.push_back(edges[i]);
   }
@@ -124,7 +123,7 @@ void KeepStructure(const std::vector<double>& structure,
         static_cast<double>(contours[i].num_edges) < min_num_edges;
     order.emplace_back(is_short, -structure[i], i);
   }
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   std::int64_t num_edges = 0;
   for (const Rank& rank : order) {
     Contour& contour = contours[std::get<std::size_t>(rank)];

@@ -160,7 +160,7 @@ void Append(const Cluster& cluster,
        i = members[static_cast<std::size_t>(i)].next) {
     order.push_back(i);
   }
-  std::sort(order.begin(), order.end());
+  std::ranges::sort(order);
   result.edges.push_back(
       {{cluster.center * line.Direction() - line.offset * line.normal,
         Halved(cluster.direction)},
@@ -184,10 +184,9 @@ VirtualEdges ClusterEdges(const std::vector<LineEdge>& edges,
                        e.edge_idx,
                        -1});
   }
-  std::sort(
-      members.begin(), members.end(), [](const Member& a, const Member& b) {
-        return std::pair(a.along, a.edge_idx) < std::pair(b.along, b.edge_idx);
-      });
+  std::ranges::sort(members, {}, [](const Member& member) {
+    return std::pair(member.along, member.edge_idx);
+  });
   VirtualEdges result;
   result.edges.reserve(members.size());
   result.members.reserve(members.size());

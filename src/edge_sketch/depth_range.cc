@@ -13,7 +13,7 @@ constexpr double kMinRange = 0.2;        // of the median
 
 DepthRange RangeAround(std::vector<double> inverse_depths, double margin) {
   if (inverse_depths.size() < kMinNumPointsForRange) return {};
-  std::sort(inverse_depths.begin(), inverse_depths.end());
+  std::ranges::sort(inverse_depths);
   const double least = inverse_depths[kMaxNumWrong];
   const double most = inverse_depths[inverse_depths.size() - 1 - kMaxNumWrong];
   const double median = inverse_depths[inverse_depths.size() / 2];

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "base/angles.h"
 
@@ -56,17 +57,12 @@ double Evidence(const Votes& votes, const NeighborsByView& neighbors) {
 std::vector<std::size_t> ByFallingEvidence(const std::vector<Edge3d>& edges) {
   std::vector<std::size_t> order(edges.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(
-      order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        // Ties must not depend on the last bits of sums.
-        const double first = std::round(1e6 * edges[a].evidence);
-        const double second = std::round(1e6 * edges[b].evidence);
-        if (first != second) return first > second;
-        return std::lexicographical_compare(edges[a].position.begin(),
-                                            edges[a].position.end(),
-                                            edges[b].position.begin(),
-                                            edges[b].position.end());
-      });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    // Ties must not depend on the last bits of sums.
+    const double rounded = std::round(1e6 * edges[i].evidence);
+    const Eigen::Vector3d& x = edges[i].position;
+    return std::tuple(-rounded, x.x(), x.y(), x.z());
+  });
   return order;
 }
 

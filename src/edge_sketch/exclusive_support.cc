@@ -36,7 +36,7 @@ class Claims {
   int NumOwnSupports(std::size_t edge_idx) const {
     const std::vector<EdgeRef>& support = edges_[edge_idx].support;
     return static_cast<int>(
-        std::count_if(support.begin(), support.end(), [&](const EdgeRef& ref) {
+        std::ranges::count_if(support, [&](const EdgeRef& ref) {
           const std::int32_t owner =
               owners_[static_cast<std::size_t>(ref.view_idx)]
                      [static_cast<std::size_t>(ref.edge_idx)];

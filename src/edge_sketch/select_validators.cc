@@ -63,14 +63,10 @@ std::vector<int> SelectValidators(const DistinctViews& views,
   }
   while (!candidates.empty() && static_cast<int>(chosen.size()) < max_num) {
     const auto best =
-        std::max_element(candidates.begin(),
-                         candidates.end(),
-                         [](const Candidate& a, const Candidate& b) {
-                           return a.angle_rad < b.angle_rad;
-                         });
+        std::ranges::max_element(candidates, {}, &Candidate::angle_rad);
     Choose(overlaps, best->view_idx, candidates, chosen);
   }
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 

@@ -19,7 +19,7 @@ bool IsSound(const ViewOverlap& overlap, const HypothesisOptions& options) {
 }
 
 bool Contains(const std::vector<ViewPair>& pairs, const ViewPair& pair) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const ViewPair& other) {
+  return std::ranges::any_of(pairs, [&](const ViewPair& other) {
     return std::minmax(other.h1, other.h2) == std::minmax(pair.h1, pair.h2);
   });
 }
@@ -75,7 +75,7 @@ std::vector<int> SelectPartners(const std::vector<ViewOverlap>& overlaps,
 
   std::vector<int> partners;
   while (static_cast<int>(partners.size()) < options.num_partners) {
-    const auto best = std::max_element(quality.begin(), quality.end());
+    const auto best = std::ranges::max_element(quality);
     if (best == quality.end() || *best <= 0) break;
     const ViewOverlap chosen =
         sound[static_cast<std::size_t>(best - quality.begin())];

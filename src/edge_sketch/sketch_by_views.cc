@@ -62,8 +62,7 @@ class ViewSketcher {
     const std::vector<int> validators =
         SelectValidators(input_.distinct, h1, partners);
     for (const ViewOverlap& overlap : input_.distinct.overlaps[i]) {
-      if (!std::binary_search(
-              validators.begin(), validators.end(), overlap.other)) {
+      if (!std::ranges::binary_search(validators, overlap.other)) {
         view.not_asked.push_back(overlap.other);
       }
     }
@@ -126,12 +125,10 @@ class ViewSketcher {
   std::size_t NumOnThisSide(int h1) const {
     const std::vector<ViewOverlap>& overlaps =
         input_.distinct.overlaps[static_cast<std::size_t>(h1)];
-    return 1 + static_cast<std::size_t>(
-                   std::count_if(overlaps.begin(),
-                                 overlaps.end(),
-                                 [](const ViewOverlap& overlap) {
-                                   return overlap.ray_angle_rad <= kSameSideRad;
-                                 }));
+    return 1 + static_cast<std::size_t>(std::ranges::count_if(
+                   overlaps, [](const ViewOverlap& overlap) {
+                     return overlap.ray_angle_rad <= kSameSideRad;
+                   }));
   }
 
   // The views next to either in direction, then both.
@@ -145,7 +142,7 @@ class ViewSketcher {
       }
     }
     std::erase_if(first, [&](int i) { return i == h1 || i == h2; });
-    std::sort(first.begin(), first.end());
+    std::ranges::sort(first);
     first.erase(std::unique(first.begin(), first.end()), first.end());
     first.insert(first.end(), {h1, h2});
     return first;
@@ -173,29 +170,25 @@ class ViewSketcher {
   // Hypotheses from several partners end at the same 3D edge.
   static bool IsKnown(const TrackedEdge& edge,
                       const std::vector<TrackedEdge>& known) {
-    return std::any_of(
-        known.begin(), known.end(), [&](const TrackedEdge& other) {
-          std::vector<EdgeRef> shared;
-          std::set_intersection(edge.support.begin(),
-                                edge.support.end(),
-                                other.support.begin(),
-                                other.support.end(),
-                                std::back_inserter(shared));
-          return 2 * shared.size() >= edge.support.size();
-        });
+    return std::ranges::any_of(known, [&](const TrackedEdge& other) {
+      std::vector<EdgeRef> shared;
+      std::set_intersection(edge.support.begin(),
+                            edge.support.end(),
+                            other.support.begin(),
+                            other.support.end(),
+                            std::back_inserter(shared));
+      return 2 * shared.size() >= edge.support.size();
+    });
   }
 
   // All views were queried for the tracked edges already, so another partner
   // would lead to the same 3D edge.
   bool IsSettled(const H1Result& result) const {
-    return std::any_of(
-        result.tracked.begin(),
-        result.tracked.end(),
-        [&](const TrackedEdge& edge) {
-          return edge.evidence >=
-                 kSettledEvidence *
-                     input_.options.validation.min_log_likelihood_ratio;
-        });
+    return std::ranges::any_of(result.tracked, [&](const TrackedEdge& edge) {
+      return edge.evidence >=
+             kSettledEvidence *
+                 input_.options.validation.min_log_likelihood_ratio;
+    });
   }
 
   void DropRivals(H1Result& result) const {
@@ -325,8 +318,7 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
   EdgeSketch sketch;
   sketch.edge_sigma_px = input.sigma_px;
   std::vector<bool> done = input.distinct.are_repeated;
-  const auto total =
-      static_cast<int>(std::count(done.begin(), done.end(), false));
+  const auto total = static_cast<int>(std::ranges::count(done, false));
   for (int step = 0; step_done(step, total); ++step) {
     const auto h1 = NextView(input, used.num_unused(), done);
     if (!h1) break;

@@ -21,12 +21,9 @@ constexpr double kGateSigmas = 4;
 
 // The nearest views in direction, nearest first.
 std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps) {
-  std::sort(overlaps.begin(),
-            overlaps.end(),
-            [](const ViewOverlap& a, const ViewOverlap& b) {
-              return std::pair(a.ray_angle_rad, a.other) <
-                     std::pair(b.ray_angle_rad, b.other);
-            });
+  std::ranges::sort(overlaps, {}, [](const ViewOverlap& overlap) {
+    return std::pair(overlap.ray_angle_rad, overlap.other);
+  });
   overlaps.resize(std::min(overlaps.size(), kMaxNumNeighbors));
   return overlaps;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -150,9 +152,7 @@ std::vector<std::size_t> ByFallingNumberOfPoints(
   };
   std::vector<std::size_t> order(edge_maps.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
-    return rank(a) > rank(b);
-  });
+  std::ranges::stable_sort(order, std::greater<>(), rank);
   return order;
 }
 
@@ -165,11 +165,8 @@ bool SeesTheSame(const ViewOverlap& overlap, double min_angle_rad) {
 
 const ViewOverlap* OverlapWith(const std::vector<ViewOverlap>& overlaps,
                                int other) {
-  const auto found = std::lower_bound(
-      overlaps.begin(),
-      overlaps.end(),
-      other,
-      [](const ViewOverlap& overlap, int idx) { return overlap.other < idx; });
+  const auto found =
+      std::ranges::lower_bound(overlaps, other, {}, &ViewOverlap::other);
   return found != overlaps.end() && found->other == other ? &*found : nullptr;
 }
 

@@ -42,8 +42,8 @@ std::vector<Error> ErrorsOfPlace(const CurvePlace& start,
   const std::vector<double> gates(edges.views().size(), kMaxErrorPx);
   std::vector<Error> errors(views.size());
   for (const EdgeRef& ref : edges.FindEdges(place.contour, views, gates)) {
-    const auto found = std::lower_bound(
-        views.begin(), views.end(), static_cast<std::size_t>(ref.view_idx));
+    const auto found =
+        std::ranges::lower_bound(views, static_cast<std::size_t>(ref.view_idx));
     errors[static_cast<std::size_t>(found - views.begin())] =
         std::min(kMaxErrorPx, edges.Distance(place.contour, ref));
   }
@@ -118,7 +118,7 @@ bool PointsFit(const PoseObservationSet& held_out,
           errors.points[i][k]);
     }
   }
-  return std::all_of(by_view.begin(), by_view.end(), [](auto& of_view) {
+  return std::ranges::all_of(by_view, [](auto& of_view) {
     return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
   });
 }

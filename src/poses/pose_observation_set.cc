@@ -4,6 +4,8 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
 #include <iterator>
 #include <optional>
 
@@ -77,9 +79,9 @@ std::vector<PointSample> UsablePoints(const Scene& scene) {
 ChosenPoints ChoosePoints(std::vector<PointSample> points,
                           std::size_t num_views,
                           int held_out_set) {
-  std::stable_sort(
-      points.begin(), points.end(), [](const auto& a, const auto& b) {
-        return a.observations.size() > b.observations.size();
+  std::ranges::stable_sort(
+      points, std::greater<>(), [](const PointSample& point) {
+        return point.observations.size();
       });
   std::vector<int> counts(num_views, 0);
   const auto count_of = [&](const PointSample::Observation& seen) -> int& {
@@ -88,9 +90,8 @@ ChosenPoints ChoosePoints(std::vector<PointSample> points,
   ChosenPoints result;
   auto num_needed = static_cast<std::size_t>(held_out_set);
   for (PointSample& point : points) {
-    const bool is_needed = std::any_of(
-        point.observations.begin(),
-        point.observations.end(),
+    const bool is_needed = std::ranges::any_of(
+        point.observations,
         [&](const auto& seen) { return count_of(seen) < kMaxPointsPerView; });
     if (!is_needed || ++num_needed % kPointsPerHeldOut == 0) {
       result.held_out.push_back(std::move(point));

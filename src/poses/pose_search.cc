@@ -115,9 +115,8 @@ bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
   });
   edges_.Move(moved);
   sigmas_px_.assign(num_views, kFirstSigmaPx);
-  return std::any_of(shifts.begin(), shifts.end(), [](const auto& shift) {
-    return !shift.isZero(0);
-  });
+  return std::ranges::any_of(
+      shifts, [](const auto& shift) { return !shift.isZero(0); });
 }
 
 void PoseSearch::FindEdges(std::vector<CurvePlace>* places) const {

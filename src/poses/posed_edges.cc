@@ -141,10 +141,9 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
                      sigma_px,
                      std::max<std::size_t>(1, num_edges / num_asked)},
                     step_done);
-  const auto num_usual = std::count_if(
-      sketch.edges.begin(), sketch.edges.end(), [](const Edge3d& edge) {
-        return edge.support.size() >= kUsualSupports;
-      });
+  const auto num_usual = std::ranges::count_if(
+      sketch.edges,
+      [](const Edge3d& edge) { return edge.support.size() >= kUsualSupports; });
   min_supports_ = num_usual >= kManyPlaces ? kUsualSupports : kFewSupports;
   std::vector<CurvePlace> places;
   for (const Edge3d& edge : sketch.edges) {
@@ -167,7 +166,7 @@ std::vector<std::size_t> PosedEdges::QueryViews(const CurvePlace& place) const {
     }
   }
   if (views.size() >= kMaxViewsOfPlace) return SpreadViews(place, {}, views);
-  std::sort(next_to_them.begin(), next_to_them.end());
+  std::ranges::sort(next_to_them);
   next_to_them.erase(std::unique(next_to_them.begin(), next_to_them.end()),
                      next_to_them.end());
   std::vector<std::size_t> others;
@@ -205,13 +204,13 @@ std::vector<std::size_t> PosedEdges::SpreadViews(
   constexpr double kTaken = 2;
   for (std::size_t n = 0; n < others.size(); ++n) {
     if (taken.size() >= kMaxViewsOfPlace) break;
-    const auto k = static_cast<std::size_t>(
-        std::min_element(nearness.begin(), nearness.end()) - nearness.begin());
+    const auto k = static_cast<std::size_t>(std::ranges::min_element(nearness) -
+                                            nearness.begin());
     taken.push_back(others[k]);
     nearness[k] = kTaken;
     take(directions[k]);
   }
-  std::sort(taken.begin(), taken.end());
+  std::ranges::sort(taken);
   return taken;
 }
 
@@ -260,9 +259,7 @@ std::vector<EdgesAround> PosedEdges::LookAround(
       if (std::abs(edge.tangent.cast<double>().dot(tangent)) >= kMinCosine &&
           std::abs(offset.dot(tangent)) <= kMaxTangentialPx &&
           std::abs(distance) <= reach_px &&
-          std::none_of(around.distances_px.begin(),
-                       around.distances_px.end(),
-                       is_same)) {
+          std::ranges::none_of(around.distances_px, is_same)) {
         around.distances_px.push_back(distance);
       }
     };

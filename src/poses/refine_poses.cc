@@ -311,7 +311,7 @@ class Refiner {
          search_.Shifts(observations, search_.edges().Unmoved())) {
       shifts.push_back(shift.value_or(0));
     }
-    const auto largest = std::max_element(shifts.begin(), shifts.end());
+    const auto largest = std::ranges::max_element(shifts);
     result->max_shift_px = *largest;
     result->max_shift_view_idx =
         static_cast<std::size_t>(largest - shifts.begin());
