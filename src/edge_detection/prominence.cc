@@ -16,14 +16,8 @@ constexpr int kSquarePx = 9;
 // prominence.
 constexpr double kCrowded = 0.1;
 
-// std::floor is a function call on processors that lack it.
-int Floor(double x) {
-  const int towards_zero = static_cast<int>(x);
-  return towards_zero - (x < towards_zero ? 1 : 0);
-}
-
 cv::Point PixelAt(const Eigen::Vector2d& position) {
-  return {Floor(position.x()), Floor(position.y())};
+  return {cvFloor(position.x()), cvFloor(position.y())};
 }
 
 float Strength(const Edge2d& edge) { return edge.strength; }
