@@ -50,8 +50,7 @@ struct H1View {
 
 class ViewSketcher {
  public:
-  explicit ViewSketcher(const SketchInput& input)
-      : input_(input), indices_(input.indices), sigma_px_(input.sigma_px) {}
+  explicit ViewSketcher(const SketchInput& input) : input_(input) {}
 
   // View h1 and its partners, ready for pairing.
   H1View Prepare(int h1) const {
@@ -110,9 +109,9 @@ class ViewSketcher {
     for (const TrackedEdge& tracked : result.tracked) {
       const std::vector<EdgeRef> more =
           FindMoreSupport(tracked.estimate,
-                          indices_,
+                          input_.indices,
                           view.not_asked,
-                          sigma_px_,
+                          input_.sigma_px,
                           input_.options.validation);
       result.also_shown.insert(
           result.also_shown.end(), more.begin(), more.end());
@@ -151,19 +150,19 @@ class ViewSketcher {
   std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
                                    const Partner& partner,
                                    const NeighborsByView& neighbors) const {
-    if (!MayBeSupported(hypothesis.edge, indices_, partner.to_ask)) {
+    if (!MayBeSupported(hypothesis.edge, input_.indices, partner.to_ask)) {
       return std::nullopt;
     }
     const EdgeEstimate start = EstimateAtMeeting(
         hypothesis.edge,
         MeasurePlane(partner.pair.h1(), hypothesis.edge1),
         MeasurePlane(partner.pair.h2(), hypothesis.edge2.edge),
-        sigma_px_);
+        input_.sigma_px);
     return TrackSupport(start,
-                        indices_,
+                        input_.indices,
                         neighbors,
                         partner.to_ask,
-                        sigma_px_,
+                        input_.sigma_px,
                         input_.options.validation);
   }
 
@@ -203,8 +202,6 @@ class ViewSketcher {
   }
 
   const SketchInput& input_;
-  const std::vector<ViewIndex>& indices_;
-  double sigma_px_;
 };
 
 Edge3d ToEdge3d(TrackedEdge tracked) {
