@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <optional>
 
 #include "base/median.h"
 #include "geometry/directions.h"
@@ -18,21 +17,6 @@ constexpr double kMinLossScalePx = 0.05;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix26d = Eigen::Matrix<double, 2, 6>;
-
-struct NormalEquations {
-  Matrix6d matrix = Matrix6d::Zero();
-  Vector6d vector = Vector6d::Zero();
-};
-
-// How far `view` sees `position` from `pixel`, if it is in front.
-std::optional<double> DistanceSeen(const PosedView& view,
-                                   const Eigen::Vector3d& position,
-                                   const Eigen::Vector2d& pixel) {
-  const Eigen::Vector3d x = view.InCamera(position);
-  if (!(x.z() > 0)) return std::nullopt;
-  return (view.Pixel(x) - pixel).norm();
-}
 
 // Scale of the weights, from the distances: outliers have little weight.
 double LossScale(const std::vector<PosedView>& views,
@@ -40,32 +24,11 @@ double LossScale(const std::vector<PosedView>& views,
                  const Rigid3& transform) {
   std::vector<double> distances;
   for (const SeenPlace& place : places) {
-    const auto distance = DistanceSeen(
-        views[place.view_idx], transform * place.position, place.pixel);
-    if (distance) distances.push_back(*distance);
+    const PosedView& view = views[place.view_idx];
+    const Eigen::Vector3d x = view.InCamera(transform * place.position);
+    if (x.z() > 0) distances.push_back((view.Pixel(x) - place.pixel).norm());
   }
   return std::max(kMinLossScalePx, MedianOr(0, std::move(distances)));
-}
-
-// Unknowns: a turn about `center` of the places, then a shift, both small.
-void Add(const PosedView& view,
-         const Eigen::Vector3d& position,
-         const Eigen::Vector3d& center,
-         const Eigen::Vector2d& pixel,
-         double loss_scale_px,
-         NormalEquations* sum) {
-  const Eigen::Vector3d x = view.InCamera(position);
-  if (!(x.z() > 0)) return;
-  const Eigen::Vector2d residual = view.Pixel(x) - pixel;
-  const Eigen::Matrix<double, 2, 3> by_position =
-      PixelJacobian(view.calibration.topLeftCorner<2, 2>(), x) * view.rotation;
-  Matrix26d by_pose;
-  by_pose.leftCols<3>() = -by_position * CrossMatrix(position - center);
-  by_pose.rightCols<3>() = by_position;
-  const double weight =
-      1 / (1 + residual.squaredNorm() / (loss_scale_px * loss_scale_px));
-  sum->matrix += weight * by_pose.transpose() * by_pose;
-  sum->vector += weight * by_pose.transpose() * residual;
 }
 
 }  // namespace
@@ -80,16 +43,26 @@ Rigid3 FixGauge(const std::vector<PosedView>& views,
   for (int i = 0; i < kNumGaugeIterations; ++i) {
     const Eigen::Vector3d center = transform * middle;
     const double loss_scale_px = LossScale(views, places, transform);
-    NormalEquations sum;
+    // Unknowns: a turn about the center, then a shift, both small.
+    Matrix6d matrix = Matrix6d::Zero();
+    Vector6d vector = Vector6d::Zero();
     for (const SeenPlace& place : places) {
-      Add(views[place.view_idx],
-          transform * place.position,
-          center,
-          place.pixel,
-          loss_scale_px,
-          &sum);
+      const PosedView& view = views[place.view_idx];
+      const Eigen::Vector3d position = transform * place.position;
+      const Eigen::Vector3d x = view.InCamera(position);
+      if (!(x.z() > 0)) continue;
+      const Eigen::Vector2d residual = view.Pixel(x) - place.pixel;
+      const Eigen::Matrix<double, 2, 3> by_position =
+          PixelJacobian(view.calibration.topLeftCorner<2, 2>(), x) *
+          view.rotation;
+      Eigen::Matrix<double, 2, 6> by_pose;
+      by_pose << -by_position * CrossMatrix(position - center), by_position;
+      const double weight =
+          1 / (1 + residual.squaredNorm() / (loss_scale_px * loss_scale_px));
+      matrix += weight * by_pose.transpose() * by_pose;
+      vector += weight * by_pose.transpose() * residual;
     }
-    const Vector6d step = -sum.matrix.ldlt().solve(sum.vector);
+    const Vector6d step = -matrix.ldlt().solve(vector);
     if (!step.allFinite()) return transform;
     Rigid3 update;
     update.rotation = RotationBy(step.head<3>());
