@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "curve_drawing/build_graph.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {
