@@ -39,51 +39,31 @@ Result<std::string> ReadImageFile(const std::filesystem::path& path,
   return bytes;
 }
 
-// Grey of the values of a pixel: grey; or three colours, of which red is number
-// kRed and blue 2 - kRed, and perhaps alpha.
-template <int kChannels, int kRed, typename T>
-float Grey(const T* value) {
-  constexpr double kMax = std::numeric_limits<T>::max();
-  if constexpr (kChannels == 1) {
-    return static_cast<float>(value[0] * (255 / kMax));
-  } else {
-    const double grey =
-        0.114 * value[2 - kRed] + 0.587 * value[1] + 0.299 * value[kRed];
-    if constexpr (kChannels == 3) {
-      return static_cast<float>(grey * (255 / kMax));
-    } else {
-      return static_cast<float>(grey * (value[3] / kMax) * (255 / kMax));
-    }
+// Grey of values without gaps: grey ones; or three colours, of which number
+// `red` is red and 2 - `red` blue, and perhaps alpha. nullopt: another number
+// of channels.
+template <typename T>
+std::optional<GrayImage> ToGrey(const T* values,
+                                const ImageSize& size,
+                                int num_channels,
+                                int red) {
+  if (num_channels != 1 && num_channels != 3 && num_channels != 4) {
+    return std::nullopt;
   }
-}
-
-template <int kChannels, int kRed, typename T>
-GrayImage ToGrey(const T* values, const ImageSize& size) {
+  constexpr double kMax = std::numeric_limits<T>::max();
   const std::size_t num_pixels = static_cast<std::size_t>(size.width) *
                                  static_cast<std::size_t>(size.height);
   GrayImage gray{size.width, size.height, std::vector<float>(num_pixels)};
   for (float& pixel : gray.pixels) {
-    pixel = Grey<kChannels, kRed>(values);
-    values += kChannels;
+    double grey = values[0];
+    if (num_channels > 1) {
+      grey = 0.114 * values[2 - red] + 0.587 * values[1] + 0.299 * values[red];
+    }
+    if (num_channels == 4) grey *= values[3] / kMax;
+    pixel = static_cast<float>(grey * (255 / kMax));
+    values += num_channels;
   }
   return gray;
-}
-
-// Of values without gaps; nullopt: another number of channels.
-template <int kRed, typename T>
-std::optional<GrayImage> ToGrey(const T* values,
-                                const ImageSize& size,
-                                int num_channels) {
-  switch (num_channels) {
-    case 1:
-      return ToGrey<1, kRed>(values, size);
-    case 3:
-      return ToGrey<3, kRed>(values, size);
-    case 4:
-      return ToGrey<4, kRed>(values, size);
-    default:
-      return std::nullopt;
-  }
 }
 
 // Of what OpenCV decoded; nullopt: another kind of pixels.
@@ -91,10 +71,10 @@ std::optional<GrayImage> ToGrey(const cv::Mat& image) {
   constexpr int kRed = 2;
   const ImageSize size = {image.cols, image.rows};
   if (image.depth() == CV_8U) {
-    return ToGrey<kRed>(image.ptr<std::uint8_t>(), size, image.channels());
+    return ToGrey(image.ptr<std::uint8_t>(), size, image.channels(), kRed);
   }
   if (image.depth() == CV_16U) {
-    return ToGrey<kRed>(image.ptr<std::uint16_t>(), size, image.channels());
+    return ToGrey(image.ptr<std::uint16_t>(), size, image.channels(), kRed);
   }
   return std::nullopt;
 }
@@ -276,7 +256,7 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   std::optional<GrayImage> gray = std::visit(
       [&](const auto& values) -> std::optional<GrayImage> {
         if (values == nullptr) return std::nullopt;
-        return ToGrey<kRed>(values.get(), size, image.num_channels);
+        return ToGrey(values.get(), size, image.num_channels, kRed);
       },
       image.values);
   if (gray) return *std::move(gray);
