@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "base/angles.h"
@@ -216,15 +215,11 @@ Edge3d ToEdge3d(TrackedEdge tracked) {
 
 // In an order that does not depend on that of views.
 bool IsBefore(const EdgeMap& a, const EdgeMap& b) {
-  return std::lexicographical_compare(
-      a.edges.begin(),
-      a.edges.end(),
-      b.edges.begin(),
-      b.edges.end(),
-      [](const Edge2d& edge, const Edge2d& other) {
-        return std::tie(edge.position.y(), edge.position.x()) <
-               std::tie(other.position.y(), other.position.x());
-      });
+  const auto place = [](const Edge2d& edge) {
+    return std::pair(edge.position.y(), edge.position.x());
+  };
+  return std::ranges::lexicographical_compare(
+      a.edges, b.edges, {}, place, place);
 }
 
 // The view with most unused edges among those not done; ties: that with more
