@@ -153,11 +153,7 @@ std::vector<int> ViewsOf(const CurveSample& sample) {
 // be behind a surface.
 bool IsSeenBy(const std::vector<int>& views, const std::vector<int>& of_point) {
   std::vector<int> common;
-  std::set_intersection(views.begin(),
-                        views.end(),
-                        of_point.begin(),
-                        of_point.end(),
-                        std::back_inserter(common));
+  std::ranges::set_intersection(views, of_point, std::back_inserter(common));
   return 3 * common.size() >= std::min(views.size(), of_point.size());
 }
 

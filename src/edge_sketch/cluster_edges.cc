@@ -121,11 +121,8 @@ class Clustering {
     SetMeans(merged);
     clusters_.erase(clusters_.begin() + static_cast<std::ptrdiff_t>(j));
     clusters_.erase(clusters_.begin() + static_cast<std::ptrdiff_t>(i));
-    const auto place = std::upper_bound(
-        clusters_.begin(),
-        clusters_.end(),
-        merged.center,
-        [](double center, const Cluster& c) { return center < c.center; });
+    const auto place = std::ranges::upper_bound(
+        clusters_, merged.center, {}, &Cluster::center);
     clusters_.insert(place, merged);
   }
 

@@ -170,11 +170,7 @@ std::vector<std::size_t> PosedEdges::QueryViews(const CurvePlace& place) const {
   next_to_them.erase(std::unique(next_to_them.begin(), next_to_them.end()),
                      next_to_them.end());
   std::vector<std::size_t> others;
-  std::set_difference(next_to_them.begin(),
-                      next_to_them.end(),
-                      views.begin(),
-                      views.end(),
-                      std::back_inserter(others));
+  std::ranges::set_difference(next_to_them, views, std::back_inserter(others));
   return SpreadViews(place, views, others);
 }
 

@@ -3,6 +3,8 @@
 // accepted; see docs/stages/poses.md.
 #include <curvix/refine_poses.h>
 #include <algorithm>
+#include <iterator>
+
 #include <numeric>
 #include <optional>
 #include <string>
@@ -275,12 +277,10 @@ class Refiner {
   void AdjustToAll(CurvePoses* result) {
     held_out_.places = std::move(last_held_out_);
     search_.Fit(&held_out_);
-    observations_.places.insert(observations_.places.end(),
-                                held_out_.places.begin(),
-                                held_out_.places.end());
-    observations_.points.insert(observations_.points.end(),
-                                held_out_.points.begin(),
-                                held_out_.points.end());
+    std::ranges::copy(held_out_.places,
+                      std::back_inserter(observations_.places));
+    std::ranges::copy(held_out_.points,
+                      std::back_inserter(observations_.points));
     for (int i = 0; i < kNumFinalRounds && !search_.is_stopped(); ++i) {
       search_.FindEdges(&observations_.places);
       search_.Adjust(&observations_);
