@@ -59,7 +59,6 @@ std::optional<Bend> BendAround(const Curve& curve,
   std::vector<SampleAround> around =
       SamplesAround(curve, index, kResponseReachPx * pixel);
   if (around.size() < 3) return std::nullopt;
-
   std::ranges::sort(around, {}, &SampleAround::along);
   const double middle = (around.front().along + around.back().along) / 2;
   const auto between = std::ranges::lower_bound(
