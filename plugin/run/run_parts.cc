@@ -14,7 +14,7 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
-#include "io/ply_lines.h"
+#include "io/curve_formats.h"
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
 #include "plugin/base/staged_output.h"

@@ -8,9 +8,7 @@
 #include "base/file_extension.h"
 #include "base/file_io.h"
 #include "io/curve_formats.h"
-#include "io/dxf_drawing.h"
 #include "io/pcl_lines.h"
-#include "io/ply_lines.h"
 
 namespace curvix {
 namespace {

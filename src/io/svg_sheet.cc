@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/svg_sheet.h"
+#include "io/sheet_formats.h"
 
 #include <cmath>
 #include <string_view>
