@@ -50,10 +50,8 @@ std::string TruthText(const std::vector<TrueSample>& samples) {
   std::string text;
   for (const TrueSample& sample : samples) {
     for (const Eigen::Vector3d& vector : {sample.position, sample.tangent}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        AppendNumber(vector[axis], text);
-        text += ' ';
-      }
+      AppendNumbers(vector, ' ', text);
+      text += ' ';
     }
     text += std::to_string(sample.curve_id) + ' ' +
             std::to_string(sample.num_views_seen) + ' ' +

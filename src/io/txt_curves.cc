@@ -27,14 +27,10 @@ struct CurveHead {
 void AppendSample(const CurveSample& sample,
                   const Scene& scene,
                   std::string& out) {
-  for (int i = 0; i < 3; ++i) {
-    AppendNumber(sample.position[i], out);
-    out += ' ';
-  }
-  for (int i = 0; i < 3; ++i) {
-    AppendNumber(sample.tangent[i], out);
-    out += ' ';
-  }
+  AppendNumbers(sample.position, ' ', out);
+  out += ' ';
+  AppendNumbers(sample.tangent, ' ', out);
+  out += ' ';
   AppendNumber(sample.sigma, out);
   out += ' ';
   out += KindName(sample.kind);
