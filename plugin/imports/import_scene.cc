@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "base/count_text.h"
-#include "base/file_extension.h"
+#include "base/file_io.h"
 #include "colmap/links.h"
 
 namespace curvix {

@@ -13,7 +13,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/file_extension.h"
 #include "base/file_io.h"
 #include "base/line_reader.h"
 #include "base/text_fields.h"

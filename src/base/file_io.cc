@@ -83,6 +83,14 @@ Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
   return file.Finish();
 }
 
+std::string ExtensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
 Status InFile(const std::filesystem::path& path, const Status& status) {
   return {status.code(), path.string() + ": " + status.message() + "."};
 }

@@ -53,6 +53,9 @@ class FileWriter {
 Status WriteFileAtomically(const std::filesystem::path& path,
                            std::string_view bytes);
 
+// In lower case: ".obj" of a/B.OBJ.
+std::string ExtensionOf(const std::filesystem::path& path);
+
 // The same status with the file that it is about, as a sentence.
 Status InFile(const std::filesystem::path& path, const Status& status);
 

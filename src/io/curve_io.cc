@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "base/file_extension.h"
 #include "base/file_io.h"
 #include "io/curve_formats.h"
 #include "io/pcl_lines.h"
