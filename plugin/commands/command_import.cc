@@ -12,7 +12,7 @@
 #include "plugin/imports/importers.h"
 #include "plugin/imports/new_workspace.h"
 #include "plugin/imports/read_lines.h"
-#include "plugin/run/run_lines.h"
+#include "plugin/run/run_workspace.h"
 
 namespace curvix {
 namespace {

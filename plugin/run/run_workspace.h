@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole job: a COLMAP workspace in, files with curves out.
+// The whole job: a COLMAP workspace, and maybe lines of another program, in,
+// files with curves out.
 #pragma once
 
 #include <curvix/curves.h>
@@ -7,9 +8,11 @@
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
+#include <functional>
 #include <vector>
 
 #include "plugin/base/progress.h"
+#include "plugin/imports/read_lines.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {
@@ -40,5 +43,14 @@ struct WorkspaceRun {
 // as by all runs (file_errors.h).
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress);
+
+// Reads the workspace and, by `read`, lines in its world, fits them, and writes
+// what settings.output.formats name and report.json into the output folder, as
+// RunWorkspace does: all or nothing. The poses stay as they are, and there is
+// no project.ini. Errors as those of RunWorkspace, `read` and CurvesOfLines.
+using LinesSource = std::function<Result<std::vector<ImportedLine>>()>;
+Result<RunRecord> RunLines(const RunSettings& settings,
+                           const LinesSource& read,
+                           ProgressPrinter& progress);
 
 }  // namespace curvix
