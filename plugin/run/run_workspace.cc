@@ -12,7 +12,6 @@
 #include "colmap/colmap_model.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/poses/pose_refinement.h"
-#include "plugin/run/run_stages.h"
 #include "plugin/run/run_steps.h"
 
 namespace curvix {
@@ -104,18 +103,19 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   Result<SceneStages> found =
       stages.Run(input->model, std::move(input->scene), nullptr);
   if (!found.ok()) return found.status();
+  run.stages = *std::move(found);
 
-  if (*is_adjusted || found->refined_model || input->is_scaled) {
+  const std::optional<ColmapModel>& refined = run.stages.refined_model;
+  if (*is_adjusted || refined || input->is_scaled) {
     record.result.files.push_back("sparse/");
-    Status written = WriteColmapModel(
-        found->refined_model ? *found->refined_model : input->model,
-        staging / "sparse");
+    Status written =
+        WriteColmapModel(refined ? *refined : input->model, staging / "sparse");
     if (!written.ok()) return written;
   }
-  Reconstruction& reconstruction = found->reconstruction;
-  const CurvesInMemory curves(reconstruction.curves, &found->edge_maps);
+  const Reconstruction& reconstruction = run.stages.reconstruction;
+  const CurvesInMemory curves(reconstruction.curves, &run.stages.edge_maps);
   Result<FittedCurves> fitted =
-      WriteFindings(found->scene,
+      WriteFindings(run.stages.scene,
                     {curves,
                      static_cast<std::int64_t>(reconstruction.edges.size()),
                      [&](const fs::path& path) {
@@ -127,9 +127,6 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   if (!fitted.ok()) return fitted.status();
   Status finished = FinishRun(since_start, *output, progress, record);
   if (!finished.ok()) return finished;
-  run.scene = std::move(found->scene);
-  run.edge_maps = std::move(found->edge_maps);
-  run.curves = std::move(reconstruction.curves);
   run.fitted = *std::move(fitted);
   return run;
 }

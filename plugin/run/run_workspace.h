@@ -3,10 +3,7 @@
 // files with curves out.
 #pragma once
 
-#include <curvix/curves.h>
-#include <curvix/edges.h>
 #include <curvix/fitting.h>
-#include <curvix/scene.h>
 #include <curvix/status.h>
 #include <functional>
 #include <vector>
@@ -14,16 +11,15 @@
 #include "plugin/base/progress.h"
 #include "plugin/imports/read_lines.h"
 #include "plugin/run/run_report.h"
+#include "plugin/run/run_stages.h"
 
 namespace curvix {
 
 // What a run leaves in memory.
 struct WorkspaceRun {
   RunRecord record;
-  Scene scene;  // with the poses and cameras that the curves are made with
-  std::vector<EdgeMap> edge_maps;  // one per view
-  CurveSet curves;
-  FittedCurves fitted;  // of these; none if there are no curves
+  SceneStages stages;
+  FittedCurves fitted;  // of its curves; none if there are none
 };
 
 // Reads the workspace, refines the poses, reconstructs, and writes what
