@@ -287,13 +287,6 @@ Result<CurveSet> ReconstructOthers(const Scene& scene,
   return std::move(holdout->reconstruction.curves);
 }
 
-void PrintHoldout(const HoldoutResult& result,
-                  EvaluationFormat format,
-                  std::ostream& out) {
-  if (format == EvaluationFormat::kJson) return PrintJson(result, out);
-  PrintTable(result, out);
-}
-
 }  // namespace
 
 void PrintEvaluation(const Evaluation& evaluation,
@@ -341,12 +334,12 @@ Status RunHoldout(const RunSettings& settings,
       curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
   if (!agreement.ok()) return agreement.status();
   progress.Finish();
-  PrintHoldout({*std::move(input),
-                static_cast<int>(view_idxs->size()),
-                SummarizeCurves(*curves),
-                *agreement},
-               format,
-               out);
+  const HoldoutResult result{*std::move(input),
+                             static_cast<int>(view_idxs->size()),
+                             SummarizeCurves(*curves),
+                             *agreement};
+  const bool is_json = format == EvaluationFormat::kJson;
+  is_json ? PrintJson(result, out) : PrintTable(result, out);
   return {};
 }
 
