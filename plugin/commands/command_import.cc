@@ -41,7 +41,6 @@ struct ImportSettings {
   std::string format;
   CopyPolicy copy_policy = CopyPolicy::kCopy;
   std::string first_pixel = "auto";
-  std::filesystem::path image_filter;
   ImportOptions options;
 };
 
@@ -71,8 +70,8 @@ FlagSection DataSetFlags(ImportSettings* settings) {
                       &settings->first_pixel,
                       "the coordinate of the centre of the first pixel in the "
                       "data set; auto: the convention of the format"),
-           PathFlag("image_filter",
-                    &settings->image_filter,
+           TextFlag("image_filter",
+                    &settings->options.image_filter,
                     "dtu: only images whose names hold this text"),
            Switch("normalize",
                   &settings->options.normalize,
@@ -132,7 +131,6 @@ ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
 
 Result<ImportedScene> Import(const ImportSettings& settings) {
   ImportOptions options = settings.options;
-  options.image_filter = settings.image_filter.string();
   if (settings.first_pixel != "auto") {
     options.first_pixel = ParseNumber<double>(settings.first_pixel);
   }
