@@ -13,6 +13,7 @@
 #include "base/file_io.h"
 #include "base/median.h"
 #include "colmap/colmap_model.h"
+#include "colmap/inconsistent_points.h"
 #include "plugin/base/text.h"
 #include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/child_process.h"
