@@ -123,12 +123,14 @@ inline std::vector<double> ParseNumbers(std::string_view text,
   return numbers;
 }
 
+// White space, ends of lines included.
+constexpr std::string_view kSpace = " \t\r\n\v\f";
+
 // Takes the next word off `text`; empty at the end.
 inline std::string_view TakeWord(std::string_view& text) {
-  constexpr std::string_view kBlank = " \t\r\n\v\f";
-  const std::size_t begin = text.find_first_not_of(kBlank);
+  const std::size_t begin = text.find_first_not_of(kSpace);
   text.remove_prefix(begin == std::string_view::npos ? text.size() : begin);
-  const std::string_view word = text.substr(0, text.find_first_of(kBlank));
+  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
   text.remove_prefix(word.size());
   return word;
 }

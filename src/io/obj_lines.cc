@@ -34,15 +34,10 @@ void AppendVertex(const Eigen::Vector3d& position,
 }
 
 // Adds the vertices and edges of one line; false if it is broken.
-bool ParseVertex(std::string_view words, LineGraph& graph) {
-  Eigen::Vector3d position;
-  for (int i = 0; i < 3; ++i) {
-    const auto value = ParseNumber<double>(TakeWord(words));
-    if (!value) return false;
-    position[i] = *value;
-  }
-  graph.positions.push_back(position);
-  return true;
+bool ParseVertex(std::string_view line, LineGraph& graph) {
+  WordReader words(line);
+  for (double& x : graph.positions.emplace_back()) x = words.Number<double>();
+  return !words.failed();
 }
 
 bool ParseLine(std::string_view words, LineGraph& graph) {
