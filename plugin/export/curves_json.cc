@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/text_fields.h"
 #include "geometry/camera_of.h"
 #include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
@@ -244,16 +244,7 @@ double Rounded(double value, int num_decimals) {
 }
 
 double RoundedToDigits(double value, int num_digits) {
-  std::array<char, 64> text;  // num_digits <= 17
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::scientific,
-                                 num_digits - 1)
-                       .ptr;
-  double rounded = value;
-  std::from_chars(text.data(), end, rounded);
-  return rounded;
+  return ParseNumber<double>(ShortText(value, num_digits)).value_or(value);
 }
 
 Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {
