@@ -141,7 +141,7 @@ Result<ImportedScene> Import(const ImportSettings& settings) {
 }
 
 ExitCode ImportDataSet(const ImportSettings& settings) {
-  Status status = CheckWorkspaceUnused(settings.workspace_path);
+  Status status = CheckUnused(settings.workspace_path / "sparse");
   if (!status.ok()) return Fail(status);
   const Result<ImportedScene> scene = Import(settings);
   if (!scene.ok()) return Fail(scene.status());

@@ -185,7 +185,8 @@ Status Synthesize(const SyntheticOptions& options,
   const Result<SyntheticScene> scene = MakeSyntheticScene(options, keep_going);
   if (!scene.ok()) return scene.status();
 
-  const Result<StagedOutput> staged = StageWorkspace(workspace);
+  const Result<StagedOutput> staged =
+      StagedOutput::Create(workspace, "--workspace_path");
   if (!staged.ok()) return staged.status();
   const fs::path& folder = staged->folder();
   Status status = MakeFolder(folder / "images");
