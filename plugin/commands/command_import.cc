@@ -35,9 +35,7 @@ constexpr std::array kLineFormats = {LineFormat{"line3dpp", ReadLine3dppLines},
                                      LineFormat{"limap", ReadLimapLines}};
 
 struct ImportSettings {
-  std::filesystem::path workspace_path;
-  std::filesystem::path output_path;
-  OutputSettings output;
+  RunSettings run;  // the workspace, and the results of lines
   std::string format;
   CopyPolicy copy_policy = CopyPolicy::kCopy;
   std::string first_pixel = "auto";
@@ -82,7 +80,7 @@ FlagSection DataSetFlags(ImportSettings* settings) {
 FlagSection WorkspaceFlags(ImportSettings* settings) {
   return {"Workspace",
           {Required(PathFlag("workspace_path",
-                             &settings->workspace_path,
+                             &settings->run.workspace_path,
                              "folder to write: images/ and sparse/0/; nothing "
                              "is overwritten; line3dpp, limap: the workspace "
                              "that the lines were made of, which stays")),
@@ -94,11 +92,11 @@ FlagSection WorkspaceFlags(ImportSettings* settings) {
 }
 
 FlagSection ResultFlags(ImportSettings* settings) {
-  FlagSection section = OutputFlags(&settings->output);
+  FlagSection section = OutputFlags(&settings->run.output);
   section.title = "Results of line3dpp and limap";
   section.flags.insert(section.flags.begin(),
                        PathFlag("output_path",
-                                &settings->output_path,
+                                &settings->run.output_path,
                                 "folder of the results; default: line3dpp/ or "
                                 "limap/ in the workspace"));
   return section;
@@ -113,13 +111,11 @@ Status CheckInput(const ImportSettings& settings) {
 }
 
 ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
-  RunSettings run;
-  run.workspace_path = settings.workspace_path;
+  RunSettings run = settings.run;
   run.image_path = settings.options.image_path;
-  run.output_path = settings.output_path.empty()
-                        ? settings.workspace_path / format.name
-                        : settings.output_path;
-  run.output = settings.output;
+  if (run.output_path.empty()) {
+    run.output_path = run.workspace_path / format.name;
+  }
   run.poses.refiner = "none";
   return RunAndSummarize(run, [&](ProgressPrinter& progress) {
     return RunLines(
@@ -141,18 +137,18 @@ Result<ImportedScene> Import(const ImportSettings& settings) {
 }
 
 ExitCode ImportDataSet(const ImportSettings& settings) {
-  Status status = CheckUnused(settings.workspace_path / "sparse");
+  Status status = CheckUnused(settings.run.workspace_path / "sparse");
   if (!status.ok()) return Fail(status);
   const Result<ImportedScene> scene = Import(settings);
   if (!scene.ok()) return Fail(scene.status());
   status = WriteNewWorkspace(scene->model,
                              scene->image_files,
                              settings.copy_policy,
-                             settings.workspace_path,
+                             settings.run.workspace_path,
                              [] { return !IsInterrupted(); });
   if (!status.ok()) return Fail(status);
   for (const std::string& note : scene->notes) std::cerr << note << std::endl;
-  const std::string path = settings.workspace_path.string();
+  const std::string path = settings.run.workspace_path.string();
   const bool has_links = settings.copy_policy == CopyPolicy::kSoftLink;
   std::cout << "Wrote " << Plural(std::ssize(scene->model.images), "image")
             << ", " << Plural(std::ssize(scene->model.cameras), "camera")
