@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (engineering). Sheets as SVG.
 #include "io/sheet_formats.h"
 
 #include <cmath>
