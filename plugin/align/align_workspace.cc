@@ -11,7 +11,6 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
-#include "plugin/align/epsg.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"

@@ -10,12 +10,12 @@
 #include <optional>
 #include <utility>
 
+#include "base/angles.h"
 #include "base/median.h"
 #include "base/parallel.h"
 #include "geometry/camera_of.h"
 #include "geometry/fit_point.h"
 #include "geometry/lens.h"
-#include "plugin/align/marker_corners.h"
 #include "plugin/align/marker_detector.h"
 #include "plugin/base/image_file.h"
 
@@ -35,6 +35,100 @@ struct Corner {
   Eigen::Vector3d position;
   Eigen::Matrix3d covariance;  // for 1 px
 };
+
+// Of edges from the side of a marker.
+constexpr double kSideReachPx = 2;
+constexpr double kSideAngleDeg = 15;
+constexpr double kLeftOut = 0.1;  // of a side, at either end
+constexpr std::size_t kMinEdges = 5;
+constexpr double kOutlierPx = 0.5;
+
+struct ImageLine {
+  Eigen::Vector2d point;
+  Eigen::Vector2d normal;  // unit
+
+  double DistanceOf(const Eigen::Vector2d& p) const {
+    return normal.dot(p - point);
+  }
+};
+
+ImageLine FitLineTo(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& p : points) mean += p;
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const Eigen::Vector2d& p : points) {
+    scatter += (p - mean) * (p - mean).transpose();
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(scatter);
+  return {mean, eigen.eigenvectors().col(0)};
+}
+
+// Through the edges along a side, twice: the second time without outliers.
+std::optional<ImageLine> LineOfSide(const Eigen::Vector2d& from,
+                                    const Eigen::Vector2d& to,
+                                    const std::vector<Edge2d>& edges) {
+  const Eigen::Vector2d side = to - from;
+  const double angle = std::atan2(side.y(), side.x());
+  const Eigen::Vector2d along = side / side.squaredNorm();
+  const Eigen::Vector2d normal =
+      Eigen::Vector2d(-side.y(), side.x()).normalized();
+  std::vector<Eigen::Vector2d> points;
+  for (const Edge2d& edge : edges) {
+    const Eigen::Vector2d offset = edge.position - from;
+    const double at = along.dot(offset);
+    if (std::abs(normal.dot(offset)) < kSideReachPx && at > kLeftOut &&
+        at < 1 - kLeftOut &&
+        UndirectedDifference(edge.angle, angle) < DegToRad(kSideAngleDeg)) {
+      points.push_back(edge.position);
+    }
+  }
+  if (points.size() < kMinEdges) return std::nullopt;
+  const ImageLine first = FitLineTo(points);
+  std::erase_if(points, [&](const Eigen::Vector2d& p) {
+    return std::abs(first.DistanceOf(p)) > kOutlierPx;
+  });
+  if (points.size() < kMinEdges) return std::nullopt;
+  return FitLineTo(points);
+}
+
+// The corners in which lines through the edges of the four sides meet.
+// Detectors that look at a corner itself find it a tenth of a pixel inside,
+// where blur has rounded it off; edges within a tenth of a side from a corner
+// do not count. `edges` are those of the view in its ideal pinhole. nullopt: a
+// side has too few edges.
+std::optional<SeenMarker> CornersFromSides(const SeenMarker& marker,
+                                           const Camera& camera,
+                                           const std::vector<Edge2d>& edges) {
+  const Eigen::Matrix3d calibration = PinholeCalibration(camera);
+  const Eigen::Matrix3d inverse = calibration.inverse();
+  std::array<Eigen::Vector2d, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto uv = IdealFromImage(camera, marker.corners[k]);
+    if (!uv) return std::nullopt;
+    corners[k] = (calibration * uv->homogeneous()).hnormalized();
+  }
+  std::array<std::optional<ImageLine>, 4> sides;
+  for (std::size_t k = 0; k < 4; ++k) {
+    sides[k] = LineOfSide(corners[k], corners[(k + 1) % 4], edges);
+    if (!sides[k]) return std::nullopt;
+  }
+  SeenMarker refined = marker;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const ImageLine& before = *sides[(k + 3) % 4];
+    const ImageLine& after = *sides[k];
+    Eigen::Matrix2d normals;
+    normals << before.normal.transpose(), after.normal.transpose();
+    const Eigen::Vector2d corner =
+        normals.inverse() * Eigen::Vector2d(before.normal.dot(before.point),
+                                            after.normal.dot(after.point));
+    const Eigen::Vector3d ray = inverse * corner.homogeneous();
+    refined.corners[k] = ImageFromIdeal(camera, ray.hnormalized());
+    if (!refined.corners[k].allFinite()) return std::nullopt;
+  }
+  return refined;
+}
 
 // The point nearest to all rays. nullopt: they are parallel.
 std::optional<Eigen::Vector3d> NearestToRays(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where cameras are, as GPS or a survey says.
+// Where cameras are, as GPS or a survey says, and in which coordinate system.
 #pragma once
 
 #include <curvix/scene.h>
@@ -25,5 +25,10 @@ struct CameraPositions {
 // name that a view has.
 Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                                       const Scene& scene);
+
+// kInvalidArgument unless `code` is the number of a coordinate system of EPSG
+// whose coordinates are metres, as far as GDAL knows; without GDAL, unless it
+// is a number of one.
+Status CheckEpsg(const std::string& code);
 
 }  // namespace curvix

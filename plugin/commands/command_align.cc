@@ -12,7 +12,6 @@
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
 #include "plugin/export/alignment_file.h"
-#include "plugin/run/run_parts.h"
 #include "plugin/run/run_steps.h"
 
 namespace curvix {
@@ -98,8 +97,8 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
   return sections;
 }
 
-// The run that wrote the results, once more, with the paths that are given: it
-// goes on from its stages.
+// The run that wrote the results, once more, by the command that project.ini
+// names and with the paths that are given: it goes on from its stages.
 ExitCode WriteResultsAgain(const AlignSettings& settings,
                            const fs::path& folder) {
   if (!fs::exists(folder / "project.ini")) {
@@ -110,7 +109,7 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
                         "it.\n");
     return kExitSuccess;
   }
-  Arguments again = {AreMerged(folder) ? "merge" : "reconstruct"};
+  Arguments again;
   for (const auto& [name, path] :
        {std::pair("--project_path", folder / "project.ini"),
         {"--workspace_path", settings.run.workspace_path},

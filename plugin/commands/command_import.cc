@@ -12,7 +12,7 @@
 #include "plugin/imports/importers.h"
 #include "plugin/imports/new_workspace.h"
 #include "plugin/imports/read_lines.h"
-#include "plugin/run/run_lines.h"
+#include "plugin/run/run_workspace.h"
 
 namespace curvix {
 namespace {
@@ -35,13 +35,10 @@ constexpr std::array kLineFormats = {LineFormat{"line3dpp", ReadLine3dppLines},
                                      LineFormat{"limap", ReadLimapLines}};
 
 struct ImportSettings {
-  std::filesystem::path workspace_path;
-  std::filesystem::path output_path;
-  OutputSettings output;
+  RunSettings run;  // the workspace, and the results of lines
   std::string format;
   CopyPolicy copy_policy = CopyPolicy::kCopy;
   std::string first_pixel = "auto";
-  std::filesystem::path image_filter;
   ImportOptions options;
 };
 
@@ -71,8 +68,8 @@ FlagSection DataSetFlags(ImportSettings* settings) {
                       &settings->first_pixel,
                       "the coordinate of the centre of the first pixel in the "
                       "data set; auto: the convention of the format"),
-           PathFlag("image_filter",
-                    &settings->image_filter,
+           TextFlag("image_filter",
+                    &settings->options.image_filter,
                     "dtu: only images whose names hold this text"),
            Switch("normalize",
                   &settings->options.normalize,
@@ -83,7 +80,7 @@ FlagSection DataSetFlags(ImportSettings* settings) {
 FlagSection WorkspaceFlags(ImportSettings* settings) {
   return {"Workspace",
           {Required(PathFlag("workspace_path",
-                             &settings->workspace_path,
+                             &settings->run.workspace_path,
                              "folder to write: images/ and sparse/0/; nothing "
                              "is overwritten; line3dpp, limap: the workspace "
                              "that the lines were made of, which stays")),
@@ -95,11 +92,11 @@ FlagSection WorkspaceFlags(ImportSettings* settings) {
 }
 
 FlagSection ResultFlags(ImportSettings* settings) {
-  FlagSection section = OutputFlags(&settings->output);
+  FlagSection section = OutputFlags(&settings->run.output);
   section.title = "Results of line3dpp and limap";
   section.flags.insert(section.flags.begin(),
                        PathFlag("output_path",
-                                &settings->output_path,
+                                &settings->run.output_path,
                                 "folder of the results; default: line3dpp/ or "
                                 "limap/ in the workspace"));
   return section;
@@ -114,13 +111,11 @@ Status CheckInput(const ImportSettings& settings) {
 }
 
 ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
-  RunSettings run;
-  run.workspace_path = settings.workspace_path;
+  RunSettings run = settings.run;
   run.image_path = settings.options.image_path;
-  run.output_path = settings.output_path.empty()
-                        ? settings.workspace_path / format.name
-                        : settings.output_path;
-  run.output = settings.output;
+  if (run.output_path.empty()) {
+    run.output_path = run.workspace_path / format.name;
+  }
   run.poses.refiner = "none";
   return RunAndSummarize(run, [&](ProgressPrinter& progress) {
     return RunLines(
@@ -132,7 +127,6 @@ ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
 
 Result<ImportedScene> Import(const ImportSettings& settings) {
   ImportOptions options = settings.options;
-  options.image_filter = settings.image_filter.string();
   if (settings.first_pixel != "auto") {
     options.first_pixel = ParseNumber<double>(settings.first_pixel);
   }
@@ -143,18 +137,18 @@ Result<ImportedScene> Import(const ImportSettings& settings) {
 }
 
 ExitCode ImportDataSet(const ImportSettings& settings) {
-  Status status = CheckWorkspaceUnused(settings.workspace_path);
+  Status status = CheckUnused(settings.run.workspace_path / "sparse");
   if (!status.ok()) return Fail(status);
   const Result<ImportedScene> scene = Import(settings);
   if (!scene.ok()) return Fail(scene.status());
   status = WriteNewWorkspace(scene->model,
                              scene->image_files,
                              settings.copy_policy,
-                             settings.workspace_path,
+                             settings.run.workspace_path,
                              [] { return !IsInterrupted(); });
   if (!status.ok()) return Fail(status);
   for (const std::string& note : scene->notes) std::cerr << note << std::endl;
-  const std::string path = settings.workspace_path.string();
+  const std::string path = settings.run.workspace_path.string();
   const bool has_links = settings.copy_policy == CopyPolicy::kSoftLink;
   std::cout << "Wrote " << Plural(std::ssize(scene->model.images), "image")
             << ", " << Plural(std::ssize(scene->model.cameras), "camera")

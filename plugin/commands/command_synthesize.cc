@@ -50,10 +50,8 @@ std::string TruthText(const std::vector<TrueSample>& samples) {
   std::string text;
   for (const TrueSample& sample : samples) {
     for (const Eigen::Vector3d& vector : {sample.position, sample.tangent}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        AppendNumber(vector[axis], text);
-        text += ' ';
-      }
+      AppendNumbers(vector, ' ', text);
+      text += ' ';
     }
     text += std::to_string(sample.curve_id) + ' ' +
             std::to_string(sample.num_views_seen) + ' ' +
@@ -187,7 +185,8 @@ Status Synthesize(const SyntheticOptions& options,
   const Result<SyntheticScene> scene = MakeSyntheticScene(options, keep_going);
   if (!scene.ok()) return scene.status();
 
-  const Result<StagedOutput> staged = StageWorkspace(workspace);
+  const Result<StagedOutput> staged =
+      StagedOutput::Create(workspace, "--workspace_path");
   if (!staged.ok()) return staged.status();
   const fs::path& folder = staged->folder();
   Status status = MakeFolder(folder / "images");

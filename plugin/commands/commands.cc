@@ -6,9 +6,9 @@
 #include <array>
 #include <cctype>
 #include <iostream>
-#include <system_error>
 
 #include "base/file_io.h"
+#include "colmap/links.h"
 #include "colmap/project_file.h"
 #include "plugin/commands/help_text.h"
 #include "plugin/run/run_report.h"
@@ -145,8 +145,7 @@ ExitCode UnknownCommand(const std::string& name) {
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.push_back(command.name);
   const std::string nearest = NearestName(name, names);
-  std::error_code error;
-  if (std::filesystem::is_directory(name, error)) {
+  if (IsFolder(name)) {
     message += "; did you mean '--workspace_path " + name + "'?";
   } else if (!nearest.empty()) {
     message += "; did you mean '" + nearest + "'?";

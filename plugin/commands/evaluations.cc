@@ -23,6 +23,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// `text`, shorter than that, in so many columns.
+std::string Padded(std::string text, std::size_t num_columns = 24) {
+  text.resize(num_columns, ' ');
+  return text;
+}
+
 // Nine columns wide, or more if need be.
 std::string Column(double value, int num_decimals) {
   const std::string text = FixedText(value, num_decimals);
@@ -37,16 +43,13 @@ void PrintRow(const char* name,
               const std::optional<double>& value,
               const char* unit,
               std::ostream& out) {
-  std::string padded(name);
-  padded.resize(24, ' ');
-  out << padded << Fixed(value) << ' ' << unit << '\n';
+  out << Padded(name) << Fixed(value) << ' ' << unit << '\n';
 }
 
 void PrintAgreement(const Evaluation& e, std::ostream& out) {
   out << "within                       5 mm    10 mm    20 mm\n";
-  const auto row = [&](std::string name, double Agreement::*member) {
-    name.resize(24, ' ');
-    out << name;
+  const auto row = [&](const char* name, double Agreement::*member) {
+    out << Padded(name);
     for (const Agreement& a : e.agreement) out << Fixed(a.*member);
     out << " %\n";
   };
@@ -65,11 +68,10 @@ std::string NameOf(std::size_t kind) {
   return std::string(KindName(static_cast<CurveKind>(kind)));
 }
 
-void PrintLengths(std::string title,
+void PrintLengths(std::string_view title,
                   const LengthPerKind& lengths_mm,
                   std::ostream& out) {
-  title.resize(24, ' ');
-  out << title;
+  out << Padded(std::string(title));
   for (const double length : lengths_mm) out << ' ' << Column(length, 0);
 }
 
@@ -77,16 +79,14 @@ void PrintLengths(std::string title,
 void PrintKinds(const KindAgreement& kinds, std::ostream& out) {
   out << "true kind, mm              length   visible   recall\n";
   for (const TrueKind& kind : kinds.kinds) {
-    std::string name(KindName(kind.kind));
-    name.resize(24, ' ');
-    out << name << ' ' << Column(kind.length_mm, 0) << ' '
-        << Column(kind.visible_length_mm, 0) << Fixed(kind.visible_recall_5)
-        << " %\n";
+    out << Padded(std::string(KindName(kind.kind))) << ' '
+        << Column(kind.length_mm, 0) << ' ' << Column(kind.visible_length_mm, 0)
+        << Fixed(kind.visible_recall_5) << " %\n";
   }
   out << "said to be, mm             unknown    crease  boundary   marking   "
          "contour    right\n";
   for (const TrueKind& kind : kinds.kinds) {
-    PrintLengths(std::string(KindName(kind.kind)), kind.predicted_mm, out);
+    PrintLengths(KindName(kind.kind), kind.predicted_mm, out);
     out << Fixed(kind.right) << " %\n";
   }
   PrintLengths("none within 5 mm", kinds.elsewhere_mm, out);
@@ -212,11 +212,10 @@ struct HoldoutResult {
   ImageAgreement agreement;
 };
 
-void PrintRow(std::string name,
+void PrintRow(const char* name,
               const std::optional<ShareAboveChance>& share,
               std::ostream& out) {
-  name.resize(40, ' ');
-  out << name;
+  out << Padded(name, 40);
   if (share) {
     out << Column(100 * share->share, 1) << Column(100 * share->chance, 1)
         << Column(100 * share->Lift(), 1) << '\n';
@@ -228,8 +227,6 @@ void PrintRow(std::string name,
 void PrintTable(const HoldoutResult& result, std::ostream& out) {
   const ImageAgreement& agreement = result.agreement;
   const fs::path& alignment_path = result.input.alignment_path;
-  std::string head = "in the images held out, %";
-  head.resize(40, ' ');
   out << Plural(result.num_held_out, "view") << " held out, "
       << Plural(result.curves.num_curves, "curve") << " of total length "
       << result.curves.total_length << "\nmodel "
@@ -238,7 +235,8 @@ void PrintTable(const HoldoutResult& result, std::ostream& out) {
               ? ""
               : ", in the frame of " + alignment_path.string())
       << "\n\n"
-      << head << "    share   chance     lift\n";
+      << Padded("in the images held out, %", 40)
+      << "    share   chance     lift\n";
   PrintRow("curves on a contour (precision)", agreement.precision, out);
   PrintRow(
       "the same where they should be seen", agreement.expected_precision, out);
@@ -285,13 +283,6 @@ Result<CurveSet> ReconstructOthers(const Scene& scene,
       scene, *edge_maps, options, every, progress.Callback());
   if (!holdout.ok()) return holdout.status();
   return std::move(holdout->reconstruction.curves);
-}
-
-void PrintHoldout(const HoldoutResult& result,
-                  EvaluationFormat format,
-                  std::ostream& out) {
-  if (format == EvaluationFormat::kJson) return PrintJson(result, out);
-  PrintTable(result, out);
 }
 
 }  // namespace
@@ -341,12 +332,12 @@ Status RunHoldout(const RunSettings& settings,
       curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
   if (!agreement.ok()) return agreement.status();
   progress.Finish();
-  PrintHoldout({*std::move(input),
-                static_cast<int>(view_idxs->size()),
-                SummarizeCurves(*curves),
-                *agreement},
-               format,
-               out);
+  const HoldoutResult result{*std::move(input),
+                             static_cast<int>(view_idxs->size()),
+                             SummarizeCurves(*curves),
+                             *agreement};
+  const bool is_json = format == EvaluationFormat::kJson;
+  is_json ? PrintJson(result, out) : PrintTable(result, out);
   return {};
 }
 

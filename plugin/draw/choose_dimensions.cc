@@ -18,9 +18,8 @@ constexpr double kAlikeSigmas = 3;
 
 std::string Text(const MeasuredDimension& m) {
   const double digits = -std::floor(std::log10(m.sigma));
-  std::string text = m.drawn.is_radius ? "R" : "";
-  AppendFixed(m.value, static_cast<int>(std::clamp(digits, 0.0, 9.0)), text);
-  return text;
+  return (m.drawn.is_radius ? "R" : "") +
+         FixedText(m.value, static_cast<int>(std::clamp(digits, 0.0, 9.0)));
 }
 
 bool AreAlike(const MeasuredDimension& a, const MeasuredDimension& b) {

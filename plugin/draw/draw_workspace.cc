@@ -14,8 +14,7 @@
 #include "drawing/dimension_marks.h"
 #include "drawing/drawing_plane.h"
 #include "drawing/sheet.h"
-#include "io/dxf_drawing.h"
-#include "io/svg_sheet.h"
+#include "io/sheet_formats.h"
 #include "measuring/moved_curves.h"
 #include "plugin/align/curves_file.h"
 #include "plugin/base/staged_output.h"
@@ -297,11 +296,16 @@ Status Drafter::Write() {
     text_ += " " + file;
   }
   const bool is_plan = settings_.plane == "xy" && curves_.alignment;
-  Status written = WriteMapFiles(output->folder() / (name_ + ".dxf"),
-                                 is_plan ? curves_.alignment->crs : "",
-                                 {settings_.geopackage, settings_.geojson},
-                                 &text_);
-  if (!written.ok()) return written;
+  for (const auto& [is_wanted, ending] :
+       {std::pair(settings_.geopackage, ".gpkg"),
+        {settings_.geojson, ".geojson"}}) {
+    if (!is_wanted) continue;
+    Status written = WriteMapFile(output->folder() / files.front().first,
+                                  is_plan ? curves_.alignment->crs : "",
+                                  output->folder() / (name_ + ending));
+    if (!written.ok()) return written;
+    text_ += " " + name_ + ending;
+  }
   text_ += "\n";
   return output->Publish(FilesOfDrawing(workspace_.output_path, name_));
 }

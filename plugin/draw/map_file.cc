@@ -6,14 +6,14 @@
 #include <gdal_utils.h>
 
 #include <memory>
-#endif
-#include <utility>
 #include <vector>
+#endif
 
 namespace curvix {
-namespace {
 
 #ifdef CURVIX_HAS_GDAL
+
+namespace {
 
 struct CloseDataset {
   void operator()(void* dataset) const { GDALClose(dataset); }
@@ -24,6 +24,8 @@ Status Failed(const std::filesystem::path& map) {
   return Status::ExternalTool("GDAL cannot write " + map.filename().string() +
                               ": " + std::string(CPLGetLastErrorMsg()));
 }
+
+}  // namespace
 
 Status WriteMapFile(const std::filesystem::path& dxf,
                     const std::string& crs,
@@ -66,7 +68,9 @@ Status WriteMapFile(const std::filesystem::path& dxf,
   CPLPopErrorHandler();
   return status;
 }
+
 #else
+
 Status WriteMapFile(const std::filesystem::path& dxf,
                     const std::string& crs,
                     const std::filesystem::path& map) {
@@ -76,23 +80,7 @@ Status WriteMapFile(const std::filesystem::path& dxf,
       (crs.empty() ? "" : "-a_srs " + crs + " ") + map.filename().string() +
       " " + dxf.filename().string() + "' does the same");
 }
+
 #endif
-
-}  // namespace
-
-Status WriteMapFiles(const std::filesystem::path& dxf,
-                     const std::string& crs,
-                     const WantedMaps& wanted,
-                     std::string* text) {
-  for (const auto& [is_wanted, ending] :
-       {std::pair(wanted.geopackage, ".gpkg"), {wanted.geojson, ".geojson"}}) {
-    if (!is_wanted) continue;
-    const std::filesystem::path map = dxf.stem().concat(ending);
-    Status status = WriteMapFile(dxf, crs, dxf.parent_path() / map);
-    if (!status.ok()) return status;
-    text->append(" ").append(map.string());
-  }
-  return {};
-}
 
 }  // namespace curvix

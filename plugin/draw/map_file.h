@@ -8,19 +8,13 @@
 
 namespace curvix {
 
-struct WantedMaps {
-  bool geopackage = false;
-  bool geojson = false;
-};
-
 // Writes the curves of a DXF drawing, without frame and dimensions, as the
-// layer `curves` of the files that are wanted, which have its name; their
-// layers are in the field `Layer`. `crs`: "EPSG:25832", say; "": not known. The
-// same bytes for the same drawing. Names of files written are added to `text`.
-// kUnsupported: the program was built without GDAL; kExternalTool: GDAL cannot.
-Status WriteMapFiles(const std::filesystem::path& dxf,
-                     const std::string& crs,
-                     const WantedMaps& wanted,
-                     std::string* text);
+// layer `curves` of `map`, a .gpkg (GeoPackage) or .geojson; their layers are
+// in the field `Layer`. `crs`: "EPSG:25832", say; "": not known. The same bytes
+// for the same drawing. kUnsupported: the program was built without GDAL;
+// kExternalTool: GDAL cannot.
+Status WriteMapFile(const std::filesystem::path& dxf,
+                    const std::string& crs,
+                    const std::filesystem::path& map);
 
 }  // namespace curvix

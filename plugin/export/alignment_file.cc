@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "base/file_io.h"
 
@@ -12,9 +13,7 @@ namespace {
 
 template <typename Vector>
 Json NumbersJson(const Vector& v) {
-  Json json = Json::array();
-  for (Eigen::Index i = 0; i < v.size(); ++i) json.push_back(v(i));
-  return json;
+  return std::vector<double>(v.begin(), v.end());
 }
 
 // `numbers` has as many entries as `size`, all finite.

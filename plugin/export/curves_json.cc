@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <boost/algorithm/string/replace.hpp>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/text_fields.h"
 #include "geometry/camera_of.h"
 #include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
@@ -23,8 +23,6 @@ constexpr int kProbabilityDecimals = 4;
 // Of samples. Enough for standard deviations along two axes that differ by a
 // factor of 10,000.
 constexpr int kCovarianceDigits = 9;
-
-Json MatrixJson(const Eigen::Matrix3d& m) { return Triangle(m); }
 
 Json NodeIdxJson(int node_idx) {
   return node_idx < 0 ? Json() : Json(node_idx);
@@ -42,8 +40,8 @@ Json FitJson(const CurveFit& fit) {
                {"end_node", NodeIdxJson(fit.end_node)},
                {"length", Length(fit)}};
   if (!fit.closed) {
-    json["start_covariance"] = MatrixJson(fit.start_covariance);
-    json["end_covariance"] = MatrixJson(fit.end_covariance);
+    json["start_covariance"] = Triangle(fit.start_covariance);
+    json["end_covariance"] = Triangle(fit.end_covariance);
   }
   if (fit.kind == FitKind::kArc) {
     json["radius"] = fit.major.norm();
@@ -166,7 +164,7 @@ Json ImageJson(const View& view, const Camera& camera) {
 
 Json NodeJson(const CurveNode& node) {
   Json json = {{"position", VectorJson(node.position)},
-               {"covariance", MatrixJson(node.covariance)},
+               {"covariance", Triangle(node.covariance)},
                {"ends", Json::array()}};
   for (const CurveNode::End& end : node.ends) {
     json["ends"].push_back({{"curve", end.curve_idx},
@@ -210,12 +208,6 @@ std::string FrameText(const WorldAlignment* alignment) {
   return ",\"alignment\":" + JsonText(json);
 }
 
-void PutLines(const std::vector<Json>& items, const ByteSink& sink) {
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    sink((i > 0 ? ",\n" : "\n") + JsonText(items[i]));
-  }
-}
-
 }  // namespace
 
 std::optional<SupportingEdge> FindSupportingEdge(const Scene& scene,
@@ -244,16 +236,7 @@ double Rounded(double value, int num_decimals) {
 }
 
 double RoundedToDigits(double value, int num_digits) {
-  std::array<char, 64> text;  // num_digits <= 17
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::scientific,
-                                 num_digits - 1)
-                       .ptr;
-  double rounded = value;
-  std::from_chars(text.data(), end, rounded);
-  return rounded;
+  return ParseNumber<double>(ShortText(value, num_digits)).value_or(value);
 }
 
 Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {
@@ -291,31 +274,24 @@ void JsonLines::Flush() {
 void EncodeCurvesJson(const CurveRecord& record,
                       int num_threads,
                       const ByteSink& sink) {
-  std::vector<Json> images;
-  for (const View& view : record.scene.views) {
-    images.push_back(ImageJson(view, CameraOf(record.scene, view)));
-  }
-  std::vector<Json> nodes;
-  for (const CurveNode& node : record.fitted.nodes) {
-    nodes.push_back(NodeJson(node));
-  }
-  const FitStructure& structure = record.fitted.structure;
-  std::vector<Json> groups, perpendicular;
-  for (const FitGroup& group : structure.groups) {
-    groups.push_back(GroupJson(group));
-  }
-  for (const PerpendicularGroups& pair : structure.perpendicular) {
-    perpendicular.push_back(PerpendicularJson(pair));
-  }
+  const auto put = [&](const auto& items, const auto& json_of) {
+    JsonLines lines(num_threads, sink);
+    for (const auto& item : items) {
+      lines.Add([&] { return json_of(item); });
+    }
+    lines.Flush();
+  };
   sink("{\"format\":\"curvix curves\",\"version\":1" +
        FrameText(record.alignment) + ",\"images\":[");
-  PutLines(images, sink);
+  put(record.scene.views, [&](const View& view) {
+    return ImageJson(view, CameraOf(record.scene, view));
+  });
   sink("],\"nodes\":[");
-  PutLines(nodes, sink);
+  put(record.fitted.nodes, NodeJson);
   sink("],\"structure\":{\"groups\":[");
-  PutLines(groups, sink);
+  put(record.fitted.structure.groups, GroupJson);
   sink("],\"perpendicular\":[");
-  PutLines(perpendicular, sink);
+  put(record.fitted.structure.perpendicular, PerpendicularJson);
   sink("]},\"curves\":[");
   JsonLines lines(num_threads, sink);
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {

@@ -55,11 +55,8 @@ class Table {
            double value,
            double sigma,
            const std::string& unit) {
-    std::string row = std::string(dimension) + "," + from + "," + to + ",";
-    AppendNumber(value, row);
-    row += ",";
-    AppendNumber(sigma, row);
-    sink_(row + "," + unit + "\n");
+    sink_(std::string(dimension) + "," + from + "," + to + "," +
+          NumberText(value) + "," + NumberText(sigma) + "," + unit + "\n");
   }
 
   const ByteSink& sink_;

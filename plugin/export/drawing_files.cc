@@ -5,7 +5,7 @@
 
 #include "base/file_io.h"
 #include "colmap/links.h"
-#include "io/svg_sheet.h"
+#include "io/sheet_formats.h"
 
 namespace curvix {
 namespace {

@@ -49,17 +49,6 @@ bool AsksFor(const OutputSettings& settings, const std::string& format) {
   return std::ranges::find(settings.formats, format) != settings.formats.end();
 }
 
-// A file of what `encode` gives, if all curves can be read.
-template <typename Encode>
-Status WriteText(const CurveRecord& record,
-                 const fs::path& path,
-                 const Encode& encode) {
-  FileWriter file(path);
-  encode(file.Sink());
-  const Status read = record.curves.status();
-  return read.ok() ? file.Finish() : read;
-}
-
 void AddSample(const CurveRecord& record,
                const CurveSample& sample,
                const std::array<std::uint8_t, 3>& color,
@@ -132,39 +121,27 @@ Status WriteOverlays(const CurveRecord& record,
   return {};
 }
 
-// "ply,dxf" to its parts. kInvalidArgument, with what there is, for another
-// name or none.
-Result<std::vector<std::string>> ParseOutputFormats(const std::string& text) {
+Flag FormatsFlag(std::vector<std::string>* formats) {
   std::vector<std::string> known;
-  std::string choices;
   for (const OutputFormat& format : OutputFormats()) {
     known.emplace_back(format.name);
-    choices += (choices.empty() ? "" : ", ") + known.back();
   }
-  std::vector<std::string> formats;
-  for (const std::string_view part : SplitAt(text, ',')) {
-    const std::string& name = formats.emplace_back(part);
-    if (std::ranges::find(known, name) == known.end()) {
-      return Status::InvalidArgument(
-          "output_formats has \"" + name +
-          "\"; it takes, with commas between: " + choices);
-    }
-  }
-  return formats;
-}
-
-Flag FormatsFlag(std::vector<std::string>* formats) {
   Flag flag;
   flag.name = "output_formats";
   flag.help = "files to write, with commas between";
   flag.default_value = boost::algorithm::join(*formats, ",");
-  for (const OutputFormat& format : OutputFormats()) {
-    flag.range += (flag.range.empty() ? "" : ", ") + std::string(format.name);
-  }
-  flag.set = [formats](const std::string& text) -> Status {
-    Result<std::vector<std::string>> parsed = ParseOutputFormats(text);
-    if (!parsed.ok()) return parsed.status();
-    *formats = *std::move(parsed);
+  flag.range = boost::algorithm::join(known, ", ");
+  flag.set = [=, range = flag.range](const std::string& text) -> Status {
+    std::vector<std::string> names;
+    for (const std::string_view part : SplitAt(text, ',')) {
+      const std::string& name = names.emplace_back(part);
+      if (std::ranges::find(known, name) == known.end()) {
+        return Status::InvalidArgument(
+            "output_formats has \"" + name +
+            "\"; it takes, with commas between: " + range);
+      }
+    }
+    *formats = std::move(names);
     return {};
   };
   return flag;
@@ -214,20 +191,13 @@ Status WriteFormat(const CurveRecord& record,
                    int num_threads,
                    const std::string& format,
                    const fs::path& path) {
-  if (format == "json") {
-    return WriteText(record, path, [&](const ByteSink& sink) {
-      EncodeCurvesJson(record, num_threads, sink);
-    });
-  }
-  if (format == "csv") {
-    return WriteText(record, path, [&](const ByteSink& sink) {
-      EncodeDimensions(record, sink);
-    });
-  }
-  if (format == "html") {
-    return WriteText(record, path, [&](const ByteSink& sink) {
-      EncodeViewerHtml(record, num_threads, sink);
-    });
+  if (format == "json" || format == "csv" || format == "html") {
+    FileWriter file(path);
+    if (format == "json") EncodeCurvesJson(record, num_threads, file.Sink());
+    if (format == "csv") EncodeDimensions(record, file.Sink());
+    if (format == "html") EncodeViewerHtml(record, num_threads, file.Sink());
+    const Status read = record.curves.status();
+    return read.ok() ? file.Finish() : read;
   }
   if (format == "dxf") {
     return WriteDrawing(

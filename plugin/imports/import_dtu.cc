@@ -88,16 +88,15 @@ Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
 Result<Matrix34d> ReadPos(const fs::path& file) {
   const Result<std::string> text = ReadFile(file);
   if (!text.ok()) return text.status();
-  std::string_view rest = WithoutByteOrderMark(*text);
+  WordReader words(WithoutByteOrderMark(*text));
   Matrix34d projection;
   for (int i = 0; i < 12; ++i) {
-    const auto value = ParseNumber<double>(TakeWord(rest));
-    if (!value) {
-      return BrokenDtu(file.string() + " does not hold 3 x 4 numbers");
-    }
-    projection(i / 4, i % 4) = *value;
+    projection(i / 4, i % 4) = words.Number<double>();
   }
-  if (TakeWord(rest).empty()) return projection;
+  if (words.failed()) {
+    return BrokenDtu(file.string() + " does not hold 3 x 4 numbers");
+  }
+  if (words.AtEnd()) return projection;
   return BrokenDtu(file.string() + " holds more than 3 x 4 numbers");
 }
 

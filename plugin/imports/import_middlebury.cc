@@ -28,16 +28,16 @@ Result<CalibratedImage> ParseParLine(std::string_view text,
                                      const fs::path& file,
                                      int line) {
   using Matrix3dRowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  WordReader words(text);
   CalibratedImage result;
-  result.name = TakeWord(text);
+  result.name = words.Word();
   result.source = result.name;
   std::array<double, 21> numbers;
-  for (double& number : numbers) {
-    const auto value = ParseNumber<double>(TakeWord(text));
-    if (!value) return BrokenMiddlebury(file, line, "does not hold 21 numbers");
-    number = *value;
+  for (double& number : numbers) number = words.Number<double>();
+  if (words.failed()) {
+    return BrokenMiddlebury(file, line, "does not hold 21 numbers");
   }
-  if (!TakeWord(text).empty()) {
+  if (!words.AtEnd()) {
     return BrokenMiddlebury(file, line, "holds more than 21 numbers");
   }
   result.pose.calibration = Eigen::Map<const Matrix3dRowMajor>(numbers.data());

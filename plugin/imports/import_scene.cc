@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <system_error>
 
 #include "base/count_text.h"
-#include "base/file_extension.h"
+#include "base/file_io.h"
 #include "colmap/links.h"
 
 namespace curvix {
@@ -126,9 +125,8 @@ Status CheckImagesExist(const std::vector<std::string>& names,
 Result<fs::path> FindImageFolder(const fs::path& image_path,
                                  const std::vector<fs::path>& places,
                                  const std::string& name) {
-  std::error_code error;
   if (!image_path.empty()) {
-    if (fs::is_directory(image_path, error)) return image_path;
+    if (IsFolder(image_path)) return image_path;
     return Status::NotFound("--image_path " + image_path.string() +
                             " is not a folder; name the folder of the images.");
   }

@@ -8,6 +8,7 @@
 #include "base/cancelled.h"
 #include "base/file_io.h"
 #include "colmap/links.h"
+#include "plugin/base/staged_output.h"
 
 namespace curvix {
 namespace {
@@ -69,14 +70,6 @@ Status CheckUnused(const fs::path& path) {
       "--workspace_path or remove it first.");
 }
 
-Status CheckWorkspaceUnused(const fs::path& workspace) {
-  return CheckUnused(workspace / "sparse");
-}
-
-Result<StagedOutput> StageWorkspace(const fs::path& workspace) {
-  return StagedOutput::Create(workspace, "--workspace_path");
-}
-
 Status MoveIntoWorkspace(const std::vector<std::string>& names,
                          const fs::path& from,
                          const fs::path& to) {
@@ -101,12 +94,13 @@ Status WriteNewWorkspace(const ColmapModel& model,
   if (image_files.size() != model.images.size()) {
     throw std::logic_error("WriteNewWorkspace without one file per image");
   }
-  Status status = CheckWorkspaceUnused(workspace);
+  Status status = CheckUnused(workspace / "sparse");
   if (!status.ok()) return status;
   const bool in_place = AreInPlace(model, image_files, workspace / "images");
   if (!in_place) status = CheckUnused(workspace / "images");
   if (!status.ok()) return status;
-  const Result<StagedOutput> staged = StageWorkspace(workspace);
+  const Result<StagedOutput> staged =
+      StagedOutput::Create(workspace, "--workspace_path");
   if (!staged.ok()) return staged.status();
   const fs::path folder = staged->folder();
   for (std::size_t i = 0; !in_place && i < image_files.size(); ++i) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "colmap/colmap_model.h"
-#include "plugin/base/staged_output.h"
 
 namespace curvix {
 
@@ -33,20 +32,14 @@ Status WriteNewWorkspace(const ColmapModel& model,
                          const std::filesystem::path& workspace,
                          const std::function<bool()>& keep_going = {});
 
-// A temporary folder in a workspace; errors of StagedOutput::Create.
-Result<StagedOutput> StageWorkspace(const std::filesystem::path& workspace);
-
 // Moves the files and folders `names` from one folder to another, all or none.
 // Empty folders in their places go.
 Status MoveIntoWorkspace(const std::vector<std::string>& names,
                          const std::filesystem::path& from,
                          const std::filesystem::path& to);
 
-// kInvalidArgument if `path` is there and is not an empty folder.
+// kInvalidArgument if `path` is there and is not an empty folder: to be asked
+// before long work.
 Status CheckUnused(const std::filesystem::path& path);
-
-// As WriteNewWorkspace fails when the workspace is in use: to be asked before
-// long work.
-Status CheckWorkspaceUnused(const std::filesystem::path& workspace);
 
 }  // namespace curvix

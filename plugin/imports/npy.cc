@@ -14,6 +14,7 @@
 #include "base/bytes.h"
 #include "base/count_text.h"
 #include "base/text_fields.h"
+#include "colmap/links.h"
 
 namespace curvix {
 namespace {
@@ -199,8 +200,7 @@ Status BrokenArchive(const std::string& name, const std::string& why) {
 }
 
 Result<Archive> OpenArchive(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
+  if (!IsFile(path)) {
     return Status::NotFound(path.string() +
                             " is not a file; name a .npz file.");
   }

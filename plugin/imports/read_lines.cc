@@ -13,7 +13,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/file_extension.h"
 #include "base/file_io.h"
 #include "base/line_reader.h"
 #include "base/text_fields.h"
@@ -110,12 +109,9 @@ using Lines = std::vector<ImportedLine>;
 class Words {
  public:
   Words(const fs::path& path, std::string_view text)
-      : path_(path), text_(text), rest_(text) {}
+      : path_(path), text_(text), words_(text) {}
 
-  bool AtEnd() const {
-    std::string_view rest = rest_;
-    return !ok() || TakeWord(rest).empty();
-  }
+  bool AtEnd() const { return !ok() || words_.AtEnd(); }
   double Number() {
     const auto number = Take<double>("a number");
     if (std::isfinite(number)) return number;
@@ -131,7 +127,7 @@ class Words {
   std::uint32_t Count() { return Take<std::uint32_t>("a count"); }
   void Skip() { Number(); }
   void Name(std::string_view name) {
-    if (ok() && TakeWord(rest_) != name) Fail("\"" + std::string(name) + "\"");
+    if (ok() && words_.Word() != name) Fail("\"" + std::string(name) + "\"");
   }
 
   bool ok() const { return status_.ok(); }
@@ -140,15 +136,14 @@ class Words {
  private:
   template <typename T>
   T Take(const std::string& what) {
-    if (!ok()) return 0;
-    const std::optional<T> value = ParseNumber<T>(TakeWord(rest_));
-    if (!value) Fail(what);
-    return value.value_or(0);
+    const T value = words_.Number<T>();
+    if (words_.failed()) Fail(what);
+    return value;
   }
   void Fail(const std::string& what) {
     if (!ok()) return;
-    const std::string_view read = text_.substr(0, text_.size() - rest_.size());
-    const auto line = 1 + std::ranges::count(read, '\n');
+    const auto rest = static_cast<std::ptrdiff_t>(words_.bytes_left());
+    const auto line = 1 + std::count(text_.begin(), text_.end() - rest, '\n');
     status_ = Status::DataLoss(
         path_.string() + ", line " + std::to_string(line) + ", lacks " + what +
         "; write the file again, or name the right one with --input_path.");
@@ -156,7 +151,7 @@ class Words {
 
   fs::path path_;
   std::string_view text_;
-  std::string_view rest_;
+  WordReader words_;
   Status status_;
 };
 

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
-#include "base/infinity.h"
+#include "colmap/inconsistent_points.h"
+#include "geometry/camera_of.h"
 #include "geometry/fit_point.h"
 
 namespace curvix {
@@ -18,9 +20,7 @@ PointInImage Observation(const Scene& scene,
                          const ScenePoint& point,
                          std::size_t i) {
   const View& view = scene.views[static_cast<std::size_t>(point.view_idxs[i])];
-  return {&scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-          view.cam_from_world,
-          point.pixels[i]};
+  return {&CameraOf(scene, view), view.cam_from_world, point.pixels[i]};
 }
 
 // Whether the i-th observation is finite and in front of its camera.
@@ -106,18 +106,6 @@ ColmapModel ModelWithScene(ColmapModel model, const Scene& scene) {
     target.error = std::isfinite(mean) ? mean : -1;
   }
   return model;
-}
-
-std::vector<double> ReprojectionErrors(const Scene& scene,
-                                       const ScenePoint& point) {
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < point.pixels.size(); ++i) {
-    const PointInImage seen = Observation(scene, point, i);
-    const auto pixel =
-        Project(*seen.camera, seen.cam_from_world, point.position);
-    errors.push_back(pixel ? (*pixel - seen.pixel).norm() : kInfinity);
-  }
-  return errors;
 }
 
 Eigen::Vector3d FitPoint(const Scene& scene, const ScenePoint& point) {

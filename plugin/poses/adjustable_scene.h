@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
-#include <vector>
 
 #include "colmap/colmap_model.h"
 
@@ -28,11 +27,6 @@ void KeepObservations(const std::function<bool(std::size_t)>& keep,
 // `model` with the cameras, poses and points of `scene`, which was made of it,
 // and the points' mean errors; what is not in `scene` stays.
 ColmapModel ModelWithScene(ColmapModel model, const Scene& scene);
-
-// Distances in pixels from observed to projected; infinite where nothing is
-// projected.
-std::vector<double> ReprojectionErrors(const Scene& scene,
-                                       const ScenePoint& point);
 
 // The position that fits the observations best under the scene's poses.
 Eigen::Vector3d FitPoint(const Scene& scene, const ScenePoint& point);

@@ -16,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "colmap/links.h"
+
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
@@ -182,8 +184,7 @@ Result<ChildEnd> RunChildProcess(const ChildProcess& child) {
 }
 
 bool IsProgram(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+  return IsFile(path) && access(path.c_str(), X_OK) == 0;
 }
 
 fs::path FindInPath(const std::string& name) {

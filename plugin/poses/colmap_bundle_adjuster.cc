@@ -10,8 +10,10 @@
 #include <system_error>
 
 #include "base/cancelled.h"
+#include "base/file_io.h"
 #include "base/median.h"
 #include "colmap/colmap_model.h"
+#include "colmap/inconsistent_points.h"
 #include "plugin/base/text.h"
 #include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/child_process.h"
@@ -147,11 +149,8 @@ Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
 
 // At most its first `num_bytes`.
 std::string BeginningOf(const fs::path& path, std::size_t num_bytes) {
-  std::string text(num_bytes, '\0');
   std::ifstream file(path, std::ios::binary);
-  file.read(text.data(), static_cast<std::streamsize>(num_bytes));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
+  return ReadUpTo(file, num_bytes);
 }
 
 // The newest camera model of `scene`, if the log says that COLMAP does not know

@@ -9,6 +9,8 @@
 #include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
+#include "colmap/inconsistent_points.h"
+#include "geometry/camera_of.h"
 #include "plugin/poses/adjustable_scene.h"
 
 namespace curvix {
@@ -47,8 +49,7 @@ std::vector<double> Shifts(const Scene& before, const Scene& after) {
     for (const int view_idx : point.view_idxs) {
       const auto i = static_cast<std::size_t>(view_idx);
       const View& view = before.views[i];
-      const Camera& camera =
-          before.cameras[static_cast<std::size_t>(view.camera_idx)];
+      const Camera& camera = CameraOf(before, view);
       const auto from = Project(camera, view.cam_from_world, point.position);
       const auto to =
           Project(camera, after.views[i].cam_from_world, point.position);

@@ -60,13 +60,13 @@ Result<WorkspaceRun> ReconstructScene(Scene scene,
   Result<SceneStages> found =
       RunStages({}, progress, record).Run(model, std::move(scene), edges);
   if (!found.ok()) return found.status();
-  Reconstruction& reconstruction = found->reconstruction;
-  run.scene = std::move(found->scene);
-  run.edge_maps = std::move(found->edge_maps);
-  run.curves = std::move(reconstruction.curves);
-  run.fitted = FitCurvesOf(
-      run.scene, CurvesInMemory(run.curves, &run.edge_maps), record);
-  for (const Curve& curve : run.curves.curves) Count(curve, record.result);
+  run.stages = *std::move(found);
+  const Reconstruction& reconstruction = run.stages.reconstruction;
+  const CurvesInMemory curves(reconstruction.curves, &run.stages.edge_maps);
+  run.fitted = FitCurvesOf(run.stages.scene, curves, record);
+  for (const Curve& curve : reconstruction.curves.curves) {
+    Count(curve, record.result);
+  }
   record.result.num_edges_3d =
       static_cast<std::int64_t>(reconstruction.edges.size());
   record.result.why_empty = reconstruction.report.why_empty;
@@ -86,11 +86,12 @@ RunSettings SettingsOf(const PythonOptions& options,
 void MoveToWorld(WorkspaceRun& run) {
   if (!run.record.alignment) return;
   const Similarity3& world_from_model = run.record.alignment->world_from_model;
-  run.scene = MoveScene(world_from_model, std::move(run.scene));
-  for (Curve& curve : run.curves.curves) {
+  run.stages.scene = MoveScene(world_from_model, std::move(run.stages.scene));
+  CurveSet& curves = run.stages.reconstruction.curves;
+  for (Curve& curve : curves.curves) {
     curve = MoveCurve(world_from_model, std::move(curve));
   }
-  for (CurveJunction& junction : run.curves.junctions) {
+  for (CurveJunction& junction : curves.junctions) {
     junction.position = world_from_model * junction.position;
     junction.sigma *= world_from_model.scale;
   }
@@ -101,11 +102,12 @@ std::unique_ptr<PythonCurves> CurvesOf(WorkspaceRun run) {
   return WithoutLock([&] {
     MoveToWorld(run);
     // Writers ask for edges, not for their neighbours.
-    for (EdgeMap& map : run.edge_maps) map.neighbors = {};
+    auto& [scene, edge_maps, refined, reconstruction] = run.stages;
+    for (EdgeMap& map : edge_maps) map.neighbors = {};
     auto curves = std::make_unique<PythonCurves>(
-        std::move(run.curves),
-        std::make_shared<const Scene>(std::move(run.scene)),
-        std::make_shared<const std::vector<EdgeMap>>(std::move(run.edge_maps)),
+        std::move(reconstruction.curves),
+        std::make_shared<const Scene>(std::move(scene)),
+        std::make_shared<const std::vector<EdgeMap>>(std::move(edge_maps)),
         run.record.settings.options.curve_fitting);
     curves->set_fits(std::move(run.fitted));
     curves->set_report(ReportJson(run.record));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/cancelled.h"
+#include "base/file_io.h"
 #include "base/parallel.h"
 #include "colmap/colmap_model.h"
 #include "io/stage_io.h"
@@ -22,13 +23,12 @@ Status AddFile(const fs::path& path, std::uint64_t& hash) {
     return Status::NotFound("cannot open " + path.string() +
                             "; check that it may be read");
   }
-  std::vector<char> buffer(1 << 20);
+  constexpr std::size_t kBlock = 1 << 20;
   std::uint64_t num_bytes = 0;
   while (file) {
-    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-    const auto num_read = static_cast<std::size_t>(file.gcount());
-    hash = HashBytes({buffer.data(), num_read}, hash);
-    num_bytes += num_read;
+    const std::string bytes = ReadUpTo(file, kBlock);
+    hash = HashBytes(bytes, hash);
+    num_bytes += bytes.size();
   }
   if (file.bad()) {
     return Status::DataLoss("cannot read " + path.string() +

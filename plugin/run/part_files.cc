@@ -13,6 +13,7 @@
 #include "base/cancelled.h"
 #include "base/file_io.h"
 #include "base/option_table.h"
+#include "base/text_fields.h"
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
 #include "plugin/run/file_hashes.h"
@@ -36,19 +37,12 @@ std::string NodeName(int node) {
 }
 
 // nullopt: no such name.
-std::optional<int> NodeOf(const std::string& name) {
-  for (const bool is_cut : {true, false}) {
-    const std::string kind = is_cut ? "cut " : "part ";
-    const std::string digits =
-        name.rfind(kind, 0) == 0 ? name.substr(kind.size()) : "";
-    if (digits.empty() || digits.size() > 8 ||
-        digits.find_first_not_of("0123456789") != std::string::npos) {
-      continue;
-    }
-    const int idx = std::stoi(digits);
-    return is_cut ? idx : -1 - idx;
-  }
-  return std::nullopt;
+std::optional<int> NodeOf(std::string_view name) {
+  const std::string_view kind = TakeWord(name);
+  const auto idx = ParseNumber<int>(TakeWord(name));
+  if (!idx || *idx < 0 || !name.empty()) return std::nullopt;
+  if (kind == "cut") return *idx;
+  return kind == "part" ? std::optional(-1 - *idx) : std::nullopt;
 }
 
 Json CutJson(const SceneCut& cut) {

@@ -14,9 +14,8 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
-#include "io/ply_lines.h"
+#include "io/curve_formats.h"
 #include "io/stage_io.h"
-#include "plugin/base/json.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/run/file_hashes.h"
 #include "plugin/run/part_files.h"
@@ -32,7 +31,6 @@ constexpr const char* kPartsName = "parts";
 // The hash of the files of the model that was divided. The model itself may be
 // too large for the memory of a merge.
 constexpr const char* kModelHashName = "model_hash.txt";
-// The stage of a run that no other kind of run has.
 constexpr const char* kJoinStage = "join_parts";
 
 RunRecord RecordOf(const RunSettings& settings) {
@@ -286,17 +284,6 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   }
   if (!status.ok()) return status;
   return record;
-}
-
-bool AreMerged(const fs::path& folder) {
-  const Result<std::string> text = ReadFile(folder / "report.json");
-  if (!text.ok()) return false;
-  const Json report = Json::parse(*text, nullptr, false);
-  if (!report.contains("stages")) return false;
-  const Json& stages = report.at("stages");
-  return std::ranges::any_of(stages, [](const Json& stage) {
-    return stage.contains("name") && stage.at("name") == kJoinStage;
-  });
 }
 
 }  // namespace curvix

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <curvix/status.h>
-#include <filesystem>
 
 #include "parts/scene_parts.h"
 #include "plugin/base/progress.h"
@@ -35,8 +34,5 @@ Result<RunRecord> RunPart(const RunSettings& settings,
 // divided, or with the parts that are still to be reconstructed, or again
 // because images, masks or options are others.
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress);
-
-// Whether RunMerge wrote the results in `folder`, by their report.json.
-bool AreMerged(const std::filesystem::path& folder);
 
 }  // namespace curvix

@@ -293,8 +293,8 @@ std::string ReportJson(const RunRecord& record) {
 
 std::string ProjectFile(const RunSettings& settings) {
   std::string text = "# colmap_curvix " + std::string(ProgramVersion()) + "\n";
-  const auto add = [&](const char* name, const std::string& value) {
-    if (!value.empty()) text += std::string(name) + "=" + value + "\n";
+  const auto add = [&](const std::string& name, const std::string& value) {
+    if (!value.empty()) text += name + "=" + value + "\n";
   };
   add(kCommandName, settings.command);
   add("workspace_path", settings.workspace_path.string());
@@ -303,25 +303,21 @@ std::string ProjectFile(const RunSettings& settings) {
   add("output_path", settings.output_path.string());
   add("mask_path", settings.mask_path.string());
   add("preset", settings.preset);
-  OutputSettings output = settings.output;
-  for (const Flag& flag : OutputFlags(&output).flags) {
-    add(flag.name.c_str(), flag.default_value);
+  RunSettings copy = settings;
+  for (const FlagSection& flags :
+       {OutputFlags(&copy.output), PoseRefinementFlags(&copy.poses)}) {
+    for (const Flag& flag : flags.flags) add(flag.name, flag.default_value);
   }
-  PoseRefinementSettings poses = settings.poses;
-  for (const Flag& flag : PoseRefinementFlags(&poses).flags) {
-    add(flag.name.c_str(), flag.default_value);
-  }
-  Options options = settings.options;
-  add("num_threads", std::to_string(options.runtime.num_threads));
+  add("num_threads", std::to_string(copy.options.runtime.num_threads));
   std::string section;
-  for (const OptionRow& row : OptionTable(options)) {
+  for (const OptionRow& row : OptionTable(copy.options)) {
     const std::size_t dot = row.name.find('.');
     if (dot == std::string::npos) continue;
     if (row.name.substr(0, dot) != section) {
       section = row.name.substr(0, dot);
       text += "[" + section + "]\n";
     }
-    add(row.name.c_str() + dot + 1, ValueText(row));
+    add(row.name.substr(dot + 1), ValueText(row));
   }
   return text;
 }

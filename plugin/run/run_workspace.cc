@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "base/count_text.h"
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/poses/pose_refinement.h"
-#include "plugin/run/run_stages.h"
 #include "plugin/run/run_steps.h"
 
 namespace curvix {
@@ -46,6 +46,35 @@ Result<bool> AdjustBundles(const Workspace& workspace,
   return true;
 }
 
+Result<LineCurves> ReadCurvesOfLines(const LinesSource& read,
+                                     const Scene& scene,
+                                     ProgressPrinter& progress,
+                                     RunRecord& record) {
+  const Stopwatch stopwatch;
+  progress.Update("read_lines", 0, 0);
+  const Result<std::vector<ImportedLine>> lines = read();
+  if (!lines.ok()) return lines.status();
+  Result<LineCurves> curves = CurvesOfLines(*lines, scene);
+  if (!curves.ok()) return curves;
+  record.stages.push_back(stopwatch.Read("read_lines"));
+  record.stages.back().counts = {
+      {"lines", static_cast<std::int64_t>(lines->size())},
+      {"left out", curves->num_left_out}};
+  progress.Finish(Plural(lines->size(), "line"));
+  if (curves->num_seen < static_cast<int>(lines->size()) / 2) {
+    progress.Note("Only " + std::to_string(curves->num_seen) +
+                  " of the lines " + OneOrMore(curves->num_seen, "is", "are") +
+                  " seen by an image of the model. If they "
+                  "were made of another model, name its workspace with "
+                  "--workspace_path.");
+  }
+  if (curves->num_left_out > 0) {
+    progress.Note("Left out " + Plural(curves->num_left_out, "line") +
+                  " of length 0 or with an end too far away to be known.");
+  }
+  return curves;
+}
+
 }  // namespace
 
 // From the first file read to the last one written.
@@ -74,18 +103,19 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   Result<SceneStages> found =
       stages.Run(input->model, std::move(input->scene), nullptr);
   if (!found.ok()) return found.status();
+  run.stages = *std::move(found);
 
-  if (*is_adjusted || found->refined_model || input->is_scaled) {
+  const std::optional<ColmapModel>& refined = run.stages.refined_model;
+  if (*is_adjusted || refined || input->is_scaled) {
     record.result.files.push_back("sparse/");
-    Status written = WriteColmapModel(
-        found->refined_model ? *found->refined_model : input->model,
-        staging / "sparse");
+    Status written =
+        WriteColmapModel(refined ? *refined : input->model, staging / "sparse");
     if (!written.ok()) return written;
   }
-  Reconstruction& reconstruction = found->reconstruction;
-  const CurvesInMemory curves(reconstruction.curves, &found->edge_maps);
+  const Reconstruction& reconstruction = run.stages.reconstruction;
+  const CurvesInMemory curves(reconstruction.curves, &run.stages.edge_maps);
   Result<FittedCurves> fitted =
-      WriteFindings(found->scene,
+      WriteFindings(run.stages.scene,
                     {curves,
                      static_cast<std::int64_t>(reconstruction.edges.size()),
                      [&](const fs::path& path) {
@@ -97,11 +127,36 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   if (!fitted.ok()) return fitted.status();
   Status finished = FinishRun(since_start, *output, progress, record);
   if (!finished.ok()) return finished;
-  run.scene = std::move(found->scene);
-  run.edge_maps = std::move(found->edge_maps);
-  run.curves = std::move(reconstruction.curves);
   run.fitted = *std::move(fitted);
   return run;
+}
+
+Result<RunRecord> RunLines(const RunSettings& settings,
+                           const LinesSource& read,
+                           ProgressPrinter& progress) {
+  const Stopwatch since_start;
+  RunRecord record;
+  record.settings = settings;
+  const Result<Workspace> workspace = FindInput(settings);
+  if (!workspace.ok()) return workspace.status();
+  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
+  if (!input.ok()) return input.status();
+  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  if (!output.ok()) return output.status();
+  const Result<LineCurves> lines =
+      ReadCurvesOfLines(read, input->scene, progress, record);
+  if (!lines.ok()) return lines.status();
+  const CurvesInMemory curves(lines->curves, &lines->edge_maps);
+  Findings findings{curves};
+  findings.is_repeatable = false;
+  if (curves.size() == 0) findings.why_empty = "all lines were left out";
+  Status status =
+      WriteFindings(input->scene, findings, output->folder(), record).status();
+  if (status.ok()) {
+    status = FinishRun(since_start, *output, progress, record);
+  }
+  if (!status.ok()) return status;
+  return record;
 }
 
 }  // namespace curvix

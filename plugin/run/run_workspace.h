@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole job: a COLMAP workspace in, files with curves out.
+// The whole job: a COLMAP workspace, and maybe lines of another program, in,
+// files with curves out.
 #pragma once
 
-#include <curvix/curves.h>
-#include <curvix/edges.h>
 #include <curvix/fitting.h>
-#include <curvix/scene.h>
 #include <curvix/status.h>
+#include <functional>
 #include <vector>
 
 #include "plugin/base/progress.h"
+#include "plugin/imports/read_lines.h"
 #include "plugin/run/run_report.h"
+#include "plugin/run/run_stages.h"
 
 namespace curvix {
 
 // What a run leaves in memory.
 struct WorkspaceRun {
   RunRecord record;
-  Scene scene;  // with the poses and cameras that the curves are made with
-  std::vector<EdgeMap> edge_maps;  // one per view
-  CurveSet curves;
-  FittedCurves fitted;  // of these; none if there are no curves
+  SceneStages stages;
+  FittedCurves fitted;  // of its curves; none if there are none
 };
 
 // Reads the workspace, refines the poses, reconstructs, and writes what
@@ -40,5 +39,14 @@ struct WorkspaceRun {
 // as by all runs (file_errors.h).
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress);
+
+// Reads the workspace and, by `read`, lines in its world, fits them, and writes
+// what settings.output.formats name and report.json into the output folder, as
+// RunWorkspace does: all or nothing. The poses stay as they are, and there is
+// no project.ini. Errors as those of RunWorkspace, `read` and CurvesOfLines.
+using LinesSource = std::function<Result<std::vector<ImportedLine>>()>;
+Result<RunRecord> RunLines(const RunSettings& settings,
+                           const LinesSource& read,
+                           ProgressPrinter& progress);
 
 }  // namespace curvix

@@ -39,20 +39,17 @@ T LoadBytes(const char* bytes, std::endian order) {
   return value;
 }
 
-// What is written and read as it lies in memory.
 template <typename T>
 constexpr bool kIsNumber =
     std::is_arithmetic_v<T> || std::is_same_v<T, Eigen::half>;
 
-// Numbers to bytes, as they lie in memory.
+// Numbers to bytes, least significant first.
 class ByteWriter {
  public:
   template <typename T>
   void Put(T value) {
     static_assert(kIsNumber<T>);
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    bytes_.append(bytes, sizeof(T));
+    AppendLittleEndian(value, bytes_);
   }
   void PutCount(std::size_t count) { Put(static_cast<std::uint64_t>(count)); }
   // The characters, which hold no NUL, and a NUL.
@@ -77,12 +74,9 @@ class ByteReader {
   template <typename T>
   T Take() {
     static_assert(kIsNumber<T>);
-    T value{};
-    if (!ok_ || bytes_.size() < sizeof(T)) {
-      ok_ = false;
-      return value;
-    }
-    std::memcpy(&value, bytes_.data(), sizeof(T));
+    ok_ = ok_ && bytes_.size() >= sizeof(T);
+    if (!ok_) return T{};
+    const T value = LoadBytes<T>(bytes_.data(), std::endian::little);
     bytes_.remove_prefix(sizeof(T));
     return value;
   }

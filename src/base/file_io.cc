@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/file_io.h"
 
-#include <array>
 #include <cerrno>
-#include <cstddef>
 #include <cstdio>
 #include <fstream>
 #include <system_error>
@@ -83,8 +81,23 @@ Status WriteFileAtomically(const fs::path& path, std::string_view bytes) {
   return file.Finish();
 }
 
+std::string ExtensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
 Status InFile(const std::filesystem::path& path, const Status& status) {
   return {status.code(), path.string() + ": " + status.message() + "."};
+}
+
+std::string ReadUpTo(std::istream& stream, std::size_t num_bytes) {
+  std::string bytes(num_bytes, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(num_bytes));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
 }
 
 Result<std::string> ReadFile(const fs::path& path) {
@@ -100,12 +113,9 @@ Result<std::string> ReadFile(const fs::path& path) {
                             "; check that it may be read.");
   }
   // Iterators would throw where read() tells of an error.
-  std::array<char, 1 << 16> block;
+  constexpr std::size_t kBlock = 1 << 16;
   std::string bytes;
-  do {
-    stream.read(block.data(), block.size());
-    bytes.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  } while (stream);
+  while (stream) bytes += ReadUpTo(stream, kBlock);
   if (stream.bad()) {
     return Status::DataLoss("Cannot read " + path.string() + " to its end" +
                             Reason(errno) + "; check the disk.");

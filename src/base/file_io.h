@@ -4,9 +4,11 @@
 #pragma once
 
 #include <curvix/status.h>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <istream>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -53,8 +55,14 @@ class FileWriter {
 Status WriteFileAtomically(const std::filesystem::path& path,
                            std::string_view bytes);
 
+// In lower case: ".obj" of a/B.OBJ.
+std::string ExtensionOf(const std::filesystem::path& path);
+
 // The same status with the file that it is about, as a sentence.
 Status InFile(const std::filesystem::path& path, const Status& status);
+
+// Up to so many of the bytes that come next.
+std::string ReadUpTo(std::istream& stream, std::size_t num_bytes);
 
 // All bytes of `path`. kNotFound if it is not a file that can be opened,
 // kDataLoss if it cannot be read to its end.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering).
+// Paper: none (engineering). Texts line by line and word by word.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/text_fields.h"
 
@@ -50,6 +51,49 @@ class LineReader {
  private:
   std::string_view text_;
   std::size_t line_number_ = 0;
+};
+
+// Reads words from the front of a text. The first that is missing or malformed
+// fails; from then on numbers are zero.
+class WordReader {
+ public:
+  explicit WordReader(std::string_view text) : rest_(text) {}
+
+  bool failed() const { return failed_; }
+  // Whether no word is left, or one has failed.
+  bool AtEnd() const {
+    return failed_ || rest_.find_first_not_of(kSpace) == rest_.npos;
+  }
+  std::size_t bytes_left() const { return rest_.size(); }
+
+  std::string_view Word() {
+    const std::string_view word = TakeWord(rest_);
+    failed_ = failed_ || word.empty();
+    return word;
+  }
+  template <typename T>
+  T Number() {
+    const std::optional<T> value = ParseNumber<T>(Word());
+    failed_ = failed_ || !value;
+    return failed_ ? T{} : *value;
+  }
+  // Takes the next word if it is `word`; whether it was.
+  bool Skip(std::string_view word) {
+    std::string_view rest = rest_;
+    if (TakeWord(rest) != word) return false;
+    rest_ = rest;
+    return true;
+  }
+  // What is left of a line, without the blanks around it.
+  std::string_view Rest() {
+    const std::string_view rest = Trimmed(std::exchange(rest_, {}));
+    failed_ = failed_ || rest.empty();
+    return rest;
+  }
+
+ private:
+  std::string_view rest_;
+  bool failed_ = false;
 };
 
 }  // namespace curvix

@@ -32,8 +32,18 @@ std::string NumberText(T value) {
   return text;
 }
 
-// Appends `value` with so many decimals, at most 60.
-inline void AppendFixed(double value, int num_decimals, std::string& out) {
+// Appends numbers as AppendNumber writes them, with `separator` between.
+template <typename Numbers>
+void AppendNumbers(const Numbers& numbers, char separator, std::string& out) {
+  const std::size_t begin = out.size();
+  for (const auto number : numbers) {
+    if (out.size() > begin) out += separator;
+    AppendNumber(number, out);
+  }
+}
+
+// `value` with so many decimals, at most 60.
+inline std::string FixedText(double value, int num_decimals) {
   std::array<char, 400> text;  // the largest number has 309 digits
   const auto end = std::to_chars(text.data(),
                                  text.data() + text.size(),
@@ -41,14 +51,7 @@ inline void AppendFixed(double value, int num_decimals, std::string& out) {
                                  std::chars_format::fixed,
                                  num_decimals)
                        .ptr;
-  out.append(text.data(), end);
-}
-
-// `value` as AppendFixed writes it.
-inline std::string FixedText(double value, int num_decimals) {
-  std::string text;
-  AppendFixed(value, num_decimals, text);
-  return text;
+  return {text.data(), end};
 }
 
 // `value` with at most so many digits that count, as std::printf writes it with
@@ -120,12 +123,14 @@ inline std::vector<double> ParseNumbers(std::string_view text,
   return numbers;
 }
 
+// White space, ends of lines included.
+constexpr std::string_view kSpace = " \t\r\n\v\f";
+
 // Takes the next word off `text`; empty at the end.
 inline std::string_view TakeWord(std::string_view& text) {
-  constexpr std::string_view kBlank = " \t\r\n\v\f";
-  const std::size_t begin = text.find_first_not_of(kBlank);
+  const std::size_t begin = text.find_first_not_of(kSpace);
   text.remove_prefix(begin == std::string_view::npos ? text.size() : begin);
-  const std::string_view word = text.substr(0, text.find_first_of(kBlank));
+  const std::string_view word = text.substr(0, text.find_first_of(kSpace));
   text.remove_prefix(word.size());
   return word;
 }

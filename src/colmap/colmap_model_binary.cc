@@ -2,7 +2,6 @@
 // Paper: none (engineering).
 #include <curvix/scene.h>
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "base/bytes.h"
@@ -11,9 +10,6 @@
 
 namespace curvix {
 namespace {
-
-static_assert(std::endian::native == std::endian::little,
-              "ByteReader and ByteWriter copy bytes as they lie in memory");
 
 constexpr std::size_t kMinCameraSize = 4 + 4 + 8 + 8 + 2 * 8;
 constexpr std::size_t kMinImageSize = 4 + 7 * 8 + 4 + 1 + 8;

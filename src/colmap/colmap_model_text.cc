@@ -4,55 +4,10 @@
 #include <optional>
 
 #include "base/line_reader.h"
-#include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
 
 namespace curvix {
 namespace {
-
-// Reads words from the front of a line. The first that is missing or malformed
-// fails; from then on everything reads as zero.
-class WordReader {
- public:
-  explicit WordReader(std::string_view line) : rest_(line) {}
-
-  bool failed() const { return failed_; }
-  bool AtEnd() const { return failed_ || rest_.empty(); }
-
-  std::string_view Word() {
-    const std::string_view word = TakeWord(rest_);
-    rest_ = Trimmed(rest_);
-    failed_ = failed_ || word.empty();
-    return word;
-  }
-
-  std::string_view Rest() {
-    failed_ = failed_ || rest_.empty();
-    return std::exchange(rest_, {});
-  }
-
-  template <typename T>
-  T Number() {
-    return NumberOf<T>(Word());
-  }
-
-  // "-1" means none.
-  std::uint64_t Point3DId() {
-    const std::string_view word = Word();
-    return word == "-1" ? kNoPoint3D : NumberOf<std::uint64_t>(word);
-  }
-
- private:
-  template <typename T>
-  T NumberOf(std::string_view word) {
-    const std::optional<T> value = ParseNumber<T>(word);
-    failed_ = failed_ || !value;
-    return failed_ ? T{} : *value;
-  }
-
-  std::string_view rest_;
-  bool failed_ = false;
-};
 
 Status Malformed(const std::string& file,
                  const LineReader& lines,
@@ -110,7 +65,8 @@ bool ParsePoints2D(std::string_view line, ColmapImage* image) {
     ColmapPoint2D& point = image->points2D.emplace_back();
     point.x = words.Number<double>();
     point.y = words.Number<double>();
-    point.point3D_id = words.Point3DId();
+    point.point3D_id =
+        words.Skip("-1") ? kNoPoint3D : words.Number<std::uint64_t>();
   }
   return !words.failed();
 }

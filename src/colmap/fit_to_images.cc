@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <vector>
 
 #include "base/count_text.h"
@@ -33,8 +32,7 @@ std::map<std::uint32_t, std::optional<ImageSize>> SizesOfImages(
   for (const ColmapImage& image : model.images) {
     if (sizes.count(image.camera_id) > 0) continue;
     const fs::path file = ImageFile(folder, image.name);
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) continue;
+    if (!IsFile(file)) continue;
     const std::optional<ImageHeader> header = ReadImageHeader(file);
     sizes.emplace(image.camera_id,
                   header ? std::optional(header->size) : std::nullopt);

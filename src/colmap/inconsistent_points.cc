@@ -3,10 +3,9 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
-#include <vector>
 
+#include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
 #include "geometry/camera_of.h"
@@ -19,27 +18,34 @@ constexpr double kMaxMedianPx = 50;
 constexpr double kMaxUsualMedianPx = 2;
 constexpr std::size_t kMinPixels = 100;
 
-std::vector<double> ReprojectionErrors(const Scene& scene) {
+std::vector<double> AllErrors(const Scene& scene) {
   std::vector<double> errors;
   for (const ScenePoint& point : scene.points) {
-    for (std::size_t i = 0; i < point.pixels.size(); ++i) {
-      if (!point.pixels[i].allFinite()) continue;
-      const View& view =
-          scene.views[static_cast<std::size_t>(point.view_idxs[i])];
-      const auto pixel =
-          Project(CameraOf(scene, view), view.cam_from_world, point.position);
-      errors.push_back(pixel ? (*pixel - point.pixels[i]).norm()
-                             : std::numeric_limits<double>::infinity());
-    }
+    const std::vector<double> more = ReprojectionErrors(scene, point);
+    errors.insert(errors.end(), more.begin(), more.end());
   }
   return errors;
 }
 
 }  // namespace
 
+std::vector<double> ReprojectionErrors(const Scene& scene,
+                                       const ScenePoint& point) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < point.pixels.size(); ++i) {
+    if (!point.pixels[i].allFinite()) continue;
+    const View& view =
+        scene.views[static_cast<std::size_t>(point.view_idxs[i])];
+    const auto pixel =
+        Project(CameraOf(scene, view), view.cam_from_world, point.position);
+    errors.push_back(pixel ? (*pixel - point.pixels[i]).norm() : kInfinity);
+  }
+  return errors;
+}
+
 std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
                                      Scene* scene) {
-  const double median_px = MedianOr(0, ReprojectionErrors(*scene));
+  const double median_px = MedianOr(0, AllErrors(*scene));
   if (median_px <= kMaxMedianPx) return "";
   scene->points.clear();
   const std::string place =
@@ -52,7 +58,7 @@ std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
 }
 
 std::string LargeErrorsNote(const Scene& scene) {
-  std::vector<double> errors = ReprojectionErrors(scene);
+  std::vector<double> errors = AllErrors(scene);
   if (errors.size() < kMinPixels) return "";
   const double median_px = Median(std::move(errors));
   if (median_px <= kMaxUsualMedianPx) return "";

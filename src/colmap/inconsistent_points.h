@@ -5,8 +5,14 @@
 #include <curvix/scene.h>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace curvix {
+
+// Distances in pixels from observed to projected, where the pixel is known;
+// infinite where nothing is projected.
+std::vector<double> ReprojectionErrors(const Scene& scene,
+                                       const ScenePoint& point);
 
 // Removes the points of `scene`, read from `model_path`, if they project more
 // than 50 px from their pixels (median; behind the camera is infinitely far):

@@ -33,17 +33,13 @@ bool IsNumber(const std::string& name) {
 
 // The sub-folders of `folder` that are named by numbers, in numerical order.
 std::vector<fs::path> NumberedFolders(const fs::path& folder) {
-  std::vector<std::pair<int, fs::path>> found;
-  for (const fs::path& path : EntriesOf(folder)) {
-    const std::string name = path.filename().string();
-    if (IsNumber(name) && IsFolder(path)) {
-      found.emplace_back(std::stoi(name), path);
-    }
-  }
-  std::ranges::sort(found);
-  std::vector<fs::path> folders;
-  folders.reserve(found.size());
-  for (auto& [number, path] : found) folders.push_back(std::move(path));
+  std::vector<fs::path> folders = EntriesOf(folder);
+  std::erase_if(folders, [](const fs::path& path) {
+    return !IsNumber(path.filename().string()) || !IsFolder(path);
+  });
+  std::ranges::stable_sort(folders, {}, [](const fs::path& path) {
+    return std::stoi(path.filename().string());
+  });
   return folders;
 }
 

@@ -19,7 +19,7 @@
 #include "curve_kinds/strips.h"
 #include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
-#include "model/samples_along.h"
+#include "model/sample_ranges.h"
 
 namespace curvix {
 namespace {

@@ -17,7 +17,7 @@
 #include "geometry/edge_geometry.h"
 #include "geometry/occluding_contour.h"
 #include "geometry/pixel_size.h"
-#include "model/samples_along.h"
+#include "model/sample_ranges.h"
 
 namespace curvix {
 namespace {

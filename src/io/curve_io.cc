@@ -5,12 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/file_extension.h"
 #include "base/file_io.h"
 #include "io/curve_formats.h"
-#include "io/dxf_drawing.h"
 #include "io/pcl_lines.h"
-#include "io/ply_lines.h"
 
 namespace curvix {
 namespace {
@@ -52,23 +49,16 @@ Result<CurveSet> Decode(const std::string& extension,
       "\"");
 }
 
-// A file of what `encode` gives.
+// A file of what `encode` gives for its extension; of `curves`, if there are
+// any, all of which can be read.
+using Encoder =
+    std::function<Status(const std::string& extension, const ByteSink& sink)>;
 Status Write(const fs::path& path,
-             const std::function<Status(const ByteSink&)>& encode) {
+             const Encoder& encode,
+             const CurveSource* curves = nullptr) {
   FileWriter file(path);
-  if (const Status status = encode(file.Sink()); !status.ok()) {
-    return InFile(path, status);
-  }
-  return file.Finish();
-}
-
-// The same of curves, all of which can be read.
-Status Write(const fs::path& path,
-             const CurveSource& curves,
-             const std::function<Status(const ByteSink&)>& encode) {
-  FileWriter file(path);
-  const Status status = encode(file.Sink());
-  if (!curves.status().ok()) return curves.status();
+  const Status status = encode(ExtensionOf(path), file.Sink());
+  if (curves != nullptr && !curves->status().ok()) return curves->status();
   return status.ok() ? file.Finish() : InFile(path, status);
 }
 
@@ -78,9 +68,12 @@ Status WriteCurves(const fs::path& path,
                    const CurveSource& curves,
                    const Scene& scene,
                    std::string_view frame) {
-  return Write(path, curves, [&](const ByteSink& sink) {
-    return Encode(ExtensionOf(path), curves, scene, frame, sink);
-  });
+  return Write(
+      path,
+      [&](const std::string& extension, const ByteSink& sink) {
+        return Encode(extension, curves, scene, frame, sink);
+      },
+      &curves);
 }
 
 Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
@@ -92,26 +85,26 @@ Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
 }
 
 Status WriteEdges(const fs::path& path, const std::vector<Edge3d>& edges) {
-  if (ExtensionOf(path) != ".ply") {
-    return InFile(path, Status::InvalidArgument("edges are written as .ply"));
-  }
-  return Write(
-      path, [&](const ByteSink& sink) { return EncodePlyEdges(edges, sink); });
+  return Write(path, [&](const std::string& extension, const ByteSink& sink) {
+    return extension == ".ply"
+               ? EncodePlyEdges(edges, sink)
+               : Status::InvalidArgument("edges are written as .ply");
+  });
 }
 
 Status WriteDrawing(const fs::path& path,
                     const FittedCurves& fitted,
                     std::string_view unit) {
-  const std::string extension = ExtensionOf(path);
-  if (extension != ".dxf" && extension != ".step") {
-    return InFile(path,
-                  Status::InvalidArgument(
-                      "fitted curves are written as .dxf or .step, not as \"" +
-                      extension + "\""));
-  }
-  return Write(path, [&](const ByteSink& sink) {
-    extension == ".dxf" ? EncodeDxfDrawing(fitted, unit, sink)
-                        : EncodeStepDrawing(fitted, sink);
+  return Write(path, [&](const std::string& extension, const ByteSink& sink) {
+    if (extension == ".dxf") {
+      EncodeDxfDrawing(fitted, unit, sink);
+    } else if (extension == ".step") {
+      EncodeStepDrawing(fitted, sink);
+    } else {
+      return Status::InvalidArgument(
+          "fitted curves are written as .dxf or .step, not as \"" + extension +
+          "\"");
+    }
     return Status();
   });
 }
@@ -120,16 +113,18 @@ Status WriteProjection(const fs::path& path,
                        const CurveSource& curves,
                        const Scene& scene,
                        int view_idx) {
-  if (ExtensionOf(path) != ".svg") {
-    return InFile(path,
-                  Status::InvalidArgument(
-                      "projected curves are written as .svg, not as \"" +
-                      ExtensionOf(path) + "\""));
-  }
-  return Write(path, curves, [&](const ByteSink& sink) {
-    EncodeSvgCurves(curves, scene, view_idx, sink);
-    return Status();
-  });
+  return Write(
+      path,
+      [&](const std::string& extension, const ByteSink& sink) {
+        if (extension != ".svg") {
+          return Status::InvalidArgument(
+              "projected curves are written as .svg, not as \"" + extension +
+              "\"");
+        }
+        EncodeSvgCurves(curves, scene, view_idx, sink);
+        return Status();
+      },
+      &curves);
 }
 
 }  // namespace curvix

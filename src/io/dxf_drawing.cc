@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/dxf_drawing.h"
-
+// Paper: none (engineering). Fitted curves and sheets as DXF.
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -11,8 +10,10 @@
 
 #include "base/angles.h"
 #include "drawing/dimension_marks.h"
+#include "io/curve_formats.h"
 #include "io/drawing_layers.h"
 #include "io/dxf_writer.h"
+#include "io/sheet_formats.h"
 
 namespace curvix {
 namespace {

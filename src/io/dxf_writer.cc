@@ -259,8 +259,7 @@ void DxfWriter::Put(int code, std::string_view value) {
 }
 
 void DxfWriter::Put(int code, double value) {
-  std::string text;
-  AppendNumber(value, text);
+  std::string text = NumberText(value);
   // A number without point is not a real for every reader.
   if (text.find_first_of(".en") == std::string::npos) text += ".0";
   Put(code, text);

@@ -21,12 +21,10 @@ constexpr std::size_t kColorBytes = 4;
 constexpr int kLineLoop = 2;
 constexpr int kLineStrip = 3;
 
-std::string VectorText(const Eigen::Vector3f& v) {
+template <typename Vector>
+std::string VectorText(const Vector& v) {
   std::string text = "[";
-  for (int i = 0; i < 3; ++i) {
-    if (i > 0) text += ',';
-    AppendNumber(v[i], text);
-  }
+  AppendNumbers(v, ',', text);
   return text + "]";
 }
 
@@ -83,9 +81,8 @@ std::string Json(const Lists& lists, const Eigen::Vector3d& middle) {
       "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
       "\"nodes\":[{\"name\":\"curves\"";
   if (lists.primitives.empty()) return json + "}]}";
-  json += ",\"mesh\":0,\"translation\":[" + NumberText(middle.x()) + "," +
-          NumberText(middle.y()) + "," + NumberText(middle.z()) +
-          "]}],\"meshes\":[{\"name\":\"curves\",\"primitives\":[" +
+  json += ",\"mesh\":0,\"translation\":" + VectorText(middle) +
+          "}],\"meshes\":[{\"name\":\"curves\",\"primitives\":[" +
           lists.primitives +
           "]}],\"materials\":[{\"extensions\":{\"KHR_materials_unlit\":{}},"
           "\"pbrMetallicRoughness\":{\"metallicFactor\":0}}],"

@@ -2,6 +2,7 @@
 // Paper: none (engineering). Line sets as Wavefront OBJ.
 #include "io/curve_formats.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -16,20 +17,15 @@ namespace {
 
 void AppendSegment(std::size_t a, std::size_t b, std::string& out) {
   out += "l ";
-  AppendNumber(a, out);
-  out += ' ';
-  AppendNumber(b, out);
+  AppendNumbers(std::array{a, b}, ' ', out);
   out += '\n';
 }
 
 void AppendVertex(const Eigen::Vector3d& position,
                   const Rgb& color,
                   std::string& out) {
-  out += 'v';
-  for (int i = 0; i < 3; ++i) {
-    out += ' ';
-    AppendNumber(position[i], out);
-  }
+  out += "v ";
+  AppendNumbers(position, ' ', out);
   for (const std::uint8_t channel : color) {
     out += ' ';
     AppendNumber(std::round(channel / 0.255) / 1000, out);
@@ -38,15 +34,10 @@ void AppendVertex(const Eigen::Vector3d& position,
 }
 
 // Adds the vertices and edges of one line; false if it is broken.
-bool ParseVertex(std::string_view words, LineGraph& graph) {
-  Eigen::Vector3d position;
-  for (int i = 0; i < 3; ++i) {
-    const auto value = ParseNumber<double>(TakeWord(words));
-    if (!value) return false;
-    position[i] = *value;
-  }
-  graph.positions.push_back(position);
-  return true;
+bool ParseVertex(std::string_view line, LineGraph& graph) {
+  WordReader words(line);
+  for (double& x : graph.positions.emplace_back()) x = words.Number<double>();
+  return !words.failed();
 }
 
 bool ParseLine(std::string_view words, LineGraph& graph) {

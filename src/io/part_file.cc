@@ -12,6 +12,7 @@
 #include <istream>
 #include <string>
 
+#include "base/file_io.h"
 #include "io/stage_file.h"
 #include "io/stage_io.h"
 
@@ -22,21 +23,13 @@ constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48 + 5;
 
 namespace fs = std::filesystem;
 
-// Up to so many of the bytes that come next.
-std::string ReadSome(std::istream& in, std::size_t num_bytes) {
-  std::string bytes(num_bytes, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(num_bytes));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
-}
-
 // Whether what follows is what the head says.
 bool HasContent(std::istream& in, const StageHead& head) {
   constexpr std::size_t kChunk = 1 << 20;
   std::uint64_t num_bytes = 0;
   std::uint64_t hash = HashBytes("");
   while (in) {
-    const std::string bytes = ReadSome(in, kChunk);
+    const std::string bytes = ReadUpTo(in, kChunk);
     num_bytes += bytes.size();
     hash = HashBytes(bytes, hash);
   }
@@ -99,7 +92,7 @@ Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
   }
   const Result<StageHead> head =
       ReadStageHead(path,
-                    ReadSome(file.stream_, kStageHeadBytes),
+                    ReadUpTo(file.stream_, kStageHeadBytes),
                     StageKind::kPartResult,
                     key);
   if (!head.ok()) return head.status();
@@ -107,7 +100,7 @@ Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
 
   constexpr std::size_t kCountsBytes = 24;
   file.stream_.seekg(kStageHeadBytes);
-  const std::string counts = ReadSome(file.stream_, kCountsBytes);
+  const std::string counts = ReadUpTo(file.stream_, kCountsBytes);
   ByteReader in(counts);
   file.num_own_edges_2d_ = in.Take<std::int64_t>();
   file.num_core_edges_3d_ = in.Take<std::int64_t>();
@@ -116,7 +109,7 @@ Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
   if (!in.ok() || num_curves > head->num_bytes / kSizeBytes) {
     return BrokenStage(path);
   }
-  const std::string sizes = ReadSome(file.stream_, kSizeBytes * num_curves);
+  const std::string sizes = ReadUpTo(file.stream_, kSizeBytes * num_curves);
   in = ByteReader(sizes);
   std::uint64_t offset = kStageHeadBytes + kCountsBytes + sizes.size();
   const std::uint64_t end = kStageHeadBytes + head->num_bytes;
@@ -136,7 +129,7 @@ Result<TracedCurve> PartFile::Read(std::size_t curve_idx) {
   const std::uint64_t begin = offsets_.at(curve_idx);
   const std::uint64_t end = offsets_.at(curve_idx + 1);
   stream_.seekg(static_cast<std::streamoff>(begin));
-  const std::string bytes = ReadSome(stream_, end - begin);
+  const std::string bytes = ReadUpTo(stream_, end - begin);
   StageReader in(bytes);
   TracedCurve curve;
   Fields(in, curve);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/ply_lines.h"
+// Paper: none (engineering). Line sets as PLY; docs/output_format.md.
+#include "io/curve_formats.h"
 
 #include <array>
 #include <cmath>

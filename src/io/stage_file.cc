@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "CVXSTAGE" in the byte order of the machine.
+// "CVXSTAGE", little endian.
 constexpr std::uint64_t kMagic = 0x4547415453585643;
 constexpr std::uint32_t kVersion = 9;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What the files of io/stage_io.h have in
-// common: numbers as in memory (little endian on all supported machines),
-// without padding; counts have 8 bytes. All begin with
+// Paper: none (engineering). What the files of io/stage_io.h have in common:
+// numbers in little endian, without padding; counts have 8 bytes. All begin
+// with
 //   8 bytes     CVXSTAGE
 //   4, 4 bytes  format version; StageKind
 //   8 bytes     key: hash of all that the result depends on

@@ -35,11 +35,10 @@ Status WritePartResult(const std::filesystem::path& path,
                        std::uint64_t key,
                        const PartResult& part);
 
-// kNotFound: no file, or one with another key, of another kind or version, or
-// from a machine with the other byte order. kDataLoss: broken or truncated; a
-// checksum tells, and no memory is taken on the word of a count. Indices of
-// edge maps and sketches are not checked: they mean something together with a
-// scene only.
+// kNotFound: no file, or one with another key, of another kind or version.
+// kDataLoss: broken or truncated; a checksum tells, and no memory is taken on
+// the word of a count. Indices of edge maps and sketches are not checked: they
+// mean something together with a scene only.
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
                                           std::uint64_t key);
 Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,

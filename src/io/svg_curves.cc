@@ -35,10 +35,8 @@ void AppendPath(const std::vector<ProjectedStretch>& stretches,
     if (stretch.is_shown != is_shown) continue;
     char command = 'M';
     for (const Eigen::Vector2d& point : stretch.pixels) {
-      path += command;
-      AppendFixed(point.x(), kDecimals, path);
-      path += ' ';
-      AppendFixed(point.y(), kDecimals, path);
+      path += command + FixedText(point.x(), kDecimals) + ' ' +
+              FixedText(point.y(), kDecimals);
       command = 'L';
     }
   }

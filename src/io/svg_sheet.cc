@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/svg_sheet.h"
+// Paper: none (engineering). Sheets as SVG.
+#include "io/sheet_formats.h"
 
 #include <cmath>
 #include <string_view>
@@ -19,11 +20,7 @@ constexpr double kDimensionWidth = 0.18;
 constexpr double kCapitalHeight = 0.716;  // of a font's size
 constexpr char kPaleness[] = "0.5";
 
-std::string Number(double value) {
-  std::string text;
-  AppendFixed(value, 4, text);
-  return text;
-}
+std::string Number(double value) { return FixedText(value, 4); }
 
 // "a b"
 std::string Pair(double a, double b) { return Number(a) + ' ' + Number(b); }

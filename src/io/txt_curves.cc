@@ -3,7 +3,6 @@
 #include "io/curve_formats.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -27,14 +26,10 @@ struct CurveHead {
 void AppendSample(const CurveSample& sample,
                   const Scene& scene,
                   std::string& out) {
-  for (int i = 0; i < 3; ++i) {
-    AppendNumber(sample.position[i], out);
-    out += ' ';
-  }
-  for (int i = 0; i < 3; ++i) {
-    AppendNumber(sample.tangent[i], out);
-    out += ' ';
-  }
+  AppendNumbers(sample.position, ' ', out);
+  out += ' ';
+  AppendNumbers(sample.tangent, ' ', out);
+  out += ' ';
   AppendNumber(sample.sigma, out);
   out += ' ';
   out += KindName(sample.kind);
@@ -49,48 +44,37 @@ void AppendSample(const CurveSample& sample,
 }
 
 std::optional<CurveHead> ParseHead(std::string_view line) {
-  const auto id = ParseNumber<std::uint64_t>(TakeWord(line));
-  const std::string_view closed = TakeWord(line);
-  const auto count = ParseNumber<std::uint64_t>(TakeWord(line));
+  WordReader words(line);
+  words.Number<std::uint64_t>();  // the id
+  const std::string_view closed = words.Word();
+  const auto count = words.Number<std::uint64_t>();
   const bool is_flag = closed == "0" || closed == "1";
-  if (!id || !is_flag || !count || !TakeWord(line).empty()) return std::nullopt;
-  if (*count < 2) return std::nullopt;
-  return CurveHead{closed == "1", static_cast<std::size_t>(*count)};
-}
-
-// Fills `support` from the image ids in `words`; false if one is not a number.
-bool ParseSupport(std::string_view words,
-                  const ViewByImageId& views,
-                  std::vector<EdgeRef>& support) {
-  while (true) {
-    const std::string_view word = TakeWord(words);
-    if (word.empty()) break;
-    const auto image_id = ParseNumber<std::uint32_t>(word);
-    if (!image_id) return false;
-    const auto view = views.find(*image_id);
-    if (view != views.end()) support.push_back({view->second, 0});
+  if (words.failed() || !words.AtEnd() || !is_flag || count < 2) {
+    return std::nullopt;
   }
-  std::sort(support.begin(), support.end());
-  support.erase(std::unique(support.begin(), support.end()), support.end());
-  return true;
+  return CurveHead{closed == "1", static_cast<std::size_t>(count)};
 }
 
 std::optional<CurveSample> ParseSample(std::string_view line,
                                        const ViewByImageId& views) {
-  std::array<double, 7> numbers;
-  for (double& number : numbers) {
-    const auto value = ParseNumber<double>(TakeWord(line));
-    if (!value || !std::isfinite(*value)) return std::nullopt;
-    number = *value;
-  }
+  WordReader words(line);
   CurveSample sample;
-  sample.position = Eigen::Vector3d::Map(numbers.data());
-  sample.tangent = Eigen::Vector3d::Map(numbers.data() + 3);
-  sample.sigma = numbers[6];
-  const auto kind = KindFromName(TakeWord(line));
-  if (!kind) return std::nullopt;
+  for (double& x : sample.position) x = words.Number<double>();
+  for (double& x : sample.tangent) x = words.Number<double>();
+  sample.sigma = words.Number<double>();
+  const auto kind = KindFromName(words.Word());
+  std::vector<EdgeRef>& support = sample.support;
+  while (!words.AtEnd()) {
+    const auto view = views.find(words.Number<std::uint32_t>());
+    if (view != views.end()) support.push_back({view->second, 0});
+  }
+  if (words.failed() || !kind || !sample.position.allFinite() ||
+      !sample.tangent.allFinite() || !std::isfinite(sample.sigma)) {
+    return std::nullopt;
+  }
   sample.kind = *kind;
-  if (!ParseSupport(line, views, sample.support)) return std::nullopt;
+  std::sort(support.begin(), support.end());
+  support.erase(std::unique(support.begin(), support.end()), support.end());
   return sample;
 }
 

@@ -18,10 +18,8 @@ void AppendItem(T value, std::string& out) {
 }
 
 void AppendVector(const Eigen::Vector3d& v, std::string& out) {
-  for (int i = 0; i < 3; ++i) {
-    AppendNumber(v[i], out);
-    out += i < 2 ? ' ' : '\n';
-  }
+  AppendNumbers(v, ' ', out);
+  out += '\n';
 }
 
 // Puts one array after the other; `append` writes the numbers of one curve.

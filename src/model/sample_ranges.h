@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Ranges of the samples of a curve.
+// Paper: none (engineering). Some of the samples of a curve: ranges of them,
+// and samples at equal distances.
 #pragma once
 
 #include <curvix/curves.h>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace curvix {
@@ -25,5 +27,14 @@ Curve TakeOut(Curve& curve, const SampleRange& range);
 std::vector<Curve> KeepRanges(Curve curve,
                               std::vector<bool> kept,
                               std::size_t min_samples = 2);
+
+// Indices of samples `spacing` or more apart along the curve, at most
+// `max_num`, the outer ones half as far from the ends; the middle one of a
+// short curve. Ascending, without repeats. `spacing`: world units, > 0. The
+// curve has samples.
+std::vector<std::size_t> SamplesAlong(
+    const Curve& curve,
+    double spacing,
+    std::size_t max_num = std::numeric_limits<std::size_t>::max());
 
 }  // namespace curvix

@@ -40,6 +40,40 @@ PartCurve MakePartCurve(int part_idx,
 
 namespace {
 
+// A border sample of a curve.
+struct SampleRef {
+  std::size_t curve = 0;
+  std::size_t border_sample = 0;  // index into PartCurve::border_samples
+};
+
+// For border samples, their duplicate in each other part: the nearest sample,
+// at most kMaxNormalDistancePx away and options.max_angle_deg off in direction.
+// Ties: the earlier sample.
+class DuplicateSamples {
+ public:
+  // Partition and curves outlive it.
+  DuplicateSamples(const ScenePartition& partition,
+                   const std::vector<PartCurve>& curves,
+                   const ConnectivityOptions& options);
+
+  // In the order of the parts.
+  const std::vector<SampleRef>& Of(const SampleRef& ref) const {
+    return duplicates_[ref.curve][ref.border_sample];
+  }
+
+  // Whether the sample stays, of it and its duplicates. The sample in the part
+  // with the smallest index says where the place is. The sample of the part
+  // whose core holds this place stays; if that part has none, that of the part
+  // with the smallest index.
+  bool Stays(const SampleRef& ref) const;
+
+ private:
+  const ScenePartition& partition_;
+  const std::vector<PartCurve>& part_curves_;
+  // Of each border sample of each curve.
+  std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
+};
+
 const BorderSample& At(const std::vector<PartCurve>& curves,
                        const SampleRef& ref) {
   return curves[ref.curve].border_samples[ref.border_sample];
@@ -54,8 +88,6 @@ std::vector<SampleRef> AllOf(const std::vector<PartCurve>& curves) {
   }
   return refs;
 }
-
-}  // namespace
 
 DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
                                    const std::vector<PartCurve>& curves,
@@ -110,8 +142,6 @@ bool DuplicateSamples::Stays(const SampleRef& ref) const {
   return part(ref) == (owner_is_there ? owner : part(first));
 }
 
-namespace {
-
 // Samples of a segment that may lie beyond the sample at which it is entered.
 constexpr std::size_t kMaxSkipped = 10;
 
@@ -144,10 +174,6 @@ class Tier {
   }
 
  private:
-  const BorderSample& At(const SampleRef& ref) const {
-    return part_curves_[ref.curve].border_samples[ref.border_sample];
-  }
-
   // The segment that holds a sample of a curve.
   std::optional<std::size_t> SegmentOf(std::size_t curve,
                                        std::size_t sample) const {
@@ -202,11 +228,13 @@ class Tier {
                                    std::size_t k,
                                    const SampleRef& beyond) const {
     for (const SampleRef& duplicate : duplicates_.Of(beyond)) {
-      const std::size_t sample = At(duplicate).sample;
+      const std::size_t sample = At(part_curves_, duplicate).sample;
       const auto to = SegmentOf(duplicate.curve, sample);
       if (!to || IsOfOtherKind(beyond.curve, duplicate.curve)) continue;
       const bool runs_on =
-          (At(beyond).tangent.dot(At(duplicate).tangent) > 0) == IsFront(end);
+          (At(part_curves_, beyond)
+               .tangent.dot(At(part_curves_, duplicate).tangent) > 0) ==
+          IsFront(end);
       const SampleRange& range = segments_[*to].range;
       const std::size_t skipped =
           runs_on ? sample - range.begin : range.end - 1 - sample;

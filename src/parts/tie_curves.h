@@ -44,40 +44,6 @@ PartCurve MakePartCurve(int part_idx,
                         double overlap,
                         const std::vector<PosedView>& views);
 
-// A border sample of a curve.
-struct SampleRef {
-  std::size_t curve = 0;
-  std::size_t border_sample = 0;  // index into PartCurve::border_samples
-};
-
-// For border samples, their duplicate in each other part: the nearest sample,
-// at most kMaxNormalDistancePx away and options.max_angle_deg off in direction.
-// Ties: the earlier sample.
-class DuplicateSamples {
- public:
-  // Partition and curves outlive it.
-  DuplicateSamples(const ScenePartition& partition,
-                   const std::vector<PartCurve>& curves,
-                   const ConnectivityOptions& options);
-
-  // In the order of the parts.
-  const std::vector<SampleRef>& Of(const SampleRef& ref) const {
-    return duplicates_[ref.curve][ref.border_sample];
-  }
-
-  // Whether the sample stays, of it and its duplicates. The sample in the part
-  // with the smallest index says where the place is. The sample of the part
-  // whose core holds this place stays; if that part has none, that of the part
-  // with the smallest index.
-  bool Stays(const SampleRef& ref) const;
-
- private:
-  const ScenePartition& partition_;
-  const std::vector<PartCurve>& part_curves_;
-  // Of each border sample of each curve.
-  std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
-};
-
 // A segment of a curve: successive samples that stay.
 struct CurveSegment {
   std::size_t curve = 0;
@@ -90,10 +56,12 @@ struct TiedSegments {
   EndTies ties;
 };
 
-// Of duplicates one stays (DuplicateSamples), so curves are split into
-// segments. Beyond the end of a segment, its part has more samples. The first
-// of these of which a duplicate stays gives the segment to which the end is
-// tied. The nearest ends are tied first.
+// Border samples may have a duplicate in each other part: the nearest sample,
+// at most kMaxNormalDistancePx away and options.max_angle_deg off in direction.
+// Of duplicates one stays, that of the part whose core holds the place, so
+// curves are split into segments. Beyond the end of a segment, its part has
+// more samples. The first of these of which a duplicate stays gives the segment
+// to which the end is tied. The nearest ends are tied first.
 TiedSegments TieSegments(const ScenePartition& partition,
                          const std::vector<PartCurve>& curves,
                          const ConnectivityOptions& options);

@@ -11,8 +11,7 @@
 #include "base/angles.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "io/dxf_drawing.h"
-#include "io/svg_sheet.h"
+#include "io/sheet_formats.h"
 
 namespace curvix {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Line sets of any program as .ply.
 
-#include "io/ply_lines.h"
+#include "io/curve_formats.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/io/test_curves.h"
 

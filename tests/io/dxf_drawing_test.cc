@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/dxf_drawing.h"
+#include "io/curve_formats.h"
 
 #include <curvix/curve_io.h>
 #include <gmock/gmock.h>

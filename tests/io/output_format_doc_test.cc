@@ -11,7 +11,6 @@
 #include "base/file_io.h"
 #include "io/curve_formats.h"
 #include "io/pcl_lines.h"
-#include "io/ply_lines.h"
 #include "tests/io/test_curves.h"
 
 namespace curvix {

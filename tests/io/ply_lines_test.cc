@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/ply_lines.h"
+#include "io/curve_formats.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/samples_along.h"
+#include "model/sample_ranges.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "base/median.h"
+#include "colmap/inconsistent_points.h"
 #include "gtest/gtest.h"
 #include "tests/plugin/posed_points.h"
 

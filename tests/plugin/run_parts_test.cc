@@ -97,8 +97,8 @@ TEST_F(RunParts, GiveWhatOneRunGives) {
   EXPECT_THAT(*ReadFile(parts_ / "report.json"),
               Not(HasSubstr("edge_sigma_px")));
   EXPECT_THAT(*ReadFile(one_ / "report.json"), HasSubstr("edge_sigma_px"));
-  EXPECT_TRUE(AreMerged(parts_));
-  EXPECT_FALSE(AreMerged(one_));
+  EXPECT_THAT(*ReadFile(parts_ / "project.ini"), HasSubstr("command=merge\n"));
+  EXPECT_THAT(*ReadFile(one_ / "project.ini"), Not(HasSubstr("command=")));
   const Evaluation one = Evaluate(one_);
   const Evaluation merged = Evaluate(parts_);
   EXPECT_GT(*one.visible_f_score_5, 50);

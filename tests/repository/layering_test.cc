@@ -261,7 +261,7 @@ TEST(Layering, RefusesWhatTheTableDoesNotAllow) {
       {"src/curve_refinement/x.cc", "<curvix/no_such_header.h>"},
       {"src/model/x.h", "\"geometry/epipolar.h\""},
       {"src/base/x.h", "\"model/posed_view.h\""},
-      {"src/pipeline/x.cc", "\"io/ply_lines.h\""},
+      {"src/pipeline/x.cc", "\"io/curve_formats.h\""},
       {"src/pipeline/x.cc", "\"synthetic/render.h\""},
       {"src/new_folder/x.cc", "<vector>"},
       {"plugin/run/x.cc", "\"curve_drawing/group_edges.h\""},

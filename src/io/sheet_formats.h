@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). A drawing to scale for browsers and printers.
+// Paper: none (engineering). Drawings to scale, for browsers, printers and CAD.
 #pragma once
 
 #include <string>
@@ -18,5 +18,11 @@ std::string EncodeSvgSheet(const Sheet& sheet);
 
 // Whether EncodeSvgSheet wrote it, and no other program since.
 bool IsSvgSheet(std::string_view text);
+
+// DXF as EncodeDxfDrawing (curve_formats.h), in drawing units, which are
+// declared. Frame, scale bar and texts are on the layer FRAME, the picture, an
+// IMAGE that refers to its file, on PHOTOGRAPH; DIMENSION entities, whose texts
+// are given, on DIMENSIONS.
+std::string EncodeDxfSheet(const Sheet& sheet);
 
 }  // namespace curvix
