@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/primitive.h"
 
-#include "base/check.h"
 #include "base/infinity.h"
 
 #include <algorithm>
@@ -239,20 +238,6 @@ Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives) {
     }
   }
   return {low, high};
-}
-
-std::vector<SolidPrimitive> Normalized(std::vector<SolidPrimitive> primitives,
-                                       double longest_side) {
-  const Eigen::AlignedBox3d box = BoundingBox(primitives);
-  CURVIX_CHECK(box.sizes().minCoeff() > 0, "the solid has no volume");
-  const double factor = longest_side / box.sizes().maxCoeff();
-  for (SolidPrimitive& primitive : primitives) {
-    primitive.size *= factor;
-    primitive.world_from_own.translation =
-        factor *
-        (primitive.world_from_own.translation - (box.min() + box.max()) / 2);
-  }
-  return primitives;
 }
 
 }  // namespace curvix

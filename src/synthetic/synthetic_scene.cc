@@ -10,7 +10,7 @@
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
 #include "synthetic/render.h"
-#include "synthetic/solid.h"
+#include "synthetic/scenes.h"
 #include "synthetic/surfaces.h"
 #include "synthetic/synthetic_truth.h"
 #include "synthetic/walks.h"
