@@ -2,13 +2,15 @@
 // Paper: none (engineering).
 #include "synthetic/synthetic_truth.h"
 
-#include "base/angles.h"
-#include "base/infinity.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+
+#include "base/angles.h"
+#include "synthetic/bodies.h"
+#include "synthetic/face_frame.h"
 
 namespace curvix {
 namespace {
@@ -25,19 +27,13 @@ struct Face {
 
 Face MakeFace(const SolidPrimitive& primitive, int face_idx) {
   const Rigid3& pose = primitive.world_from_own;
-  Face face{&primitive, true, pose.translation, Vector3d::UnitZ()};
-  Vector3d own_axis = Vector3d::UnitZ();
-  Vector3d own_point = Vector3d::Zero();
-  if (primitive.shape == PrimitiveShape::kBox) {
-    own_axis = (face_idx % 2 == 0 ? -1 : 1) * Vector3d::Unit(face_idx / 2);
-    own_point = primitive.size.cwiseProduct(own_axis);
-  } else {
-    face.is_plane = face_idx > 0;
-    if (face_idx == 2) own_point.z() = primitive.size.z();
-  }
-  face.point = pose * own_point;
-  face.axis = pose.rotation * own_axis;
-  return face;
+  const bool is_box = primitive.shape == PrimitiveShape::kBox;
+  const bool is_plane = is_box || face_idx > 0;
+  const Vector3d middle =
+      is_plane ? OwnFromFace(primitive, face_idx, {0, 0}) : Vector3d::Zero();
+  const Vector3d axis =
+      is_box ? OwnNormal(primitive, face_idx, middle) : Vector3d::UnitZ();
+  return {&primitive, is_plane, pose * middle, pose.rotation * axis};
 }
 
 std::optional<TrueCurve> CircleOf(const Vector3d& centre,
@@ -48,10 +44,10 @@ std::optional<TrueCurve> CircleOf(const Vector3d& centre,
   return Circle(centre, normal, radius, CurveKind::kCrease);
 }
 
-// The whole line, as far as it runs within `box`.
+// The whole line, as far as it runs within `box`, which is not turned.
 std::optional<TrueCurve> PlanePlane(const Face& a,
                                     const Face& b,
-                                    const Eigen::AlignedBox3d& box) {
+                                    const SolidPrimitive& box) {
   const Vector3d along = a.axis.cross(b.axis);
   if (along.norm() < 1e-6) return std::nullopt;
   const double cosine = a.axis.dot(b.axis);
@@ -62,22 +58,11 @@ std::optional<TrueCurve> PlanePlane(const Face& a,
   const Vector3d nearest =
       ((to_a - to_b * cosine) * a.axis + (to_b - to_a * cosine) * b.axis) /
       (1 - cosine * cosine);
-  double begin = -kInfinity;
-  double end = kInfinity;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double step = line.along[axis];
-    const double to_low = box.min()[axis] - nearest[axis];
-    const double to_high = box.max()[axis] - nearest[axis];
-    if (std::abs(step) < 1e-12) {
-      if (to_low > 0 || to_high < 0) return std::nullopt;
-      continue;
-    }
-    begin = std::max(begin, std::min(to_low / step, to_high / step));
-    end = std::min(end, std::max(to_low / step, to_high / step));
-  }
-  if (!(begin < end)) return std::nullopt;
-  line.origin = nearest + begin * line.along;
-  line.length = end - begin;
+  const RayInterval inside =
+      Intersect(box, {nearest - box.world_from_own.translation, line.along});
+  if (inside.IsEmpty()) return std::nullopt;
+  line.origin = nearest + inside.enter * line.along;
+  line.length = inside.exit - inside.enter;
   return line;
 }
 
@@ -104,7 +89,7 @@ std::optional<TrueCurve> PlaneRound(const Face& plane,
 
 std::optional<TrueCurve> Candidate(const Face& a,
                                    const Face& b,
-                                   const Eigen::AlignedBox3d& box,
+                                   const SolidPrimitive& box,
                                    double tolerance) {
   if (a.is_plane && b.is_plane) return PlanePlane(a, b, box);
   if (a.is_plane) return PlaneRound(a, b, tolerance);
@@ -138,20 +123,6 @@ bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
          std::abs(num_inside - kNumProbes / 2) > 1;
 }
 
-// The parts of `whole` that are creases.
-void AppendCreases(const Solid& solid,
-                   const TrueCurve& whole,
-                   std::vector<TrueCurve>& curves) {
-  const auto is_crease = [&](double s) {
-    return IsCrease(solid, whole.Position(s), whole.Tangent(s));
-  };
-  const double detail = solid.detail();
-  for (const TrueCurve& part :
-       PartsWhere(whole, detail / 200, 1e-2 * detail, is_crease)) {
-    curves.push_back(part);
-  }
-}
-
 // Whether x is on the whole line or circle that `curve` belongs to.
 bool IsOnCarrier(const Vector3d& x, const TrueCurve& curve, double tolerance) {
   const Vector3d d = x - curve.origin;
@@ -178,10 +149,9 @@ std::vector<TrueCurve> Candidates(const Solid& solid) {
       faces.push_back(MakeFace(primitive, face));
     }
   }
-  const Eigen::Vector3d margin =
-      Eigen::Vector3d::Constant(0.01 * solid.detail());
-  const Eigen::AlignedBox3d box(solid.box().min() - margin,
-                                solid.box().max() + margin);
+  const Vector3d margin = Vector3d::Constant(0.01 * solid.detail());
+  const SolidPrimitive box =
+      Box(solid.box().min() - margin, solid.box().max() + margin);
   const double tolerance = 1e-6 * solid.detail();
   std::vector<TrueCurve> candidates;
   const auto is_new = [&](const TrueCurve& curve) {
@@ -246,8 +216,7 @@ void AppendRim(const Solid& solid,
         return num_filled < kNumProbes &&
                touches == (kind == CurveKind::kCrease);
       };
-      for (const TrueCurve& part :
-           PartsWhere(whole, detail / 200, 1e-2 * detail, has_kind)) {
+      for (const TrueCurve& part : PartsWhere(whole, detail, has_kind)) {
         const bool is_new =
             std::ranges::none_of(curves, [&](const TrueCurve& other) {
               return other.kind == kind && Covers(other, part, 1e-6 * detail);
@@ -263,7 +232,11 @@ void AppendRim(const Solid& solid,
 std::vector<TrueCurve> CreaseCurves(const Solid& solid) {
   std::vector<TrueCurve> curves;
   for (const TrueCurve& whole : Candidates(solid)) {
-    AppendCreases(solid, whole, curves);
+    const auto is_crease = [&](double s) {
+      return IsCrease(solid, whole.Position(s), whole.Tangent(s));
+    };
+    std::ranges::copy(PartsWhere(whole, solid.detail(), is_crease),
+                      std::back_inserter(curves));
   }
   for (const SolidPrimitive& primitive : solid.primitives()) {
     if (primitive.shape != PrimitiveShape::kSheet) continue;

@@ -7,14 +7,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kMinLength = 1e-2;  // of a curve, details of the solid
 
 // Whether a face's point x is where a ray from outside meets the surface.
 bool IsOnSurface(const Solid& solid,
@@ -38,7 +37,6 @@ bool IsOnSurface(const Solid& solid,
 
 std::vector<TrueCurve> MarkingCurves(const Solid& solid,
                                      const Surfaces& surfaces) {
-  const double detail = solid.detail();
   std::vector<TrueCurve> curves;
   for (std::size_t p = 0; p < solid.primitives().size(); ++p) {
     const SolidPrimitive& primitive = solid.primitives()[p];
@@ -51,10 +49,8 @@ std::vector<TrueCurve> MarkingCurves(const Solid& solid,
         const auto on_surface = [&](double s) {
           return IsOnSurface(solid, idx, face, whole.Position(s));
         };
-        for (const TrueCurve& part :
-             PartsWhere(whole, detail / 200, kMinLength * detail, on_surface)) {
-          curves.push_back(part);
-        }
+        std::ranges::copy(PartsWhere(whole, solid.detail(), on_surface),
+                          std::back_inserter(curves));
       }
     }
   }
@@ -173,7 +169,7 @@ std::vector<TrueSample> EdgeShadow::Sample(double begin,
     previous = place->position;
   }
   std::vector<TrueSample> samples;
-  if (lengths.back() < kMinLength * solid_.detail()) return samples;
+  if (lengths.back() < kLeastLength * solid_.detail()) return samples;
   const int num_steps =
       std::max(2, static_cast<int>(std::lround(lengths.back() / step)));
   for (int i = 0; i <= num_steps; ++i) {
