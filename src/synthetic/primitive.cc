@@ -226,18 +226,16 @@ double OwnRadius(const SolidPrimitive& primitive) {
 }
 
 Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives) {
-  Vector3d low = Vector3d::Constant(kInfinity);
-  Vector3d high = Vector3d::Constant(-kInfinity);
+  Eigen::AlignedBox3d box;
   for (const SolidPrimitive& primitive : primitives) {
     if (!primitive.is_added) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      low[axis] =
-          std::min(low[axis], -Support(primitive, -Vector3d::Unit(axis)));
-      high[axis] =
-          std::max(high[axis], Support(primitive, Vector3d::Unit(axis)));
+      const Vector3d unit = Vector3d::Unit(axis);
+      box.min()[axis] = std::min(box.min()[axis], -Support(primitive, -unit));
+      box.max()[axis] = std::max(box.max()[axis], Support(primitive, unit));
     }
   }
-  return {low, high};
+  return box;
 }
 
 }  // namespace curvix
