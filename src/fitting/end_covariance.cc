@@ -143,10 +143,25 @@ Eigen::Vector3d ChordAt(const FitSamples& samples, bool at_end) {
   return chord.norm() > 0 ? chord.normalized() : Eigen::Vector3d::UnitX();
 }
 
+}  // namespace
+
+std::optional<SpaceEdge> FootOn(const Shape& shape,
+                                const Eigen::Vector3d& point) {
+  if (const auto* line = std::get_if<FittedLine>(&shape)) {
+    return SpaceEdge{line->Closest(point), line->direction};
+  }
+  if (const auto* conic = std::get_if<Conic>(&shape)) {
+    const double t = NearestParameter(*conic, point);
+    return SpaceEdge{conic->At(t), conic->Tangent(t)};
+  }
+  return std::nullopt;
+}
+
 PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
   const FitSample& sample = at_end ? samples.back() : samples.front();
   PrimitiveEnd end;
-  const std::optional<Foot> foot = FootOn(shape, sample.position);
+  end.sample = sample;
+  const std::optional<SpaceEdge> foot = FootOn(shape, sample.position);
   end.is_shape = foot.has_value();
   end.foot = foot ? foot->position : sample.position;
   end.tangent = foot ? foot->tangent : ChordAt(samples, at_end);
@@ -169,24 +184,6 @@ PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
                    bend * bend * along;
   end.common = SharedSigma(samples);
   return end;
-}
-
-}  // namespace
-
-std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point) {
-  if (const auto* line = std::get_if<FittedLine>(&shape)) {
-    return Foot{line->Closest(point), line->direction};
-  }
-  if (const auto* conic = std::get_if<Conic>(&shape)) {
-    const double t = NearestParameter(*conic, point);
-    return Foot{conic->At(t), conic->Tangent(t)};
-  }
-  return std::nullopt;
-}
-
-std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
-                                             const FitSamples& samples) {
-  return {EndOf(shape, samples, false), EndOf(shape, samples, true)};
 }
 
 Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,

@@ -4,27 +4,23 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "fitting/fit_conic.h"
 #include "fitting/primitive.h"
+#include "geometry/edge_geometry.h"
 
 namespace curvix {
 
-// A point on a shape and the direction of the shape there.
-struct Foot {
-  Eigen::Vector3d position;
-  Eigen::Vector3d tangent;  // unit
-};
-
-// The foot of `point` on a line or conic. nullopt: a spline, which takes its
-// ends where the nodes are.
-std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point);
+// The foot of `point` on a line or conic, and the direction there. nullopt: a
+// spline, which takes its ends where the nodes are.
+std::optional<SpaceEdge> FootOn(const Shape& shape,
+                                const Eigen::Vector3d& point);
 
 // Where a primitive ends, and how well its samples fix it there.
 struct PrimitiveEnd {
-  Eigen::Vector3d foot;     // of its end sample
+  FitSample sample;         // the last one there
+  Eigen::Vector3d foot;     // of the sample
   Eigen::Vector3d tangent;  // unit
   // Of the foot, without errors that all samples share. Across the tangent:
   // from the samples, of which one in 4 px is independent. Along it: 4 px,
@@ -34,9 +30,8 @@ struct PrimitiveEnd {
   bool is_shape = false;       // of a line or conic, which fixes a node
 };
 
-// Of the first and the last sample.
-std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
-                                             const FitSamples& samples);
+// At the first or the last sample.
+PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end);
 
 // The covariance of `position`, in which these ends (one or more) meet: that of
 // their weighted mean, times the mean square by which they miss it in standard

@@ -23,9 +23,9 @@ CurvePrimitives FitAlone(const FitSamples& samples, bool closed) {
   CurvePrimitives result;
   for (Primitive& primitive : ChoosePrimitives(samples, closed)) {
     const FitSamples own = SamplesOf(primitive, samples);
-    const auto [at_start, at_end] = EndsOf(primitive.shape, own);
-    result.push_back(
-        {std::move(primitive), own.front(), own.back(), at_start, at_end});
+    const PrimitiveEnd at_start = EndOf(primitive.shape, own, false);
+    const PrimitiveEnd at_end = EndOf(primitive.shape, own, true);
+    result.push_back({std::move(primitive), at_start, at_end});
   }
   return result;
 }

@@ -11,11 +11,9 @@
 
 namespace curvix {
 
-// A primitive of a curve, its first and last sample, and its ends.
+// A primitive of a curve and its ends.
 struct PrimitiveOfCurve {
   Primitive primitive;
-  FitSample start;
-  FitSample end;
   PrimitiveEnd at_start;
   PrimitiveEnd at_end;
 };
