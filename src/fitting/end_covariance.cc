@@ -148,7 +148,7 @@ Eigen::Vector3d ChordAt(const FitSamples& samples, bool at_end) {
 std::optional<SpaceEdge> FootOn(const Shape& shape,
                                 const Eigen::Vector3d& point) {
   if (const auto* line = std::get_if<FittedLine>(&shape)) {
-    return SpaceEdge{line->Closest(point), line->direction};
+    return SpaceEdge{line->projection(point), line->direction()};
   }
   if (const auto* conic = std::get_if<Conic>(&shape)) {
     const double t = NearestParameter(*conic, point);

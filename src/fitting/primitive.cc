@@ -15,10 +15,10 @@ std::optional<FittedLine> WeightedLine(FitSpan samples,
   const auto [mean, scatter] = WeightedScatter(samples, weights);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
   if (!(eigen.eigenvalues()(2) > 0)) return std::nullopt;
-  FittedLine line{mean, eigen.eigenvectors().col(2)};
+  FittedLine line(mean, eigen.eigenvectors().col(2));
   const Eigen::Vector3d chord =
       samples.back().position - samples.front().position;
-  if (line.direction.dot(chord) < 0) line.direction *= -1;
+  if (line.direction().dot(chord) < 0) line.direction() *= -1;
   return line;
 }
 
@@ -29,7 +29,8 @@ struct DistancesFrom {
     std::vector<double> squared;
     squared.reserve(samples.size());
     for (const FitSample& s : samples) {
-      squared.push_back((s.position - line.Closest(s.position)).squaredNorm());
+      squared.push_back(
+          (s.position - line.projection(s.position)).squaredNorm());
     }
     return squared;
   }
@@ -176,7 +177,7 @@ std::optional<FittedLine> FitLine(FitSpan samples) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Eigen::Vector3d& position = samples[i].position;
       weights[i] =
-          RobustWeight((position - line->Closest(position)).squaredNorm(),
+          RobustWeight((position - line->projection(position)).squaredNorm(),
                        samples[i].sigma,
                        round);
     }

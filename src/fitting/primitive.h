@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/fitting.h>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
 #include <variant>
@@ -14,14 +15,8 @@
 
 namespace curvix {
 
-struct FittedLine {
-  Eigen::Vector3d origin;     // on the line
-  Eigen::Vector3d direction;  // unit, from the first sample to the last
-
-  Eigen::Vector3d Closest(const Eigen::Vector3d& point) const {
-    return origin + direction.dot(point - origin) * direction;
-  }
-};
+// Its direction is unit, from the first sample to the last.
+using FittedLine = Eigen::ParametrizedLine<double, 3>;
 
 // The line with the least robust sum of squared distances. nullopt: fewer than
 // two samples, or all in one place.
