@@ -29,19 +29,14 @@ Indices BySigma(Indices order, const SigmaOf& sigma_of) {
   return order;
 }
 
-std::vector<FitIndex> FitsOf(const Indices& members,
-                             const std::vector<LineOrArc>& features) {
-  std::vector<FitIndex> fits;
-  for (const std::size_t i : members) fits.push_back(features[i].index);
-  return fits;
-}
-
 FitGroup GroupOf(GroupKind kind,
                  const ValueGroup& agreement,
                  const std::vector<LineOrArc>& features) {
   FitGroup group;
   group.kind = kind;
-  group.fits = FitsOf(agreement.members, features);
+  for (const std::size_t i : agreement.members) {
+    group.fits.push_back(features[i].index);
+  }
   group.chi_squared = agreement.chi_squared;
   group.degrees_of_freedom = agreement.degrees_of_freedom;
   group.sigma = kind == GroupKind::kEqualRadius
