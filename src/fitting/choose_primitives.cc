@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/choose_primitives.h"
+// Paper: none (engineering). Which lines, arcs, ellipses and splines a curve is
+// made of.
+#include "fitting/primitive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <utility>
 
 #include "base/infinity.h"
-#include "fitting/fit_conic.h"
 
 namespace curvix {
 namespace {

@@ -8,11 +8,9 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "fitting/choose_primitives.h"
 #include "fitting/end_covariance.h"
-#include "fitting/fit_conic.h"
-#include "fitting/make_samples.h"
 #include "fitting/meet_in_nodes.h"
+#include "fitting/primitive.h"
 #include "fitting/structure.h"
 #include "geometry/posed_views.h"
 

@@ -2,11 +2,14 @@
 // Paper: none (engineering). What primitives are fitted to.
 #pragma once
 
+#include <curvix/curves.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "model/posed_view.h"
 
 namespace curvix {
 
@@ -22,6 +25,10 @@ struct FitSample {
 // A curve or a part of one, in order; and a view of it.
 using FitSamples = std::vector<FitSample>;
 using FitSpan = std::span<const FitSample>;
+
+// Of a curve of two samples or more, with the standard deviations that
+// FitCurves describes.
+FitSamples MakeSamples(const Curve& curve, const std::vector<PosedView>& views);
 
 // Standard deviation of a bent primitive from what its samples share, which
 // does not fall with their number: a circle whose edges all lie inside is too

@@ -57,6 +57,11 @@ Conic Directed(const Conic& conic, FitSpan samples);
 // their steps or a tenth of a radian.
 bool GoesRound(const Conic& conic, FitSpan samples);
 
+// The primitives of an open or closed curve of two or more samples, in order,
+// as FitCurves describes them, each fitted alone: lines, arcs, ellipses and
+// splines. Neighbours share a sample.
+std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed);
+
 // Sets the centre, the axes and the angles of a fit whose `closed`, `start` and
 // `end` are known.
 void SetConic(const Conic& conic, CurveFit& fit);
