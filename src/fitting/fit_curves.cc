@@ -33,27 +33,12 @@ struct CurveToFit {
   std::size_t id = 0;
   bool closed = false;
   FitSamples samples;
-  std::vector<CurveKind> kinds;  // of the samples
 };
 
-CurveToFit MakeCurveToFit(std::size_t id,
-                          const Curve& curve,
-                          const std::vector<PosedView>& views) {
-  CurveToFit result{id, curve.closed, MakeSamples(curve, views), {}};
-  for (const CurveSample& sample : curve.samples) {
-    result.kinds.push_back(sample.kind);
-  }
-  return result;
-}
-
-// Of most samples of the primitive.
-CurveKind KindOf(const Primitive& primitive,
-                 const std::vector<CurveKind>& kinds) {
+// Of most samples of a primitive.
+CurveKind KindOf(const FitSamples& samples) {
   Curve part;
-  part.samples.resize(primitive.num_samples);
-  for (std::size_t i = 0; i < primitive.num_samples; ++i) {
-    part.samples[i].kind = kinds[(primitive.first_sample + i) % kinds.size()];
-  }
+  for (const FitSample& s : samples) part.samples.emplace_back().kind = s.kind;
   return MainKind(part);
 }
 
@@ -73,7 +58,7 @@ void FitEach(const CurveSource& curves,
     num_samples = 0;
   };
   curves.ForEach([&](std::size_t id, const Curve& curve) {
-    some.push_back(MakeCurveToFit(id, curve, views));
+    some.push_back({id, curve.closed, MakeSamples(curve, views)});
     num_samples += curve.samples.size();
     if (num_samples >= kMaxSamples) fit_some();
   });
@@ -284,7 +269,7 @@ FittedCurves FitCurves(const CurveSource& curves,
                               node_of[curve.id][f],
                               result.nodes,
                               SamplesOf(own.primitive, curve.samples));
-    fit.curve_kind = KindOf(own.primitive, curve.kinds);
+    fit.curve_kind = KindOf(SamplesOf(own.primitive, curve.samples));
     return fit;
   };
   FitEach(curves, views, num_threads, [&](const CurveToFit& curve) {

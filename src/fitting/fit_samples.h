@@ -20,6 +20,7 @@ struct FitSample {
   double pixel = 0;   // how long a pixel is there; 0: not known
   // Its errors, across the curve; the common ones included.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  CurveKind kind = CurveKind::kUnknown;
 };
 
 // A curve or a part of one, in order; and a view of it.

@@ -94,7 +94,8 @@ FitSamples MakeSamples(const Curve& curve,
                        std::hypot(own, bent * common),
                        common,
                        pixel,
-                       covariance});
+                       covariance,
+                       s.kind});
   }
   return samples;
 }
