@@ -22,23 +22,18 @@ std::optional<FittedLine> WeightedLine(FitSpan samples,
   return line;
 }
 
+double SquaredDistance(const FittedLine& line, const Eigen::Vector3d& point) {
+  return (point - line.projection(point)).squaredNorm();
+}
+
 struct DistancesFrom {
   FitSpan samples;
 
-  std::vector<double> operator()(const FittedLine& line) const {
+  std::vector<double> operator()(const auto& shape) const {
     std::vector<double> squared;
     squared.reserve(samples.size());
     for (const FitSample& s : samples) {
-      squared.push_back(
-          (s.position - line.projection(s.position)).squaredNorm());
-    }
-    return squared;
-  }
-  std::vector<double> operator()(const Conic& conic) const {
-    std::vector<double> squared;
-    squared.reserve(samples.size());
-    for (const FitSample& s : samples) {
-      squared.push_back(SquaredDistance(conic, s.position));
+      squared.push_back(SquaredDistance(shape, s.position));
     }
     return squared;
   }
@@ -175,11 +170,8 @@ std::optional<FittedLine> FitLine(FitSpan samples) {
   std::optional<FittedLine> line = WeightedLine(samples, weights);
   for (int round = 0; line && round < kNumRounds; ++round) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const Eigen::Vector3d& position = samples[i].position;
-      weights[i] =
-          RobustWeight((position - line->projection(position)).squaredNorm(),
-                       samples[i].sigma,
-                       round);
+      weights[i] = RobustWeight(
+          SquaredDistance(*line, samples[i].position), samples[i].sigma, round);
     }
     line = WeightedLine(samples, weights);
   }
