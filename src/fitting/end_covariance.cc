@@ -207,10 +207,11 @@ Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
          common * common * Eigen::Matrix3d::Identity();
 }
 
-Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
-                                          const FitSamples& samples,
-                                          const std::vector<FixedPoint>& points,
-                                          bool is_whole) {
+Eigen::Matrix<double, 7, 7> ArcCovariance(
+    const Conic& circle,
+    const FitSamples& samples,
+    const std::vector<UncertainPoint>& points,
+    bool is_whole) {
   const double n = static_cast<double>(samples.size());
   const double factor = Excess(circle, samples) * n / NumIndependent(samples);
   const std::vector<double> angles = UnwrappedAngles(circle, samples);
@@ -230,7 +231,7 @@ Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
     off_plane.push_back({frame.RowOffPlane(t), weight, factor * own, shared});
     sum += weight;
   }
-  for (const FixedPoint& p : points) {
+  for (const UncertainPoint& p : points) {
     const double t = NearestParameter(circle, p.position);
     const Vector3d out = circle.frame * Vector3d(std::cos(t), std::sin(t), 0);
     const Vector3d normal = frame.normal();

@@ -28,6 +28,7 @@ struct PrimitiveEnd {
   Eigen::Matrix3d covariance;  // positive definite; world units squared
   double common = 0;           // standard deviation of the shared errors
   bool is_shape = false;       // of a line or conic, which fixes a node
+  int node = -1;               // index into the nodes; -1: the end is free
 };
 
 // At the first or the last sample.
@@ -40,22 +41,22 @@ PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end);
 Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
                                   const Eigen::Vector3d& position);
 
-// A point that an arc was made to pass through.
-struct FixedPoint {
+struct UncertainPoint {
   Eigen::Vector3d position;
   Eigen::Matrix3d covariance;  // world units squared
 };
 
 // The covariance, as CurveFit::arc_covariance has it, of a circle that was
-// fitted to `samples` by least squares and passes through `points`. Errors of
-// the samples: their own, of which one in 4 px is independent and which are
-// taken as larger if the samples lie further from the circle; and, of each
-// sample's `common`, shapes that all samples share: a constant, a slope and a
-// bow, or a constant and a shift if the circle is whole, in the plane and off
-// it.
-Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
-                                          const FitSamples& samples,
-                                          const std::vector<FixedPoint>& points,
-                                          bool is_whole);
+// fitted to `samples` by least squares and made to pass through `points`.
+// Errors of the samples: their own, of which one in 4 px is independent and
+// which are taken as larger if the samples lie further from the circle; and, of
+// each sample's `common`, shapes that all samples share: a constant, a slope
+// and a bow, or a constant and a shift if the circle is whole, in the plane and
+// off it.
+Eigen::Matrix<double, 7, 7> ArcCovariance(
+    const Conic& circle,
+    const FitSamples& samples,
+    const std::vector<UncertainPoint>& points,
+    bool is_whole);
 
 }  // namespace curvix

@@ -65,13 +65,12 @@ void FitEach(const CurveSource& curves,
   fit_some();
 }
 
-// One primitive and the nodes at its ends.
+// The samples of a primitive and the nodes at its ends.
 struct Snapped {
-  const Primitive& primitive;
   FitSamples samples;
   std::optional<Eigen::Vector3d> start;
   std::optional<Eigen::Vector3d> end;
-  std::vector<FixedPoint> nodes;
+  std::vector<UncertainPoint> nodes;
 };
 
 FittedLine ChordOf(const FitSamples& samples) {
@@ -178,16 +177,6 @@ void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
       std::hypot(std::sqrt(variance / n * std::min(1.0, share)), shared);
 }
 
-CurveFit MakeFit(const Snapped& snapped) {
-  CurveFit fit;
-  fit.closed = snapped.primitive.closed;
-  fit.first_sample = snapped.primitive.first_sample;
-  fit.num_samples = snapped.primitive.num_samples;
-  const Shape drawn = std::visit(Draw{snapped, fit}, snapped.primitive.shape);
-  Judge(drawn, snapped.samples, fit);
-  return fit;
-}
-
 // A line or arc as it is drawn; nullopt: another kind.
 std::optional<Shape> ShapeOf(const CurveFit& fit) {
   if (fit.kind == FitKind::kLine) {
@@ -202,49 +191,33 @@ std::optional<Shape> ShapeOf(const CurveFit& fit) {
   return conic;
 }
 
-// Index into the nodes of both ends of each fit, or -1.
-using NodesOfFits = std::vector<std::vector<std::pair<int, int>>>;
-
-NodesOfFits FindNodes(const std::vector<CurvePrimitives>& alone,
-                      const std::vector<CurveNode>& nodes) {
-  NodesOfFits node_of(alone.size());
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    node_of[i].assign(alone[i].size(), {-1, -1});
-  }
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    for (const CurveNode::End& end : nodes[n].ends) {
-      auto& [start, stop] = node_of[end.curve_idx][end.fit_idx];
-      (end.at_end ? stop : start) = static_cast<int>(n);
-    }
-  }
-  return node_of;
-}
-
 CurveFit FitInNodes(const PrimitiveOfCurve& alone,
-                    const std::pair<int, int>& node_idx,
                     const std::vector<CurveNode>& nodes,
                     FitSamples samples) {
-  Snapped snapped{alone.primitive, std::move(samples), {}, {}, {}};
-  const auto snap = [&](int idx,
-                        const PrimitiveEnd& end,
+  CurveFit fit;
+  fit.closed = alone.primitive.closed;
+  fit.first_sample = alone.primitive.first_sample;
+  fit.num_samples = alone.primitive.num_samples;
+  fit.curve_kind = KindOf(samples);
+  fit.start_node = alone.at_start.node;
+  fit.end_node = alone.at_end.node;
+  Snapped snapped{std::move(samples), {}, {}, {}};
+  const auto snap = [&](const PrimitiveEnd& end,
                         std::optional<Eigen::Vector3d>& position) {
-    if (idx < 0) return MeetingCovariance({end}, end.foot);
-    const CurveNode& node = nodes[static_cast<std::size_t>(idx)];
+    if (end.node < 0) return MeetingCovariance({end}, end.foot);
+    const CurveNode& node = nodes[static_cast<std::size_t>(end.node)];
     position = node.position;
     snapped.nodes.push_back({node.position, node.covariance});
     return node.covariance;
   };
-  const Eigen::Matrix3d at_start =
-      snap(node_idx.first, alone.at_start, snapped.start);
-  const Eigen::Matrix3d at_end =
-      snap(node_idx.second, alone.at_end, snapped.end);
-  CurveFit fit = MakeFit(snapped);
-  fit.start_node = node_idx.first;
-  fit.end_node = node_idx.second;
+  const Eigen::Matrix3d at_start = snap(alone.at_start, snapped.start);
+  const Eigen::Matrix3d at_end = snap(alone.at_end, snapped.end);
   if (!fit.closed) {
     fit.start_covariance = at_start;
     fit.end_covariance = at_end;
   }
+  const Shape drawn = std::visit(Draw{snapped, fit}, alone.primitive.shape);
+  Judge(drawn, snapped.samples, fit);
   return fit;
 }
 
@@ -261,16 +234,11 @@ FittedCurves FitCurves(const CurveSource& curves,
   });
   FittedCurves result;
   result.nodes = MeetInNodes(alone);
-  const NodesOfFits node_of = FindNodes(alone, result.nodes);
   result.curves.resize(alone.size());
   const auto fit_one = [&](const CurveToFit& curve, std::size_t f) {
     const PrimitiveOfCurve& own = alone[curve.id][f];
-    CurveFit fit = FitInNodes(own,
-                              node_of[curve.id][f],
-                              result.nodes,
-                              SamplesOf(own.primitive, curve.samples));
-    fit.curve_kind = KindOf(SamplesOf(own.primitive, curve.samples));
-    return fit;
+    return FitInNodes(
+        own, result.nodes, SamplesOf(own.primitive, curve.samples));
   };
   FitEach(curves, views, num_threads, [&](const CurveToFit& curve) {
     for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {

@@ -112,11 +112,18 @@ Eigen::Matrix3d CovarianceOf(const CurveNode& node,
 
 }  // namespace
 
-std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves) {
+std::vector<CurveNode> MeetInNodes(std::vector<CurvePrimitives>& curves) {
   std::vector<CurveNode> nodes = GroupEnds(curves);
   for (CurveNode& node : nodes) Meet(curves, node);
   std::erase_if(nodes, [](const CurveNode& n) { return n.ends.size() < 2; });
-  for (CurveNode& node : nodes) node.covariance = CovarianceOf(node, curves);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes[n].covariance = CovarianceOf(nodes[n], curves);
+    for (const End& end : nodes[n].ends) {
+      PrimitiveOfCurve& primitive = curves[end.curve_idx][end.fit_idx];
+      (end.at_end ? primitive.at_end : primitive.at_start).node =
+          static_cast<int>(n);
+    }
+  }
   return nodes;
 }
 

@@ -20,7 +20,8 @@ struct PrimitiveOfCurve {
 
 using CurvePrimitives = std::vector<PrimitiveOfCurve>;
 
-// The nodes, as FitCurves describes them: by their first end.
-std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves);
+// The nodes, as FitCurves describes them: by their first end. Sets the nodes of
+// the ends.
+std::vector<CurveNode> MeetInNodes(std::vector<CurvePrimitives>& curves);
 
 }  // namespace curvix
