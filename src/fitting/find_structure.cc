@@ -22,6 +22,19 @@ using Eigen::Vector3d;
 
 using Indices = std::vector<std::size_t>;
 
+// The diameter of a sphere about the mean of all ends that holds them.
+double ExtentOf(const std::vector<LineOrArc>& features) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const LineOrArc& f : features) mean += f.fit->start + f.fit->end;
+  mean /= 2 * std::max<double>(1, static_cast<double>(features.size()));
+  double furthest = 0;
+  for (const LineOrArc& f : features) {
+    furthest = std::max(
+        {furthest, (f.fit->start - mean).norm(), (f.fit->end - mean).norm()});
+  }
+  return 2 * furthest;
+}
+
 // The given ones of the features, the surest first.
 template <typename SigmaOf>
 Indices BySigma(Indices order, const SigmaOf& sigma_of) {
