@@ -33,32 +33,6 @@ bool IsOnSurface(const Solid& solid,
          hit->face_idx == face_idx && std::abs(hit->t - 1) < 1e-3;
 }
 
-}  // namespace
-
-std::vector<TrueCurve> MarkingCurves(const Solid& solid,
-                                     const Surfaces& surfaces) {
-  std::vector<TrueCurve> curves;
-  for (std::size_t p = 0; p < solid.primitives().size(); ++p) {
-    const SolidPrimitive& primitive = solid.primitives()[p];
-    for (int face = 0; face < NumFaces(primitive.shape); ++face) {
-      const auto idx = static_cast<int>(p);
-      const FacePattern* pattern = surfaces.PatternOf(idx, face);
-      if (pattern == nullptr) continue;
-      for (const TrueCurve& flat : pattern->Outlines()) {
-        const TrueCurve whole = OnFace(primitive, face, flat);
-        const auto on_surface = [&](double s) {
-          return IsOnSurface(solid, idx, face, whole.Position(s));
-        };
-        std::ranges::copy(PartsWhere(whole, solid.detail(), on_surface),
-                          std::back_inserter(curves));
-      }
-    }
-  }
-  return curves;
-}
-
-namespace {
-
 // Where a body of the solid turns away from the sun.
 void AppendTerminators(const SolidPrimitive& primitive,
                        std::vector<TrueCurve>& casters) {
@@ -211,6 +185,28 @@ class EdgeShadow {
 };
 
 }  // namespace
+
+std::vector<TrueCurve> MarkingCurves(const Solid& solid,
+                                     const Surfaces& surfaces) {
+  std::vector<TrueCurve> curves;
+  for (std::size_t p = 0; p < solid.primitives().size(); ++p) {
+    const SolidPrimitive& primitive = solid.primitives()[p];
+    for (int face = 0; face < NumFaces(primitive.shape); ++face) {
+      const auto idx = static_cast<int>(p);
+      const FacePattern* pattern = surfaces.PatternOf(idx, face);
+      if (pattern == nullptr) continue;
+      for (const TrueCurve& flat : pattern->Outlines()) {
+        const TrueCurve whole = OnFace(primitive, face, flat);
+        const auto on_surface = [&](double s) {
+          return IsOnSurface(solid, idx, face, whole.Position(s));
+        };
+        std::ranges::copy(PartsWhere(whole, solid.detail(), on_surface),
+                          std::back_inserter(curves));
+      }
+    }
+  }
+  return curves;
+}
 
 std::vector<TrueSample> SampleShadowEdges(const Solid& solid,
                                           const Surfaces& surfaces,
