@@ -46,6 +46,16 @@ struct Equations {
   }
 };
 
+// Whether these are three points or more that are not on a line.
+bool SpanAPlane(const Eigen::Matrix3Xd& points) {
+  if (points.cols() < 3) return false;
+  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
+  const Eigen::Matrix3d scatter = centered * centered.transpose();
+  const Eigen::Vector3d values =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
+  return values(1) > kOnALine * kOnALine * values(2);
+}
+
 class Estimator {
  public:
   explicit Estimator(const AlignmentInput& input) : input_(input) {}
@@ -132,7 +142,7 @@ class Estimator {
     }
     WorldAlignment& a = result_.alignment;
     Similarity3& start = a.world_from_model;
-    if (PositionsFixRotation()) {
+    if (SpanAPlane(model)) {
       const Eigen::Matrix4d m = Eigen::umeyama(model, world, true);
       start.scale = m.block<3, 1>(0, 0).norm();
       start.rotation = Eigen::Matrix3d(m.block<3, 3>(0, 0) / start.scale);
@@ -165,20 +175,6 @@ class Estimator {
     start.translation = world.rowwise().mean() -
                         start.scale * (start.rotation * model.rowwise().mean());
     return {};
-  }
-
-  bool PositionsFixRotation() const {
-    if (input_.positions.size() < 3) return false;
-    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const KnownPosition& p : input_.positions) mean += p.model;
-    mean /= static_cast<double>(input_.positions.size());
-    for (const KnownPosition& p : input_.positions) {
-      scatter += (p.model - mean) * (p.model - mean).transpose();
-    }
-    const Eigen::Vector3d values =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
-    return values(1) > kOnALine * kOnALine * values(2);
   }
 
   Eigen::Vector3d World(const KnownPosition& p) const {
