@@ -43,12 +43,6 @@ inline double SharedSigma(const FitSamples& samples) {
 // From here on, in standard deviations, a sample is an outlier.
 constexpr double kOutlierSigmas = 3;
 
-// What a squared distance costs, in squared standard deviations.
-inline double ResidualCost(double squared_distance, double sigma) {
-  return std::min(squared_distance / (sigma * sigma),
-                  kOutlierSigmas * kOutlierSigmas);
-}
-
 // Of every sample, as if none were an outlier.
 inline std::vector<double> EqualWeights(FitSpan samples) {
   std::vector<double> weights;

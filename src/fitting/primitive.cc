@@ -2,6 +2,7 @@
 #include "fitting/primitive.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
@@ -60,7 +61,8 @@ double CostOf(const Shape& shape, FitSpan samples) {
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double cost = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    cost += ResidualCost(squared[i], samples[i].sigma);
+    cost += std::min(squared[i] / (samples[i].sigma * samples[i].sigma),
+                     kOutlierSigmas * kOutlierSigmas);
   }
   return cost;
 }

@@ -39,7 +39,8 @@ FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve);
 // Squared distances of the samples from the shape.
 std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples);
 
-// Sum of ResidualCost.
+// The sum of squared distances in standard deviations, those of outliers cut
+// down to kOutlierSigmas.
 double CostOf(const Shape& shape, FitSpan samples);
 
 // Whether the shape explains the samples within their uncertainty: nine in ten
