@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/angles.h"
-#include "synthetic/bodies.h"
+#include "base/infinity.h"
 #include "synthetic/face_frame.h"
 
 namespace curvix {
@@ -44,10 +44,10 @@ std::optional<TrueCurve> CircleOf(const Vector3d& centre,
   return Circle(centre, normal, radius, CurveKind::kCrease);
 }
 
-// The whole line, as far as it runs within `box`, which is not turned.
+// The whole line, as far as it runs within `box`.
 std::optional<TrueCurve> PlanePlane(const Face& a,
                                     const Face& b,
-                                    const SolidPrimitive& box) {
+                                    const Eigen::AlignedBox3d& box) {
   const Vector3d along = a.axis.cross(b.axis);
   if (along.norm() < 1e-6) return std::nullopt;
   const double cosine = a.axis.dot(b.axis);
@@ -58,11 +58,22 @@ std::optional<TrueCurve> PlanePlane(const Face& a,
   const Vector3d nearest =
       ((to_a - to_b * cosine) * a.axis + (to_b - to_a * cosine) * b.axis) /
       (1 - cosine * cosine);
-  const RayInterval inside =
-      Intersect(box, {nearest - box.world_from_own.translation, line.along});
-  if (inside.IsEmpty()) return std::nullopt;
-  line.origin = nearest + inside.enter * line.along;
-  line.length = inside.exit - inside.enter;
+  double begin = -kInfinity;
+  double end = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = line.along[axis];
+    const double to_low = box.min()[axis] - nearest[axis];
+    const double to_high = box.max()[axis] - nearest[axis];
+    if (std::abs(step) < 1e-12) {
+      if (to_low > 0 || to_high < 0) return std::nullopt;
+      continue;
+    }
+    begin = std::max(begin, std::min(to_low / step, to_high / step));
+    end = std::min(end, std::max(to_low / step, to_high / step));
+  }
+  if (!(begin < end)) return std::nullopt;
+  line.origin = nearest + begin * line.along;
+  line.length = end - begin;
   return line;
 }
 
@@ -89,7 +100,7 @@ std::optional<TrueCurve> PlaneRound(const Face& plane,
 
 std::optional<TrueCurve> Candidate(const Face& a,
                                    const Face& b,
-                                   const SolidPrimitive& box,
+                                   const Eigen::AlignedBox3d& box,
                                    double tolerance) {
   if (a.is_plane && b.is_plane) return PlanePlane(a, b, box);
   if (a.is_plane) return PlaneRound(a, b, tolerance);
@@ -150,8 +161,8 @@ std::vector<TrueCurve> Candidates(const Solid& solid) {
     }
   }
   const Vector3d margin = Vector3d::Constant(0.01 * solid.detail());
-  const SolidPrimitive box =
-      Box(solid.box().min() - margin, solid.box().max() + margin);
+  const Eigen::AlignedBox3d box(solid.box().min() - margin,
+                                solid.box().max() + margin);
   const double tolerance = 1e-6 * solid.detail();
   std::vector<TrueCurve> candidates;
   const auto is_new = [&](const TrueCurve& curve) {
