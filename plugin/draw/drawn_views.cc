@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "drawing/flat_fit.h"
-#include "drawing/main_part.h"
 #include "plugin/draw/seen_from.h"
 
 namespace curvix {

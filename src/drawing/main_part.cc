@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drawing/main_part.h"
+// Paper: none (engineering). What a drawing is of, without what lies far away.
+#include "drawing/sheet.h"
 
 #include <Eigen/Core>
 #include <algorithm>

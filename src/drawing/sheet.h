@@ -97,6 +97,12 @@ constexpr double kDimensionText = 2.5;
 // The bounding box of the curves, drawing units. Empty without curves.
 Eigen::AlignedBox2d BoundsOf(const std::vector<SheetCurve>& curves);
 
+// The same without what lies far away: without curves that a gap separates from
+// the others, across or upwards as wide as three tenths of the longer side of
+// what these take. All curves count if those have more than a tenth of the
+// length.
+Eigen::AlignedBox2d MainBoundsOf(const std::vector<SheetCurve>& curves);
+
 // `curves` and `picture` in the middle of a sheet. Without a known unit there
 // is no scale, and the sheet says how long a unit is. kInvalidArgument: there
 // are no curves, a scale is asked for and the unit is not known, or the drawing

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -16,7 +17,7 @@
 namespace curvix {
 namespace {
 
-inline constexpr double kNearMm = 5;  // what counts as the same place
+constexpr double kNearMm = 5;  // what counts as the same place
 
 // Both sets, and distances between them.
 struct Comparison {
@@ -26,7 +27,8 @@ struct Comparison {
   std::vector<double> predicted_mm;    // distances predicted -> true
   std::vector<double> true_mm;         // distances true -> predicted
   std::vector<std::size_t> true_idxs;  // the nearest, per predicted sample
-  double near = 0;                     // kNearMm in world units
+  std::optional<PointTree> predicted_tree, true_tree;
+  double near = 0;  // kNearMm in world units
   double unit_mm = 0;
 };
 
@@ -91,15 +93,15 @@ Status Check(const CurveSet& curves,
 }
 
 void CompareNearest(Comparison& c) {
-  const PointTree truth_index(c.truth, &TrueSample::position);
+  c.true_tree.emplace(c.truth, &TrueSample::position);
   for (const CurveStep& step : c.predicted) {
-    const auto nearest = truth_index.Nearest(step.position);
+    const auto nearest = c.true_tree->Nearest(step.position);
     c.predicted_mm.push_back(nearest.distance * c.unit_mm);
     c.true_idxs.push_back(nearest.index);
   }
-  const PointTree predicted_index(c.predicted, &CurveStep::position);
+  c.predicted_tree.emplace(c.predicted, &CurveStep::position);
   for (const TrueSample& sample : c.truth) {
-    const auto nearest = predicted_index.Nearest(sample.position);
+    const auto nearest = c.predicted_tree->Nearest(sample.position);
     c.true_mm.push_back(nearest.distance * c.unit_mm);
   }
 }
@@ -184,7 +186,6 @@ void MeasureWhole(const Comparison& c,
                   const std::vector<int>& groups,
                   double spacing,
                   Evaluation& result) {
-  const PointTree index(c.predicted, &CurveStep::position);
   std::map<int, std::vector<std::size_t>> visible_of_curve;
   for (std::size_t i = 0; i < c.truth.size(); ++i) {
     if (c.visible[i]) visible_of_curve[c.truth[i].curve_id].push_back(i);
@@ -200,7 +201,8 @@ void MeasureWhole(const Comparison& c,
     std::map<std::size_t, std::size_t> votes;  // per predicted curve
     for (const std::size_t i : visible) {
       std::set<std::size_t> touching;
-      for (const std::size_t k : index.Within(c.truth[i].position, c.near)) {
+      for (const std::size_t k :
+           c.predicted_tree->Within(c.truth[i].position, c.near)) {
         touching.insert(c.predicted[k].curve_idx);
       }
       for (const std::size_t curve_idx : touching) ++votes[curve_idx];
@@ -216,7 +218,6 @@ void MeasureWhole(const Comparison& c,
 
 std::optional<double> MeasurePure(const Comparison& c,
                                   const std::vector<int>& groups) {
-  const PointTree index(c.truth, &TrueSample::position);
   // Per predicted curve, votes for the groups of true curves that it touches.
   std::map<std::size_t, std::map<std::size_t, std::size_t>> votes_of_curve;
   std::size_t num_near = 0;
@@ -224,7 +225,8 @@ std::optional<double> MeasurePure(const Comparison& c,
     if (c.predicted_mm[i] >= kNearMm) continue;
     ++num_near;
     std::set<int> touching;
-    for (const std::size_t k : index.Within(c.predicted[i].position, c.near)) {
+    for (const std::size_t k :
+         c.true_tree->Within(c.predicted[i].position, c.near)) {
       touching.insert(groups[k]);
     }
     auto& votes = votes_of_curve[c.predicted[i].curve_idx];

@@ -65,6 +65,15 @@ Status Broken(std::size_t line_number) {
                           "with as many numbers as the rows before it");
 }
 
+// Of a/gt.txt: a/gt_class.txt.
+std::filesystem::path ClassPath(std::filesystem::path path) {
+  const std::filesystem::path extension = path.extension();
+  path.replace_extension();
+  path += "_class";
+  path += extension;
+  return path;
+}
+
 }  // namespace
 
 Result<GroundTruth> ParseGroundTruth(std::string_view text) {
@@ -117,19 +126,6 @@ Status ParseCurveKinds(std::string_view text, GroundTruth& truth) {
   truth.has_kinds = true;
   return {};
 }
-
-namespace {
-
-// Of a/gt.txt: a/gt_class.txt.
-std::filesystem::path ClassPath(std::filesystem::path path) {
-  const std::filesystem::path extension = path.extension();
-  path.replace_extension();
-  path += "_class";
-  path += extension;
-  return path;
-}
-
-}  // namespace
 
 Result<GroundTruth> ReadGroundTruth(const std::filesystem::path& path) {
   const Result<std::string> text = ReadFile(path);

@@ -11,47 +11,6 @@
 namespace curvix {
 namespace {
 
-double TotalLength(const CurveSet& curves) {
-  double total = 0;
-  for (const Curve& curve : curves.curves) total += Length(curve);
-  return total;
-}
-
-}  // namespace
-
-double CountSteps(const CurveSet& curves, double step) {
-  return TotalLength(curves) / step;
-}
-
-std::vector<CurveStep> Resample(const CurveSet& curves, double step) {
-  std::vector<CurveStep> steps;
-  double start = 0;  // arc length at the start of the segment
-  for (std::size_t c = 0; c < curves.curves.size(); ++c) {
-    const std::vector<CurveSample>& samples = curves.curves[c].samples;
-    const std::size_t n = samples.size();
-    const std::size_t num_segments =
-        n < 2 ? 0 : (curves.curves[c].closed ? n : n - 1);
-    for (std::size_t i = 0; i < num_segments; ++i) {
-      const Eigen::Vector3d& from = samples[i].position;
-      const CurveSample& next = samples[(i + 1) % n];
-      const Eigen::Vector3d along = next.position - from;
-      const double length = along.norm();
-      // Steps lie at (k + 1/2) step for k = steps.size().
-      for (;;) {
-        const double s = (static_cast<double>(steps.size()) + 0.5) * step;
-        if (!(length > 0) || s >= start + length) break;
-        const double t = (s - start) / length;
-        const CurveKind kind = t < 0.5 ? samples[i].kind : next.kind;
-        steps.push_back({from + t * along, along / length, c, kind});
-      }
-      start += length;
-    }
-  }
-  return steps;
-}
-
-namespace {
-
 struct TrueEnd {
   int curve_id = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -97,6 +56,39 @@ std::vector<EndPair> FindPairs(const std::vector<TrueEnd>& ends,
 }
 
 }  // namespace
+
+double CountSteps(const CurveSet& curves, double step) {
+  double total = 0;
+  for (const Curve& curve : curves.curves) total += Length(curve);
+  return total / step;
+}
+
+std::vector<CurveStep> Resample(const CurveSet& curves, double step) {
+  std::vector<CurveStep> steps;
+  double start = 0;  // arc length at the start of the segment
+  for (std::size_t c = 0; c < curves.curves.size(); ++c) {
+    const std::vector<CurveSample>& samples = curves.curves[c].samples;
+    const std::size_t n = samples.size();
+    const std::size_t num_segments =
+        n < 2 ? 0 : (curves.curves[c].closed ? n : n - 1);
+    for (std::size_t i = 0; i < num_segments; ++i) {
+      const Eigen::Vector3d& from = samples[i].position;
+      const CurveSample& next = samples[(i + 1) % n];
+      const Eigen::Vector3d along = next.position - from;
+      const double length = along.norm();
+      // Steps lie at (k + 1/2) step for k = steps.size().
+      for (;;) {
+        const double s = (static_cast<double>(steps.size()) + 0.5) * step;
+        if (!(length > 0) || s >= start + length) break;
+        const double t = (s - start) / length;
+        const CurveKind kind = t < 0.5 ? samples[i].kind : next.kind;
+        steps.push_back({from + t * along, along / length, c, kind});
+      }
+      start += length;
+    }
+  }
+  return steps;
+}
 
 std::vector<int> SmoothGroups(const std::vector<TrueSample>& truth,
                               double max_gap) {

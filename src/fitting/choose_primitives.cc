@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/choose_primitives.h"
+// Paper: none (engineering). Which lines, arcs, ellipses and splines a curve is
+// made of.
+#include "fitting/primitive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include <utility>
 
 #include "base/infinity.h"
-#include "fitting/fit_conic.h"
 
 namespace curvix {
 namespace {
@@ -25,10 +26,15 @@ constexpr std::size_t kLineParameters = 6;
 constexpr std::size_t kArcParameters = 8;
 constexpr std::size_t kNodeParameters = 3;
 
-struct Chain {
+// What a curve is made of.
+struct Explanation {
   std::vector<Primitive> primitives;
-  double residual_cost = 0;
+  double residual_cost = kInfinity;
   std::size_t num_parameters = 0;
+
+  double Total(double parameter_cost) const {
+    return residual_cost + parameter_cost * static_cast<double>(num_parameters);
+  }
 };
 
 struct Link {
@@ -166,12 +172,9 @@ void MoveJoints(const FitSamples& curve,
   }
 }
 
+// A closed curve from sample `first` back to it.
 FitSamples Unrolled(const FitSamples& curve, std::size_t first) {
-  FitSamples samples;
-  for (std::size_t k = 0; k <= curve.size(); ++k) {
-    samples.push_back(curve[(first + k) % curve.size()]);
-  }
-  return samples;
+  return SamplesOf({{}, first, curve.size() + 1}, curve);
 }
 
 // The chain of lines and arcs with the least cost: residual costs and
@@ -181,9 +184,9 @@ FitSamples Unrolled(const FitSamples& curve, std::size_t first) {
 // than 10 samples, so that a few bent samples are outliers and no primitive of
 // their own. A closed curve is a chain of two or more, or of none at infinite
 // cost.
-Chain ChainPrimitives(const FitSamples& curve,
-                      bool closed,
-                      double parameter_cost) {
+Explanation ChainPrimitives(const FitSamples& curve,
+                            bool closed,
+                            double parameter_cost) {
   FitSamples samples = closed ? Unrolled(curve, 0) : curve;
   std::vector<std::size_t> joints = SearchJoints(samples, parameter_cost);
   std::size_t first = 0;
@@ -194,12 +197,10 @@ Chain ChainPrimitives(const FitSamples& curve,
     samples = Unrolled(curve, first);
     joints = SearchJoints(samples, parameter_cost);
   }
-  Chain chain;
-  if (closed && joints.size() == 2) {
-    chain.residual_cost = kInfinity;
-    return chain;
-  }
+  if (closed && joints.size() == 2) return {};
   MoveJoints(samples, parameter_cost, joints);
+  Explanation chain;
+  chain.residual_cost = 0;
   for (std::size_t k = 1; k < joints.size(); ++k) {
     const Link link =
         FitLink(Part(samples, joints[k - 1], joints[k]), parameter_cost, false);
@@ -214,38 +215,25 @@ Chain ChainPrimitives(const FitSamples& curve,
   return chain;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr std::size_t kMinSplinePoints = 4;
 // Neighbouring samples err alike: so many of them tell as much as one.
 constexpr double kSamplesPerError = 2;
 
 // The best explanation so far.
-class Choice {
- public:
-  explicit Choice(double parameter_cost) : parameter_cost_(parameter_cost) {}
+struct Choice {
+  double parameter_cost;
+  Explanation best = {};
 
   // Whether an explanation with so many parameters could be better.
   bool CanWin(std::size_t num_parameters) const {
-    return parameter_cost_ * static_cast<double>(num_parameters) < cost_;
+    return parameter_cost * static_cast<double>(num_parameters) <
+           best.Total(parameter_cost);
   }
-  void Offer(std::vector<Primitive> primitives,
-             double residual_cost,
-             std::size_t num_parameters) {
-    const double cost =
-        residual_cost + parameter_cost_ * static_cast<double>(num_parameters);
-    if (!(cost < cost_)) return;
-    cost_ = cost;
-    best_ = std::move(primitives);
+  void Offer(Explanation other) {
+    if (other.Total(parameter_cost) < best.Total(parameter_cost)) {
+      best = std::move(other);
+    }
   }
-  std::vector<Primitive> Take() { return std::move(best_); }
-
- private:
-  double parameter_cost_;
-  double cost_ = kInfinity;
-  std::vector<Primitive> best_;
 };
 
 // The conic as a primitive of the curve; nullopt: a closed curve does not go
@@ -261,20 +249,17 @@ std::optional<Primitive> OnCurve(const std::optional<Conic>& conic,
 }
 
 void OfferSplines(const FitSamples& curve, bool closed, Choice& choice) {
-  FitSamples samples = curve;
+  const FitSamples samples = closed ? Unrolled(curve, 0) : curve;
   std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> ends;
-  if (closed) {
-    samples.push_back(curve.front());
-    ends = {curve.front().position, curve.front().position};
-  }
+  if (closed) ends = {curve.front().position, curve.front().position};
   for (std::size_t n = kMinSplinePoints;
        2 * n <= samples.size() + kMinSplinePoints && choice.CanWin(3 * n);
        n += std::max<std::size_t>(1, n / 4)) {
     const std::optional<Spline> spline = FitSpline(samples, n, ends);
     if (!spline) continue;
-    choice.Offer({{*spline, 0, samples.size(), closed}},
-                 CostOf(*spline, samples),
-                 3 * n);
+    choice.Offer({{{*spline, 0, samples.size(), closed}},
+                  CostOf(*spline, samples),
+                  3 * n});
   }
 }
 
@@ -312,29 +297,24 @@ constexpr Single kSingles[] = {
 std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
   const double parameter_cost =
       kSamplesPerError * std::log(static_cast<double>(curve.size()));
-  Choice choice(parameter_cost);
+  Choice choice{parameter_cost};
   for (const Single& single : kSingles) {
     const auto primitive = single.fit(curve, closed);
     if (!primitive) continue;
     if (Explains(primitive->shape, curve)) return {*primitive};
-    choice.Offer({*primitive},
-                 CostOf(primitive->shape, curve),
-                 single.num_parameters + (primitive->closed ? 0 : 2));
+    choice.Offer({{*primitive},
+                  CostOf(primitive->shape, curve),
+                  single.num_parameters + (primitive->closed ? 0 : 2)});
   }
   if (choice.CanWin(2 * kLineParameters - kNodeParameters)) {
-    const Chain chain = ChainPrimitives(curve, closed, parameter_cost);
-    choice.Offer(chain.primitives, chain.residual_cost, chain.num_parameters);
+    choice.Offer(ChainPrimitives(curve, closed, parameter_cost));
   }
   OfferSplines(curve, closed, choice);
-  std::vector<Primitive> best = choice.Take();
-  if (best.empty()) {  // all samples in one place, say
-    best.push_back(
-        {FittedLine{curve.front().position, Eigen::Vector3d::UnitX()},
-         0,
-         curve.size(),
-         false});
+  if (choice.best.primitives.empty()) {  // all samples in one place, say
+    const FittedLine line(curve.front().position, Eigen::Vector3d::UnitX());
+    return {{line, 0, curve.size(), false}};
   }
-  return best;
+  return choice.best.primitives;
 }
 
 }  // namespace curvix

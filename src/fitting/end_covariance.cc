@@ -143,10 +143,25 @@ Eigen::Vector3d ChordAt(const FitSamples& samples, bool at_end) {
   return chord.norm() > 0 ? chord.normalized() : Eigen::Vector3d::UnitX();
 }
 
+}  // namespace
+
+std::optional<SpaceEdge> FootOn(const Shape& shape,
+                                const Eigen::Vector3d& point) {
+  if (const auto* line = std::get_if<FittedLine>(&shape)) {
+    return SpaceEdge{line->projection(point), line->direction()};
+  }
+  if (const auto* conic = std::get_if<Conic>(&shape)) {
+    const double t = NearestParameter(*conic, point);
+    return SpaceEdge{conic->At(t), conic->Tangent(t)};
+  }
+  return std::nullopt;
+}
+
 PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
   const FitSample& sample = at_end ? samples.back() : samples.front();
   PrimitiveEnd end;
-  const std::optional<Foot> foot = FootOn(shape, sample.position);
+  end.sample = sample;
+  const std::optional<SpaceEdge> foot = FootOn(shape, sample.position);
   end.is_shape = foot.has_value();
   end.foot = foot ? foot->position : sample.position;
   end.tangent = foot ? foot->tangent : ChordAt(samples, at_end);
@@ -171,24 +186,6 @@ PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
   return end;
 }
 
-}  // namespace
-
-std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point) {
-  if (const auto* line = std::get_if<FittedLine>(&shape)) {
-    return Foot{line->Closest(point), line->direction};
-  }
-  if (const auto* conic = std::get_if<Conic>(&shape)) {
-    const double t = NearestParameter(*conic, point);
-    return Foot{conic->At(t), conic->Tangent(t)};
-  }
-  return std::nullopt;
-}
-
-std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
-                                             const FitSamples& samples) {
-  return {EndOf(shape, samples, false), EndOf(shape, samples, true)};
-}
-
 Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
                                   const Eigen::Vector3d& position) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -210,10 +207,11 @@ Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
          common * common * Eigen::Matrix3d::Identity();
 }
 
-Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
-                                          const FitSamples& samples,
-                                          const std::vector<FixedPoint>& points,
-                                          bool is_whole) {
+Eigen::Matrix<double, 7, 7> ArcCovariance(
+    const Conic& circle,
+    const FitSamples& samples,
+    const std::vector<UncertainPoint>& points,
+    bool is_whole) {
   const double n = static_cast<double>(samples.size());
   const double factor = Excess(circle, samples) * n / NumIndependent(samples);
   const std::vector<double> angles = UnwrappedAngles(circle, samples);
@@ -233,7 +231,7 @@ Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
     off_plane.push_back({frame.RowOffPlane(t), weight, factor * own, shared});
     sum += weight;
   }
-  for (const FixedPoint& p : points) {
+  for (const UncertainPoint& p : points) {
     const double t = NearestParameter(circle, p.position);
     const Vector3d out = circle.frame * Vector3d(std::cos(t), std::sin(t), 0);
     const Vector3d normal = frame.normal();

@@ -4,27 +4,23 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "fitting/fit_conic.h"
 #include "fitting/primitive.h"
+#include "geometry/edge_geometry.h"
 
 namespace curvix {
 
-// A point on a shape and the direction of the shape there.
-struct Foot {
-  Eigen::Vector3d position;
-  Eigen::Vector3d tangent;  // unit
-};
-
-// The foot of `point` on a line or conic. nullopt: a spline, which takes its
-// ends where the nodes are.
-std::optional<Foot> FootOn(const Shape& shape, const Eigen::Vector3d& point);
+// The foot of `point` on a line or conic, and the direction there. nullopt: a
+// spline, which takes its ends where the nodes are.
+std::optional<SpaceEdge> FootOn(const Shape& shape,
+                                const Eigen::Vector3d& point);
 
 // Where a primitive ends, and how well its samples fix it there.
 struct PrimitiveEnd {
-  Eigen::Vector3d foot;     // of its end sample
+  FitSample sample;         // the last one there
+  Eigen::Vector3d foot;     // of the sample
   Eigen::Vector3d tangent;  // unit
   // Of the foot, without errors that all samples share. Across the tangent:
   // from the samples, of which one in 4 px is independent. Along it: 4 px,
@@ -32,11 +28,11 @@ struct PrimitiveEnd {
   Eigen::Matrix3d covariance;  // positive definite; world units squared
   double common = 0;           // standard deviation of the shared errors
   bool is_shape = false;       // of a line or conic, which fixes a node
+  int node = -1;               // index into the nodes; -1: the end is free
 };
 
-// Of the first and the last sample.
-std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
-                                             const FitSamples& samples);
+// At the first or the last sample.
+PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end);
 
 // The covariance of `position`, in which these ends (one or more) meet: that of
 // their weighted mean, times the mean square by which they miss it in standard
@@ -45,22 +41,22 @@ std::pair<PrimitiveEnd, PrimitiveEnd> EndsOf(const Shape& shape,
 Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
                                   const Eigen::Vector3d& position);
 
-// A point that an arc was made to pass through.
-struct FixedPoint {
+struct UncertainPoint {
   Eigen::Vector3d position;
   Eigen::Matrix3d covariance;  // world units squared
 };
 
 // The covariance, as CurveFit::arc_covariance has it, of a circle that was
-// fitted to `samples` by least squares and passes through `points`. Errors of
-// the samples: their own, of which one in 4 px is independent and which are
-// taken as larger if the samples lie further from the circle; and, of each
-// sample's `common`, shapes that all samples share: a constant, a slope and a
-// bow, or a constant and a shift if the circle is whole, in the plane and off
-// it.
-Eigen::Matrix<double, 7, 7> ArcCovariance(const Conic& circle,
-                                          const FitSamples& samples,
-                                          const std::vector<FixedPoint>& points,
-                                          bool is_whole);
+// fitted to `samples` by least squares and made to pass through `points`.
+// Errors of the samples: their own, of which one in 4 px is independent and
+// which are taken as larger if the samples lie further from the circle; and, of
+// each sample's `common`, shapes that all samples share: a constant, a slope
+// and a bow, or a constant and a shift if the circle is whole, in the plane and
+// off it.
+Eigen::Matrix<double, 7, 7> ArcCovariance(
+    const Conic& circle,
+    const FitSamples& samples,
+    const std::vector<UncertainPoint>& points,
+    bool is_whole);
 
 }  // namespace curvix

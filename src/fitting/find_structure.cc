@@ -22,6 +22,19 @@ using Eigen::Vector3d;
 
 using Indices = std::vector<std::size_t>;
 
+// The diameter of a sphere about the mean of all ends that holds them.
+double ExtentOf(const std::vector<LineOrArc>& features) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const LineOrArc& f : features) mean += f.fit->start + f.fit->end;
+  mean /= 2 * std::max<double>(1, static_cast<double>(features.size()));
+  double furthest = 0;
+  for (const LineOrArc& f : features) {
+    furthest = std::max(
+        {furthest, (f.fit->start - mean).norm(), (f.fit->end - mean).norm()});
+  }
+  return 2 * furthest;
+}
+
 // The given ones of the features, the surest first.
 template <typename SigmaOf>
 Indices BySigma(Indices order, const SigmaOf& sigma_of) {
@@ -29,19 +42,14 @@ Indices BySigma(Indices order, const SigmaOf& sigma_of) {
   return order;
 }
 
-std::vector<FitIndex> FitsOf(const Indices& members,
-                             const std::vector<LineOrArc>& features) {
-  std::vector<FitIndex> fits;
-  for (const std::size_t i : members) fits.push_back(features[i].index);
-  return fits;
-}
-
 FitGroup GroupOf(GroupKind kind,
                  const ValueGroup& agreement,
                  const std::vector<LineOrArc>& features) {
   FitGroup group;
   group.kind = kind;
-  group.fits = FitsOf(agreement.members, features);
+  for (const std::size_t i : agreement.members) {
+    group.fits.push_back(features[i].index);
+  }
   group.chi_squared = agreement.chi_squared;
   group.degrees_of_freedom = agreement.degrees_of_freedom;
   group.sigma = kind == GroupKind::kEqualRadius

@@ -8,11 +8,9 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "fitting/choose_primitives.h"
 #include "fitting/end_covariance.h"
-#include "fitting/fit_conic.h"
-#include "fitting/make_samples.h"
 #include "fitting/meet_in_nodes.h"
+#include "fitting/primitive.h"
 #include "fitting/structure.h"
 #include "geometry/posed_views.h"
 
@@ -23,9 +21,9 @@ CurvePrimitives FitAlone(const FitSamples& samples, bool closed) {
   CurvePrimitives result;
   for (Primitive& primitive : ChoosePrimitives(samples, closed)) {
     const FitSamples own = SamplesOf(primitive, samples);
-    const auto [at_start, at_end] = EndsOf(primitive.shape, own);
-    result.push_back(
-        {std::move(primitive), own.front(), own.back(), at_start, at_end});
+    const PrimitiveEnd at_start = EndOf(primitive.shape, own, false);
+    const PrimitiveEnd at_end = EndOf(primitive.shape, own, true);
+    result.push_back({std::move(primitive), at_start, at_end});
   }
   return result;
 }
@@ -35,27 +33,12 @@ struct CurveToFit {
   std::size_t id = 0;
   bool closed = false;
   FitSamples samples;
-  std::vector<CurveKind> kinds;  // of the samples
 };
 
-CurveToFit MakeCurveToFit(std::size_t id,
-                          const Curve& curve,
-                          const std::vector<PosedView>& views) {
-  CurveToFit result{id, curve.closed, MakeSamples(curve, views), {}};
-  for (const CurveSample& sample : curve.samples) {
-    result.kinds.push_back(sample.kind);
-  }
-  return result;
-}
-
-// Of most samples of the primitive.
-CurveKind KindOf(const Primitive& primitive,
-                 const std::vector<CurveKind>& kinds) {
+// Of most samples of a primitive.
+CurveKind KindOf(const FitSamples& samples) {
   Curve part;
-  part.samples.resize(primitive.num_samples);
-  for (std::size_t i = 0; i < primitive.num_samples; ++i) {
-    part.samples[i].kind = kinds[(primitive.first_sample + i) % kinds.size()];
-  }
+  for (const FitSample& s : samples) part.samples.emplace_back().kind = s.kind;
   return MainKind(part);
 }
 
@@ -75,20 +58,19 @@ void FitEach(const CurveSource& curves,
     num_samples = 0;
   };
   curves.ForEach([&](std::size_t id, const Curve& curve) {
-    some.push_back(MakeCurveToFit(id, curve, views));
+    some.push_back({id, curve.closed, MakeSamples(curve, views)});
     num_samples += curve.samples.size();
     if (num_samples >= kMaxSamples) fit_some();
   });
   fit_some();
 }
 
-// One primitive and the nodes at its ends.
+// The samples of a primitive and the nodes at its ends.
 struct Snapped {
-  const Primitive& primitive;
   FitSamples samples;
   std::optional<Eigen::Vector3d> start;
   std::optional<Eigen::Vector3d> end;
-  std::vector<FixedPoint> nodes;
+  std::vector<UncertainPoint> nodes;
 };
 
 FittedLine ChordOf(const FitSamples& samples) {
@@ -195,16 +177,6 @@ void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
       std::hypot(std::sqrt(variance / n * std::min(1.0, share)), shared);
 }
 
-CurveFit MakeFit(const Snapped& snapped) {
-  CurveFit fit;
-  fit.closed = snapped.primitive.closed;
-  fit.first_sample = snapped.primitive.first_sample;
-  fit.num_samples = snapped.primitive.num_samples;
-  const Shape drawn = std::visit(Draw{snapped, fit}, snapped.primitive.shape);
-  Judge(drawn, snapped.samples, fit);
-  return fit;
-}
-
 // A line or arc as it is drawn; nullopt: another kind.
 std::optional<Shape> ShapeOf(const CurveFit& fit) {
   if (fit.kind == FitKind::kLine) {
@@ -219,49 +191,33 @@ std::optional<Shape> ShapeOf(const CurveFit& fit) {
   return conic;
 }
 
-// Index into the nodes of both ends of each fit, or -1.
-using NodesOfFits = std::vector<std::vector<std::pair<int, int>>>;
-
-NodesOfFits FindNodes(const std::vector<CurvePrimitives>& alone,
-                      const std::vector<CurveNode>& nodes) {
-  NodesOfFits node_of(alone.size());
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    node_of[i].assign(alone[i].size(), {-1, -1});
-  }
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    for (const CurveNode::End& end : nodes[n].ends) {
-      auto& [start, stop] = node_of[end.curve_idx][end.fit_idx];
-      (end.at_end ? stop : start) = static_cast<int>(n);
-    }
-  }
-  return node_of;
-}
-
 CurveFit FitInNodes(const PrimitiveOfCurve& alone,
-                    const std::pair<int, int>& node_idx,
                     const std::vector<CurveNode>& nodes,
                     FitSamples samples) {
-  Snapped snapped{alone.primitive, std::move(samples), {}, {}, {}};
-  const auto snap = [&](int idx,
-                        const PrimitiveEnd& end,
+  CurveFit fit;
+  fit.closed = alone.primitive.closed;
+  fit.first_sample = alone.primitive.first_sample;
+  fit.num_samples = alone.primitive.num_samples;
+  fit.curve_kind = KindOf(samples);
+  fit.start_node = alone.at_start.node;
+  fit.end_node = alone.at_end.node;
+  Snapped snapped{std::move(samples), {}, {}, {}};
+  const auto snap = [&](const PrimitiveEnd& end,
                         std::optional<Eigen::Vector3d>& position) {
-    if (idx < 0) return MeetingCovariance({end}, end.foot);
-    const CurveNode& node = nodes[static_cast<std::size_t>(idx)];
+    if (end.node < 0) return MeetingCovariance({end}, end.foot);
+    const CurveNode& node = nodes[static_cast<std::size_t>(end.node)];
     position = node.position;
     snapped.nodes.push_back({node.position, node.covariance});
     return node.covariance;
   };
-  const Eigen::Matrix3d at_start =
-      snap(node_idx.first, alone.at_start, snapped.start);
-  const Eigen::Matrix3d at_end =
-      snap(node_idx.second, alone.at_end, snapped.end);
-  CurveFit fit = MakeFit(snapped);
-  fit.start_node = node_idx.first;
-  fit.end_node = node_idx.second;
+  const Eigen::Matrix3d at_start = snap(alone.at_start, snapped.start);
+  const Eigen::Matrix3d at_end = snap(alone.at_end, snapped.end);
   if (!fit.closed) {
     fit.start_covariance = at_start;
     fit.end_covariance = at_end;
   }
+  const Shape drawn = std::visit(Draw{snapped, fit}, alone.primitive.shape);
+  Judge(drawn, snapped.samples, fit);
   return fit;
 }
 
@@ -278,16 +234,11 @@ FittedCurves FitCurves(const CurveSource& curves,
   });
   FittedCurves result;
   result.nodes = MeetInNodes(alone);
-  const NodesOfFits node_of = FindNodes(alone, result.nodes);
   result.curves.resize(alone.size());
   const auto fit_one = [&](const CurveToFit& curve, std::size_t f) {
     const PrimitiveOfCurve& own = alone[curve.id][f];
-    CurveFit fit = FitInNodes(own,
-                              node_of[curve.id][f],
-                              result.nodes,
-                              SamplesOf(own.primitive, curve.samples));
-    fit.curve_kind = KindOf(own.primitive, curve.kinds);
-    return fit;
+    return FitInNodes(
+        own, result.nodes, SamplesOf(own.primitive, curve.samples));
   };
   FitEach(curves, views, num_threads, [&](const CurveToFit& curve) {
     for (std::size_t f = 0; f < alone[curve.id].size(); ++f) {

@@ -2,11 +2,14 @@
 // Paper: none (engineering). What primitives are fitted to.
 #pragma once
 
+#include <curvix/curves.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "model/posed_view.h"
 
 namespace curvix {
 
@@ -17,11 +20,16 @@ struct FitSample {
   double pixel = 0;   // how long a pixel is there; 0: not known
   // Its errors, across the curve; the common ones included.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  CurveKind kind = CurveKind::kUnknown;
 };
 
 // A curve or a part of one, in order; and a view of it.
 using FitSamples = std::vector<FitSample>;
 using FitSpan = std::span<const FitSample>;
+
+// Of a curve of two samples or more, with the standard deviations that
+// FitCurves describes.
+FitSamples MakeSamples(const Curve& curve, const std::vector<PosedView>& views);
 
 // Standard deviation of a bent primitive from what its samples share, which
 // does not fall with their number: a circle whose edges all lie inside is too
@@ -34,12 +42,6 @@ inline double SharedSigma(const FitSamples& samples) {
 
 // From here on, in standard deviations, a sample is an outlier.
 constexpr double kOutlierSigmas = 3;
-
-// What a squared distance costs, in squared standard deviations.
-inline double ResidualCost(double squared_distance, double sigma) {
-  return std::min(squared_distance / (sigma * sigma),
-                  kOutlierSigmas * kOutlierSigmas);
-}
 
 // Of every sample, as if none were an outlier.
 inline std::vector<double> EqualWeights(FitSpan samples) {

@@ -2,7 +2,6 @@
 #include "fitting/line_or_arc.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 
 namespace curvix {
 namespace {
@@ -51,18 +50,6 @@ std::vector<LineOrArc> LinesAndArcs(const FittedCurves& fitted) {
     }
   }
   return features;
-}
-
-double ExtentOf(const std::vector<LineOrArc>& features) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const LineOrArc& f : features) mean += f.fit->start + f.fit->end;
-  mean /= 2 * std::max<double>(1, static_cast<double>(features.size()));
-  double furthest = 0;
-  for (const LineOrArc& f : features) {
-    furthest = std::max(
-        {furthest, (f.fit->start - mean).norm(), (f.fit->end - mean).norm()});
-  }
-  return 2 * furthest;
 }
 
 }  // namespace curvix

@@ -35,7 +35,4 @@ struct LineOrArc {
 // Those of the fits that are longer than nothing; ascending.
 std::vector<LineOrArc> LinesAndArcs(const FittedCurves& fitted);
 
-// The diameter of a sphere about the mean of all ends that holds them.
-double ExtentOf(const std::vector<LineOrArc>& features);
-
 }  // namespace curvix

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/make_samples.h"
+// Paper: none (engineering). Samples of curves and how well they are known.
+#include "fitting/fit_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +94,8 @@ FitSamples MakeSamples(const Curve& curve,
                        std::hypot(own, bent * common),
                        common,
                        pixel,
-                       covariance});
+                       covariance,
+                       s.kind});
   }
   return samples;
 }

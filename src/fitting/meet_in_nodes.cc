@@ -15,11 +15,10 @@ constexpr double kMaxMissSigmas = 3;
 
 using End = CurveNode::End;
 
-// The sample at an end.
-const FitSample& SampleAt(const End& end,
+const PrimitiveEnd& EndAt(const End& end,
                           const std::vector<CurvePrimitives>& curves) {
   const PrimitiveOfCurve& primitive = curves[end.curve_idx][end.fit_idx];
-  return end.at_end ? primitive.end : primitive.start;
+  return end.at_end ? primitive.at_end : primitive.at_start;
 }
 
 // Ends that share a sample's place, by the first of them.
@@ -31,7 +30,7 @@ std::vector<CurveNode> GroupEnds(const std::vector<CurvePrimitives>& curves) {
       if (curves[c][f].primitive.closed) continue;
       for (const bool at_end : {false, true}) {
         const End end{c, f, at_end};
-        const Eigen::Vector3d& p = SampleAt(end, curves).position;
+        const Eigen::Vector3d& p = EndAt(end, curves).sample.position;
         const auto [place, is_new] =
             node_at.try_emplace({p.x(), p.y(), p.z()}, nodes.size());
         if (is_new) nodes.push_back({p, {}});
@@ -77,7 +76,7 @@ double Miss(const Eigen::Vector3d& point,
   const auto foot =
       FootOn(curves[end.curve_idx][end.fit_idx].primitive.shape, point);
   if (!foot) return 0;
-  return (foot->position - point).norm() / SampleAt(end, curves).sigma;
+  return (foot->position - point).norm() / EndAt(end, curves).sample.sigma;
 }
 
 // Moves the node to where its lines and arcs meet. It loses those that miss
@@ -88,7 +87,7 @@ void Meet(const std::vector<CurvePrimitives>& curves, CurveNode& node) {
     node.position = Nearest(place, node.ends, curves);
     double sigma = 0;
     for (const End& end : node.ends) {
-      sigma = std::max(sigma, SampleAt(end, curves).sigma);
+      sigma = std::max(sigma, EndAt(end, curves).sample.sigma);
     }
     const double move = (node.position - place).norm();
     if (move > kMaxMoveSigmas * sigma) node.position = place;
@@ -106,19 +105,25 @@ Eigen::Matrix3d CovarianceOf(const CurveNode& node,
                              const std::vector<CurvePrimitives>& curves) {
   std::vector<PrimitiveEnd> ends;
   for (const End& end : node.ends) {
-    const PrimitiveOfCurve& primitive = curves[end.curve_idx][end.fit_idx];
-    ends.push_back(end.at_end ? primitive.at_end : primitive.at_start);
+    ends.push_back(EndAt(end, curves));
   }
   return MeetingCovariance(ends, node.position);
 }
 
 }  // namespace
 
-std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves) {
+std::vector<CurveNode> MeetInNodes(std::vector<CurvePrimitives>& curves) {
   std::vector<CurveNode> nodes = GroupEnds(curves);
   for (CurveNode& node : nodes) Meet(curves, node);
   std::erase_if(nodes, [](const CurveNode& n) { return n.ends.size() < 2; });
-  for (CurveNode& node : nodes) node.covariance = CovarianceOf(node, curves);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    nodes[n].covariance = CovarianceOf(nodes[n], curves);
+    for (const End& end : nodes[n].ends) {
+      PrimitiveOfCurve& primitive = curves[end.curve_idx][end.fit_idx];
+      (end.at_end ? primitive.at_end : primitive.at_start).node =
+          static_cast<int>(n);
+    }
+  }
   return nodes;
 }
 

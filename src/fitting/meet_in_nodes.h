@@ -11,18 +11,17 @@
 
 namespace curvix {
 
-// A primitive of a curve, its first and last sample, and its ends.
+// A primitive of a curve and its ends.
 struct PrimitiveOfCurve {
   Primitive primitive;
-  FitSample start;
-  FitSample end;
   PrimitiveEnd at_start;
   PrimitiveEnd at_end;
 };
 
 using CurvePrimitives = std::vector<PrimitiveOfCurve>;
 
-// The nodes, as FitCurves describes them: by their first end.
-std::vector<CurveNode> MeetInNodes(const std::vector<CurvePrimitives>& curves);
+// The nodes, as FitCurves describes them: by their first end. Sets the nodes of
+// the ends.
+std::vector<CurveNode> MeetInNodes(std::vector<CurvePrimitives>& curves);
 
 }  // namespace curvix

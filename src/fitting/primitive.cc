@@ -2,6 +2,7 @@
 #include "fitting/primitive.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"
@@ -15,29 +16,25 @@ std::optional<FittedLine> WeightedLine(FitSpan samples,
   const auto [mean, scatter] = WeightedScatter(samples, weights);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
   if (!(eigen.eigenvalues()(2) > 0)) return std::nullopt;
-  FittedLine line{mean, eigen.eigenvectors().col(2)};
+  FittedLine line(mean, eigen.eigenvectors().col(2));
   const Eigen::Vector3d chord =
       samples.back().position - samples.front().position;
-  if (line.direction.dot(chord) < 0) line.direction *= -1;
+  if (line.direction().dot(chord) < 0) line.direction() *= -1;
   return line;
+}
+
+double SquaredDistance(const FittedLine& line, const Eigen::Vector3d& point) {
+  return (point - line.projection(point)).squaredNorm();
 }
 
 struct DistancesFrom {
   FitSpan samples;
 
-  std::vector<double> operator()(const FittedLine& line) const {
+  std::vector<double> operator()(const auto& shape) const {
     std::vector<double> squared;
     squared.reserve(samples.size());
     for (const FitSample& s : samples) {
-      squared.push_back((s.position - line.Closest(s.position)).squaredNorm());
-    }
-    return squared;
-  }
-  std::vector<double> operator()(const Conic& conic) const {
-    std::vector<double> squared;
-    squared.reserve(samples.size());
-    for (const FitSample& s : samples) {
-      squared.push_back(SquaredDistance(conic, s.position));
+      squared.push_back(SquaredDistance(shape, s.position));
     }
     return squared;
   }
@@ -64,7 +61,8 @@ double CostOf(const Shape& shape, FitSpan samples) {
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double cost = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    cost += ResidualCost(squared[i], samples[i].sigma);
+    cost += std::min(squared[i] / (samples[i].sigma * samples[i].sigma),
+                     kOutlierSigmas * kOutlierSigmas);
   }
   return cost;
 }
@@ -174,11 +172,8 @@ std::optional<FittedLine> FitLine(FitSpan samples) {
   std::optional<FittedLine> line = WeightedLine(samples, weights);
   for (int round = 0; line && round < kNumRounds; ++round) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const Eigen::Vector3d& position = samples[i].position;
-      weights[i] =
-          RobustWeight((position - line->Closest(position)).squaredNorm(),
-                       samples[i].sigma,
-                       round);
+      weights[i] = RobustWeight(
+          SquaredDistance(*line, samples[i].position), samples[i].sigma, round);
     }
     line = WeightedLine(samples, weights);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/fitting.h>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <optional>
 #include <variant>
@@ -14,14 +15,8 @@
 
 namespace curvix {
 
-struct FittedLine {
-  Eigen::Vector3d origin;     // on the line
-  Eigen::Vector3d direction;  // unit, from the first sample to the last
-
-  Eigen::Vector3d Closest(const Eigen::Vector3d& point) const {
-    return origin + direction.dot(point - origin) * direction;
-  }
-};
+// Its direction is unit, from the first sample to the last.
+using FittedLine = Eigen::ParametrizedLine<double, 3>;
 
 // The line with the least robust sum of squared distances. nullopt: fewer than
 // two samples, or all in one place.
@@ -44,7 +39,8 @@ FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve);
 // Squared distances of the samples from the shape.
 std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples);
 
-// Sum of ResidualCost.
+// The sum of squared distances in standard deviations, those of outliers cut
+// down to kOutlierSigmas.
 double CostOf(const Shape& shape, FitSpan samples);
 
 // Whether the shape explains the samples within their uncertainty: nine in ten
@@ -61,6 +57,11 @@ Conic Directed(const Conic& conic, FitSpan samples);
 // Whether samples of an open curve leave less of a conic open than four of
 // their steps or a tenth of a radian.
 bool GoesRound(const Conic& conic, FitSpan samples);
+
+// The primitives of an open or closed curve of two or more samples, in order,
+// as FitCurves describes them, each fitted alone: lines, arcs, ellipses and
+// splines. Neighbours share a sample.
+std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed);
 
 // Sets the centre, the axes and the angles of a fit whose `closed`, `start` and
 // `end` are known.

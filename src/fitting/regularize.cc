@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "fitting/end_covariance.h"
 #include "fitting/primitive.h"
 #include "fitting/regularize_costs.h"
 
@@ -53,11 +54,6 @@ ceres::CostFunction* Auto(Cost cost) {
   return new ceres::AutoDiffCostFunction<Cost, kResiduals, kSizes...>(
       new Cost(std::move(cost)));
 }
-
-struct Point {
-  Vector3d position;
-  Matrix3d covariance;
-};
 
 struct Arc {
   Vector6 values;
@@ -215,8 +211,9 @@ class Adjustment {
       } else if (fit.kind == FitKind::kLine) {
         end_points_[{key, at_end}] = points_.size();
         points_.push_back(
-            at_end ? Point{fit.end, WithoutSliding(fit.end_covariance)}
-                   : Point{fit.start, WithoutSliding(fit.start_covariance)});
+            at_end ? UncertainPoint{fit.end, WithoutSliding(fit.end_covariance)}
+                   : UncertainPoint{fit.start,
+                                    WithoutSliding(fit.start_covariance)});
       }
     }
   }
@@ -296,7 +293,7 @@ class Adjustment {
   }
 
   const FittedCurves& fitted_;
-  std::vector<Point> points_, before_;
+  std::vector<UncertainPoint> points_, before_;
   std::map<FitKey, Arc> arcs_, arcs_before_;
   std::map<std::pair<FitKey, bool>, std::size_t> end_points_;
   std::vector<Shared> shared_;

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include "fitting/line_or_arc.h"
 #include "geometry/directions.h"
 
 namespace curvix {

@@ -30,27 +30,25 @@ SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto wedge = WedgeOf(pencil, view, edges[i].position, tolerance_px);
     if (!wedge) continue;
-    entries.push_back(
-        {wedge->center, wedge->half_width, static_cast<std::int32_t>(i)});
+    entries.push_back({*wedge, static_cast<std::int32_t>(i)});
     max_half_width_ = std::max(max_half_width_, wedge->half_width);
   }
   if (entries.empty()) return;
-  const auto [least, largest] = std::ranges::minmax_element(
-      entries,
-      [](const Entry& a, const Entry& b) { return a.angle < b.angle; });
+  const auto [least, largest] =
+      std::ranges::minmax_element(entries, {}, &Entry::center);
   const auto size = static_cast<double>(entries.size());
-  least_angle_ = least->angle;
-  if (largest->angle > least_angle_) {
-    buckets_per_rad_ = size / (largest->angle - least_angle_);
+  least_angle_ = least->center;
+  if (largest->center > least_angle_) {
+    buckets_per_rad_ = size / (largest->center - least_angle_);
   }
   // Counting sort.
   begins_.assign(entries.size() + 1, 0);
-  for (const Entry& entry : entries) ++begins_[Bucket(entry.angle) + 1];
+  for (const Entry& entry : entries) ++begins_[Bucket(entry.center) + 1];
   std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
   std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
   entries_.resize(entries.size());
   for (const Entry& entry : entries) {
-    entries_[next[Bucket(entry.angle)]++] = entry;
+    entries_[next[Bucket(entry.center)]++] = entry;
   }
 }
 

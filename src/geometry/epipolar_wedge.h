@@ -55,7 +55,7 @@ class SortedByAngle {
     const double reach = wedge.half_width + max_half_width_;
     if (reach >= kPi) {  // all around: nearly along the baseline
       for (std::size_t i = 0; i < entries_.size(); ++i) {
-        if (Meet(wedge, {entries_[i].angle, entries_[i].half_width})) f(i);
+        if (Meet(wedge, entries_[i])) f(i);
       }
       return;
     }
@@ -68,10 +68,8 @@ class SortedByAngle {
   std::vector<std::int32_t> EdgeIdxs() const;
 
  private:
-  struct Entry {
-    double angle;
-    double half_width;
-    std::int32_t edge_idx;
+  struct Entry : Wedge {
+    std::int32_t edge_idx = 0;
   };
   template <typename F>
   void Visit(const Wedge& wedge, double shift, const F& f) const {
@@ -79,7 +77,7 @@ class SortedByAngle {
     const double reach = wedge.half_width + max_half_width_;
     const std::size_t end = begins_[Bucket(center + reach) + 1];
     for (std::size_t i = begins_[Bucket(center - reach)]; i < end; ++i) {
-      if (std::abs(entries_[i].angle - center) <=
+      if (std::abs(entries_[i].center - center) <=
           wedge.half_width + entries_[i].half_width) {
         f(i);
       }

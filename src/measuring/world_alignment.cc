@@ -46,243 +46,230 @@ struct Equations {
   }
 };
 
-class Estimator {
- public:
-  explicit Estimator(const AlignmentInput& input) : input_(input) {}
-
-  Result<AlignmentResult> Run();
-
- private:
-  Status Start();
-  bool PositionsFixRotation() const;
-  Status StartAtPositions();
-  Eigen::Vector3d World(const KnownPosition& p) const {
-    return p.world - result_.alignment.offset;
-  }
-  // log(known / measured), and its standard deviation.
-  std::pair<double, double> Misfit(const KnownDistance& d) const;
-  double SigmaOf(const KnownPosition& p) const {
-    return p.sigma > 0 ? p.sigma : result_.position_sigma;
-  }
-  Equations Linearise() const;
-  // The inverse for the parameters that are observed, else 0.
-  Matrix7d Covariance(const Matrix7d& normal) const;
-  void EstimatePositionSigma();
-  void KeepResiduals();
-
-  const AlignmentInput& input_;
-  AlignmentResult result_;
-};
-
-bool Estimator::PositionsFixRotation() const {
-  if (input_.positions.size() < 3) return false;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const KnownPosition& p : input_.positions) mean += p.model;
-  mean /= static_cast<double>(input_.positions.size());
-  for (const KnownPosition& p : input_.positions) {
-    scatter += (p.model - mean) * (p.model - mean).transpose();
-  }
+// Whether these are three points or more that are not on a line.
+bool SpanAPlane(const Eigen::Matrix3Xd& points) {
+  if (points.cols() < 3) return false;
+  const Eigen::Matrix3Xd centered = points.colwise() - points.rowwise().mean();
+  const Eigen::Matrix3d scatter = centered * centered.transpose();
   const Eigen::Vector3d values =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
   return values(1) > kOnALine * kOnALine * values(2);
 }
 
-Status Estimator::StartAtPositions() {
-  const auto n = static_cast<Eigen::Index>(input_.positions.size());
-  Eigen::Matrix3Xd model(3, n), world(3, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& p = input_.positions[static_cast<std::size_t>(i)];
-    model.col(i) = p.model;
-    world.col(i) = World(p);
-  }
-  WorldAlignment& a = result_.alignment;
-  Similarity3& start = a.world_from_model;
-  if (PositionsFixRotation()) {
-    const Eigen::Matrix4d m = Eigen::umeyama(model, world, true);
-    start.scale = m.block<3, 1>(0, 0).norm();
-    start.rotation = Eigen::Matrix3d(m.block<3, 3>(0, 0) / start.scale);
-    a.has_rotation = a.has_scale = true;
-  } else if (!a.has_rotation) {
-    return Status::InvalidArgument(
-        "The positions do not fix the axes: give three or more that are not on "
-        "a line, or --axes auto as well");
-  } else if (n > 1) {
-    const double from = (model.colwise() - model.rowwise().mean()).norm();
-    const double to = (world.colwise() - world.rowwise().mean()).norm();
-    if (!(from > 0 && to > 0)) {
-      return Status::InvalidArgument(
-          "All positions are at one place, which gives no scale");
+class Estimator {
+ public:
+  explicit Estimator(const AlignmentInput& input) : input_(input) {}
+
+  Result<AlignmentResult> Run() {
+    Status usable = Start();
+    if (!usable.ok()) return usable;
+    Equations equations;
+    WorldAlignment& a = result_.alignment;
+    for (int step = 0; step < kNumSteps; ++step) {
+      EstimatePositionSigma();
+      equations = Linearise();
+      a.covariance = Covariance(equations.normal);
+      a.world_from_model =
+          Moved(a.world_from_model, a.covariance * equations.right);
     }
-    if (!a.has_scale) start.scale = to / from;
-    a.has_scale = true;
-  }
-  if (!(start.scale > 0) || !std::isfinite(start.scale)) {
-    return Status::InvalidArgument(
-        "The positions coincide, which gives no scale");
-  }
-  if (n == 1 && !(input_.positions.front().sigma > 0)) {
-    return Status::InvalidArgument(
-        "The uncertainty of a single position cannot be estimated: give its "
-        "standard deviation, too");
-  }
-  a.has_translation = true;
-  start.translation = world.rowwise().mean() -
-                      start.scale * (start.rotation * model.rowwise().mean());
-  return {};
-}
-
-Status Estimator::Start() {
-  WorldAlignment& a = result_.alignment;
-  Similarity3& start = a.world_from_model;
-  if (input_.axes) {
-    start.rotation = input_.axes->world_from_model;
-    a.has_rotation = true;
-  }
-  for (const KnownDistance& d : input_.distances) {
-    if (!((d.a - d.b).norm() > 0)) {
-      return Status::InvalidArgument(
-          "The two points of a distance are the same point");
-    }
-  }
-  if (!input_.scales.empty()) {
-    start.scale = input_.scales.front().scale;
-    a.has_scale = true;
-  } else if (!input_.distances.empty()) {
-    const KnownDistance& d = input_.distances.front();
-    start.scale = d.length / (d.a - d.b).norm();
-    a.has_scale = true;
-  }
-  if (input_.positions.empty()) {
-    if (a.has_scale || a.has_rotation) return {};
-    return Status::InvalidArgument("Nothing is given to align to");
-  }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const KnownPosition& p : input_.positions) mean += p.world;
-  mean /= static_cast<double>(input_.positions.size());
-  if (mean.cwiseAbs().maxCoeff() > kLargeCoordinate) {
-    a.offset = kOffsetStep * (mean / kOffsetStep).array().round();
-  }
-  return StartAtPositions();
-}
-
-std::pair<double, double> Estimator::Misfit(const KnownDistance& d) const {
-  const Eigen::Vector3d between = d.b - d.a;
-  const double distance = between.norm();
-  const Eigen::Vector3d along = between / distance;
-  const double variance = along.dot((d.covariance_a + d.covariance_b) * along);
-  const double share =
-      std::hypot(std::sqrt(variance) / distance, d.sigma / d.length);
-  const double scale = result_.alignment.world_from_model.scale;
-  return {std::log(d.length / (scale * distance)), std::max(share, 1e-12)};
-}
-
-Equations Estimator::Linearise() const {
-  const Similarity3& now = result_.alignment.world_from_model;
-  Equations equations;
-  const auto add_scale = [&](double misfit, double sigma) {
-    Eigen::Matrix<double, 1, 7> row = Eigen::Matrix<double, 1, 7>::Zero();
-    row(0) = 1 / sigma;
-    equations.Add(row, Eigen::Matrix<double, 1, 1>(misfit / sigma));
-  };
-  for (const KnownDistance& d : input_.distances) {
-    const auto [misfit, sigma] = Misfit(d);
-    add_scale(misfit, sigma);
-  }
-  for (const KnownScale& s : input_.scales) {
-    add_scale(std::log(s.scale / now.scale), s.sigma);
-  }
-  if (input_.axes) {
-    const Eigen::AngleAxisd turn(input_.axes->world_from_model *
-                                 now.rotation.conjugate());
-    const Eigen::Matrix3d weight =
-        input_.axes->covariance.inverse().llt().matrixU();
-    Eigen::Matrix<double, 3, 7> rows = Eigen::Matrix<double, 3, 7>::Zero();
-    rows.block<3, 3>(0, 1) = weight;
-    equations.Add(rows, Eigen::Vector3d(weight * (turn.angle() * turn.axis())));
-  }
-  for (const KnownPosition& p : input_.positions) {
-    const double sigma = SigmaOf(p);
-    const Eigen::Vector3d turned = now.scale * (now.rotation * p.model);
-    Eigen::Matrix<double, 3, 7> rows;
-    rows << turned, -CrossMatrix(turned), Eigen::Matrix3d::Identity();
-    equations.Add(Eigen::Matrix<double, 3, 7>(rows / sigma),
-                  Eigen::Vector3d((World(p) - now * p.model) / sigma));
-  }
-  return equations;
-}
-
-Matrix7d Estimator::Covariance(const Matrix7d& normal) const {
-  const WorldAlignment& a = result_.alignment;
-  Vector7d known = Vector7d::Zero();
-  known(0) = a.has_scale;
-  known.segment<3>(1).setConstant(a.has_rotation);
-  known.tail<3>().setConstant(a.has_translation);
-  // Units differ: each parameter in its own standard deviations.
-  Vector7d size = normal.diagonal().cwiseSqrt();
-  for (int i = 0; i < 7; ++i) size(i) = known(i) > 0 ? 1 / size(i) : 0;
-  Matrix7d scaled = size.asDiagonal() * normal * size.asDiagonal();
-  for (int i = 0; i < 7; ++i) scaled(i, i) += known(i) > 0 ? 0 : 1;
-  return size.asDiagonal() * scaled.ldlt().solve(Matrix7d::Identity()) *
-         size.asDiagonal();
-}
-
-void Estimator::EstimatePositionSigma() {
-  double squares = 0;
-  int count = 0;
-  for (const KnownPosition& p : input_.positions) {
-    if (p.sigma > 0) continue;
-    squares +=
-        (World(p) - result_.alignment.world_from_model * p.model).squaredNorm();
-    count += 3;
-  }
-  if (count == 0) return;
-  const double free = std::max(1, count - 7);
-  // Not 0, where they agree to the last digit.
-  const double least =
-      1e-9 * (1 + result_.alignment.world_from_model.translation.norm());
-  result_.position_sigma = std::max(std::sqrt(squares / free), least);
-}
-
-void Estimator::KeepResiduals() {
-  const Similarity3& now = result_.alignment.world_from_model;
-  for (const KnownPosition& p : input_.positions) {
-    result_.position_residuals.push_back(now * p.model - World(p));
-  }
-}
-
-Result<AlignmentResult> Estimator::Run() {
-  Status usable = Start();
-  if (!usable.ok()) return usable;
-  Equations equations;
-  WorldAlignment& a = result_.alignment;
-  for (int step = 0; step < kNumSteps; ++step) {
     EstimatePositionSigma();
     equations = Linearise();
     a.covariance = Covariance(equations.normal);
-    a.world_from_model =
-        Moved(a.world_from_model, a.covariance * equations.right);
+    const int num_free = equations.count - (a.has_scale + 3 * a.has_rotation +
+                                            3 * a.has_translation);
+    if (num_free > 0) {
+      const double mean_square = equations.sum_of_squares / num_free;
+      result_.misfit = std::sqrt(mean_square);
+      // Without positions, the axes are exactly those given.
+      const int num_affected = input_.positions.empty() ? 1 : 7;
+      a.covariance.topLeftCorner(num_affected, num_affected) *=
+          std::max(1.0, mean_square);
+    }
+    if (!a.covariance.allFinite() ||
+        !a.world_from_model.translation.allFinite()) {
+      return Status::InvalidArgument(
+          "What is given does not fix scale and axes");
+    }
+    for (const KnownPosition& p : input_.positions) {
+      result_.position_residuals.push_back(a.world_from_model * p.model -
+                                           World(p));
+    }
+    return std::move(result_);
   }
-  EstimatePositionSigma();
-  equations = Linearise();
-  a.covariance = Covariance(equations.normal);
-  const int num_free = equations.count - (a.has_scale + 3 * a.has_rotation +
-                                          3 * a.has_translation);
-  if (num_free > 0) {
-    const double mean_square = equations.sum_of_squares / num_free;
-    result_.misfit = std::sqrt(mean_square);
-    // Without positions, the axes are exactly those given.
-    const int num_affected = input_.positions.empty() ? 1 : 7;
-    a.covariance.topLeftCorner(num_affected, num_affected) *=
-        std::max(1.0, mean_square);
+
+ private:
+  Status Start() {
+    WorldAlignment& a = result_.alignment;
+    Similarity3& start = a.world_from_model;
+    if (input_.axes) {
+      start.rotation = input_.axes->world_from_model;
+      a.has_rotation = true;
+    }
+    for (const KnownDistance& d : input_.distances) {
+      if (!((d.a - d.b).norm() > 0)) {
+        return Status::InvalidArgument(
+            "The two points of a distance are the same point");
+      }
+    }
+    if (!input_.scales.empty()) {
+      start.scale = input_.scales.front().scale;
+      a.has_scale = true;
+    } else if (!input_.distances.empty()) {
+      const KnownDistance& d = input_.distances.front();
+      start.scale = d.length / (d.a - d.b).norm();
+      a.has_scale = true;
+    }
+    if (input_.positions.empty()) {
+      if (a.has_scale || a.has_rotation) return {};
+      return Status::InvalidArgument("Nothing is given to align to");
+    }
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const KnownPosition& p : input_.positions) mean += p.world;
+    mean /= static_cast<double>(input_.positions.size());
+    if (mean.cwiseAbs().maxCoeff() > kLargeCoordinate) {
+      a.offset = kOffsetStep * (mean / kOffsetStep).array().round();
+    }
+    return StartAtPositions();
   }
-  if (!a.covariance.allFinite() ||
-      !a.world_from_model.translation.allFinite()) {
-    return Status::InvalidArgument("What is given does not fix scale and axes");
+
+  Status StartAtPositions() {
+    const auto n = static_cast<Eigen::Index>(input_.positions.size());
+    Eigen::Matrix3Xd model(3, n), world(3, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto& p = input_.positions[static_cast<std::size_t>(i)];
+      model.col(i) = p.model;
+      world.col(i) = World(p);
+    }
+    WorldAlignment& a = result_.alignment;
+    Similarity3& start = a.world_from_model;
+    if (SpanAPlane(model)) {
+      const Eigen::Matrix4d m = Eigen::umeyama(model, world, true);
+      start.scale = m.block<3, 1>(0, 0).norm();
+      start.rotation = Eigen::Matrix3d(m.block<3, 3>(0, 0) / start.scale);
+      a.has_rotation = a.has_scale = true;
+    } else if (!a.has_rotation) {
+      return Status::InvalidArgument(
+          "The positions do not fix the axes: give three or more that are not "
+          "on "
+          "a line, or --axes auto as well");
+    } else if (n > 1) {
+      const double from = (model.colwise() - model.rowwise().mean()).norm();
+      const double to = (world.colwise() - world.rowwise().mean()).norm();
+      if (!(from > 0 && to > 0)) {
+        return Status::InvalidArgument(
+            "All positions are at one place, which gives no scale");
+      }
+      if (!a.has_scale) start.scale = to / from;
+      a.has_scale = true;
+    }
+    if (!(start.scale > 0) || !std::isfinite(start.scale)) {
+      return Status::InvalidArgument(
+          "The positions coincide, which gives no scale");
+    }
+    if (n == 1 && !(input_.positions.front().sigma > 0)) {
+      return Status::InvalidArgument(
+          "The uncertainty of a single position cannot be estimated: give its "
+          "standard deviation, too");
+    }
+    a.has_translation = true;
+    start.translation = world.rowwise().mean() -
+                        start.scale * (start.rotation * model.rowwise().mean());
+    return {};
   }
-  KeepResiduals();
-  return std::move(result_);
-}
+
+  Eigen::Vector3d World(const KnownPosition& p) const {
+    return p.world - result_.alignment.offset;
+  }
+
+  Equations Linearise() const {
+    const Similarity3& now = result_.alignment.world_from_model;
+    Equations equations;
+    const auto add_scale = [&](double misfit, double sigma) {
+      Eigen::Matrix<double, 1, 7> row = Eigen::Matrix<double, 1, 7>::Zero();
+      row(0) = 1 / sigma;
+      equations.Add(row, Eigen::Matrix<double, 1, 1>(misfit / sigma));
+    };
+    for (const KnownDistance& d : input_.distances) {
+      const auto [misfit, sigma] = Misfit(d);
+      add_scale(misfit, sigma);
+    }
+    for (const KnownScale& s : input_.scales) {
+      add_scale(std::log(s.scale / now.scale), s.sigma);
+    }
+    if (input_.axes) {
+      const Eigen::AngleAxisd turn(input_.axes->world_from_model *
+                                   now.rotation.conjugate());
+      const Eigen::Matrix3d weight =
+          input_.axes->covariance.inverse().llt().matrixU();
+      Eigen::Matrix<double, 3, 7> rows = Eigen::Matrix<double, 3, 7>::Zero();
+      rows.block<3, 3>(0, 1) = weight;
+      equations.Add(rows,
+                    Eigen::Vector3d(weight * (turn.angle() * turn.axis())));
+    }
+    for (const KnownPosition& p : input_.positions) {
+      const double sigma = SigmaOf(p);
+      const Eigen::Vector3d turned = now.scale * (now.rotation * p.model);
+      Eigen::Matrix<double, 3, 7> rows;
+      rows << turned, -CrossMatrix(turned), Eigen::Matrix3d::Identity();
+      equations.Add(Eigen::Matrix<double, 3, 7>(rows / sigma),
+                    Eigen::Vector3d((World(p) - now * p.model) / sigma));
+    }
+    return equations;
+  }
+
+  // log(known / measured), and its standard deviation.
+  std::pair<double, double> Misfit(const KnownDistance& d) const {
+    const Eigen::Vector3d between = d.b - d.a;
+    const double distance = between.norm();
+    const Eigen::Vector3d along = between / distance;
+    const double variance =
+        along.dot((d.covariance_a + d.covariance_b) * along);
+    const double share =
+        std::hypot(std::sqrt(variance) / distance, d.sigma / d.length);
+    const double scale = result_.alignment.world_from_model.scale;
+    return {std::log(d.length / (scale * distance)), std::max(share, 1e-12)};
+  }
+
+  double SigmaOf(const KnownPosition& p) const {
+    return p.sigma > 0 ? p.sigma : result_.position_sigma;
+  }
+
+  // The inverse for the parameters that are observed, else 0.
+  Matrix7d Covariance(const Matrix7d& normal) const {
+    const WorldAlignment& a = result_.alignment;
+    Vector7d known = Vector7d::Zero();
+    known(0) = a.has_scale;
+    known.segment<3>(1).setConstant(a.has_rotation);
+    known.tail<3>().setConstant(a.has_translation);
+    // Units differ: each parameter in its own standard deviations.
+    Vector7d size = normal.diagonal().cwiseSqrt();
+    for (int i = 0; i < 7; ++i) size(i) = known(i) > 0 ? 1 / size(i) : 0;
+    Matrix7d scaled = size.asDiagonal() * normal * size.asDiagonal();
+    for (int i = 0; i < 7; ++i) scaled(i, i) += known(i) > 0 ? 0 : 1;
+    return size.asDiagonal() * scaled.ldlt().solve(Matrix7d::Identity()) *
+           size.asDiagonal();
+  }
+
+  void EstimatePositionSigma() {
+    double squares = 0;
+    int count = 0;
+    for (const KnownPosition& p : input_.positions) {
+      if (p.sigma > 0) continue;
+      squares += (World(p) - result_.alignment.world_from_model * p.model)
+                     .squaredNorm();
+      count += 3;
+    }
+    if (count == 0) return;
+    const double free = std::max(1, count - 7);
+    // Not 0, where they agree to the last digit.
+    const double least =
+        1e-9 * (1 + result_.alignment.world_from_model.translation.norm());
+    result_.position_sigma = std::max(std::sqrt(squares / free), least);
+  }
+
+  const AlignmentInput& input_;
+  AlignmentResult result_;
+};
 
 }  // namespace
 

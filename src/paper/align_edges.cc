@@ -14,8 +14,8 @@ namespace {
 // Of the mean length of links: forces below this are rest.
 constexpr double kRestForce = 1e-3;
 
-std::vector<OrientedPoint> PointsOf(const std::vector<Edge3d>& edges) {
-  std::vector<OrientedPoint> points;
+std::vector<SpaceEdge> PointsOf(const std::vector<Edge3d>& edges) {
+  std::vector<SpaceEdge> points;
   points.reserve(edges.size());
   for (const Edge3d& edge : edges) {
     points.push_back({edge.position, edge.tangent});
@@ -24,7 +24,7 @@ std::vector<OrientedPoint> PointsOf(const std::vector<Edge3d>& edges) {
 }
 
 // World units; zero without links.
-double MeanLinkLength(const std::vector<OrientedPoint>& points,
+double MeanLinkLength(const std::vector<SpaceEdge>& points,
                       const NeighborhoodGraph& graph) {
   double sum = 0;
   for (std::size_t i = 0; i < graph.NumEdges(); ++i) {
@@ -38,12 +38,12 @@ double MeanLinkLength(const std::vector<OrientedPoint>& points,
 }
 
 // One simultaneous step from `now` to `next`; returns the largest force.
-double Step(const std::vector<OrientedPoint>& now,
+double Step(const std::vector<SpaceEdge>& now,
             const NeighborhoodGraph& graph,
             const ForceModel& model,
             const AlignmentOptions& options,
             int num_threads,
-            std::vector<OrientedPoint>& next) {
+            std::vector<SpaceEdge>& next) {
   std::vector<double> forces(now.size());
   ParallelFor(now.size(), num_threads, [&](std::size_t i) {
     const Pull pull = PullOn(i, graph.Neighbors(i), now, model);
@@ -64,11 +64,11 @@ std::vector<Edge3d> AlignEdges(const std::vector<Edge3d>& edges,
   CURVIX_CHECK(
       graph.NumEdges() == edges.size(),
       "a graph of " << graph.NumEdges() << " edges for " << edges.size());
-  std::vector<OrientedPoint> points = PointsOf(edges);
+  std::vector<SpaceEdge> points = PointsOf(edges);
   const double mean_length = MeanLinkLength(points, graph);
   if (!(mean_length > 0)) return edges;  // no links, or all in one place
   const ForceModel model = {mean_length, options.use_mean_direction};
-  std::vector<OrientedPoint> next = points;
+  std::vector<SpaceEdge> next = points;
   for (int k = 0; k < options.num_iterations; ++k) {
     const double largest =
         Step(points, graph, model, options, num_threads, next);
@@ -85,14 +85,13 @@ std::vector<Edge3d> AlignEdges(const std::vector<Edge3d>& edges,
 
 Pull PullOn(std::size_t edge_idx,
             std::span<const NeighborLink> neighbors,
-            const std::vector<OrientedPoint>& points,
+            const std::vector<SpaceEdge>& points,
             const ForceModel& model) {
-  const OrientedPoint& point = points[edge_idx];
+  const SpaceEdge& point = points[edge_idx];
   Pull sum;
   double sum_weights = 0;
   for (const NeighborLink& link : neighbors) {
-    const OrientedPoint& other =
-        points[static_cast<std::size_t>(link.edge_idx)];
+    const SpaceEdge& other = points[static_cast<std::size_t>(link.edge_idx)];
     const Eigen::Vector3d offset = other.position - point.position;
     const Eigen::Vector3d direction = point.tangent.dot(other.tangent) < 0
                                           ? Eigen::Vector3d(-other.tangent)

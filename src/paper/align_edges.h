@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/edge_geometry.h"
 #include "model/neighborhood_graph.h"
 
 namespace curvix {
@@ -30,12 +31,6 @@ std::vector<Edge3d> AlignEdges(const std::vector<Edge3d>& edges,
                                const NeighborhoodGraph& graph,
                                const AlignmentOptions& options,
                                int num_threads);
-
-// A point with a direction; the sign of the direction has no meaning.
-struct OrientedPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
-};
 
 struct ForceModel {
   // d_0 of the weights below: the distance at which they fall to a half. World
@@ -67,7 +62,7 @@ struct Pull {
 // The means are over the weights. No neighbours: zero.
 Pull PullOn(std::size_t edge_idx,
             std::span<const NeighborLink> neighbors,
-            const std::vector<OrientedPoint>& points,
+            const std::vector<SpaceEdge>& points,
             const ForceModel& model);
 
 }  // namespace curvix

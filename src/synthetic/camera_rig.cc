@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/angles.h"
+#include "geometry/directions.h"
 #include "geometry/distortion.h"
 #include "synthetic/counter_random.h"
 
@@ -39,30 +40,14 @@ DistortionRange RangeOf(CameraModel model) {
   }
 }
 
-// A pose increment in the camera frame: half rotation (axis . angle), half
-// translation.
-struct Motion {
-  Vector3d turn;
-  Vector3d shift;
-
-  Rigid3 Times(double factor) const {
-    const double angle = factor * turn.norm();
-    return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn.normalized())),
-            factor * shift};
-  }
-};
-
 std::vector<Vector3d> InImage(const Rigid3& cam_from_world,
                               const Camera& camera,
                               const std::vector<Vector3d>& points) {
   std::vector<Vector3d> inside;
   for (const Vector3d& x : points) {
-    const Vector3d in_camera = cam_from_world * x;
-    if (!(in_camera.z() > 0)) continue;
-    const Eigen::Vector2d pixel =
-        ImageFromIdeal(camera, in_camera.hnormalized());
-    if (pixel.x() >= 0 && pixel.x() <= camera.width && pixel.y() >= 0 &&
-        pixel.y() <= camera.height) {
+    const auto pixel = Project(camera, cam_from_world, x);
+    if (pixel && pixel->x() >= 0 && pixel->x() <= camera.width &&
+        pixel->y() >= 0 && pixel->y() <= camera.height) {
       inside.push_back(x);
     }
   }
@@ -160,19 +145,21 @@ Rigid3 Disturbed(const Rigid3& cam_from_world,
   const std::vector<Vector3d> inside = InImage(cam_from_world, camera, points);
   if (rms_px == 0 || inside.empty()) return cam_from_world;
   const double distance = cam_from_world.translation.norm();
-  Motion motion;
+  Vector3d turn, shift;  // in the frame of the camera
   for (int axis = 0; axis < 3; ++axis) {
     const auto counter = static_cast<std::uint64_t>(2 * axis);
-    motion.turn[axis] = Gaussian(seed, counter);
-    motion.shift[axis] = distance * Gaussian(seed, counter + 1);
+    turn[axis] = Gaussian(seed, counter);
+    shift[axis] = distance * Gaussian(seed, counter + 1);
   }
+  const auto moved = [&](double factor) {
+    return Rigid3{RotationBy(factor * turn), factor * shift} * cam_from_world;
+  };
   // The move is close to linear in the factor: a few corrections suffice.
   double factor = 1e-3 * rms_px / kFocalPerSide / camera.width;
   for (int i = 0; i < 5; ++i) {
-    const Rigid3 disturbed = motion.Times(factor) * cam_from_world;
-    factor *= rms_px / RmsMove(cam_from_world, disturbed, camera, inside);
+    factor *= rms_px / RmsMove(cam_from_world, moved(factor), camera, inside);
   }
-  return motion.Times(factor) * cam_from_world;
+  return moved(factor);
 }
 
 }  // namespace curvix

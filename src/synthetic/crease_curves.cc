@@ -2,13 +2,15 @@
 // Paper: none (engineering).
 #include "synthetic/synthetic_truth.h"
 
-#include "base/angles.h"
-#include "base/infinity.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+
+#include "base/angles.h"
+#include "base/infinity.h"
+#include "synthetic/face_frame.h"
 
 namespace curvix {
 namespace {
@@ -25,19 +27,13 @@ struct Face {
 
 Face MakeFace(const SolidPrimitive& primitive, int face_idx) {
   const Rigid3& pose = primitive.world_from_own;
-  Face face{&primitive, true, pose.translation, Vector3d::UnitZ()};
-  Vector3d own_axis = Vector3d::UnitZ();
-  Vector3d own_point = Vector3d::Zero();
-  if (primitive.shape == PrimitiveShape::kBox) {
-    own_axis = (face_idx % 2 == 0 ? -1 : 1) * Vector3d::Unit(face_idx / 2);
-    own_point = primitive.size.cwiseProduct(own_axis);
-  } else {
-    face.is_plane = face_idx > 0;
-    if (face_idx == 2) own_point.z() = primitive.size.z();
-  }
-  face.point = pose * own_point;
-  face.axis = pose.rotation * own_axis;
-  return face;
+  const bool is_box = primitive.shape == PrimitiveShape::kBox;
+  const bool is_plane = is_box || face_idx > 0;
+  const Vector3d middle =
+      is_plane ? OwnFromFace(primitive, face_idx, {0, 0}) : Vector3d::Zero();
+  const Vector3d axis =
+      is_box ? OwnNormal(primitive, face_idx, middle) : Vector3d::UnitZ();
+  return {&primitive, is_plane, pose * middle, pose.rotation * axis};
 }
 
 std::optional<TrueCurve> CircleOf(const Vector3d& centre,
@@ -138,20 +134,6 @@ bool IsCrease(const Solid& solid, const Vector3d& x, const Vector3d& tangent) {
          std::abs(num_inside - kNumProbes / 2) > 1;
 }
 
-// The parts of `whole` that are creases.
-void AppendCreases(const Solid& solid,
-                   const TrueCurve& whole,
-                   std::vector<TrueCurve>& curves) {
-  const auto is_crease = [&](double s) {
-    return IsCrease(solid, whole.Position(s), whole.Tangent(s));
-  };
-  const double detail = solid.detail();
-  for (const TrueCurve& part :
-       PartsWhere(whole, detail / 200, 1e-2 * detail, is_crease)) {
-    curves.push_back(part);
-  }
-}
-
 // Whether x is on the whole line or circle that `curve` belongs to.
 bool IsOnCarrier(const Vector3d& x, const TrueCurve& curve, double tolerance) {
   const Vector3d d = x - curve.origin;
@@ -178,8 +160,7 @@ std::vector<TrueCurve> Candidates(const Solid& solid) {
       faces.push_back(MakeFace(primitive, face));
     }
   }
-  const Eigen::Vector3d margin =
-      Eigen::Vector3d::Constant(0.01 * solid.detail());
+  const Vector3d margin = Vector3d::Constant(0.01 * solid.detail());
   const Eigen::AlignedBox3d box(solid.box().min() - margin,
                                 solid.box().max() + margin);
   const double tolerance = 1e-6 * solid.detail();
@@ -246,8 +227,7 @@ void AppendRim(const Solid& solid,
         return num_filled < kNumProbes &&
                touches == (kind == CurveKind::kCrease);
       };
-      for (const TrueCurve& part :
-           PartsWhere(whole, detail / 200, 1e-2 * detail, has_kind)) {
+      for (const TrueCurve& part : PartsWhere(whole, detail, has_kind)) {
         const bool is_new =
             std::ranges::none_of(curves, [&](const TrueCurve& other) {
               return other.kind == kind && Covers(other, part, 1e-6 * detail);
@@ -263,7 +243,11 @@ void AppendRim(const Solid& solid,
 std::vector<TrueCurve> CreaseCurves(const Solid& solid) {
   std::vector<TrueCurve> curves;
   for (const TrueCurve& whole : Candidates(solid)) {
-    AppendCreases(solid, whole, curves);
+    const auto is_crease = [&](double s) {
+      return IsCrease(solid, whole.Position(s), whole.Tangent(s));
+    };
+    std::ranges::copy(PartsWhere(whole, solid.detail(), is_crease),
+                      std::back_inserter(curves));
   }
   for (const SolidPrimitive& primitive : solid.primitives()) {
     if (primitive.shape != PrimitiveShape::kSheet) continue;

@@ -27,15 +27,9 @@ struct Axes {
 };
 
 Axes AxesOf(const SolidPrimitive& primitive, int face) {
-  if (primitive.shape != PrimitiveShape::kBox) return {0, 1};
-  switch (face / 2) {
-    case 0:
-      return {1, 2};
-    case 1:
-      return {0, 2};
-    default:
-      return {0, 1};
-  }
+  const bool is_box = primitive.shape == PrimitiveShape::kBox;
+  const int across = is_box ? face / 2 : 2;
+  return {across == 0 ? 1 : 0, across == 2 ? 1 : 2};
 }
 
 // An arc around a frustum at the height of `flat`, which goes along u.

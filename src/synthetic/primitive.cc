@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/primitive.h"
 
-#include "base/check.h"
 #include "base/infinity.h"
 
 #include <algorithm>
@@ -227,32 +226,16 @@ double OwnRadius(const SolidPrimitive& primitive) {
 }
 
 Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives) {
-  Vector3d low = Vector3d::Constant(kInfinity);
-  Vector3d high = Vector3d::Constant(-kInfinity);
+  Eigen::AlignedBox3d box;
   for (const SolidPrimitive& primitive : primitives) {
     if (!primitive.is_added) continue;
     for (int axis = 0; axis < 3; ++axis) {
-      low[axis] =
-          std::min(low[axis], -Support(primitive, -Vector3d::Unit(axis)));
-      high[axis] =
-          std::max(high[axis], Support(primitive, Vector3d::Unit(axis)));
+      const Vector3d unit = Vector3d::Unit(axis);
+      box.min()[axis] = std::min(box.min()[axis], -Support(primitive, -unit));
+      box.max()[axis] = std::max(box.max()[axis], Support(primitive, unit));
     }
   }
-  return {low, high};
-}
-
-std::vector<SolidPrimitive> Normalized(std::vector<SolidPrimitive> primitives,
-                                       double longest_side) {
-  const Eigen::AlignedBox3d box = BoundingBox(primitives);
-  CURVIX_CHECK(box.sizes().minCoeff() > 0, "the solid has no volume");
-  const double factor = longest_side / box.sizes().maxCoeff();
-  for (SolidPrimitive& primitive : primitives) {
-    primitive.size *= factor;
-    primitive.world_from_own.translation =
-        factor *
-        (primitive.world_from_own.translation - (box.min() + box.max()) / 2);
-  }
-  return primitives;
+  return box;
 }
 
 }  // namespace curvix

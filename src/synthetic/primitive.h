@@ -87,9 +87,4 @@ double OwnRadius(const SolidPrimitive& primitive);
 // Of the added bodies; empty without any.
 Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives);
 
-// The same bodies, moved and scaled so that the bounding box of the added ones
-// is centred on the origin and its longest side is `longest_side`.
-std::vector<SolidPrimitive> Normalized(std::vector<SolidPrimitive> primitives,
-                                       double longest_side);
-
 }  // namespace curvix

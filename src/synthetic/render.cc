@@ -51,16 +51,98 @@ class Renderer {
         world_from_cam_(cam_from_world.rotation.conjugate().toRotationMatrix()),
         centre_(cam_from_world.Inverse().translation) {}
 
-  Look At(const Vector2d& pixel) const;
+  Look At(const Vector2d& pixel) const {
+    const std::optional<Vector2d> uv = IdealFromImage(camera_, pixel);
+    if (!uv) return kBackground;
+    const Ray ray{centre_, world_from_cam_ * uv->homogeneous()};
+    const double nearest =
+        ray.direction.cross(ray.origin).norm() / ray.direction.norm();
+    if (nearest > solid_.radius()) return kBackground;
+    const std::optional<Hit> hit = solid_.Trace(ray);
+    return hit ? surfaces_.At(ray, *hit) : kBackground;
+  }
 
   // Mean grey value over the cell.
-  double Integrate(const Cell& cell, int depth) const;
+  double Integrate(const Cell& cell, int depth) const {
+    constexpr int kMinDepth = 2;
+    constexpr int kMaxDepth = 5;
+    if (depth >= kMinDepth || (depth == 1 && IsUniform(cell))) {
+      if (IsUniform(cell) || depth == kMaxDepth) return MeanGrey(cell);
+      if (const auto mean = IntegrateTwoSides(cell)) return *mean;
+    }
+    const double half = cell.size / 2;
+    const auto sample = [&](double x, double y) {
+      return At(cell.origin + half * Vector2d(x, y));
+    };
+    const Look top = sample(1, 0);
+    const Look right = sample(2, 1);
+    const Look bottom = sample(1, 2);
+    const Look left = sample(0, 1);
+    const Look middle = sample(1, 1);
+    const auto& [c0, c1, c2, c3] = cell.corners;
+    const auto quarter = [&](int x, int y, std::array<Look, 4> corners) {
+      const Cell part{cell.origin + half * Vector2d(x, y), half, corners};
+      return Integrate(part, depth + 1) / 4;
+    };
+    return quarter(0, 0, {c0, top, middle, left}) +
+           quarter(1, 0, {top, c1, right, middle}) +
+           quarter(1, 1, {middle, right, c2, bottom}) +
+           quarter(0, 1, {left, middle, bottom, c3});
+  }
 
  private:
-  std::optional<double> IntegrateTwoSides(const Cell& cell) const;
+  // For a cell that one straight border divides: its two parts, weighted by
+  // area.
+  std::optional<double> IntegrateTwoSides(const Cell& cell) const {
+    const std::uint64_t id = cell.corners[0].id;
+    int num_changes = 0;
+    std::uint64_t other_id = id;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint64_t here = cell.corners[i].id;
+      if (here != id && other_id != id && here != other_id) return std::nullopt;
+      if (here != id) other_id = here;
+      num_changes += here != cell.corners[(i + 1) % 4].id;
+    }
+    if (num_changes != 2) return std::nullopt;
+
+    std::vector<Vector2d> outline;  // of the part that shows `id`, unit square
+    std::array<double, 2> sums = {0, 0};
+    std::array<int, 2> counts = {0, 0};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vector2d& here = CornerOffsets()[i];
+      const Vector2d& next = CornerOffsets()[(i + 1) % 4];
+      const bool is_inside = cell.corners[i].id == id;
+      sums[is_inside] += cell.corners[i].grey;
+      ++counts[is_inside];
+      if (is_inside) outline.push_back(here);
+      if (cell.corners[i].id == cell.corners[(i + 1) % 4].id) continue;
+      const double share = Crossing(cell.origin + cell.size * here,
+                                    cell.origin + cell.size * next,
+                                    cell.corners[i].id);
+      outline.push_back(here + share * (next - here));
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vector2d& a = outline[i];
+      const Vector2d& b = outline[(i + 1) % outline.size()];
+      area += (a.x() * b.y() - a.y() * b.x()) / 2;
+    }
+    return area * sums[1] / counts[1] + (1 - area) * sums[0] / counts[0];
+  }
+
+  // The share of the way at which the sample stops showing `from_id`.
   double Crossing(const Vector2d& from,
                   const Vector2d& to,
-                  std::uint64_t from_id) const;
+                  std::uint64_t from_id) const {
+    double low = 0;
+    double high = 1;
+    for (int i = 0; i < 5; ++i) {
+      const double middle = (low + high) / 2;
+      const bool is_from = At(from + middle * (to - from)).id == from_id;
+      (is_from ? low : high) = middle;
+    }
+    return (low + high) / 2;
+  }
 
   const Solid& solid_;
   const Surfaces& surfaces_;
@@ -68,96 +150,6 @@ class Renderer {
   Eigen::Matrix3d world_from_cam_;
   Vector3d centre_;
 };
-
-Look Renderer::At(const Vector2d& pixel) const {
-  const std::optional<Vector2d> uv = IdealFromImage(camera_, pixel);
-  if (!uv) return kBackground;
-  const Ray ray{centre_, world_from_cam_ * uv->homogeneous()};
-  const double nearest =
-      ray.direction.cross(ray.origin).norm() / ray.direction.norm();
-  if (nearest > solid_.radius()) return kBackground;
-  const std::optional<Hit> hit = solid_.Trace(ray);
-  return hit ? surfaces_.At(ray, *hit) : kBackground;
-}
-
-// The share of the way at which the sample stops showing `from_id`.
-double Renderer::Crossing(const Vector2d& from,
-                          const Vector2d& to,
-                          std::uint64_t from_id) const {
-  double low = 0;
-  double high = 1;
-  for (int i = 0; i < 5; ++i) {
-    const double middle = (low + high) / 2;
-    const bool is_from = At(from + middle * (to - from)).id == from_id;
-    (is_from ? low : high) = middle;
-  }
-  return (low + high) / 2;
-}
-
-// For a cell that one straight border divides: its two parts, weighted by area.
-std::optional<double> Renderer::IntegrateTwoSides(const Cell& cell) const {
-  const std::uint64_t id = cell.corners[0].id;
-  int num_changes = 0;
-  std::uint64_t other_id = id;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint64_t here = cell.corners[i].id;
-    if (here != id && other_id != id && here != other_id) return std::nullopt;
-    if (here != id) other_id = here;
-    num_changes += here != cell.corners[(i + 1) % 4].id;
-  }
-  if (num_changes != 2) return std::nullopt;
-
-  std::vector<Vector2d> outline;  // of the part that shows `id`, unit square
-  std::array<double, 2> sums = {0, 0};
-  std::array<int, 2> counts = {0, 0};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2d& here = CornerOffsets()[i];
-    const Vector2d& next = CornerOffsets()[(i + 1) % 4];
-    const bool is_inside = cell.corners[i].id == id;
-    sums[is_inside] += cell.corners[i].grey;
-    ++counts[is_inside];
-    if (is_inside) outline.push_back(here);
-    if (cell.corners[i].id == cell.corners[(i + 1) % 4].id) continue;
-    const double share = Crossing(cell.origin + cell.size * here,
-                                  cell.origin + cell.size * next,
-                                  cell.corners[i].id);
-    outline.push_back(here + share * (next - here));
-  }
-  double area = 0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector2d& a = outline[i];
-    const Vector2d& b = outline[(i + 1) % outline.size()];
-    area += (a.x() * b.y() - a.y() * b.x()) / 2;
-  }
-  return area * sums[1] / counts[1] + (1 - area) * sums[0] / counts[0];
-}
-
-double Renderer::Integrate(const Cell& cell, int depth) const {
-  constexpr int kMinDepth = 2;
-  constexpr int kMaxDepth = 5;
-  if (depth >= kMinDepth || (depth == 1 && IsUniform(cell))) {
-    if (IsUniform(cell) || depth == kMaxDepth) return MeanGrey(cell);
-    if (const auto mean = IntegrateTwoSides(cell)) return *mean;
-  }
-  const double half = cell.size / 2;
-  const auto sample = [&](double x, double y) {
-    return At(cell.origin + half * Vector2d(x, y));
-  };
-  const Look top = sample(1, 0);
-  const Look right = sample(2, 1);
-  const Look bottom = sample(1, 2);
-  const Look left = sample(0, 1);
-  const Look middle = sample(1, 1);
-  const auto& [c0, c1, c2, c3] = cell.corners;
-  const auto quarter = [&](int x, int y, std::array<Look, 4> corners) {
-    const Cell part{cell.origin + half * Vector2d(x, y), half, corners};
-    return Integrate(part, depth + 1) / 4;
-  };
-  return quarter(0, 0, {c0, top, middle, left}) +
-         quarter(1, 0, {top, c1, right, middle}) +
-         quarter(1, 1, {middle, right, c2, bottom}) +
-         quarter(0, 1, {left, middle, bottom, c3});
-}
 
 // Looks at all pixel corners, row-major, (width + 1) x (height + 1).
 class CornerGrid {

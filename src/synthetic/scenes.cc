@@ -2,9 +2,14 @@
 #include "synthetic/scenes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
+#include "base/check.h"
 #include "synthetic/bodies.h"
+#include "synthetic/walks.h"
 
 namespace curvix {
 namespace {
@@ -106,8 +111,6 @@ void AddBottle(const Vector3d& foot, std::vector<SolidPrimitive>& parts) {
   parts.push_back(Tinted(0.6, Cylinder(at(0.44), up(0.04), 0.047)));
 }
 
-}  // namespace
-
 std::vector<SolidPrimitive> Block() {
   return {Box({0, 0, 0}, {1, 0.7, 0.55}),
           Without(Box({0.55, -kBeyond, 0.25}, {1 + kBeyond, 0.8, 0.8}))};
@@ -132,9 +135,9 @@ std::vector<SolidPrimitive> CutSphere() {
   return {Sphere({0, 0, 0}, 0.5), Without(cut)};
 }
 
-// A bracket: base and wall, a hole through the wall, and on the base a boss
-// with a bore, a cone and a round dimple.
-std::vector<SolidPrimitive> Part() {
+// Base and wall, a hole through the wall, and on the base a boss with a bore, a
+// cone and a round dimple.
+std::vector<SolidPrimitive> Bracket() {
   const double top = 0.14;  // of the base
   return {Box({0, 0, 0}, {1, 0.7, top}),
           Box({0, 0, 0}, {0.14, 0.7, 0.6}),
@@ -194,6 +197,77 @@ std::vector<SolidPrimitive> Knobs() {
   AddBottle({0.8, 0.5, 0.2}, parts);
   parts.back().pattern = SurfacePattern::kNone;
   return parts;
+}
+
+// Pieces without a pattern of their own take turns.
+void PaintMixed(std::vector<SolidPrimitive>& primitives) {
+  constexpr std::array kTurns = {kBrick, kWood, kPrint};
+  std::size_t turn = 0;
+  for (SolidPrimitive& primitive : primitives) {
+    if (primitive.is_added) primitive.pattern = kTurns[turn++ % kTurns.size()];
+  }
+}
+
+void Paint(SurfacePattern pattern, std::vector<SolidPrimitive>& primitives) {
+  const bool has_own = std::ranges::any_of(primitives, [](const auto& p) {
+    return p.pattern != SurfacePattern::kNone;
+  });
+  if (pattern == SurfacePattern::kMixed) {
+    if (!has_own) PaintMixed(primitives);
+    return;
+  }
+  for (SolidPrimitive& primitive : primitives) {
+    if (primitive.is_added || pattern == SurfacePattern::kNone) {
+      primitive.pattern = pattern;
+    }
+  }
+}
+
+std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
+  switch (solid) {
+    case SyntheticSolid::kBlock:
+      return Block();
+    case SyntheticSolid::kCylinder:
+      return UprightCylinder();
+    case SyntheticSolid::kCone:
+      return Cone();
+    case SyntheticSolid::kSphere:
+      return CutSphere();
+    case SyntheticSolid::kFacade:
+      return Facade(num_views);
+    case SyntheticSolid::kHouse:
+      return House();
+    case SyntheticSolid::kTable:
+      return Table();
+    case SyntheticSolid::kKnobs:
+      return Knobs();
+    case SyntheticSolid::kRoom:
+      return Room();
+    case SyntheticSolid::kPart:
+      break;
+  }
+  return Bracket();
+}
+
+}  // namespace
+
+Solid MakeSolid(SyntheticSolid solid,
+                double scale,
+                int num_views,
+                SurfacePattern pattern) {
+  std::vector<SolidPrimitive> primitives = Primitives(solid, num_views);
+  Paint(pattern, primitives);
+  const Eigen::AlignedBox3d box = BoundingBox(primitives);
+  const Vector3d sides = box.sizes();
+  CURVIX_CHECK(sides.minCoeff() > 0, "the solid has no volume");
+  const double factor =
+      scale / (solid == SyntheticSolid::kFacade ? sides.z() : sides.maxCoeff());
+  for (SolidPrimitive& primitive : primitives) {
+    Vector3d& place = primitive.world_from_own.translation;
+    place = factor * (place - box.center());
+    primitive.size *= factor;
+  }
+  return Solid(std::move(primitives));
 }
 
 }  // namespace curvix

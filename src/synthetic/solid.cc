@@ -2,13 +2,10 @@
 #include "synthetic/solid.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "base/check.h"
 #include "base/infinity.h"
-#include "synthetic/scenes.h"
-#include "synthetic/walks.h"
 
 namespace curvix {
 
@@ -129,75 +126,6 @@ std::optional<Hit> Solid::Trace(const Ray& ray) const {
   if (hit.t == kInfinity) return std::nullopt;
   hit.normal = Normal(hit, ray.origin + hit.t * ray.direction);
   return hit;
-}
-
-namespace {
-
-using Eigen::Vector3d;
-
-// Pieces without a pattern of their own take turns.
-void PaintMixed(std::vector<SolidPrimitive>& primitives) {
-  constexpr std::array kTurns = {
-      SurfacePattern::kBrick, SurfacePattern::kWood, SurfacePattern::kPrint};
-  std::size_t turn = 0;
-  for (SolidPrimitive& primitive : primitives) {
-    if (primitive.is_added) primitive.pattern = kTurns[turn++ % kTurns.size()];
-  }
-}
-
-void Paint(SurfacePattern pattern, std::vector<SolidPrimitive>& primitives) {
-  const bool has_own = std::ranges::any_of(primitives, [](const auto& p) {
-    return p.pattern != SurfacePattern::kNone;
-  });
-  if (pattern == SurfacePattern::kMixed) {
-    if (!has_own) PaintMixed(primitives);
-    return;
-  }
-  for (SolidPrimitive& primitive : primitives) {
-    if (primitive.is_added || pattern == SurfacePattern::kNone) {
-      primitive.pattern = pattern;
-    }
-  }
-}
-
-std::vector<SolidPrimitive> Primitives(SyntheticSolid solid, int num_views) {
-  switch (solid) {
-    case SyntheticSolid::kBlock:
-      return Block();
-    case SyntheticSolid::kCylinder:
-      return UprightCylinder();
-    case SyntheticSolid::kCone:
-      return Cone();
-    case SyntheticSolid::kSphere:
-      return CutSphere();
-    case SyntheticSolid::kFacade:
-      return Facade(num_views);
-    case SyntheticSolid::kHouse:
-      return House();
-    case SyntheticSolid::kTable:
-      return Table();
-    case SyntheticSolid::kKnobs:
-      return Knobs();
-    case SyntheticSolid::kRoom:
-      return Room();
-    case SyntheticSolid::kPart:
-      break;
-  }
-  return Part();
-}
-
-}  // namespace
-
-Solid MakeSolid(SyntheticSolid solid,
-                double scale,
-                int num_views,
-                SurfacePattern pattern) {
-  std::vector<SolidPrimitive> primitives = Primitives(solid, num_views);
-  Paint(pattern, primitives);
-  const Vector3d sides = BoundingBox(primitives).sizes();
-  const double scaled =
-      solid == SyntheticSolid::kFacade ? sides.z() : sides.maxCoeff();
-  return Solid(Normalized(primitives, scale * sides.maxCoeff() / scaled));
 }
 
 }  // namespace curvix

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "synthetic/primitive.h"
-#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 
@@ -66,16 +65,5 @@ class Solid {
   double radius_ = 0;
   double detail_ = 0;
 };
-
-// `solid` centred on the origin, z up, longest side `scale` world units; a
-// facade has that height, and the length that `num_views` images need.
-// `pattern` is painted on every added body; kMixed: on each what suits it.
-//
-// For CreaseCurves to know every edge, round faces meet planar ones only, and
-// planes meet frustums at right angles to the axis.
-Solid MakeSolid(SyntheticSolid solid,
-                double scale,
-                int num_views = 3,
-                SurfacePattern pattern = SurfacePattern::kNone);
 
 }  // namespace curvix

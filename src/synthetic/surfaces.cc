@@ -45,6 +45,42 @@ std::uint64_t CellId(const Eigen::Vector3i& cell, std::uint64_t seed) {
   return Mix(seed ^ packed);
 }
 
+// Round patches at random places: a surface that passes through them shows what
+// feature detectors look for. All fade to their rims, or half of them end there
+// with a crisp rim.
+struct SurfaceTexture {
+  double contrast;   // grey levels between the brightest and the darkest patch
+  double cell_size;  // mean distance of patches, world units
+  std::uint64_t seed;
+  bool has_rims;
+
+  struct Value {
+    double grey = 0;             // to be added, within +-contrast / 2
+    std::uint64_t patch_id = 0;  // changes where the grey value jumps
+  };
+  Value At(const Vector3d& world) const {
+    Value value;
+    if (contrast == 0) return value;
+    const Vector3d x = world / cell_size;
+    const Eigen::Vector3i home = (x.array() - 0.5).floor().cast<int>();
+    double sum = 0;
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector3i cell =
+          home + Eigen::Vector3i(k & 1, k >> 1 & 1, k >> 2);
+      const std::uint64_t id = CellId(cell, seed);
+      const Patch patch = PatchOfCell(cell, id);
+      const double share =
+          (x - patch.centre).squaredNorm() / (patch.radius * patch.radius);
+      if (share >= 1) continue;
+      const bool is_crisp = patch.is_crisp && has_rims;
+      sum += patch.strength * (is_crisp ? 1 : (1 - share) * (1 - share));
+      if (is_crisp) value.patch_id ^= id;
+    }
+    value.grey = contrast / 2 * std::clamp(sum, -1.0, 1.0);
+    return value;
+  }
+};
+
 constexpr double kMottle = 10;      // contrast, grey levels
 constexpr double kSkyShare = 0.65;  // of the light, where the sun shines
 constexpr double kMirrorShare = 0.45;
@@ -95,14 +131,7 @@ bool HasPattern(const Solid& solid) {
 Surfaces::Surfaces(const Solid& solid, const SurfaceOptions& options)
     : solid_(solid),
       options_(options),
-      texture_(options.texture,
-               options.scale / 18,
-               options.seed,
-               SurfaceTexture::Rims::kSome),
-      mottle_(HasPattern(solid) ? kMottle : 0,
-              options.scale / 24,
-              Mix(options.seed, 1),
-              SurfaceTexture::Rims::kNone) {
+      mottle_(HasPattern(solid) ? kMottle : 0) {
   std::uint64_t counter = 2;
   for (const SolidPrimitive& primitive : solid.primitives()) {
     auto& faces = patterns_.emplace_back();
@@ -146,13 +175,17 @@ double Surfaces::Sunlight(const Vector3d& x,
 
 Look Surfaces::At(const Ray& ray, const Hit& hit) const {
   const Vector3d x = ray.origin + hit.t * ray.direction;
-  const auto texture = texture_.At(x);
+  const SurfaceTexture texture{
+      options_.texture, options_.scale / 18, options_.seed, true};
+  const SurfaceTexture mottle{
+      mottle_, options_.scale / 24, Mix(options_.seed, 1), false};
+  const auto spots = texture.At(x);
   const auto primitive_idx = static_cast<std::size_t>(hit.primitive_idx);
   const SolidPrimitive& primitive = solid_.primitives()[primitive_idx];
   const std::uint64_t face =
       8 * primitive_idx + static_cast<unsigned>(hit.face_idx);
   Look look{primitive.albedo * Shade(hit.normal),
-            Mix(texture.patch_id, face + 1)};
+            Mix(spots.patch_id, face + 1)};
   if (const FacePattern* pattern = PatternOf(hit.primitive_idx, hit.face_idx)) {
     const Rigid3& pose = primitive.world_from_own;
     const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
@@ -161,7 +194,7 @@ Look Surfaces::At(const Ray& ray, const Hit& hit) const {
     look.id = Mix(look.id, painted.patch_id);
   }
   if (options_.shadows) look.grey *= Sunlight(x, hit.normal, look.id);
-  look.grey += texture.grey + mottle_.At(x).grey;
+  look.grey += spots.grey + mottle.At(x).grey;
   if (options_.reflections) {
     const Vector3d away = ray.direction.normalized();
     const std::uint64_t lamp =
@@ -172,28 +205,6 @@ Look Surfaces::At(const Ray& ray, const Hit& hit) const {
     }
   }
   return look;
-}
-
-SurfaceTexture::Value SurfaceTexture::At(const Vector3d& world) const {
-  Value value;
-  if (contrast_ == 0) return value;
-  const Vector3d x = world / cell_size_;
-  const Eigen::Vector3i home = (x.array() - 0.5).floor().cast<int>();
-  double sum = 0;
-  for (int k = 0; k < 8; ++k) {
-    const Eigen::Vector3i cell =
-        home + Eigen::Vector3i(k & 1, k >> 1 & 1, k >> 2);
-    const std::uint64_t id = CellId(cell, seed_);
-    const Patch patch = PatchOfCell(cell, id);
-    const double share =
-        (x - patch.centre).squaredNorm() / (patch.radius * patch.radius);
-    if (share >= 1) continue;
-    const bool is_crisp = patch.is_crisp && rims_ == Rims::kSome;
-    sum += patch.strength * (is_crisp ? 1 : (1 - share) * (1 - share));
-    if (is_crisp) value.patch_id ^= id;
-  }
-  value.grey = contrast_ / 2 * std::clamp(sum, -1.0, 1.0);
-  return value;
 }
 
 }  // namespace curvix

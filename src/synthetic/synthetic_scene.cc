@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "base/cancelled.h"
@@ -10,7 +11,7 @@
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
 #include "synthetic/render.h"
-#include "synthetic/solid.h"
+#include "synthetic/scenes.h"
 #include "synthetic/surfaces.h"
 #include "synthetic/synthetic_truth.h"
 #include "synthetic/walks.h"
@@ -70,14 +71,12 @@ std::vector<TrueSample> SampleTruth(const Solid& solid,
                                     double step) {
   const std::vector<TrueCurve> creases = CreaseCurves(solid);
   std::vector<TrueCurve> curves = creases;
-  for (const TrueCurve& marking : MarkingCurves(solid, surfaces)) {
-    curves.push_back(marking);
-  }
+  std::ranges::copy(MarkingCurves(solid, surfaces), std::back_inserter(curves));
   std::vector<TrueSample> samples = SampleCurves(curves, step);
-  for (const TrueSample& sample : SampleShadowEdges(
-           solid, surfaces, creases, step, static_cast<int>(curves.size()))) {
-    samples.push_back(sample);
-  }
+  std::ranges::copy(
+      SampleShadowEdges(
+          solid, surfaces, creases, step, static_cast<int>(curves.size())),
+      std::back_inserter(samples));
   return samples;
 }
 

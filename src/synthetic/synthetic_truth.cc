@@ -30,11 +30,10 @@ std::optional<Vector2d> Sight(const Vector3d& x,
                               const Solid& solid,
                               const Camera& camera,
                               const Rigid3& cam_from_world) {
-  const Vector3d in_cam = cam_from_world * x;
-  if (in_cam.z() <= 0) return std::nullopt;
-  const Vector2d pixel = ImageFromIdeal(camera, in_cam.hnormalized());
+  const auto pixel = Project(camera, cam_from_world, x);
   const Vector2d size(camera.width, camera.height);
-  if ((pixel.array() < 0).any() || (pixel.array() >= size.array()).any() ||
+  if (!pixel || (pixel->array() < 0).any() ||
+      (pixel->array() >= size.array()).any() ||
       IsHidden(solid, cam_from_world.Inverse().translation, x)) {
     return std::nullopt;
   }

@@ -91,10 +91,9 @@ std::vector<std::pair<double, double>> IntervalsWhere(double length,
 }
 
 std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
-                                  double step,
-                                  double min_length,
+                                  double detail,
                                   const OnCurve& holds) {
-  auto intervals = IntervalsWhere(whole.length, step, holds);
+  auto intervals = IntervalsWhere(whole.length, detail / 200, holds);
   if (intervals.empty()) return {};
   if (whole.is_closed) {
     if (intervals.front() == std::pair(0.0, whole.length)) return {whole};
@@ -106,7 +105,8 @@ std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
   }
   std::vector<TrueCurve> parts;
   for (const auto& [begin, end] : intervals) {
-    if (end - begin >= min_length) parts.push_back(Part(whole, begin, end));
+    if (end - begin < kLeastLength * detail) continue;
+    parts.push_back(Part(whole, begin, end));
   }
   return parts;
 }

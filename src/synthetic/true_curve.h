@@ -45,11 +45,14 @@ std::vector<std::pair<double, double>> IntervalsWhere(double length,
                                                       double step,
                                                       const OnCurve& holds);
 
-// The parts of `whole` where `holds`, of `min_length` or more. A part of a
-// circle through its first point is one curve.
+// Shorter curves are left out: a share of the solid's detail.
+inline constexpr double kLeastLength = 1e-2;
+
+// The parts of `whole` where `holds`, of kLeastLength or more. It is tested at
+// steps of 1/200 of `detail`, that of the solid, or less. A part of a circle
+// through its first point is one curve.
 std::vector<TrueCurve> PartsWhere(const TrueCurve& whole,
-                                  double step,
-                                  double min_length,
+                                  double detail,
                                   const OnCurve& holds);
 
 }  // namespace curvix

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "drawing/main_part.h"
+#include "drawing/sheet.h"
 
 #include <gtest/gtest.h>
 #include <vector>

@@ -28,7 +28,7 @@ NeighborhoodGraph Pair() {
 }
 
 TEST(PullOn, LeadsAcrossTheLineOfTheNeighborAndNotAlongIt) {
-  const std::vector<OrientedPoint> points = {
+  const std::vector<SpaceEdge> points = {
       {{0, 0, 0}, Eigen::Vector3d::UnitX()},
       {{5, 1, 2}, -Eigen::Vector3d::UnitX()}};
   for (const bool use_mean_direction : {true, false}) {
@@ -42,7 +42,7 @@ TEST(PullOn, LeadsAcrossTheLineOfTheNeighborAndNotAlongIt) {
 TEST(PullOn, TurnsTowardsTheNearerSenseOfTheNeighbor) {
   const Eigen::Vector3d turned(std::cos(0.3), std::sin(0.3), 0);
   for (const double sign : {1.0, -1.0}) {
-    const std::vector<OrientedPoint> points = {
+    const std::vector<SpaceEdge> points = {
         {{0, 0, 0}, Eigen::Vector3d::UnitX()}, {{1, 0, 0}, sign * turned}};
     const Pull pull = PullOn(0, Pair().Neighbors(0), points, {1, true});
     EXPECT_LT((pull.torque - Eigen::Vector3d(0, std::sin(0.3), 0)).norm(),
@@ -52,7 +52,7 @@ TEST(PullOn, TurnsTowardsTheNearerSenseOfTheNeighbor) {
 
 TEST(PullOn, FallsWithDistanceAndGrowsWithTheWeightOfTheLink) {
   // Neighbours above, near, and below, far.
-  const std::vector<OrientedPoint> points = {
+  const std::vector<SpaceEdge> points = {
       {{0, 0, 0}, Eigen::Vector3d::UnitX()},
       {{0, 1, 0}, Eigen::Vector3d::UnitX()},
       {{4, -1, 0}, Eigen::Vector3d::UnitX()}};
@@ -65,7 +65,7 @@ TEST(PullOn, FallsWithDistanceAndGrowsWithTheWeightOfTheLink) {
 }
 
 TEST(PullOn, IsFiniteForCoincidentEdgesAndZeroForLonelyOnes) {
-  const std::vector<OrientedPoint> points(2);
+  const std::vector<SpaceEdge> points(2);
   const Pull pull = PullOn(0, Pair().Neighbors(0), points, {1, true});
   EXPECT_EQ(pull.force, Eigen::Vector3d::Zero());
   EXPECT_EQ(pull.torque, Eigen::Vector3d::Zero());
@@ -73,7 +73,7 @@ TEST(PullOn, IsFiniteForCoincidentEdgesAndZeroForLonelyOnes) {
 }
 
 TEST(PullOn, VanishesBetweenAnyTwoTangentsOfACircle) {
-  std::vector<OrientedPoint> points;
+  std::vector<SpaceEdge> points;
   for (const double a : {0.2, 0.9}) {
     points.push_back({{3 * std::cos(a), 3 * std::sin(a), 0},
                       {-std::sin(a), std::cos(a), 0}});

@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "synthetic/bodies.h"
-#include "synthetic/solid.h"
+#include "synthetic/scenes.h"
 #include "synthetic/synthetic_truth.h"
 #include "tests/synthetic/face_value.h"
 

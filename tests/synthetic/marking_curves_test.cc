@@ -5,6 +5,7 @@
 #include "synthetic/bodies.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/render.h"
+#include "synthetic/scenes.h"
 #include "synthetic/walks.h"
 
 #include <gtest/gtest.h>
