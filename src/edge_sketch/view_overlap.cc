@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-
 #include <numeric>
 #include <optional>
 #include <utility>
