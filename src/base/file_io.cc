@@ -69,7 +69,7 @@ Status FileWriter::Finish() {
     status_ = Status::DataLoss(
         "Cannot rename " + temporary_.string() + " to " + path_.string() +
         " (" + error.message() +
-        "); check that the target is not a folder and may be " + "replaced.");
+        "); check that the target is not a folder and may be replaced.");
   }
   fs::remove(temporary_, error);
   return status_;

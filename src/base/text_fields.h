@@ -124,7 +124,7 @@ inline std::vector<double> ParseNumbers(std::string_view text,
 }
 
 // White space, ends of lines included.
-constexpr std::string_view kSpace = " \t\r\n\v\f";
+inline constexpr std::string_view kSpace = " \t\r\n\v\f";
 
 // Takes the next word off `text`; empty at the end.
 inline std::string_view TakeWord(std::string_view& text) {

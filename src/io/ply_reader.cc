@@ -163,10 +163,10 @@ std::uint64_t MinRowBytes(const PlyElement& element, PlyFormat format) {
 }
 
 Status Broken(const PlyElement& element, std::uint64_t row) {
-  return Status::DataLoss(
-      "element " + element.name + " announces " + Plural(element.count, "row") +
-      " but ends or breaks in " + "row " + std::to_string(row) +
-      "; the file is truncated or damaged");
+  return Status::DataLoss("element " + element.name + " announces " +
+                          Plural(element.count, "row") +
+                          " but ends or breaks in row " + std::to_string(row) +
+                          "; the file is truncated or damaged");
 }
 
 }  // namespace
