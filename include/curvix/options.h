@@ -196,7 +196,7 @@ struct CurveRefinementOptions {
   double max_corner_deg = 15.0;
   // Shortest curve kept, unless it leads from one junction to another. Pixels
   // of the view that sees it largest; >= 0.
-  double min_length_px = 10.0;
+  double min_length_px = 5.0;
   // How far ends are carried on to a corner. Pixels, >= 0; 0 carries none on.
   double junction_reach_px = 7.0;
 };

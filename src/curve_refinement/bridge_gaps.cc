@@ -139,6 +139,21 @@ void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
   }
 }
 
+// Ends that are tied lose what they lost in `trimmed`.
+void CutTiedEnds(const EndTies& ties,
+                 const std::vector<Curve>& trimmed,
+                 std::vector<Curve>& curves) {
+  for (EndIdx end = 0; end < ties.size(); ++end) {
+    if (!ties[end]) continue;
+    const bool front = IsFront(end);
+    const Eigen::Vector3d& last =
+        SampleFromEnd(trimmed[ItemOf(end)], front).position;
+    CutEnd(curves[ItemOf(end)], front, [&](const CurveSample& sample) {
+      return sample.position == last;
+    });
+  }
+}
+
 // Ends that are tied and run past each other are cut half-way.
 void CutOverlaps(const EndTies& ties,
                  const std::vector<EndFit>& ends,
@@ -161,13 +176,18 @@ std::vector<Curve> Join(std::vector<Curve> curves,
                         const CurveRefinementOptions& options,
                         bool only_rings,
                         int num_threads) {
-  const std::vector<EndFit> ends = FitLongEnds(curves, views, num_threads);
+  std::vector<Curve> trimmed = curves;
+  ParallelFor(trimmed.size(), num_threads, [&](std::size_t i) {
+    CutBentEnds(views, trimmed[i]);
+  });
+  const std::vector<EndFit> ends = FitLongEnds(trimmed, views, num_threads);
   std::vector<EndPair> pairs =
-      GapFinder(curves, ends, images, options).Pairs(num_threads);
+      GapFinder(trimmed, ends, images, options).Pairs(num_threads);
   std::erase_if(pairs, [&](const EndPair& pair) {
     return only_rings && ItemOf(pair.a) != ItemOf(pair.b);
   });
   const EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
+  CutTiedEnds(ties, trimmed, curves);
   CutOverlaps(ties, ends, curves);
   return StringTogetherFilled(std::move(curves), ties, views, images);
 }
@@ -180,9 +200,6 @@ std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const CurveRefinementOptions& options,
                               int num_threads) {
   if (!(options.max_gap_px > 0)) return curves;
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    CutBentEnds(views, curves[i]);
-  });
   // Curves that are whole after the first time may close.
   for (const bool only_rings : {false, true}) {
     curves = Join(

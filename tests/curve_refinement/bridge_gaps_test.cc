@@ -141,6 +141,17 @@ TEST(BridgeGaps, BentLastSamplesDoNotMatter) {
   }
 }
 
+TEST(BridgeGaps, BentLastSamplesOfLooseEndsStay) {
+  for (const double gap_px : {8.0, 30.0}) {
+    std::vector<Curve> curves = BrokenLine(gap_px);
+    curves[1].samples.back().position += InPlane(0, 1.2);
+    const auto bridged = Bridge(curves);
+    EXPECT_EQ(bridged.size(), gap_px < kBridgeOptions.max_gap_px ? 1u : 2u);
+    EXPECT_EQ(bridged.back().samples.back().position,
+              curves[1].samples.back().position);
+  }
+}
+
 TEST(BridgeGaps, EndsThatOverlapAreCutHalfWay) {
   const auto whole = Bridge({Line(InPlane(-60, 0), InPlane(4, 0)),
                              Line(InPlane(0, 0.5), InPlane(60, 0.5))});
