@@ -139,7 +139,7 @@ void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
   }
 }
 
-// Ends that are tied lose what they lost in `trimmed`.
+// Cuts tied ends back to the last sample that they have in `trimmed`.
 void CutTiedEnds(const EndTies& ties,
                  const std::vector<Curve>& trimmed,
                  std::vector<Curve>& curves) {

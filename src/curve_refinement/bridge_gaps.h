@@ -16,10 +16,10 @@ namespace curvix {
 // at each other's ends. Gaps are no longer than what was fitted, nor than
 // options.max_gap_px, except where the images show the curve in the gap. The
 // ends that are missed least come first; ties by the order of curves. Bent last
-// samples and overlaps of joined ends are cut off; other ends stay, since what
-// bends there may be a true contour. The gap is filled with samples on the
-// cubic that fits both ends; they have the sigma and evidence of the weaker
-// end, and the 2D edges nearby. A curve whose own ends meet becomes closed.
+// samples and overlaps of joined ends are cut off; other ends keep them, since
+// most are contours of the images. The gap is filled with samples on the cubic
+// that fits both ends; they have the sigma and evidence of the weaker end, and
+// the 2D edges nearby. A curve whose own ends meet becomes closed.
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
                               const std::vector<PosedView>& views,
                               const ImageSupport& images,
