@@ -32,6 +32,10 @@ struct Edge2d {
   // pixel beside it, on the emptier side, over its own, if contours are sampled
   // every half pixel. 0 in images with few edges, and if it is not known.
   Eigen::half crowding{0};
+  // In crowded images, how far to the bright side of `position` the finer scale
+  // of the detector sees the edge. There other edges beside it move it less;
+  // but its places scatter more, and so link worse. Pixels; else 0.
+  Eigen::half fine_px{0};
 };
 
 // The neighbours of an edge along its image contour (paper, Sec. 5): `next`
@@ -50,6 +54,9 @@ struct EdgeMap {
   // The mean distance between edges along a contour. The detector samples
   // contours twice a pixel, or less in crowded images. Pixels, > 0.
   double spacing_px = 0.5;
+  // How much less the variance of the blur is at the finer scale
+  // (Edge2d::fine_px). Square pixels; 0 if only one scale was looked at.
+  double fine_variance_gain_px2 = 0;
   // Edges that were found and dropped: where View::mask_path is black, in
   // short, weak contours, and in images with more edges than
   // EdgeDetectionOptions::max_edges_per_megapixel allows. Edges that thinning

@@ -41,12 +41,12 @@ Eigen::Vector2d OutwardCurvature(const PosedView& view, const Bend& bend) {
   return 2 * twice_area / sides * Eigen::Vector2d(chord.y(), -chord.x());
 }
 
-// To where the edge of a curve that bends like this would be without blur.
-Eigen::Vector2d BendShift(const Edge2d& edge,
+// To where the edge of a curve that bends like this, blurred by this variance,
+// would be without blur.
+Eigen::Vector2d BendShift(double variance_px2,
                           const PosedView& view,
                           const Bend& bend) {
-  const Eigen::Vector2d shift =
-      OutwardCurvature(view, bend) / (2 * static_cast<double>(edge.sharpness));
+  const Eigen::Vector2d shift = OutwardCurvature(view, bend) * variance_px2 / 2;
   const double length = shift.norm();
   return length > kMaxShiftPx ? kMaxShiftPx / length * shift : shift;
 }
@@ -83,13 +83,19 @@ Eigen::Vector2d ResponseShift(const Edge2d& edge) {
 ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
                     const std::optional<Bend>& bend,
-                    const ResponseCurve& response) {
+                    const ResponseCurve& response,
+                    double fine_variance_gain_px2) {
   ImageEdge unblurred = ToImageEdge(edge);
+  const Eigen::Vector2d to_bright = ToBrightSide(edge);
+  const bool is_fine = edge.fine_px != Eigen::half(0);
+  unblurred.position += static_cast<double>(edge.fine_px) * to_bright;
   if (!(edge.sharpness > 0)) return unblurred;
-  const Eigen::Vector2d to_bright(-unblurred.tangent.y(),
-                                  unblurred.tangent.x());
   unblurred.position += ResponseShift(edge).dot(response.px) * to_bright;
-  if (bend) unblurred.position += BendShift(edge, view, *bend);
+  if (bend) {
+    const double variance_px2 = 1 / static_cast<double>(edge.sharpness) -
+                                (is_fine ? fine_variance_gain_px2 : 0);
+    unblurred.position += BendShift(std::max(0.0, variance_px2), view, *bend);
+  }
   return unblurred;
 }
 
@@ -101,10 +107,15 @@ std::vector<PlaneMeasurement> MeasureUnblurred(const Curve& curve,
   const std::optional<Bend> bend = BendAround(curve, index, pixel);
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : curve.samples[index].support) {
-    const PosedView& view = input.views[static_cast<std::size_t>(ref.view_idx)];
-    const Edge2d& edge = EdgeOf(ref, input.edge_maps);
-    measurements.push_back(
-        MeasurePlane(view, Unblurred(edge, view, bend, response)));
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    const PosedView& view = input.views[view_idx];
+    measurements.push_back(MeasurePlane(
+        view,
+        Unblurred(EdgeOf(ref, input.edge_maps),
+                  view,
+                  bend,
+                  response,
+                  input.edge_maps[view_idx].fine_variance_gain_px2)));
   }
   return measurements;
 }

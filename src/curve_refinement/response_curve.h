@@ -53,14 +53,16 @@ struct ResponseCurve {
 // tell light, and for edges of unknown sharpness.
 Eigen::Vector2d ResponseShift(const Edge2d& edge);
 
-// `edge` of a curve that bends like this, where it would be without blur: moved
-// to the bright side by ResponseShift(), and to the outer side of the bend by
-// w^2 / (2 r), w from the edge's sharpness, at most by a quarter of a pixel.
-// Edges of unknown sharpness stay.
+// `edge` of a curve that bends like this, where it would be without blur: from
+// where the finer scale sees it (Edge2d::fine_px), moved to the bright side by
+// ResponseShift(), and to the outer side of the bend by w^2 / (2 r), w from the
+// edge's sharpness and EdgeMap::fine_variance_gain_px2, at most by a quarter of
+// a pixel. Edges of unknown sharpness stay there.
 ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
                     const std::optional<Bend>& bend,
-                    const ResponseCurve& response);
+                    const ResponseCurve& response,
+                    double fine_variance_gain_px2 = 0);
 
 // The 2D edges of a sample, one after the other, where they would be without
 // blur. `pixel`: the size of a pixel there, world units.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "edge_detection/smooth_contours.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
+#include "geometry/image_edge.h"
 
 namespace curvix {
 namespace {
@@ -29,6 +31,11 @@ constexpr double kThinnedSpacingPx = 1.4;
 // a pixel: of single edges, the most prominent, and of contours.
 constexpr std::int64_t kMaxProminent = 6;
 constexpr std::int64_t kMaxOfContours = 3;
+
+// Steps of Newton's method from the coarser to the finer scale, and how far
+// apart an edge may be in both.
+constexpr int kNumFineSteps = 2;
+constexpr double kMaxFineShiftPx = 0.8;
 
 // The image of a view in which edges are sought.
 struct ViewImage {
@@ -106,6 +113,29 @@ LocatedContours LocateContours(const ViewImage& image,
   return located;
 }
 
+// Sets Edge2d::fine_px, of edges that have a peak at this scale, too.
+void MeasureAtFinerScale(const GrayImage& image,
+                         const DetectionScale& coarse,
+                         const EdgeDetectionOptions& options,
+                         EdgeMap* map) {
+  map->fine_variance_gain_px2 =
+      coarse.sigma_px * coarse.sigma_px - options.sigma_px * options.sigma_px;
+  std::vector<Edge2d> fine = map->edges;
+  for (int i = 0; i < kNumFineSteps; ++i) {
+    OrientEdges(image, options.sigma_px, true, &fine);
+  }
+  if (options.separate_edges) SeparateEdges(map->spacing_px, &fine);
+  SmoothContours(map->neighbors, &fine);
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    Edge2d& edge = map->edges[i];
+    const double shift_px =
+        (fine[i].position - edge.position).dot(ToBrightSide(edge));
+    if (fine[i].sharpness > 0 && std::abs(shift_px) <= kMaxFineShiftPx) {
+      edge.fine_px = Eigen::half(static_cast<float>(shift_px));
+    }
+  }
+}
+
 // The edges of `image`, oriented and linked.
 EdgeMap DetectAtScale(const ViewImage& image,
                       const DetectionScale& scale,
@@ -123,7 +153,10 @@ EdgeMap DetectAtScale(const ViewImage& image,
   if (std::ssize(map.edges) > max_edges) {
     KeepWithinLimit(options, max_edges, &map);
   }
-  if (is_coarse) SmoothContours(map.neighbors, &map.edges);
+  if (is_coarse) {
+    SmoothContours(map.neighbors, &map.edges);
+    MeasureAtFinerScale(image.pixels, scale, options, &map);
+  }
   return map;
 }
 

@@ -21,6 +21,12 @@ inline Eigen::Vector2d TangentAt(float angle) {
   return {std::cos(radians), std::sin(radians)};
 }
 
+// Unit, across the edge.
+inline Eigen::Vector2d ToBrightSide(const Edge2d& edge) {
+  const Eigen::Vector2d tangent = TangentAt(edge.angle);
+  return {-tangent.y(), tangent.x()};
+}
+
 inline ImageEdge ToImageEdge(const Edge2d& edge) {
   return {edge.position, TangentAt(edge.angle)};
 }

@@ -31,7 +31,7 @@ enum class StageKind : std::uint32_t {
 };
 
 constexpr std::size_t kStageHeadBytes = 40;
-constexpr std::size_t kEdge2dBytes = 32;
+constexpr std::size_t kEdge2dBytes = 34;
 constexpr std::size_t kEdge3dBytes = 72;  // without support
 constexpr std::size_t kEdgeRefBytes = 8;
 
@@ -102,7 +102,8 @@ void Fields(Archive& archive, Edge2d& edge) {
           edge.strength,
           edge.sharpness,
           edge.level,
-          edge.crowding);
+          edge.crowding,
+          edge.fine_px);
 }
 
 // A number of things of at least `min_bytes` each, and these.

@@ -2,10 +2,10 @@
 // Paper: none (engineering). Results of stages to and from files, which after
 // their head (stage_file.h) hold
 //   edges.bin: number of views; per view: number of edges, noise, spacing in
-//     pixels (doubles), edges dropped by the mask, as isolated, over the limit
+//     pixels, gain of variance (doubles), edges dropped by the mask, as isolated, over the limit
 //     (int32 each); per edge: x, y (doubles), angle, strength, sharpness
-//     (floats), level, crowding (halves), indices of the previous and the next
-//     edge (int32, -1: none)
+//     (floats), level, crowding, fine_px (halves), indices of the previous and
+//     the next edge (int32, -1: none)
 //   sketch.bin: view pairs, edges asked, hypotheses, without support,
 //     weaker alternatives, 2D edges used, repeated views (int64 each); edge
 //     sigma in pixels (double); number of 3D edges; per edge: position, tangent
@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
-constexpr std::size_t kEdgeMapBytes = 36;  // without edges
+constexpr std::size_t kEdgeMapBytes = 44;  // without edges
 constexpr std::size_t kPoseBytes = 56;
 constexpr std::size_t kMinCameraBytes = 20;
 
@@ -69,6 +69,7 @@ void Fields(Archive& archive, EdgeMap& map) {
   archive.Count(num_edges, kLinkedEdge2dBytes);
   archive(map.noise,
           map.spacing_px,
+          map.fine_variance_gain_px2,
           map.num_dropped_masked,
           map.num_dropped_isolated,
           map.num_dropped_over_limit);

@@ -57,6 +57,21 @@ TEST(UnblurredEdges, CirclesHaveTheirRadius) {
   }
 }
 
+// There blur moves the edge less, so that less is left to undo.
+TEST(UnblurredEdges, CirclesHaveTheirRadiusByTheFinerScale) {
+  constexpr double kGainPx2 = 0.9;
+  for (const double radius_px : {4.0, 20.0, 100.0}) {
+    const auto bend = BendAround(Arc(radius_px, 0, kWholeTurn), 0, kPixel);
+    Edge2d edge = BlurredEdge(radius_px);
+    const double outward_px = kGainPx2 / (2 * radius_px);
+    edge.fine_px = Eigen::half(static_cast<float>(-outward_px));
+    EXPECT_NEAR(
+        RadiusOf(Unblurred(edge, SmallView(), bend, {}, kGainPx2).position),
+        radius_px,
+        1e-3);
+  }
+}
+
 TEST(UnblurredEdges, EndsBendLikeTheRest) {
   const Curve arc = Arc(10, 0, 2);
   const double expected = kBlurPx * kBlurPx / 20;

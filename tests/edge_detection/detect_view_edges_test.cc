@@ -14,7 +14,9 @@
 
 #include "base/median.h"
 #include "edge_detection/gaussian_derivatives.h"
+#include "geometry/image_edge.h"
 #include "tests/edge_detection/rendered_images.h"
+#include "tests/support/picture.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {
@@ -200,6 +202,45 @@ TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
   EXPECT_GT(Median(of_noise), 0.25);
   for (const Edge2d& edge : not_crowded->edges) {
     ASSERT_EQ(edge.crowding, Eigen::half(0));
+  }
+}
+
+// The sides of a bright bar repel each other, at the finer scale less.
+TEST(DetectViewEdges, MeasuresCrowdedImagesAtTheFinerScale) {
+  constexpr double kLeft = 200.3;
+  constexpr double kWidth = 3;
+  GrayImage image = Picture(400, 400, [](const Eigen::Vector2d& place) {
+    return place.x() > kLeft && place.x() < kLeft + kWidth;
+  });
+  AddNoise(8, 11, image);
+  const ImageFile file(image);
+  EdgeDetectionOptions options;
+  options.noise_factor = 1;
+  options.max_edges_per_megapixel = 1;
+  options.separate_edges = false;
+  const auto crowded =
+      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  options.max_edges_per_megapixel = 1e9;
+  const auto not_crowded =
+      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  ASSERT_TRUE(crowded.ok() && not_crowded.ok());
+  std::vector<double> coarse, fine;
+  for (const Edge2d& edge : crowded->edges) {
+    const double x = edge.position.x();
+    if (std::abs(x - kLeft) > 1 || std::abs(std::cos(edge.angle)) > 0.2) {
+      continue;
+    }
+    coarse.push_back(x);
+    fine.push_back(x +
+                   static_cast<double>(edge.fine_px) * ToBrightSide(edge).x());
+  }
+  ASSERT_GT(coarse.size(), 200u);
+  EXPECT_LT(Median(coarse), kLeft - 0.1);
+  EXPECT_NEAR(Median(fine), kLeft, (kLeft - Median(coarse)) / 2);
+  EXPECT_DOUBLE_EQ(crowded->fine_variance_gain_px2, 1.5 * 1.5 - 1);
+  EXPECT_EQ(not_crowded->fine_variance_gain_px2, 0);
+  for (const Edge2d& edge : not_crowded->edges) {
+    ASSERT_EQ(edge.fine_px, Eigen::half(0));
   }
 }
 

@@ -23,6 +23,7 @@ std::vector<EdgeMap> SomeEdgeMaps() {
   maps[1].spacing_px = 1.3;
   maps[0].num_dropped_isolated = 7;
   maps[2].num_dropped_masked = 3;
+  maps[2].fine_variance_gain_px2 = 1.25;
   maps[2].num_dropped_over_limit = 5;
   for (int i = 0; i < 4; ++i) {
     Edge2d edge;
@@ -32,6 +33,7 @@ std::vector<EdgeMap> SomeEdgeMaps() {
     edge.sharpness = -0.3F;
     edge.level = Eigen::half(120.5F);
     edge.crowding = Eigen::half(0.25F);
+    edge.fine_px = Eigen::half(-0.125F);
     maps[2].edges.push_back(edge);
     EdgeNeighbors neighbors;
     if (i > 0) neighbors.previous = i - 1;
@@ -85,6 +87,7 @@ TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
     const EdgeMap& b = (*read)[i];
     EXPECT_EQ(a.noise, b.noise);
     EXPECT_EQ(a.spacing_px, b.spacing_px);
+    EXPECT_EQ(a.fine_variance_gain_px2, b.fine_variance_gain_px2);
     EXPECT_EQ(a.num_dropped_masked, b.num_dropped_masked);
     EXPECT_EQ(a.num_dropped_isolated, b.num_dropped_isolated);
     EXPECT_EQ(a.num_dropped_over_limit, b.num_dropped_over_limit);
@@ -97,6 +100,7 @@ TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
       EXPECT_EQ(a.edges[k].sharpness, b.edges[k].sharpness);
       EXPECT_EQ(a.edges[k].level, b.edges[k].level);
       EXPECT_EQ(a.edges[k].crowding, b.edges[k].crowding);
+      EXPECT_EQ(a.edges[k].fine_px, b.edges[k].fine_px);
       EXPECT_EQ(a.neighbors[k].previous, b.neighbors[k].previous);
       EXPECT_EQ(a.neighbors[k].next, b.neighbors[k].next);
     }
