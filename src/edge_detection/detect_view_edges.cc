@@ -33,7 +33,7 @@ constexpr std::int64_t kMaxProminent = 6;
 constexpr std::int64_t kMaxOfContours = 3;
 
 // Steps of Newton's method from the coarser to the finer scale, and how far
-// apart an edge may be in both.
+// apart the places of an edge at both scales may be.
 constexpr int kNumFineSteps = 2;
 constexpr double kMaxFineShiftPx = 0.8;
 
@@ -113,7 +113,8 @@ LocatedContours LocateContours(const ViewImage& image,
   return located;
 }
 
-// Sets Edge2d::fine_px, of edges that have a peak at this scale, too.
+// Sets EdgeMap::fine_variance_gain_px2, and Edge2d::fine_px of edges that have
+// a peak at the finer scale, too.
 void MeasureAtFinerScale(const GrayImage& image,
                          const DetectionScale& coarse,
                          const EdgeDetectionOptions& options,

@@ -2,10 +2,10 @@
 // Paper: none (engineering). Results of stages to and from files, which after
 // their head (stage_file.h) hold
 //   edges.bin: number of views; per view: number of edges, noise, spacing in
-//     pixels, gain of variance (doubles), edges dropped by the mask, as isolated, over the limit
-//     (int32 each); per edge: x, y (doubles), angle, strength, sharpness
-//     (floats), level, crowding, fine_px (halves), indices of the previous and
-//     the next edge (int32, -1: none)
+//     pixels, gain of variance (doubles), edges dropped by the mask, as
+//     isolated, over the limit (int32 each); per edge: x, y (doubles), angle,
+//     strength, sharpness (floats), level, crowding, fine_px (halves), indices
+//     of the previous and the next edge (int32, -1: none)
 //   sketch.bin: view pairs, edges asked, hypotheses, without support,
 //     weaker alternatives, 2D edges used, repeated views (int64 each); edge
 //     sigma in pixels (double); number of 3D edges; per edge: position, tangent

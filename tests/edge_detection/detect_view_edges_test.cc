@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/median.h"
@@ -178,19 +179,26 @@ TEST(DetectViewEdges, CountsWhatItDrops) {
   EXPECT_GT(on_disc, 600) << "the disc outlives the noise";
 }
 
-TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
-  const Eigen::Vector2d center(200, 200);
-  GrayImage image = RenderDisc(400, center, 150);
+// The edges of an image of 400 x 400 pixels under noise, most of which counts
+// as edges: with a limit that makes the image crowded, and with none.
+std::pair<Result<EdgeMap>, Result<EdgeMap>> DetectCrowdedAndNot(
+    GrayImage image, EdgeDetectionOptions options) {
   AddNoise(8, 11, image);
   const ImageFile file(image);
-  EdgeDetectionOptions options;
   options.noise_factor = 1;
   options.max_edges_per_megapixel = 1;
-  const auto crowded =
+  Result<EdgeMap> crowded =
       DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
   options.max_edges_per_megapixel = 1e9;
-  const auto not_crowded =
+  Result<EdgeMap> not_crowded =
       DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  return {std::move(crowded), std::move(not_crowded)};
+}
+
+TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
+  const Eigen::Vector2d center(200, 200);
+  const GrayImage image = RenderDisc(400, center, 150);
+  const auto [crowded, not_crowded] = DetectCrowdedAndNot(image, {});
   ASSERT_TRUE(crowded.ok() && not_crowded.ok());
   std::vector<double> of_disc, of_noise;
   for (const Edge2d& edge : crowded->edges) {
@@ -209,20 +217,12 @@ TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
 TEST(DetectViewEdges, MeasuresCrowdedImagesAtTheFinerScale) {
   constexpr double kLeft = 200.3;
   constexpr double kWidth = 3;
-  GrayImage image = Picture(400, 400, [](const Eigen::Vector2d& place) {
+  const GrayImage image = Picture(400, 400, [](const Eigen::Vector2d& place) {
     return place.x() > kLeft && place.x() < kLeft + kWidth;
   });
-  AddNoise(8, 11, image);
-  const ImageFile file(image);
   EdgeDetectionOptions options;
-  options.noise_factor = 1;
-  options.max_edges_per_megapixel = 1;
   options.separate_edges = false;
-  const auto crowded =
-      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
-  options.max_edges_per_megapixel = 1e9;
-  const auto not_crowded =
-      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+  const auto [crowded, not_crowded] = DetectCrowdedAndNot(image, options);
   ASSERT_TRUE(crowded.ok() && not_crowded.ok());
   std::vector<double> coarse, fine;
   for (const Edge2d& edge : crowded->edges) {
