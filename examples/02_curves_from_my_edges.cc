@@ -59,8 +59,7 @@ constexpr double kHelixEnd = 3 * kPi;
 // pinhole, the centre of the top-left pixel at (0.5, 0.5), and the angle of the
 // tangent, from +x towards +y. Each knows its neighbours along its contour.
 curvix::EdgeMap MyEdges(const curvix::Scene& scene, const curvix::View& view) {
-  const curvix::Camera& camera =
-      scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  const curvix::Camera& camera = curvix::CameraOf(scene, view);
   const auto pixel = [&](double angle) {
     const Eigen::Vector3d x = view.cam_from_world * Helix(angle);
     return curvix::ImageFromIdeal(camera, x.hnormalized());

@@ -21,8 +21,9 @@ namespace curvix {
 // takes sentences worth telling a user: images that are missing, models that
 // were not taken, cameras that were scaled. Poses are as the model has them:
 // RefinePosesWithCurves (refine_poses.h) refines them. kNotFound: no folder, no
-// model or no images. kDataLoss: a broken model. kUnsupported: its camera
-// model. kInvalidArgument: fewer than three views.
+// model, or fewer than three of its images are there. kDataLoss: a broken
+// model. kUnsupported: its camera model. kInvalidArgument: a model of fewer
+// than three images.
 Result<Scene> ReadColmapScene(const std::filesystem::path& workspace_path,
                               const std::filesystem::path& image_path = {},
                               std::vector<std::string>* notes = nullptr);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace curvix {
@@ -94,10 +95,14 @@ struct CurveNode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-// A fit of FittedCurves.
+// Names a fit of FittedCurves. Ordered by curve, then fit.
 struct FitIndex {
   std::size_t curve_idx = 0;
   std::size_t fit_idx = 0;
+
+  friend bool operator<(const FitIndex& a, const FitIndex& b) {
+    return std::tie(a.curve_idx, a.fit_idx) < std::tie(b.curve_idx, b.fit_idx);
+  }
 };
 
 // What the fits of a group share.

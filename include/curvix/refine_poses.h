@@ -64,8 +64,9 @@ struct CurvePoses {
 // scene show it.
 // Cameras change if `refine_intrinsics`, whether views share them or not: all
 // with enough observations, or none. Their first eight parameters change, or
-// those of a model with more terms (SIMPLE_RADIAL, RADIAL, OPENCV). None change
-// if one of the new cameras cannot be inverted at an edge.
+// those of a model with more terms (SIMPLE_RADIAL, RADIAL, OPENCV; of fisheyes
+// the same with _FISHEYE). None change if one of the new cameras cannot be
+// inverted at an edge.
 //
 // Held out are a fifth of space, and of the points every fifth and those that
 // no view needs. A gain of test data is significant if its probability under

@@ -11,6 +11,7 @@
 #include <curvix/status.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -117,6 +118,11 @@ struct Scene {
   std::vector<View> views;
   std::vector<ScenePoint> points;
 };
+
+// The camera of one of the scene's views.
+inline const Camera& CameraOf(const Scene& scene, const View& view) {
+  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+}
 
 // COLMAP's camera models, both ways: ids 0 to 16, with COLMAP's formulas.
 // EQUIRECTANGULAR (17) has no pinhole image and is not supported.  u = X/Z and

@@ -53,10 +53,10 @@ Status CheckUp(const std::string& text) {
 
 class Aligner {
  public:
-  Aligner(const AlignSettings& settings, ProgressPrinter& progress)
+  Aligner(const AlignSettings& settings, RunProgress& progress)
       : settings_(settings), progress_(progress) {}
 
-  Result<AlignSummary> Run();
+  Result<std::string> Run();
 
  private:
   Status ReadScene();
@@ -73,7 +73,7 @@ class Aligner {
   void Say(const std::string& line) { text_ += line + "\n"; }
 
   const AlignSettings& settings_;
-  ProgressPrinter& progress_;
+  RunProgress& progress_;
   Workspace workspace_;
   Scene scene_;
   KnownStructures structures_;
@@ -262,7 +262,7 @@ Status Aligner::Write(const AlignmentResult& result) {
       json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-Result<AlignSummary> Aligner::Run() {
+Result<std::string> Aligner::Run() {
   Status taken = TakeAll();
   if (!taken.ok()) return taken;
   Result<AlignmentResult> result = EstimateAlignment(input_);
@@ -306,7 +306,7 @@ Result<AlignSummary> Aligner::Run() {
   Status written = Write(*result);
   if (!written.ok()) return written;
   Say("Written to " + (workspace_.output_path / kAlignmentName).string());
-  return AlignSummary{workspace_.output_path, std::move(text_)};
+  return std::move(text_);
 }
 
 }  // namespace
@@ -341,8 +341,8 @@ Status Check(const AlignSettings& s) {
   return status;
 }
 
-Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
-                                    ProgressPrinter& progress) {
+Result<std::string> AlignWorkspace(const AlignSettings& settings,
+                                   RunProgress& progress) {
   return Aligner(settings, progress).Run();
 }
 

@@ -23,18 +23,13 @@ struct AlignSettings {
   std::string unit = "none";
 };
 
-struct AlignSummary {
-  std::filesystem::path output_path;
-  std::string text;  // what was found, for people
-};
-
 // kInvalidArgument: settings that cannot work, whatever the results.
 Status Check(const AlignSettings& settings);
 
-// The model is that with refined poses, if a run has left one.
-// `settings` are as Check() wants them. kInvalidArgument: they do not suit the
-// results. Errors of what is read and written.
-Result<AlignSummary> AlignWorkspace(const AlignSettings& settings,
-                                    ProgressPrinter& progress);
+// Returns what was found, for people. The model is that with refined poses, if
+// a run has left one. `settings` are as Check() wants them. kInvalidArgument:
+// they do not suit the results. Errors of what is read and written.
+Result<std::string> AlignWorkspace(const AlignSettings& settings,
+                                   RunProgress& progress);
 
 }  // namespace curvix

@@ -13,9 +13,9 @@
 #include "base/angles.h"
 #include "base/median.h"
 #include "base/parallel.h"
-#include "geometry/camera_of.h"
 #include "geometry/fit_point.h"
 #include "geometry/lens.h"
+#include "geometry/similarity.h"
 #include "plugin/align/marker_detector.h"
 #include "plugin/base/image_file.h"
 
@@ -176,25 +176,23 @@ std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
 // The side of the square nearest to the corners, and its variance for corners
 // seen to 1 px.
 std::pair<double, double> FitSquare(const std::array<Corner, 4>& corners) {
-  Eigen::Matrix<double, 3, 4> square, seen;
+  Eigen::Matrix3Xd square(3, 4), seen(3, 4);
   square << -0.5, 0.5, 0.5, -0.5,  //
       -0.5, -0.5, 0.5, 0.5,        //
       0, 0, 0, 0;
   for (int i = 0; i < 4; ++i) {
     seen.col(i) = corners[static_cast<std::size_t>(i)].position;
   }
-  const Eigen::Matrix4d fit = Eigen::umeyama(square, seen, true);
-  const Eigen::Matrix3d turned = fit.block<3, 3>(0, 0);
-  const double side = turned.col(0).norm();
+  const Similarity3 fit = AlignPoints(square, seen);
   // The side is the mean of the corners along the half diagonals.
   const double sum = square.squaredNorm();
   double variance = 0;
   for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector3d gradient = turned / side * square.col(i) / sum;
+    const Eigen::Vector3d gradient = fit.rotation * square.col(i) / sum;
     variance += gradient.dot(corners[static_cast<std::size_t>(i)].covariance *
                              gradient);
   }
-  return {side, variance};
+  return {fit.scale, variance};
 }
 
 // Of each view.

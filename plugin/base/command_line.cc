@@ -282,10 +282,8 @@ Flag ChoiceFlag(std::string name,
 }
 
 Flag Switch(std::string name, bool* value, std::string help) {
-  Flag flag = RowFlag({.name = std::move(name),
-                       .field = value,
-                       .max = 1,
-                       .help = std::move(help)});
+  Flag flag = RowFlag(
+      {.name = std::move(name), .field = value, .help = std::move(help)});
   flag.is_switch = true;
   return flag;
 }

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 namespace curvix {
 

@@ -91,7 +91,6 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
                    "what lengths, sizes and positions are in"),
         RowFlag({.name = "write_results",
                  .field = write_results,
-                 .max = 1,
                  .help = "write the results again, in the new frame"})}});
   sections.push_back(RuntimeSection(&s->run));
   return sections;
@@ -126,37 +125,27 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
   return RunProgram(again);
 }
 
-// Brings the older alignment back, if any, unless Keep() is called: one that
+// Brings the older alignment back, if any, unless the new one is kept: one that
 // the results do not have would mislead.
-class AlignmentGuard {
- public:
-  AlignmentGuard(fs::path path, std::optional<std::string> older)
-      : path_(std::move(path)), older_(std::move(older)) {}
-  AlignmentGuard(const AlignmentGuard&) = delete;
-  AlignmentGuard& operator=(const AlignmentGuard&) = delete;
-  ~AlignmentGuard() {
-    if (!is_kept_) BringBack();
-  }
-  void Keep() { is_kept_ = true; }
+struct AlignmentGuard {
+  fs::path path;
+  std::optional<std::string> older;
+  bool is_kept = false;
 
- private:
-  void BringBack() const {
+  ~AlignmentGuard() {
+    if (is_kept) return;
     std::error_code error;
-    if (older_) {
-      if (!WriteFileAtomically(path_, *older_).ok()) {
+    if (older) {
+      if (!WriteFileAtomically(path, *older).ok()) {
         error = std::make_error_code(std::errc::io_error);
       }
     } else {
-      fs::remove(path_, error);
+      fs::remove(path, error);
     }
-    std::cerr << path_.string()
+    std::cerr << path.string()
               << (error ? " is not that of the results; remove it.\n"
                         : " is as it was before.\n");
   }
-
-  fs::path path_;
-  std::optional<std::string> older_;
-  bool is_kept_ = false;
 };
 
 // Of a file that may not be there.
@@ -186,15 +175,15 @@ ExitCode RunAlign(const Arguments& arguments) {
   const fs::path path = workspace->output_path / kAlignmentName;
   auto older = ReadIfThere(path);
   if (!older.ok()) return Fail(older.status());
-  const auto summary = WithProgress([&](ProgressPrinter& progress) {
+  const auto text = WithProgress([&](RunProgress& progress) {
     return AlignWorkspace(settings, progress);
   });
-  if (!summary.ok()) return Fail(summary.status());
-  std::cout << summary->text << std::flush;
+  if (!text.ok()) return Fail(text.status());
+  std::cout << *text << std::flush;
   if (!write_results) return kExitSuccess;
-  AlignmentGuard guard(path, *std::move(older));
-  const ExitCode written = WriteResultsAgain(settings, summary->output_path);
-  if (written == kExitSuccess) guard.Keep();
+  AlignmentGuard guard{path, *std::move(older)};
+  const ExitCode written = WriteResultsAgain(settings, workspace->output_path);
+  guard.is_kept = written == kExitSuccess;
   return written;
 }
 

@@ -67,9 +67,8 @@ ExitCode RunDraw(const Arguments& arguments) {
   if (code) return *code;
   const Status valid = Check(settings);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto summary = WithProgress([&](ProgressPrinter& progress) {
-    return DrawWorkspace(settings, progress);
-  });
+  const auto summary = WithProgress(
+      [&](RunProgress& progress) { return DrawWorkspace(settings, progress); });
   if (!summary.ok()) return Fail(summary.status());
   std::cout << *summary << std::flush;
   return kExitSuccess;

@@ -90,9 +90,7 @@ Status EvaluateWithTruth(const EvaluateSettings& settings) {
 }
 
 Status EvaluateWorkspace(const EvaluateSettings& settings) {
-  Status valid = Validate(settings.run.options);
-  if (!valid.ok()) return valid;
-  return WithProgress([&](ProgressPrinter& progress) {
+  return WithProgress([&](RunProgress& progress) {
     return RunHoldout(settings.run,
                       settings.curves_path,
                       settings.holdout_every,
@@ -119,6 +117,8 @@ ExitCode RunEvaluate(const Arguments& arguments) {
                     "--workspace_path with --truth_path or --holdout_every"),
                 kExitCommandLine);
   }
+  const Status valid = holds_out ? Validate(settings.run.options) : Status();
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
   const Status status =
       holds_out ? EvaluateWorkspace(settings) : EvaluateWithTruth(settings);
   return status.ok() ? kExitSuccess : Fail(status);

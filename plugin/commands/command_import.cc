@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <iostream>
 #include <iterator>
@@ -117,7 +118,7 @@ ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
     run.output_path = run.workspace_path / format.name;
   }
   run.poses.refiner = "none";
-  return RunAndSummarize(run, [&](ProgressPrinter& progress) {
+  return RunAndSummarize(run, [&](RunProgress& progress) {
     return RunLines(
         run,
         [&] { return format.read(settings.options.input_path); },
@@ -125,21 +126,14 @@ ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
   });
 }
 
-Result<ImportedScene> Import(const ImportSettings& settings) {
+ExitCode ImportDataSet(const ImportSettings& settings, const Format& format) {
+  Status status = CheckUnused(settings.run.workspace_path / "sparse");
+  if (!status.ok()) return Fail(status);
   ImportOptions options = settings.options;
   if (settings.first_pixel != "auto") {
     options.first_pixel = ParseNumber<double>(settings.first_pixel);
   }
-  for (const Format& format : kFormats) {
-    if (settings.format == format.name) return format.import(options);
-  }
-  return Status::Internal("no format " + settings.format);
-}
-
-ExitCode ImportDataSet(const ImportSettings& settings) {
-  Status status = CheckUnused(settings.run.workspace_path / "sparse");
-  if (!status.ok()) return Fail(status);
-  const Result<ImportedScene> scene = Import(settings);
+  const Result<ImportedScene> scene = format.import(options);
   if (!scene.ok()) return Fail(scene.status());
   status = WriteNewWorkspace(scene->model,
                              scene->image_files,
@@ -181,7 +175,8 @@ ExitCode RunImport(const Arguments& arguments) {
   for (const LineFormat& format : kLineFormats) {
     if (settings.format == format.name) return ImportLines(settings, format);
   }
-  return ImportDataSet(settings);
+  return ImportDataSet(
+      settings, *std::ranges::find(kFormats, settings.format, &Format::name));
 }
 
 }  // namespace curvix

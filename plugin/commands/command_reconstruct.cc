@@ -36,7 +36,7 @@ constexpr int kNoPart = -1;
 ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto record = WithProgress([&](ProgressPrinter& progress) {
+  const auto record = WithProgress([&](RunProgress& progress) {
     return RunPart(settings, part_idx, progress);
   });
   if (!record.ok()) return Fail(record.status());
@@ -121,7 +121,7 @@ ExitCode RunReconstruct(const Arguments& arguments) {
     return ReconstructPart(settings, part_idx);
   }
   return RunAndSummarize(
-      settings, [&](ProgressPrinter& progress) -> Result<RunRecord> {
+      settings, [&](RunProgress& progress) -> Result<RunRecord> {
         Result<WorkspaceRun> run = RunWorkspace(settings, progress);
         if (!run.ok()) return run.status();
         return std::move(run->record);
@@ -143,7 +143,7 @@ ExitCode RunPartitionCommand(const Arguments& arguments) {
                   .help = "most images that a part is reconstructed from, "
                           "those around it included"})}}});
   if (code) return *code;
-  const auto partition = WithProgress([&](ProgressPrinter& progress) {
+  const auto partition = WithProgress([&](RunProgress& progress) {
     return RunPartition(settings, max_views_per_part, progress);
   });
   if (!partition.ok()) return Fail(partition.status());
@@ -169,7 +169,7 @@ ExitCode RunMergeCommand(const Arguments& arguments) {
   const std::optional<ExitCode> code =
       ParseCommand("merge", arguments, std::move(sections));
   if (code) return *code;
-  return RunAndSummarize(settings, [&](ProgressPrinter& progress) {
+  return RunAndSummarize(settings, [&](RunProgress& progress) {
     return RunMerge(settings, progress);
   });
 }

@@ -4,9 +4,9 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <iostream>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "base/cancelled.h"
@@ -27,21 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Status MakeFolder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (!error) return {};
-  return Status::InvalidArgument("cannot make the folder " + path.string() +
-                                 ": " + error.message());
-}
-
-Status WriteImage(const RgbImage& image, const fs::path& path) {
-  std::vector<std::uint8_t> bgr = image.pixels;
-  for (std::size_t i = 0; i + 2 < bgr.size(); i += 3) {
-    std::swap(bgr[i], bgr[i + 2]);
-  }
-  const cv::Mat picture(image.height, image.width, CV_8UC3, bgr.data());
-  const Result<std::string> png = EncodeImage(".png", picture);
+// With three channels, as photographs have them.
+Status WriteImage(const SyntheticImage& image, const fs::path& path) {
+  const cv::Mat grey = cv::Mat(image.pixels).reshape(1, image.height);
+  cv::Mat bgr;
+  cv::cvtColor(grey, bgr, cv::COLOR_GRAY2BGR);
+  const Result<std::string> png = EncodeImage(".png", bgr);
   if (!png.ok()) return png.status();
   return WriteFileAtomically(path, *png);
 }
@@ -189,7 +180,9 @@ Status Synthesize(const SyntheticOptions& options,
       StagedOutput::Create(workspace, "--workspace_path");
   if (!staged.ok()) return staged.status();
   const fs::path& folder = staged->folder();
-  Status status = MakeFolder(folder / "images");
+  std::error_code ignored;  // writing the images tells it
+  fs::create_directory(folder / "images", ignored);
+  Status status;
   for (std::size_t i = 0; status.ok() && i < scene->images.size(); ++i) {
     const fs::path path = folder / "images" / scene->scene.views[i].name;
     status = WriteImage(scene->images[i], path);

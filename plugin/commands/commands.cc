@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "base/file_io.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "colmap/project_file.h"
 #include "plugin/commands/help_text.h"
 #include "plugin/run/run_report.h"
@@ -31,7 +31,6 @@ FlagSection CommonSection(CommonSettings* settings) {
                 "command line wins"),
        Advanced(RowFlag({.name = "log_to_stderr",
                          .field = &settings->log_to_stderr,
-                         .max = 1,
                          .help = "1: libraries log to stderr; 0: to files in "
                                  "the temporary folder"})),
        Advanced(RowFlag({.name = "log_level",

@@ -58,7 +58,7 @@ auto WithProgress(const F& f) {
 }
 
 // Does a job with its progress on stderr, and prints its closing words.
-using Job = std::function<Result<RunRecord>(ProgressPrinter& progress)>;
+using Job = std::function<Result<RunRecord>(RunProgress& progress)>;
 ExitCode RunAndSummarize(const RunSettings& settings, const Job& job);
 
 // nullptr: there is no such word.

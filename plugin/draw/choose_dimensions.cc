@@ -46,7 +46,9 @@ std::optional<MeasuredDimension> DimensionOf(const CurveFit& fit,
   if (fit.kind == FitKind::kLine) {
     if (fit.start_node < 0 || fit.end_node < 0) return std::nullopt;
     m.value = Length(fit);
-    m.sigma = std::hypot(LengthSigma(fit), scale_sigma * m.value);
+    const double sigma = DistanceSigma(
+        fit.end - fit.start, fit.start_covariance, fit.end_covariance);
+    m.sigma = std::hypot(sigma, scale_sigma * m.value);
     m.drawn.a = flat.start.head<2>();
     m.drawn.b = flat.end.head<2>();
     if (m.value - Length(flat) > m.sigma) return std::nullopt;

@@ -77,7 +77,7 @@ Status CheckName(const std::string& name) {
 
 class Drafter {
  public:
-  Drafter(const DrawSettings& settings, ProgressPrinter& progress)
+  Drafter(const DrawSettings& settings, RunProgress& progress)
       : settings_(settings), progress_(progress), name_(NameOf(settings)) {}
 
   Result<std::string> Run();
@@ -97,7 +97,7 @@ class Drafter {
   std::string Subtitle() const;
 
   const DrawSettings& settings_;
-  ProgressPrinter& progress_;
+  RunProgress& progress_;
   const std::string name_;  // of the files
   Workspace workspace_;
   Scene scene_;  // in the frame of the curves
@@ -366,7 +366,7 @@ Status Check(const DrawSettings& s) {
 }
 
 Result<std::string> DrawWorkspace(const DrawSettings& settings,
-                                  ProgressPrinter& progress) {
+                                  RunProgress& progress) {
   return Drafter(settings, progress).Run();
 }
 

@@ -39,6 +39,6 @@ Status Check(const DrawSettings& settings);
 // Check() wants them. kInvalidArgument: they do not suit the curves; errors of
 // what is read.
 Result<std::string> DrawWorkspace(const DrawSettings& settings,
-                                  ProgressPrinter& progress);
+                                  RunProgress& progress);
 
 }  // namespace curvix

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "geometry/camera_of.h"
 #include "plugin/base/image_file.h"
 
 namespace curvix {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {

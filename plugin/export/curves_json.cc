@@ -10,7 +10,6 @@
 
 #include "base/parallel.h"
 #include "base/text_fields.h"
-#include "geometry/camera_of.h"
 #include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
 

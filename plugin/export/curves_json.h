@@ -36,8 +36,8 @@ struct SupportingEdge {
                            // on the bright side
 };
 
-// `edge` of the view supports `sample`. nullopt if the view has no pixel for
-// it.
+// `edge` of the view supports `sample`. nullopt if the sample is behind the
+// camera. `pixel` is not finite where the image has none for the edge.
 std::optional<SupportingEdge> FindSupportingEdge(const Scene& scene,
                                                  const CurveSample& sample,
                                                  const EdgeRef& ref,

@@ -84,19 +84,12 @@ std::vector<Named> Largest(const FittedCurves& fitted,
   return named;
 }
 
-// Standard deviation of a distance between points with these covariances.
-double DistanceSigma(const Eigen::Vector3d& between,
-                     const Eigen::Matrix3d& a,
-                     const Eigen::Matrix3d& b) {
-  const double length = between.norm();
-  if (!(length > 0)) return std::sqrt((a + b).trace());
-  const Eigen::Vector3d along = between / length;
-  return std::sqrt(along.dot((a + b) * along));
-}
-
 void AddLines(const std::vector<Named>& lines, Table& table) {
   for (const Named& line : lines) {
-    table.AddLength("length", line.name, "", line.size, LengthSigma(*line.fit));
+    const CurveFit& fit = *line.fit;
+    const double sigma = DistanceSigma(
+        fit.end - fit.start, fit.start_covariance, fit.end_covariance);
+    table.AddLength("length", line.name, "", line.size, sigma);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/file_io.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "io/sheet_formats.h"
 
 namespace curvix {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "geometry/camera_of.h"
 #include "io/curve_style.h"
 #include "plugin/base/image_file.h"
 #include "plugin/export/spread.h"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "base/median.h"
-#include "geometry/camera_of.h"
 #include "geometry/lens.h"
 #include "measuring/main_axes.h"
 #include "plugin/export/small_images.h"
@@ -174,7 +173,7 @@ Eigen::Matrix3d CovarianceOf(const ScenePoint& point, const Scene& scene) {
 // Some of the points of the model, evenly by number, with their covariances.
 Json PointsJson(const Scene& scene, int num_decimals) {
   Json json = Json::array();
-  const std::size_t step = scene.points.size() / kMaxViewerPoints + 1;
+  const std::size_t step = ViewerPointStep(scene.points.size());
   for (std::size_t i = 0; i < scene.points.size(); i += step) {
     const ScenePoint& point = scene.points[i];
     const Eigen::Matrix3d covariance = CovarianceOf(point, scene);

@@ -2,6 +2,7 @@
 // viewer.html: the curves in a browser.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -10,6 +11,12 @@
 namespace curvix {
 
 constexpr std::size_t kMaxViewerPoints = 10000;  // of the model
+
+// Of so many points, every n-th is shown, from the first on: n.
+inline std::size_t ViewerPointStep(std::size_t num_points) {
+  return std::max<std::size_t>(
+      1, (num_points + kMaxViewerPoints - 1) / kMaxViewerPoints);
+}
 
 // One page that needs nothing else, with the curves, the cameras and small
 // copies of up to 16 well-spread images; those that cannot be read are

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 namespace curvix {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/file_io.h"
 #include "base/line_reader.h"
 #include "base/text_fields.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "plugin/imports/npy.h"
 #include "plugin/imports/projection_matrix.h"
 

@@ -3,8 +3,6 @@
 #include <curvix/status.h>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,8 +10,9 @@
 
 #include "base/count_text.h"
 #include "base/file_io.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "edge_detection/load_image.h"
+#include "plugin/base/json.h"
 #include "plugin/imports/importers.h"
 #include "plugin/imports/projection_matrix.h"
 
@@ -21,16 +20,15 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 // What a frame says, else what the file says.
 class Fields {
  public:
-  Fields(const json& frame, const json& file) : frame_(frame), file_(file) {}
+  Fields(const Json& frame, const Json& file) : frame_(frame), file_(file) {}
 
   // nullptr: neither says it.
-  const json* Find(const char* key) const {
-    for (const json* object : {&frame_, &file_}) {
+  const Json* Find(const char* key) const {
+    for (const Json* object : {&frame_, &file_}) {
       const auto found = object->find(key);
       if (found != object->end() && !found->is_null()) return &*found;
     }
@@ -38,7 +36,7 @@ class Fields {
   }
   // CheckNumbers() has seen that these are numbers.
   std::optional<double> Number(const char* key) const {
-    const json* const value = Find(key);
+    const Json* const value = Find(key);
     return value ? std::optional(value->get<double>()) : std::nullopt;
   }
   Status CheckNumbers() const {
@@ -56,7 +54,7 @@ class Fields {
                             "k4",
                             "p1",
                             "p2"}) {
-      const json* const value = Find(key);
+      const Json* const value = Find(key);
       if (value == nullptr || value->is_number()) continue;
       return Status::DataLoss(std::string(key) + " is not a number");
     }
@@ -64,18 +62,18 @@ class Fields {
   }
 
  private:
-  const json& frame_;
-  const json& file_;
+  const Json& frame_;
+  const Json& file_;
 };
 
 // The leading rows x cols numbers of a list of lists, which may be longer.
-std::optional<Eigen::MatrixXd> ReadMatrix(const json* rows,
+std::optional<Eigen::MatrixXd> ReadMatrix(const Json* rows,
                                           std::size_t num_rows,
                                           std::size_t num_cols) {
   if (!rows || !rows->is_array() || rows->size() < num_rows) return {};
   Eigen::MatrixXd matrix(num_rows, num_cols);
   for (std::size_t i = 0; i < num_rows; ++i) {
-    const json& row = (*rows)[i];
+    const Json& row = (*rows)[i];
     if (!row.is_array() || row.size() < num_cols) return {};
     for (std::size_t j = 0; j < num_cols; ++j) {
       if (!row[j].is_number()) return {};
@@ -90,7 +88,7 @@ std::optional<Eigen::MatrixXd> ReadMatrix(const json* rows,
 Result<Camera> Pinhole(const Fields& fields,
                        const ImageSize& image,
                        std::optional<double> first_pixel) {
-  if (const json* const rows = fields.Find("camera_intrinsics")) {
+  if (const Json* const rows = fields.Find("camera_intrinsics")) {
     const auto matrix = ReadMatrix(rows, 3, 3);
     if (!matrix) {
       return Status::DataLoss("camera_intrinsics is not a 3 x 3 matrix");
@@ -127,9 +125,9 @@ Result<Camera> Pinhole(const Fields& fields,
 
 // Whether the camera is a fisheye; kUnsupported for models that are not ours.
 Result<bool> IsFisheye(const Fields& fields) {
-  const json* const flag = fields.Find("is_fisheye");
+  const Json* const flag = fields.Find("is_fisheye");
   if (flag && flag->is_boolean() && flag->get<bool>()) return true;
-  const json* const model = fields.Find("camera_model");
+  const Json* const model = fields.Find("camera_model");
   if (model == nullptr) return false;
   const std::string name = model->is_string() ? model->get<std::string>() : "";
   if (name == "OPENCV_FISHEYE") return true;
@@ -176,8 +174,8 @@ Status AddDistortion(const Fields& fields, Camera* camera) {
 // The camera of a frame of a transforms.json, both of which are JSON objects,
 // as ImportNerf explains. `first_pixel` wins over the convention of the source.
 // Errors are parts of a sentence: "camera_model is EQUIRECTANGULAR, ...".
-Result<Camera> NerfCamera(const json& frame,
-                          const json& file,
+Result<Camera> NerfCamera(const Json& frame,
+                          const Json& file,
                           const ImageSize& image,
                           std::optional<double> first_pixel) {
   const Fields fields(frame, file);
@@ -201,9 +199,9 @@ Result<Camera> NerfCamera(const json& frame,
 
 // "transform_matrix" of `frame` as cam_from_world with COLMAP's axes. kDataLoss
 // if there is none, or if it is not a similarity transform.
-Result<Rigid3> NerfPose(const json& frame) {
+Result<Rigid3> NerfPose(const Json& frame) {
   const auto found = frame.find("transform_matrix");
-  const json* const rows = found == frame.end() ? nullptr : &*found;
+  const Json* const rows = found == frame.end() ? nullptr : &*found;
   const auto matrix = ReadMatrix(rows, 3, 4);
   if (!matrix) {
     return Status::DataLoss("transform_matrix is not a 4 x 4 matrix");
@@ -220,10 +218,10 @@ Result<Rigid3> NerfPose(const json& frame) {
   return Rigid3{*rotation, matrix->col(3)}.Inverse();
 }
 
-Result<json> ReadTransforms(const fs::path& file) {
+Result<Json> ReadTransforms(const fs::path& file) {
   const Result<std::string> text = ReadFile(file);
   if (!text.ok()) return text.status();
-  json document = json::parse(*text, nullptr, false);
+  Json document = Json::parse(*text, nullptr, false);
   if (!document.is_object()) {
     return Status::DataLoss(file.string() +
                             " is not JSON that can be read (NaN and Infinity "
@@ -231,7 +229,7 @@ Result<json> ReadTransforms(const fs::path& file) {
   }
   const auto frames = document.find("frames");
   const bool usable = frames != document.end() && frames->is_array() &&
-                      std::ranges::all_of(*frames, [](const json& frame) {
+                      std::ranges::all_of(*frames, [](const Json& frame) {
                         return frame.is_object() &&
                                frame.contains("file_path") &&
                                frame["file_path"].is_string();
@@ -243,7 +241,7 @@ Result<json> ReadTransforms(const fs::path& file) {
 }
 
 // The frame's file_path with '/' between folders, without "./".
-std::string FilePathOf(const json& frame) {
+std::string FilePathOf(const Json& frame) {
   std::string text = frame["file_path"].get<std::string>();
   std::ranges::replace(text, '\\', '/');
   return fs::path(text).lexically_normal().generic_string();
@@ -269,13 +267,13 @@ std::string FindName(const fs::path& root, const std::string& name) {
 
 // The names of the frames' images below `root`. By the last parts of
 // their paths, if `by_last_part` and the whole is not there.
-Result<std::vector<std::string>> FindNames(const json& frames,
+Result<std::vector<std::string>> FindNames(const Json& frames,
                                            const fs::path& root,
                                            bool by_last_part,
                                            const fs::path& source) {
   std::vector<std::string> names;
   std::vector<std::string> missing;
-  for (const json& frame : frames) {
+  for (const Json& frame : frames) {
     const std::string path = FilePathOf(frame);
     const std::string last = fs::path(path).filename().string();
     Status status = CheckImageName(path, source);
@@ -295,8 +293,8 @@ Result<std::vector<std::string>> FindNames(const json& frames,
       " (" + FirstNames(missing) + "); name their folder with --image_path.");
 }
 
-Result<ImportedView> ViewOf(const json& frame,
-                            const json& document,
+Result<ImportedView> ViewOf(const Json& frame,
+                            const Json& document,
                             const fs::path& file,
                             std::optional<double> first_pixel) {
   const Result<ImageSize> size = ReadImageSize(file);
@@ -319,9 +317,9 @@ fs::path TransformsFile(const fs::path& input_path) {
 
 Result<ImportedScene> ImportNerf(const ImportOptions& options) {
   const fs::path file = TransformsFile(options.input_path);
-  const Result<json> document = ReadTransforms(file);
+  const Result<Json> document = ReadTransforms(file);
   if (!document.ok()) return document.status();
-  const json& frames = (*document)["frames"];
+  const Json& frames = (*document)["frames"];
   const Result<fs::path> root =
       FindImageFolder(options.image_path, {file.parent_path()}, "");
   if (!root.ok()) return root.status();

@@ -7,7 +7,7 @@
 
 #include "base/count_text.h"
 #include "base/file_io.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 namespace curvix {
 namespace {

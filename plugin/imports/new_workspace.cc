@@ -7,7 +7,7 @@
 
 #include "base/cancelled.h"
 #include "base/file_io.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "plugin/base/staged_output.h"
 
 namespace curvix {

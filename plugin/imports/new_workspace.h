@@ -22,10 +22,10 @@ enum class CopyPolicy { kCopy, kSoftLink, kHardLink };
 // it included. Images that are the files in <workspace>/images already stay
 // there.
 // kInvalidArgument if <workspace>/sparse or, but for such images,
-// <workspace>/images holds anything, or if something cannot be written. A hard
-// link cannot lead to another file system, a soft link breaks if its original
-// is moved. kCancelled if keep_going, which is asked after each image, returns
-// false.
+// <workspace>/images holds anything. kInvalidArgument, kNotFound or kDataLoss
+// if an image cannot be read or something cannot be written. A hard link cannot
+// lead to another file system, a soft link breaks if its original is moved.
+// kCancelled if keep_going, which is asked after each image, returns false.
 Status WriteNewWorkspace(const ColmapModel& model,
                          const std::vector<std::filesystem::path>& image_files,
                          CopyPolicy policy,

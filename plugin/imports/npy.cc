@@ -14,7 +14,7 @@
 #include "base/bytes.h"
 #include "base/count_text.h"
 #include "base/text_fields.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 namespace curvix {
 namespace {

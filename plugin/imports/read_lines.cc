@@ -16,8 +16,7 @@
 #include "base/file_io.h"
 #include "base/line_reader.h"
 #include "base/text_fields.h"
-#include "colmap/links.h"
-#include "geometry/camera_of.h"
+#include "colmap/files.h"
 #include "plugin/imports/import_scene.h"
 
 namespace curvix {

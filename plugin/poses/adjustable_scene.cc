@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "colmap/inconsistent_points.h"
-#include "geometry/camera_of.h"
 #include "geometry/fit_point.h"
 
 namespace curvix {

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 #ifdef __linux__
 #include <sys/prctl.h>

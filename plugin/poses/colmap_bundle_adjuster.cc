@@ -190,9 +190,9 @@ Status CheckEnd(const ChildEnd& end, double timeout_s) {
 }
 
 // What COLMAP prints when it is called with `arguments`, which ask for help.
-Result<std::string> HelpText(const std::vector<std::string>& arguments,
-                             const ColmapRun& run,
-                             const KeepGoing& keep_going) {
+Result<std::string> ColmapHelp(const std::vector<std::string>& arguments,
+                               const ColmapRun& run,
+                               const KeepGoing& keep_going) {
   const Result<fs::path> made = ScratchFolder::Make();
   if (!made.ok()) return made.status();
   const ScratchFolder scratch(*made);
@@ -268,7 +268,7 @@ Result<fs::path> FindColmap(const fs::path& given) {
 
 Result<std::string> ColmapVersion(const ColmapRun& run,
                                   const KeepGoing& keep_going) {
-  const Result<std::string> help = HelpText({"help"}, run, keep_going);
+  const Result<std::string> help = ColmapHelp({"help"}, run, keep_going);
   if (!help.ok()) return help.status();
   static const std::regex kBanner(R"(^COLMAP (\d+\.\d+[^ ]{0,20}))");
   constexpr int kMaxBannerLine = 50;
@@ -286,7 +286,7 @@ Result<Scene> RefineWithColmap(const Scene& scene,
                                const ColmapRun& run,
                                const KeepGoing& keep_going) {
   const Result<std::string> help =
-      HelpText({"bundle_adjuster", "--help"}, run, keep_going);
+      ColmapHelp({"bundle_adjuster", "--help"}, run, keep_going);
   if (!help.ok() && help.status().code() == StatusCode::kCancelled) {
     return help.status();
   }

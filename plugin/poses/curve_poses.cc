@@ -9,6 +9,7 @@
 #include "base/count_text.h"
 #include "base/median.h"
 #include "base/text_fields.h"
+#include "geometry/lens.h"
 #include "plugin/poses/adjustable_scene.h"
 
 namespace curvix {
@@ -60,28 +61,6 @@ ColmapModel WithPoses(ColmapModel model,
   Scene adjusted = AdjustableScene(model);
   FitPoints(&adjusted);
   return ModelWithScene(std::move(model), adjusted);
-}
-
-// Of pixels between two lenses, once both look the same way at the middle of
-// the image: the median over the image.
-double ShiftOfImage(const Camera& from, const Camera& to) {
-  constexpr int kSteps = 10;
-  const Eigen::Vector2d size(from.width, from.height);
-  const auto shift_at = [&](const Eigen::Vector2d& pixel) {
-    const auto ideal = IdealFromImage(from, pixel);
-    return ideal ? Eigen::Vector2d(ImageFromIdeal(to, *ideal) - pixel)
-                 : Eigen::Vector2d(0, 0);
-  };
-  const Eigen::Vector2d middle = shift_at(size / 2);
-  std::vector<double> shifts;
-  for (int y = 0; y <= kSteps; ++y) {
-    for (int x = 0; x <= kSteps; ++x) {
-      const Eigen::Vector2d pixel =
-          Eigen::Array2d(x, y) / kSteps * size.array();
-      shifts.push_back((shift_at(pixel) - middle).norm());
-    }
-  }
-  return MedianOrNan(std::move(shifts));
 }
 
 // Of the held-out samples of curves; of the held-out points if there are none.

@@ -10,7 +10,6 @@
 #include "base/median.h"
 #include "base/text_fields.h"
 #include "colmap/inconsistent_points.h"
-#include "geometry/camera_of.h"
 #include "plugin/poses/adjustable_scene.h"
 
 namespace curvix {

@@ -7,6 +7,7 @@
 #include "base/count_text.h"
 #include "base/text_fields.h"
 #include "geometry/similarity.h"
+#include "measuring/moved_curves.h"
 #include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/colmap_bundle_adjuster.h"
 
@@ -44,12 +45,7 @@ bool AlignTo(const Scene& input, Scene* refined, double* scale_removed) {
       AlignPoses(Poses(*refined), Poses(input));
   if (!back) return false;
   *scale_removed = 1 / back->scale;
-  for (View& view : refined->views) {
-    view.cam_from_world = MovePose(*back, view.cam_from_world);
-  }
-  for (ScenePoint& point : refined->points) {
-    point.position = *back * point.position;
-  }
+  *refined = MoveScene(*back, std::move(*refined));
   return true;
 }
 
@@ -140,7 +136,6 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
                          "$PATH")),
        RowFlag({.name = "refine_intrinsics",
                 .field = &settings->refine_intrinsics,
-                .max = 1,
                 .help = "refine cameras, too, if held-out errors fall"}),
        Advanced(RowFlag({.name = "refiner_timeout_s",
                          .field = &settings->refiner_timeout_s,
@@ -149,7 +144,6 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
                          .help = "time limit for COLMAP; then poses stay"})),
        RowFlag({.name = "refine_poses_with_curves",
                 .field = &settings->refine_poses_with_curves,
-                .max = 1,
                 .help = "refine poses and curves together, used if held-out "
                         "errors fall (0 with --preset paper)"})}};
 }

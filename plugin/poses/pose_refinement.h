@@ -45,7 +45,7 @@ struct PoseRefinementRecord {
 
 struct PoseRefinement {
   // Set if the poses were accepted: the input with new poses, points and their
-  // errors, and cameras if asked for; everything else as it was.
+  // errors; everything else as it was.
   std::optional<ColmapModel> model;
   PoseRefinementRecord record;
   std::vector<std::string> notes;  // sentences worth telling the user

@@ -37,7 +37,7 @@ void Write(const PythonCurves& curves,
   settings.svg_image = svg_image;
   const bool needs_scene = format == "json" || format == "html" ||
                            format == "svg" || format == "colmap";
-  if (needs_scene && curves.scene() == nullptr) {
+  if (needs_scene && curves.scene == nullptr) {
     Raise(Status::InvalidArgument("format '" + format +
                                   "' shows the curves with their views; read "
                                   "them with pycurvix.read(path, scene)"));
@@ -48,10 +48,10 @@ void Write(const PythonCurves& curves,
     const bool needs_fits = format == "json" || format == "html" ||
                             format == "dxf" || format == "step" ||
                             format == "csv";
-    return WriteFormat({curves.scene() == nullptr ? none : *curves.scene(),
-                        curves.table(),
+    return WriteFormat({curves.scene == nullptr ? none : *curves.scene,
+                        curves.table,
                         needs_fits ? curves.Fits().fitted : no_fits,
-                        curves.alignment()},
+                        curves.alignment ? &*curves.alignment : nullptr},
                        settings,
                        0,
                        format,
@@ -73,8 +73,8 @@ std::string Evaluate(const PythonCurves& curves,
     const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
     if (!truth.ok()) return truth.status();
     std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < curves.table().size(); ++i) all.push_back(i);
-    return EvaluateCurves(curves.table().Select(all), *truth, options);
+    for (std::size_t i = 0; i < curves.table.size(); ++i) all.push_back(i);
+    return EvaluateCurves(curves.table.Select(all), *truth, options);
   };
   const Evaluation evaluation = Take(WithoutLock(evaluate));
   std::ostringstream json;

@@ -4,7 +4,6 @@
 #include <mutex>
 #include <utility>
 
-#include "geometry/camera_of.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 
@@ -17,7 +16,7 @@ const FitTable& PythonCurves::Fits() const {
   if (!fits_) {
     const Scene none;
     fits_.emplace(
-        FitCurves(table_, scene_ == nullptr ? none : *scene_, options_, 0));
+        FitCurves(table, scene == nullptr ? none : *scene, options_, 0));
   }
   return *fits_;
 }
@@ -25,8 +24,8 @@ const FitTable& PythonCurves::Fits() const {
 std::unique_ptr<PythonCurves> PythonCurves::Select(
     const std::vector<std::size_t>& ids) const {
   auto selected = std::make_unique<PythonCurves>(
-      table_.Select(ids), scene_, table_.edge_maps(), options_);
-  selected->set_alignment(alignment_);
+      table.Select(ids), scene, table.edge_maps(), options_);
+  selected->alignment = alignment;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (fits_) selected->set_fits(SelectFits(fits_->fitted, ids));
   return selected;
@@ -48,7 +47,7 @@ auto ViewerOf(std::vector<T> CurveColumns::*column,
               std::vector<py::ssize_t> item_shape = {}) {
   return Viewer<Number>(
       [column](const PythonCurves& curves) -> const std::vector<T>& {
-        return curves.table().columns().*column;
+        return curves.table.columns().*column;
       },
       std::move(item_shape));
 }
@@ -67,7 +66,7 @@ auto FitViewerOf(std::vector<T> FitTable::*column,
 
 std::vector<double> LengthsOf(const PythonCurves& curves) {
   std::vector<double> lengths;
-  curves.table().ForEach([&](std::size_t, const Curve& curve) {
+  curves.table.ForEach([&](std::size_t, const Curve& curve) {
     lengths.push_back(Length(curve));
   });
   return lengths;
@@ -91,7 +90,7 @@ std::vector<std::vector<py::array_t<double>>> ProjectAll(
   const Camera& camera = CameraOf(*scene.scene, view);
   std::vector<Segments> projected;
   WithoutLock([&] {
-    curves.table().ForEach([&](std::size_t, const Curve& curve) {
+    curves.table.ForEach([&](std::size_t, const Curve& curve) {
       projected.push_back(ProjectCurve(curve, view, camera));
     });
   });
@@ -110,7 +109,7 @@ std::vector<std::vector<py::array_t<double>>> ProjectAll(
 std::unique_ptr<PythonCurves> Select(const PythonCurves& curves,
                                      const std::vector<std::size_t>& ids) {
   for (const std::size_t id : ids) {
-    if (id >= curves.table().size()) {
+    if (id >= curves.table.size()) {
       Raise(Status::InvalidArgument("there is no curve " + std::to_string(id)));
     }
   }
@@ -138,8 +137,7 @@ void BindColumns(Class& curves) {
   add("support_offsets", ViewerOf<std::int64_t>(&C::support_offsets));
   add("support", ViewerOf<std::int32_t>(&C::support, {2}));
   add("junctions", [](const py::object& self) {
-    const auto& junctions =
-        self.cast<const PythonCurves&>().table().junctions();
+    const auto& junctions = self.cast<const PythonCurves&>().table.junctions();
     return ViewOf<double>(self, junctions, {3});
   });
 }
@@ -204,13 +202,13 @@ void BindCurves(py::module_& module) {
   BindFits(curves);
   curves
       .def("__len__",
-           [](const PythonCurves& self) { return self.table().size(); })
+           [](const PythonCurves& self) { return self.table.size(); })
       .def("scene",
            [](const PythonCurves& self) -> std::optional<PythonScene> {
-             if (self.scene() == nullptr) return std::nullopt;
-             return PythonScene{self.scene(), nullptr};
+             if (self.scene == nullptr) return std::nullopt;
+             return PythonScene{self.scene, nullptr};
            })
-      .def("report", &PythonCurves::report)
+      .def("report", [](const PythonCurves& self) { return self.report; })
       .def("lengths",
            [](const PythonCurves& self) {
              return WithoutLock([&] { return LengthsOf(self); });

@@ -110,8 +110,8 @@ std::unique_ptr<PythonCurves> CurvesOf(WorkspaceRun run) {
         std::make_shared<const std::vector<EdgeMap>>(std::move(edge_maps)),
         run.record.settings.options.curve_fitting);
     curves->set_fits(std::move(run.fitted));
-    curves->set_report(ReportJson(run.record));
-    curves->set_alignment(std::move(run.record.alignment));
+    curves->report = ReportJson(run.record);
+    curves->alignment = std::move(run.record.alignment);
     return curves;
   });
 }

@@ -13,7 +13,6 @@
 
 #include "colmap/colmap_model_format.h"
 #include "edge_detection/load_image.h"
-#include "geometry/camera_of.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"
 

@@ -38,27 +38,12 @@ struct PythonOptions {
 class PythonCurves {
  public:
   PythonCurves(CurveSet curves,
-               std::shared_ptr<const Scene> scene,
+               std::shared_ptr<const Scene> from_scene,
                SharedEdges edge_maps,
                const CurveFittingOptions& options = {})
-      : table_(std::move(curves), std::move(edge_maps)),
-        scene_(std::move(scene)),
+      : table(std::move(curves), std::move(edge_maps)),
+        scene(std::move(from_scene)),
         options_(options) {}
-
-  const CurveTable& table() const { return table_; }
-  // Null: not known.
-  const std::shared_ptr<const Scene>& scene() const { return scene_; }
-  // "": not made by a run.
-  const std::string& report() const { return report_; }
-  void set_report(std::string report) { report_ = std::move(report); }
-
-  // Null: the frame is the model's.
-  const WorldAlignment* alignment() const {
-    return alignment_ ? &*alignment_ : nullptr;
-  }
-  void set_alignment(std::optional<WorldAlignment> alignment) {
-    alignment_ = std::move(alignment);
-  }
 
   // Fitted at the first call, unless they were given. For any thread, without
   // Python's lock.
@@ -69,12 +54,13 @@ class PythonCurves {
   std::unique_ptr<PythonCurves> Select(
       const std::vector<std::size_t>& ids) const;
 
+  const CurveTable table;
+  const std::shared_ptr<const Scene> scene;  // null: not known
+  std::string report;                        // "": not made by a run
+  std::optional<WorldAlignment> alignment;   // none: the frame is the model's
+
  private:
-  CurveTable table_;
-  std::shared_ptr<const Scene> scene_;
-  CurveFittingOptions options_;
-  std::string report_;
-  std::optional<WorldAlignment> alignment_;
+  const CurveFittingOptions options_;
   mutable std::mutex mutex_;  // of fits_
   mutable std::optional<FitTable> fits_;
 };

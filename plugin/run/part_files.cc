@@ -62,7 +62,7 @@ Json PartJson(int part_idx, const ScenePart& part, const Scene& scene) {
   std::vector<std::string> names;
   for (const int idx : part.view_idxs) {
     const View& view = scene.views[Idx(idx)];
-    const double megapixels = Megapixels(scene.cameras[Idx(view.camera_idx)]);
+    const double megapixels = Megapixels(CameraOf(scene, view));
     sum += megapixels;
     largest = std::max(largest, megapixels);
     names.push_back(view.name);

@@ -27,8 +27,8 @@
 
 namespace curvix {
 
-// Writes all of the above that is known before any part is reconstructed.
-// `scene` is that of `model`, with the views whose images are there.
+// Writes plan.json and the models of the scene and of its parts. `scene` is
+// that of `model`, with the views whose images are there.
 Status WritePlan(const ScenePartition& partition,
                  const Scene& scene,
                  const ColmapModel& model,

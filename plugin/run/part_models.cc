@@ -86,8 +86,7 @@ ColmapModel ModelForMerge(const ColmapModel& model, const Scene& scene) {
   for (ColmapImage& image : merged.images) images[image.image_id] = &image;
   // Points that do not fit their views are not in the scene.
   const std::size_t num_points = scene.points.empty() ? 0 : model.points.size();
-  const std::size_t step =
-      (num_points + kMaxViewerPoints - 1) / kMaxViewerPoints;
+  const std::size_t step = ViewerPointStep(num_points);
   for (std::size_t i = 0; i < num_points; i += step) {
     AddPoint(model.points[i], from, images, merged);
   }

@@ -204,8 +204,10 @@ Result<RunRecord> RunPart(const RunSettings& settings,
 
   PartResult part = TakePart(
       plan->partition, part_idx, reconstruction.curves, found->edge_maps);
-  const std::vector<Edge3d> edges =
-      EdgesInCore(plan->partition, part_idx, std::move(reconstruction.edges));
+  std::vector<Edge3d>& edges = reconstruction.edges;
+  std::erase_if(edges, [&](const Edge3d& edge) {
+    return OwnerOf(plan->partition, edge.position) != part_idx;
+  });
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
     Count(traced.curve, record.result);
@@ -221,9 +223,7 @@ Result<RunRecord> RunPart(const RunSettings& settings,
                              PartKey(*plan, part_idx, options, *image_hashes),
                              part);
   }
-  if (status.ok()) {
-    status = FinishRun(since_start, *output, progress, record);
-  }
+  if (status.ok()) status = FinishRun(since_start, *output, progress, record);
   if (!status.ok()) return status;
   return record;
 }
@@ -260,10 +260,11 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   const auto curves =
       JoinParts(plan->partition, *parts, input->scene, settings.options);
   if (!curves.ok()) return curves.status();
-  record.stages.push_back(since_join.Read(kJoinStage));
-  record.stages.back().counts = {
-      {"parts", static_cast<std::int64_t>(plan->partition.parts.size())},
-      {"curves", static_cast<std::int64_t>((*curves)->size())}};
+  const std::size_t num_parts = plan->partition.parts.size();
+  record.stages.push_back(since_join.Read(
+      kJoinStage,
+      {{"parts", static_cast<std::int64_t>(num_parts)},
+       {"curves", static_cast<std::int64_t>((*curves)->size())}}));
   record.result.num_edges_2d = parts->num_edges_2d();
   status = WriteFindings(input->scene,
                          {**curves,
@@ -279,9 +280,7 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
                          output->folder(),
                          record)
                .status();
-  if (status.ok()) {
-    status = FinishRun(since_start, *output, progress, record);
-  }
+  if (status.ok()) status = FinishRun(since_start, *output, progress, record);
   if (!status.ok()) return status;
   return record;
 }

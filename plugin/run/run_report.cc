@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include "base/count_text.h"
 #include "base/file_io.h"
@@ -16,17 +18,18 @@ namespace curvix {
 namespace {
 
 // A row's value with its own type.
-struct OptionJson {
-  const OptionRow& row;
-
-  Json operator()(const bool* field) const { return *field; }
-  Json operator()(const int* field) const { return *field; }
-  Json operator()(const double* field) const { return *field; }
-  template <typename Enum>
-  Json operator()(const Enum*) const {
-    return ValueText(row);
-  }
-};
+Json ValueJson(const OptionRow& row) {
+  return std::visit(
+      [&](const auto* field) -> Json {
+        using Value = std::remove_cv_t<std::remove_pointer_t<decltype(field)>>;
+        if constexpr (std::is_arithmetic_v<Value>) {
+          return *field;
+        } else {
+          return ValueText(row);
+        }
+      },
+      row.field);
+}
 
 // {"EdgeDetection": {"sigma_px": 1.0, ...}, ...}, without the runtime options.
 Json OptionsJson(Options options) {
@@ -34,18 +37,19 @@ Json OptionsJson(Options options) {
   for (const OptionRow& row : OptionTable(options)) {
     const std::size_t dot = row.name.find('.');
     if (dot == std::string::npos) continue;
-    json[row.name.substr(0, dot)][row.name.substr(dot + 1)] =
-        std::visit(OptionJson{row}, row.field);
+    json[row.name.substr(0, dot)][row.name.substr(dot + 1)] = ValueJson(row);
   }
   return json;
 }
 
-Json InputJson(const InputSummary& input) {
+Json InputJson(const RunRecord& record) {
+  const InputSummary& input = record.input;
+  const RunSettings& settings = record.settings;
   Json json;
   json["model_path"] = input.model_path.string();
-  json["image_path"] = input.image_path.string();
-  if (!input.mask_path.empty()) {
-    json["mask_path"] = input.mask_path.string();
+  json["image_path"] = settings.image_path.string();
+  if (!settings.mask_path.empty()) {
+    json["mask_path"] = settings.mask_path.string();
   }
   json["camera_models"] = input.camera_models;
   json["num_views"] = input.num_views;
@@ -278,7 +282,7 @@ std::string ReportJson(const RunRecord& record) {
                      {"version", std::string(ProgramVersion())}};
   json["preset"] = record.settings.preset;
   json["options"] = OptionsJson(record.settings.options);
-  json["input"] = InputJson(record.input);
+  json["input"] = InputJson(record);
   json["pose_refinement"] = PosesJson(record.poses);
   if (record.curve_poses) {
     json["pose_refinement_with_curves"] = CurvePosesJson(*record.curve_poses);

@@ -40,8 +40,6 @@ struct RunSettings : WorkspacePaths {
 
 struct InputSummary {
   std::filesystem::path model_path;
-  std::filesystem::path image_path;
-  std::filesystem::path mask_path;         // "": no masks
   std::vector<std::string> camera_models;  // one per camera
   std::int64_t num_views = 0;
   std::int64_t num_points = 0;

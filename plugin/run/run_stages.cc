@@ -91,17 +91,17 @@ Result<SceneStages> RunStages::Run(const ColmapModel& model,
   return stages;
 }
 
-// The result of a stage as an earlier run left it, or else what `make` gives,
-// which is kept.
+// The result of a stage as an earlier run left it, which the record tells, or
+// else what `make` gives, which is kept.
 template <typename T, typename Make>
 Result<T> RunStages::LoadOrMake(const StoredStage<T>& stage,
                                 std::uint64_t key,
-                                const Make& make,
-                                bool& is_resumed) {
+                                const Make& make) {
   progress_.Update(stage.name, 0, 0);
-  std::optional<T> saved = store_.Load(stage, key);
-  is_resumed = saved.has_value();
-  if (saved) return *std::move(saved);
+  if (std::optional<T> saved = store_.Load(stage, key)) {
+    record_.resumed_stages.push_back(stage.name);
+    return *std::move(saved);
+  }
   Result<T> made = make();
   if (!made.ok() || record_.settings.clean) return made;
   const std::string problem = store_.Save(stage, key, *made);
@@ -114,13 +114,11 @@ Result<T> RunStages::LoadOrMake(const StoredStage<T>& stage,
 Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {
   const Stopwatch stopwatch;
   const Options& options = record_.settings.options;
-  bool is_resumed = false;
-  Result<std::vector<EdgeMap>> edge_maps = LoadOrMake(
-      kDetectEdges,
-      EdgesKey(scene, options),
-      [&] { return DetectEdges(scene, options, progress_.Callback()); },
-      is_resumed);
-  if (edge_maps.ok()) FinishEdges(stopwatch, *edge_maps, is_resumed);
+  Result<std::vector<EdgeMap>> edge_maps =
+      LoadOrMake(kDetectEdges, EdgesKey(scene, options), [&] {
+        return DetectEdges(scene, options, progress_.Callback());
+      });
+  if (edge_maps.ok()) FinishEdges(stopwatch, *edge_maps);
   return edge_maps;
 }
 
@@ -130,21 +128,18 @@ std::vector<EdgeMap> RunStages::Link(std::vector<EdgeMap> edge_maps) {
     map.neighbors =
         LinkNeighbors(map.edges, record_.settings.options.edge_detection);
   }
-  FinishEdges(stopwatch, edge_maps, false);
+  FinishEdges(stopwatch, edge_maps);
   return edge_maps;
 }
 
 void RunStages::FinishEdges(const Stopwatch& stopwatch,
-                            const std::vector<EdgeMap>& edge_maps,
-                            bool is_resumed) {
+                            const std::vector<EdgeMap>& edge_maps) {
   StageCounts counts = CountEdges(edge_maps);
   record_.result.num_edges_2d = counts.front().second;
   counts.insert(counts.begin(), {"views", record_.input.num_views});
   std::string text = CountsText(counts);
-  FinishStage(stopwatch.Read(kDetectEdges.name),
-              std::move(counts),
-              std::move(text),
-              is_resumed);
+  FinishStage(stopwatch.Read(kDetectEdges.name, std::move(counts)),
+              std::move(text));
 }
 
 Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
@@ -152,26 +147,22 @@ Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
   const Options& options = record_.settings.options;
   const bool refine_intrinsics = record_.settings.poses.refine_intrinsics;
   Scene& scene = stages.scene;
-  bool is_resumed = false;
-  Result<CurvePoses> refined = LoadOrMake(
-      kRefinePosesWithCurves,
-      CurvePosesKey(scene, options, refine_intrinsics),
-      [&] {
-        return RefinePosesWithCurves(scene,
-                                     stages.edge_maps,
-                                     options,
-                                     progress_.Callback(),
-                                     refine_intrinsics);
-      },
-      is_resumed);
+  Result<CurvePoses> refined =
+      LoadOrMake(kRefinePosesWithCurves,
+                 CurvePosesKey(scene, options, refine_intrinsics),
+                 [&] {
+                   return RefinePosesWithCurves(scene,
+                                                stages.edge_maps,
+                                                options,
+                                                progress_.Callback(),
+                                                refine_intrinsics);
+                 });
   if (!refined.ok()) return refined.status();
   CurvePoseRefinement result =
       ModelWithCurvePoses(model, scene, *std::move(refined));
   record_.curve_poses = result.record;
   FinishStage(stopwatch.Read(kRefinePosesWithCurves.name),
-              {},
-              CurvePosesText(result.record),
-              is_resumed);
+              CurvePosesText(result.record));
   const std::string refusal = CurvePosesRefusal(result.record);
   if (!refusal.empty()) progress_.Note(refusal);
   if (!result.model) return {};
@@ -199,34 +190,24 @@ Result<EdgeSketch> RunStages::Sketch(const Scene& scene,
                                      const std::vector<EdgeMap>& edge_maps) {
   const Stopwatch stopwatch;
   const Options& options = record_.settings.options;
-  bool is_resumed = false;
-  Result<EdgeSketch> sketch = LoadOrMake(
-      kSketchEdges,
-      SketchKey(scene, options),
-      [&] {
+  Result<EdgeSketch> sketch =
+      LoadOrMake(kSketchEdges, SketchKey(scene, options), [&] {
         return SketchEdges(scene, edge_maps, options, progress_.Callback());
-      },
-      is_resumed);
+      });
   if (!sketch.ok()) return sketch;
   record_.result.edge_sigma_px = sketch->edge_sigma_px;
-  FinishStage(stopwatch.Read(kSketchEdges.name),
-              CountsOf(*sketch),
-              RepeatedViewsText(sketch->counts.repeated_views),
-              is_resumed);
+  FinishStage(stopwatch.Read(kSketchEdges.name, CountsOf(*sketch)),
+              RepeatedViewsText(sketch->counts.repeated_views));
   return sketch;
 }
 
-void RunStages::FinishStage(StageReport report,
-                            StageCounts counts,
-                            std::string text,
-                            bool is_resumed) {
-  if (is_resumed) {
-    record_.resumed_stages.push_back(report.name);
+void RunStages::FinishStage(StageReport report, std::string text) {
+  const std::vector<std::string>& resumed = record_.resumed_stages;
+  if (!resumed.empty() && resumed.back() == report.name) {
     text += std::string(text.empty() ? "" : ", ") + "as an earlier run left it";
   }
   progress_.Finish(text);
   record_.stages.push_back(std::move(report));
-  record_.stages.back().counts = std::move(counts);
 }
 
 Status RunStages::KeptStages(Status status) const {

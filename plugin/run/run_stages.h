@@ -22,8 +22,6 @@
 
 namespace curvix {
 
-using StageCounts = decltype(StageReport::counts);
-
 // What the stages of a scene give.
 struct SceneStages {
   Scene scene;  // with the poses and cameras that the curves are made with
@@ -63,17 +61,12 @@ class RunStages {
   Result<EdgeSketch> Sketch(const Scene& scene,
                             const std::vector<EdgeMap>& edge_maps);
   void FinishEdges(const Stopwatch& stopwatch,
-                   const std::vector<EdgeMap>& edge_maps,
-                   bool is_resumed);
-  void FinishStage(StageReport report,
-                   StageCounts counts,
-                   std::string text,
-                   bool is_resumed);
+                   const std::vector<EdgeMap>& edge_maps);
+  void FinishStage(StageReport report, std::string text);
   template <typename T, typename Make>
   Result<T> LoadOrMake(const StoredStage<T>& stage,
                        std::uint64_t key,
-                       const Make& make,
-                       bool& is_resumed);
+                       const Make& make);
 
   StageStore store_;
   RunProgress& progress_;

@@ -11,9 +11,8 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "edge_detection/load_image.h"
-#include "geometry/camera_of.h"
 #include "measuring/moved_curves.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/drawing_files.h"
@@ -43,8 +42,6 @@ InputSummary SummarizeInput(const Workspace& workspace,
                             const WorkspaceScene& input) {
   InputSummary summary;
   summary.model_path = fs::absolute(workspace.model_path);
-  summary.image_path = fs::absolute(workspace.image_path);
-  summary.mask_path = workspace.mask_path;
   for (const Camera& camera : input.scene.cameras) {
     summary.camera_models.emplace_back(ModelName(camera.model));
   }
@@ -58,7 +55,7 @@ InputSummary SummarizeInput(const Workspace& workspace,
 }
 
 // How many primitives of each kind there are.
-decltype(StageReport::counts) CountFits(const FittedCurves& fitted) {
+StageCounts CountFits(const FittedCurves& fitted) {
   std::int64_t lines = 0, arcs = 0, ellipses = 0, splines = 0;
   for (const FittedCurve& curve : fitted.curves) {
     for (const CurveFit& fit : curve.fits) {
@@ -122,7 +119,8 @@ void NoteRemoved(const std::vector<fs::path>& drawings, RunProgress& progress) {
 Result<Workspace> FindInput(const RunSettings& settings) {
   Result<Workspace> workspace = FindWorkspace(settings);
   if (!workspace.ok()) return workspace;
-  Status usable = CheckOutputPath(*workspace);
+  Status usable = CheckOutputLinks(settings, *workspace);
+  if (usable.ok()) usable = CheckOutputPath(*workspace);
   if (!usable.ok()) return usable;
   return workspace;
 }
@@ -167,12 +165,12 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   settings.mask_path = workspace.mask_path;
   record.input = SummarizeInput(workspace, *input);
   record.result.output_path = workspace.output_path;
-  record.stages.push_back(stopwatch.Read("read_model"));
-  record.stages.back().counts = {
-      {"views", record.input.num_views},
-      {"missing images",
-       static_cast<std::int64_t>(record.input.missing_images.size())},
-      {"points", record.input.num_points}};
+  record.stages.push_back(stopwatch.Read(
+      "read_model",
+      {{"views", record.input.num_views},
+       {"missing images",
+        static_cast<std::int64_t>(record.input.missing_images.size())},
+       {"points", record.input.num_points}}));
   progress.Finish(Plural(record.input.num_views, "view") + ", " +
                   Plural(record.input.num_points, "point"));
   for (const std::string& note : record.input.notes) progress.Note(note);
@@ -190,8 +188,7 @@ FittedCurves FitCurvesOf(const Scene& scene,
   const Options& options = record.settings.options;
   FittedCurves fitted = FitCurves(
       curves, scene, options.curve_fitting, options.runtime.num_threads);
-  record.stages.push_back(stopwatch.Read("fit_curves"));
-  record.stages.back().counts = CountFits(fitted);
+  record.stages.push_back(stopwatch.Read("fit_curves", CountFits(fitted)));
   return fitted;
 }
 

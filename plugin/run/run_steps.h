@@ -21,7 +21,7 @@
 namespace curvix {
 
 // FindWorkspace for the paths of `settings`. kInvalidArgument, too, if the
-// results would lie among the inputs.
+// results would lie among the inputs or behind a link (CheckOutputLinks).
 Result<Workspace> FindInput(const RunSettings& settings);
 
 // The scene of the workspace, with the model of refined poses that an earlier

@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 // Poses by bundle adjustment, if that is better: `input` takes them over.
 // Whether it does.
-Result<bool> AdjustBundles(const Workspace& workspace,
-                           const fs::path& staging,
-                           RunProgress& progress,
-                           RunRecord& record,
-                           WorkspaceScene& input) {
+Result<bool> RunBundleAdjustment(const Workspace& workspace,
+                                 const fs::path& staging,
+                                 RunProgress& progress,
+                                 RunRecord& record,
+                                 WorkspaceScene& input) {
   const Stopwatch stopwatch;
   const fs::path log_path = staging / "bundle_adjuster.log";
   Result<PoseRefinement> refined = RefinePoses(
@@ -48,7 +48,7 @@ Result<bool> AdjustBundles(const Workspace& workspace,
 
 Result<LineCurves> ReadCurvesOfLines(const LinesSource& read,
                                      const Scene& scene,
-                                     ProgressPrinter& progress,
+                                     RunProgress& progress,
                                      RunRecord& record) {
   const Stopwatch stopwatch;
   progress.Update("read_lines", 0, 0);
@@ -56,10 +56,10 @@ Result<LineCurves> ReadCurvesOfLines(const LinesSource& read,
   if (!lines.ok()) return lines.status();
   Result<LineCurves> curves = CurvesOfLines(*lines, scene);
   if (!curves.ok()) return curves;
-  record.stages.push_back(stopwatch.Read("read_lines"));
-  record.stages.back().counts = {
-      {"lines", static_cast<std::int64_t>(lines->size())},
-      {"left out", curves->num_left_out}};
+  record.stages.push_back(
+      stopwatch.Read("read_lines",
+                     {{"lines", static_cast<std::int64_t>(lines->size())},
+                      {"left out", curves->num_left_out}}));
   progress.Finish(Plural(lines->size(), "line"));
   if (curves->num_seen < static_cast<int>(lines->size()) / 2) {
     progress.Note("Only " + std::to_string(curves->num_seen) +
@@ -77,7 +77,6 @@ Result<LineCurves> ReadCurvesOfLines(const LinesSource& read,
 
 }  // namespace
 
-// From the first file read to the last one written.
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress) {
   const Stopwatch since_start;
@@ -98,7 +97,7 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   RunStages stages(workspace->output_path / "stages", progress, record);
 
   const Result<bool> is_adjusted =
-      AdjustBundles(*workspace, staging, progress, record, *input);
+      RunBundleAdjustment(*workspace, staging, progress, record, *input);
   if (!is_adjusted.ok()) return is_adjusted.status();
   Result<SceneStages> found =
       stages.Run(input->model, std::move(input->scene), nullptr);
@@ -133,7 +132,7 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
 
 Result<RunRecord> RunLines(const RunSettings& settings,
                            const LinesSource& read,
-                           ProgressPrinter& progress) {
+                           RunProgress& progress) {
   const Stopwatch since_start;
   RunRecord record;
   record.settings = settings;
@@ -152,9 +151,7 @@ Result<RunRecord> RunLines(const RunSettings& settings,
   if (curves.size() == 0) findings.why_empty = "all lines were left out";
   Status status =
       WriteFindings(input->scene, findings, output->folder(), record).status();
-  if (status.ok()) {
-    status = FinishRun(since_start, *output, progress, record);
-  }
+  if (status.ok()) status = FinishRun(since_start, *output, progress, record);
   if (!status.ok()) return status;
   return record;
 }

@@ -40,13 +40,14 @@ struct WorkspaceRun {
 Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                                   RunProgress& progress);
 
+using LinesSource = std::function<Result<std::vector<ImportedLine>>()>;
+
 // Reads the workspace and, by `read`, lines in its world, fits them, and writes
 // what settings.output.formats name and report.json into the output folder, as
 // RunWorkspace does: all or nothing. The poses stay as they are, and there is
 // no project.ini. Errors as those of RunWorkspace, `read` and CurvesOfLines.
-using LinesSource = std::function<Result<std::vector<ImportedLine>>()>;
 Result<RunRecord> RunLines(const RunSettings& settings,
                            const LinesSource& read,
-                           ProgressPrinter& progress);
+                           RunProgress& progress);
 
 }  // namespace curvix

@@ -28,9 +28,9 @@ std::uint64_t SceneKey(const Scene& scene);
 std::uint64_t EdgesKey(const Scene& scene, const Options& options);
 
 // What its 3D edge sketch depends on: that, and the poses, the points, the
-// options of hypotheses, consolidation and validation, and whether curves may
-// grow from it. Poses refined with curves depend on the same, of the scene
-// before.
+// options of hypotheses, consolidation and validation, whether curves may grow
+// from it, and CurveGrowth.max_crowding. Poses refined with curves depend on
+// the same, of the scene before.
 std::uint64_t SketchKey(const Scene& scene, const Options& options);
 std::uint64_t CurvePosesKey(const Scene& scene,
                             const Options& options,

@@ -16,9 +16,7 @@ struct ImageSize {
   int width = 0;   // pixels
   int height = 0;  // pixels
 
-  friend bool operator==(const ImageSize& a, const ImageSize& b) {
-    return a.width == b.width && a.height == b.height;
-  }
+  friend bool operator==(const ImageSize&, const ImageSize&) = default;
 };
 
 // "480 x 320".

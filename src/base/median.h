@@ -17,8 +17,9 @@ namespace curvix {
 // values.
 inline constexpr double kSigmasPerMedian = 1.4826;
 
-// The value in the middle; of an even number, the larger. `values` must
-// not be empty or hold NaN.
+// The value in the middle; of an even number, the larger of the two, so that it
+// is one of the values (MedianOrNan takes their mean). `values` must not be
+// empty or hold NaN.
 inline double Median(std::vector<double> values) {
   CURVIX_CHECK(!values.empty(), "no value is in the middle of none");
   const auto middle =
@@ -27,11 +28,12 @@ inline double Median(std::vector<double> values) {
   return *middle;
 }
 
+// As Median; `fallback` of none.
 inline double MedianOr(double fallback, std::vector<double> values) {
   return values.empty() ? fallback : Median(std::move(values));
 }
 
-// Of each coordinate; zero of none.
+// As Median, of each coordinate; zero of none.
 inline Eigen::Vector3d MedianPosition(
     const std::vector<Eigen::Vector3d>& positions) {
   Eigen::Vector3d median;
@@ -43,8 +45,8 @@ inline Eigen::Vector3d MedianPosition(
   return median;
 }
 
-// The mean of the two middle values of an even number; NaN of none. `values`
-// must not hold NaN.
+// Unlike Median, of an even number the mean of the two values in the middle;
+// NaN of none. `values` must not hold NaN.
 inline double MedianOrNan(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle =

@@ -8,14 +8,16 @@
 
 namespace curvix {
 
+using StageCounts = decltype(StageReport::counts);
+
 // Measures from its construction.
 class Stopwatch {
  public:
   Stopwatch();
 
   // Wall seconds and CPU seconds of all threads since the construction, and
-  // the largest resident memory of the process so far. No counts.
-  StageReport Read(std::string name) const;
+  // the largest resident memory of the process so far.
+  StageReport Read(std::string name, StageCounts counts = {}) const;
 
  private:
   std::chrono::steady_clock::time_point wall_start_;

@@ -42,29 +42,25 @@ void AppendNumbers(const Numbers& numbers, char separator, std::string& out) {
   }
 }
 
+// `value` as std::to_chars writes it, with a precision of at most 60.
+inline std::string FormatText(double value,
+                              std::chars_format format,
+                              int precision) {
+  std::array<char, 400> text;  // the largest number has 309 digits
+  char* end = text.data() + text.size();
+  return {text.data(),
+          std::to_chars(text.data(), end, value, format, precision).ptr};
+}
+
 // `value` with so many decimals, at most 60.
 inline std::string FixedText(double value, int num_decimals) {
-  std::array<char, 400> text;  // the largest number has 309 digits
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::fixed,
-                                 num_decimals)
-                       .ptr;
-  return {text.data(), end};
+  return FormatText(value, std::chars_format::fixed, num_decimals);
 }
 
 // `value` with at most so many digits that count, as std::printf writes it with
 // "%.4g": "1230", "0.00123", "1.23e-05".
 inline std::string ShortText(double value, int num_digits) {
-  std::array<char, 64> text;
-  const auto end = std::to_chars(text.data(),
-                                 text.data() + text.size(),
-                                 value,
-                                 std::chars_format::general,
-                                 num_digits)
-                       .ptr;
-  return {text.data(), end};
+  return FormatText(value, std::chars_format::general, num_digits);
 }
 
 // The number that `word` is as a whole; an optional sign leads. nullopt: it is

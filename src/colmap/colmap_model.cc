@@ -9,7 +9,7 @@
 
 #include "base/file_io.h"
 #include "colmap/colmap_model_format.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 namespace curvix {
 namespace {
@@ -211,27 +211,22 @@ Scene SceneFromColmapModel(const ColmapModel& model,
     camera_idxs[item.camera_id] = static_cast<int>(scene.cameras.size());
     scene.cameras.push_back(item.camera);
   }
+  std::vector<const ColmapImage*> images;
   for (const ColmapImage& image : model.images) {
-    if (std::ranges::binary_search(left_out, image.name)) {
-      continue;
-    }
-    scene.views.push_back({image.name,
-                           ImageFile(image_folder, image.name),
-                           image.image_id,
-                           camera_idxs.at(image.camera_id),
-                           image.cam_from_world,
+    if (std::ranges::binary_search(left_out, image.name)) continue;
+    images.push_back(&image);
+  }
+  std::ranges::sort(images, {}, &ColmapImage::name);
+  std::map<std::uint32_t, SceneView> views;
+  for (const ColmapImage* image : images) {
+    views[image->image_id] = {static_cast<int>(scene.views.size()), image};
+    scene.views.push_back({image->name,
+                           ImageFile(image_folder, image->name),
+                           image->image_id,
+                           camera_idxs.at(image->camera_id),
+                           image->cam_from_world,
                            {},
                            std::nullopt});
-  }
-  std::ranges::sort(scene.views, {}, &View::name);
-  std::map<std::uint32_t, SceneView> views;
-  for (const View& view : scene.views) {
-    views.emplace(view.image_id,
-                  SceneView{static_cast<int>(views.size()), nullptr});
-  }
-  for (const ColmapImage& image : model.images) {
-    const auto found = views.find(image.image_id);
-    if (found != views.end()) found->second.image = &image;
   }
   for (const ColmapPoint3D& point : model.points) {
     ScenePoint scene_point = MakeScenePoint(point, views);

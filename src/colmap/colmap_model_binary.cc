@@ -27,8 +27,8 @@ Status Truncated(const std::string& file,
       ", or a count in it is wrong; export the model again.");
 }
 
-// Parses a count and as many items with `parse_item(reader)`, which returns a
-// Result<Item>, and checks that this is the whole file.
+// Parses a count and as many items with `parse_item(reader)`, which returns an
+// Item or a Result<Item>, and checks that this is the whole file.
 template <typename Item, typename ParseItem>
 Result<std::vector<Item>> ParseAll(std::string_view bytes,
                                    const std::string& file,
@@ -124,18 +124,13 @@ CamerasOrError ParseCamerasBinary(std::string_view bytes,
 
 ImagesOrError ParseImagesBinary(std::string_view bytes,
                                 const std::string& file) {
-  return ParseAll<ColmapImage>(
-      bytes, file, "image", kMinImageSize, [](ByteReader& reader) {
-        return Result<ColmapImage>(ParseImage(reader));
-      });
+  return ParseAll<ColmapImage>(bytes, file, "image", kMinImageSize, ParseImage);
 }
 
 PointsOrError ParsePointsBinary(std::string_view bytes,
                                 const std::string& file) {
   return ParseAll<ColmapPoint3D>(
-      bytes, file, "point", kMinPoint3DSize, [](ByteReader& reader) {
-        return Result<ColmapPoint3D>(ParsePoint(reader));
-      });
+      bytes, file, "point", kMinPoint3DSize, ParsePoint);
 }
 
 std::string FormatCamerasBinary(const std::vector<ColmapCamera>& cameras) {

@@ -8,7 +8,6 @@
 #include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
-#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {

@@ -2,15 +2,16 @@
 #include "colmap/workspace.h"
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "base/count_text.h"
 #include "base/file_io.h"
-#include "colmap/fit_to_images.h"
+#include "colmap/files.h"
 #include "colmap/inconsistent_points.h"
-#include "colmap/links.h"
 #include "colmap/project_file.h"
+#include "colmap/scale_to_images.h"
 
 namespace curvix {
 namespace {
@@ -223,31 +224,17 @@ Status FindImages(const WorkspacePaths& paths, Workspace* found) {
   return {};
 }
 
-fs::path OutputPath(const WorkspacePaths& paths, const fs::path& model) {
-  if (!paths.output_path.empty()) return paths.output_path;
+// The folders of the results, if --output_path names no other: first that of
+// the model, then the folder curvix/ that it is or is in.
+std::array<fs::path, 2> ResultFolders(const WorkspacePaths& paths,
+                                      const fs::path& model) {
   const ModelPlace place(paths.workspace_path, model);
-  const bool is_sparse = place.model.filename() == "sparse";
   const bool beside =
       !place.root.empty() && (place.inside || paths.input_path.empty());
-  if (beside && is_sparse) return place.root / "curvix";
-  if (beside) return place.root / "curvix" / place.model.filename();
-  if (place.model == place.workspace) return place.workspace / "curvix";
-  return place.workspace / "curvix" / place.model.filename();
-}
-
-// Results are not written through links that nobody asked for.
-Status CheckOutputPath(const WorkspacePaths& paths, const fs::path& output) {
-  if (!paths.output_path.empty()) return {};
-  for (fs::path folder = output;; folder = folder.parent_path()) {
-    std::error_code error;
-    if (fs::is_symlink(folder, error)) {
-      return Status::InvalidArgument(
-          folder.string() +
-          " is a link, and the results would go where it leads; name that "
-          "folder with --output_path if it is meant.");
-    }
-    if (folder.filename() == "curvix") return {};
-  }
+  const bool is_only = beside ? place.model.filename() == "sparse"
+                              : place.model == place.workspace;
+  const fs::path curvix = (beside ? place.root : place.workspace) / "curvix";
+  return {is_only ? curvix : curvix / place.model.filename(), curvix};
 }
 
 // The names of the images that are not in `folder`, sorted.
@@ -338,10 +325,23 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   if (status.ok()) status = FindImages(paths, &found);
   if (status.ok()) status = FindMasks(paths, &found);
   if (!status.ok()) return status;
-  found.output_path = OutputPath(paths, found.model_path);
-  status = CheckOutputPath(paths, found.output_path);
-  if (!status.ok()) return status;
+  found.output_path = paths.output_path.empty()
+                          ? ResultFolders(paths, found.model_path).front()
+                          : paths.output_path;
   return found;
+}
+
+Status CheckOutputLinks(const WorkspacePaths& paths, const Workspace& found) {
+  if (!paths.output_path.empty()) return {};
+  for (const fs::path& folder : ResultFolders(paths, found.model_path)) {
+    std::error_code error;
+    if (!fs::is_symlink(folder, error)) continue;
+    return Status::InvalidArgument(
+        folder.string() +
+        " is a link, and the results would go where it leads; name that "
+        "folder with --output_path if it is meant.");
+  }
+  return {};
 }
 
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
@@ -349,7 +349,7 @@ Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
   if (!model.ok()) return model.status();
   WorkspaceScene result;
   result.model = std::move(model).value();
-  const std::string scaled = FitToImages(workspace.image_path, &result.model);
+  const std::string scaled = ScaleToImages(workspace.image_path, &result.model);
   result.is_scaled = !scaled.empty();
   if (result.is_scaled) result.notes.push_back(scaled);
   result.missing_images = MissingImages(result.model, workspace.image_path);

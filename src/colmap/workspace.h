@@ -51,25 +51,29 @@ struct Workspace {
 //    model, and <workspace>/curvix/<name of the model's folder> if it is not.
 //  * Masks: only those of `paths`.
 // Folders and images may be links. Files of a model that is found and not given
-// lie, all links followed, in its folder or in the workspace, and curvix/ is no
-// link. kInvalidArgument if the workspace is not given or curvix/ is a link;
-// kNotFound for model files that lead out, and, with the places that were
-// tried, if a folder is not there.
+// lie, all links followed, in its folder or in the workspace. kInvalidArgument
+// if the workspace is not given; kNotFound for model files that lead out, and,
+// with the places that were tried, if a folder is not there.
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
+
+// To be asked before anything is written to `found`, the workspace of `paths`:
+// kInvalidArgument if the folder of the results was not given and it, or the
+// curvix/ that it is in, is a link.
+Status CheckOutputLinks(const WorkspacePaths& paths, const Workspace& found);
 
 struct WorkspaceScene {
   ColmapModel model;                        // all of it
   Scene scene;                              // the views whose images are there
   std::vector<std::string> missing_images;  // names, sorted
-  bool is_scaled = false;  // cameras are scaled, see FitToImages()
+  bool is_scaled = false;  // cameras are scaled, see ScaleToImages()
   std::vector<std::string> notes;
 };
 
 // Reads the model and leaves out the views whose images are not on disk, with a
 // note that names the first five. Cameras are scaled to images of another size
-// (fit_to_images.h), with a note. Another note counts the views without a mask,
-// if the workspace has masks. Fails if the model cannot be read or if fewer
-// than three views remain.
+// (scale_to_images.h), with a note. Another note counts the views without a
+// mask, if the workspace has masks. Fails if the model cannot be read or if
+// fewer than three views remain.
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace);
 
 // The scene of a valid model in the folders of the workspace, without the

@@ -10,7 +10,7 @@
 #include "base/angles.h"
 #include "base/check.h"
 #include "base/parallel.h"
-#include "geometry/image_edge.h"
+#include "curve_drawing/edge_distances.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -20,7 +20,7 @@ namespace {
 // spacings of edges, since some are missing.
 constexpr double kMaxStepPx = 4;
 
-// The best candidate at the front ([0]) and back ([1]) of an edge: the end of
+// The best candidate at the head ([0]) and tail ([1]) of an edge: the end of
 // another edge.
 using Choice = std::array<std::optional<EndIdx>, 2>;
 

@@ -23,7 +23,7 @@ namespace curvix {
 // the same point are no candidates for each other.
 //
 // The graph is given as ties between ends; item i is edge i, whose tangent
-// points to its front.
+// points to its head.
 //
 // Deviation: the paper has no limit across the line and no mutual choice.
 // Without them traces jump between parallel tracks and branch.

@@ -27,8 +27,7 @@ CurveTip::CurveTip(const SpaceEdge& edge,
     : sigma_px_(sigma_px), pixel_(pixel) {
   const EdgeEstimate estimate = AdjustEdge(edge, measurements, sigma_px);
   edge_ = estimate.edge;
-  axes_.col(0) = estimate.across1;
-  axes_.col(1) = estimate.across2;
+  axes_ = estimate.across;
   covariance_.topLeftCorner<2, 2>() = estimate.covariance / (pixel * pixel);
   Eigen::Matrix2d slopes =
       Eigen::Matrix2d::Identity() / (kSeedSlopeSigma * kSeedSlopeSigma);
@@ -92,9 +91,7 @@ void CurveTip::FoldIn(const Eigen::Vector4d& change) {
   edge_.position += pixel_ * axes_ * change.head<2>();
   const Eigen::Vector3d before = edge_.tangent;
   edge_.tangent = (before + axes_ * change.tail<2>()).normalized();
-  axes_ = Eigen::Quaterniond::FromTwoVectors(before, edge_.tangent)
-              .toRotationMatrix() *
-          axes_;
+  axes_ = ShortestRotation(before, edge_.tangent).toRotationMatrix() * axes_;
 }
 
 double CurveTip::VarianceIn(const PosedView& view,

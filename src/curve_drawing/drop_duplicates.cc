@@ -12,7 +12,7 @@
 
 #include "base/angles.h"
 #include "curve_drawing/connect_edges.h"
-#include "geometry/image_edge.h"
+#include "curve_drawing/edge_distances.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 #include "model/sample_tree.h"

@@ -7,7 +7,7 @@
 #include <curvix/options.h>
 #include <vector>
 
-#include "edge_sketch/sketch_input.h"
+#include "base/cancelled.h"
 #include "model/neighborhood_graph.h"
 #include "model/posed_view.h"
 

@@ -13,10 +13,9 @@
 #include <utility>
 
 #include "curve_drawing/curve_tip.h"
-#include "curve_drawing/grown_path.h"
 #include "edge_sketch/visible_side.h"
+#include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/image_edge.h"
 #include "geometry/nearest_edge.h"
 #include "geometry/pixel_size.h"
 
@@ -37,6 +36,10 @@ constexpr double kMaxUnsupportedPx = 10;
 // Number of samples that the log-likelihood ratio of the seed counts as.
 constexpr double kSeedWeight = 5;
 constexpr std::size_t kMinNumSamples = 5;
+// Fewest views that support a sample.
+constexpr std::size_t kMinNumSupports = 3;
+// Hits and misses in a row that count.
+constexpr int kStreak = 3;
 // Curves that come back to their seed so near are closed, if they are so long.
 constexpr double kCloseSteps = 2;
 constexpr double kCloseCosine = 0.9;
@@ -44,6 +47,84 @@ constexpr std::size_t kMinClosedSteps = 32;
 // The last steps do not claim their edges yet, so that these are still there
 // for the next ones and for the other direction.
 constexpr std::size_t kUnclaimedSteps = 32;
+
+struct GrownSample : CurveSample {
+  std::int64_t num_looks = 0;  // queries
+};
+
+void SetEdge(const SpaceEdge& edge, CurveSample& sample) {
+  sample.position = edge.position;
+  sample.tangent = edge.tangent;
+}
+
+// The views that supported the last samples of a curve.
+class Streaks {
+ public:
+  // Those of the seed's support are trusted from the start, the others after
+  // three hits in a row; three misses in a row end it.
+  Streaks(std::size_t num_views, const std::vector<EdgeRef>& seed_support)
+      : streaks_(num_views) {
+    for (const EdgeRef& ref : seed_support) {
+      streaks_[static_cast<std::size_t>(ref.view_idx)].is_trusted = true;
+    }
+  }
+
+  // Adds the view's result for the next sample. Whether it is a hit of a
+  // trusted view.
+  bool Count(std::size_t view_idx, bool is_hit) {
+    Streak& streak = streaks_[view_idx];
+    streak.length = streak.is_of_hits == is_hit ? streak.length + 1 : 1;
+    streak.is_of_hits = is_hit;
+    if (streak.length >= kStreak) streak.is_trusted = is_hit;
+    return is_hit && streak.is_trusted;
+  }
+
+ private:
+  struct Streak {
+    bool is_of_hits = false;
+    int length = 0;
+    bool is_trusted = false;
+  };
+  std::vector<Streak> streaks_;
+};
+
+void DropHit(CurveSample& sample, std::size_t view_idx) {
+  std::erase_if(sample.support, [&](const EdgeRef& hit) {
+    return static_cast<std::size_t>(hit.view_idx) == view_idx;
+  });
+}
+
+// Leaves out the hits of a view in fewer than three samples; one miss in
+// between does not end a streak.
+void DropShortStreaks(std::size_t num_views, std::vector<GrownSample>& path) {
+  std::vector<std::vector<std::size_t>> hit_samples(num_views);
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    for (const EdgeRef& hit : path[k].support) {
+      hit_samples[static_cast<std::size_t>(hit.view_idx)].push_back(k);
+    }
+  }
+  for (std::size_t v = 0; v < hit_samples.size(); ++v) {
+    const std::vector<std::size_t>& samples = hit_samples[v];
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i <= samples.size(); ++i) {
+      if (i < samples.size() && samples[i] <= samples[i - 1] + 2) continue;
+      if (i - begin < static_cast<std::size_t>(kStreak)) {
+        for (std::size_t j = begin; j < i; ++j) DropHit(path[samples[j]], v);
+      }
+      begin = i;
+    }
+  }
+}
+
+// Trims both ends to samples with kMinNumSupports supports.
+void TrimEnds(std::vector<GrownSample>& path) {
+  const auto is_shown = [](const CurveSample& sample) {
+    return sample.support.size() >= kMinNumSupports;
+  };
+  path.erase(std::find_if(path.rbegin(), path.rend(), is_shown).base(),
+             path.end());
+  path.erase(path.begin(), std::ranges::find_if(path, is_shown));
+}
 
 // The result of a query in one view.
 struct Look {
@@ -66,13 +147,6 @@ class OwnEdges {
   std::unordered_set<std::int64_t> keys_;
 };
 
-std::vector<EdgeRef> FreeOf(std::vector<EdgeRef> refs,
-                            const UsedEdges& claimed) {
-  std::erase_if(refs,
-                [&](const EdgeRef& ref) { return claimed.Contains(ref); });
-  return refs;
-}
-
 class Grower {
  public:
   Grower(const GrowthInput& input, const UsedEdges& claimed)
@@ -81,7 +155,9 @@ class Grower {
         widest_(WidestGate(input.validation)) {}
 
   Growth Grow(const Edge3d& seed) {
-    const std::vector<EdgeRef> support = FreeOf(seed.support, claimed_);
+    std::vector<EdgeRef> support = seed.support;
+    std::erase_if(support,
+                  [&](const EdgeRef& ref) { return claimed_.Contains(ref); });
     const double pixel = PixelSize(seed.position, support, input_.views);
     if (support.size() < kMinNumSupports ||
         2 * support.size() < seed.support.size() || !(pixel > 0)) {
@@ -93,11 +169,12 @@ class Grower {
                        input_.edge_sigma_px,
                        pixel);
     facing_ = ChooseSide(tip);
-    const GrownSample first{tip.edge(),
-                            tip.Sigma(),
-                            seed.evidence,
-                            support,
-                            static_cast<std::int64_t>(support.size())};
+    GrownSample first;
+    SetEdge(tip.edge(), first);
+    first.sigma = tip.Sigma();
+    first.evidence = seed.evidence;
+    first.support = support;
+    first.num_looks = static_cast<std::int64_t>(support.size());
     GrownCurve grown;
     std::vector<GrownSample> path =
         GrowBothWays(tip, first, &grown.curve.closed);
@@ -106,7 +183,7 @@ class Grower {
     if (path.size() < kMinNumSamples) return {std::nullopt, std::move(found_)};
     for (GrownSample& sample : path) {
       grown.num_looks += sample.num_looks;
-      grown.curve.samples.push_back(ToCurveSample(std::move(sample)));
+      grown.curve.samples.push_back(std::move(sample));
     }
     return {std::move(grown), std::move(found_)};
   }
@@ -123,10 +200,12 @@ class Grower {
     return measurements;
   }
 
-  // nullopt outside the image, or if the prediction is too uncertain.
-  std::optional<Look> LookIn(const ViewIndex& index,
-                             std::int32_t view_idx,
-                             const CurveTip& tip) const {
+  // nullopt outside the image, if the prediction is too uncertain, and of views
+  // that repeat another one.
+  std::optional<Look> LookIn(std::size_t v, const CurveTip& tip) const {
+    if (input_.are_repeated[v]) return std::nullopt;
+    const ViewIndex& index = input_.indices[v];
+    const auto view_idx = static_cast<std::int32_t>(v);
     const auto projected = ProjectInto(*index.view, tip.edge());
     if (!projected) return std::nullopt;
     const double variance_px2 = tip.VarianceIn(*index.view, *projected);
@@ -165,10 +244,7 @@ class Grower {
   std::optional<Eigen::Vector3d> ChooseSide(const CurveTip& tip) const {
     Votes votes(input_.indices.size());
     for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      if (input_.are_repeated[v]) continue;
-      const auto look =
-          LookIn(input_.indices[v], static_cast<std::int32_t>(v), tip);
-      if (look) votes[v] = look->vote;
+      if (const auto look = LookIn(v, tip)) votes[v] = look->vote;
     }
     return FindVisibleSide(tip.edge(), votes, input_.neighbors, input_.indices)
         .facing;
@@ -182,15 +258,13 @@ class Grower {
     GrownSample grown;
     Votes votes(input_.indices.size());
     for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      if (input_.are_repeated[v]) continue;
-      const auto look =
-          LookIn(input_.indices[v], static_cast<std::int32_t>(v), tip);
+      const auto look = LookIn(v, tip);
       if (!look) continue;
       if (IsInFront(input_.views[v].center, tip.edge(), facing_)) {
         ++grown.num_looks;
         votes[v] = look->vote;
       }
-      if (look->hit) grown.hits.push_back(*look->hit);
+      if (look->hit) grown.support.push_back(*look->hit);
       if (streaks.Count(v, look->hit.has_value())) {
         trusted.push_back(*look->hit);
       }
@@ -209,19 +283,20 @@ class Grower {
     tip.Step(StepAlong(tip, trusted));
     trusted.clear();
     GrownSample grown = LookAround(tip, streaks, trusted);
-    found_.insert(found_.end(), grown.hits.begin(), grown.hits.end());
+    found_.insert(found_.end(), grown.support.begin(), grown.support.end());
     tip.Correct(MeasureAll(trusted));
-    grown.edge = tip.edge();
-    grown.sigma = SigmaOf(grown, tip);
+    SetEdge(tip.edge(), grown);
+    grown.sigma = SigmaOf(tip, grown.support);
     return grown;
   }
 
   // The sigma of a 3D edge with this support, as the selection of curves
   // expects; the tip has a smaller one.
-  double SigmaOf(const GrownSample& grown, const CurveTip& tip) const {
-    if (grown.hits.size() < 2) return tip.Sigma();
+  double SigmaOf(const CurveTip& tip,
+                 const std::vector<EdgeRef>& support) const {
+    if (support.size() < 2) return tip.Sigma();
     const EdgeEstimate estimate =
-        AdjustEdge(grown.edge, MeasureAll(grown.hits), input_.edge_sigma_px);
+        AdjustEdge(tip.edge(), MeasureAll(support), input_.edge_sigma_px);
     return std::sqrt(estimate.covariance.trace() / 2);
   }
 
@@ -229,11 +304,11 @@ class Grower {
   std::vector<GrownSample> Follow(CurveTip tip,
                                   const GrownSample& first,
                                   bool* closed) {
-    Streaks streaks(input_.indices.size(), first.hits);
+    Streaks streaks(input_.indices.size(), first.support);
     double sum_evidence = kSeedWeight * first.evidence;
     double num_evidence = kSeedWeight;
     std::vector<GrownSample> path;
-    std::vector<EdgeRef> trusted = first.hits;
+    std::vector<EdgeRef> trusted = first.support;
     std::size_t num_shown = 0;  // up to the last one that is shown
     std::size_t num_claimed = 0;
     while (static_cast<double>(path.size() - num_shown) * kStepPx <=
@@ -247,7 +322,7 @@ class Grower {
         num_shown = path.size();
       }
       while (num_claimed + kUnclaimedSteps < num_shown) {
-        own_.Add(path[num_claimed++].hits);
+        own_.Add(path[num_claimed++].support);
       }
       *closed = path.size() > kMinClosedSteps &&
                 Meets(tip, first, StepAlong(tip, trusted));
@@ -260,9 +335,9 @@ class Grower {
   static bool Meets(const CurveTip& tip,
                     const GrownSample& first,
                     double step_px) {
-    const Eigen::Vector3d offset = first.edge.position - tip.edge().position;
+    const Eigen::Vector3d offset = first.position - tip.edge().position;
     return offset.norm() < kCloseSteps * step_px * tip.pixel() &&
-           tip.edge().tangent.dot(first.edge.tangent) > kCloseCosine;
+           tip.edge().tangent.dot(first.tangent) > kCloseCosine;
   }
 
   std::vector<GrownSample> GrowBothWays(const CurveTip& tip,
@@ -284,10 +359,10 @@ class Grower {
                                     GrownSample first,
                                     bool* closed) {
     tip.Reverse();
-    first.edge = tip.edge();
+    SetEdge(tip.edge(), first);
     std::vector<GrownSample> path = Follow(tip, first, closed);
     std::ranges::reverse(path);
-    for (GrownSample& grown : path) grown.edge.tangent = -grown.edge.tangent;
+    for (GrownSample& grown : path) grown.tangent = -grown.tangent;
     return path;
   }
 

@@ -27,14 +27,14 @@ struct JoinableEnd {
 };
 
 JoinableEnd EndOf(const Curve& curve,
-                  bool front,
+                  bool at_head,
                   const std::vector<PosedView>& views) {
-  const CurveSample& last = SampleFromEnd(curve, front);
-  const double sign = front ? 1 : -1;
+  const CurveSample& last = SampleFromEnd(curve, at_head);
+  const double sign = at_head ? 1 : -1;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < std::min(kNumEndSamples, curve.samples.size());
        ++k) {
-    sum += sign * SampleFromEnd(curve, front, k).tangent;
+    sum += sign * SampleFromEnd(curve, at_head, k).tangent;
   }
   return {last.position,
           sum.normalized(),
@@ -84,7 +84,7 @@ std::vector<Curve> JoinCurves(std::vector<Curve> curves,
   if (!(options.max_gap_px > 0)) return curves;
   std::vector<JoinableEnd> ends;
   for (EndIdx end = 0; end < 2 * curves.size(); ++end) {
-    ends.push_back(EndOf(curves[ItemOf(end)], IsFront(end), views));
+    ends.push_back(EndOf(curves[ItemOf(end)], IsHead(end), views));
   }
   const EndTies ties =
       TieCheapestFirst(FindPairs(ends, options), curves.size());

@@ -8,7 +8,7 @@
 #include <curvix/options.h>
 #include <vector>
 
-#include "geometry/image_edge.h"
+#include "curve_drawing/edge_distances.h"
 #include "model/neighborhood_graph.h"
 #include "model/posed_view.h"
 

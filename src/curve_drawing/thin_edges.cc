@@ -12,7 +12,7 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "geometry/image_edge.h"
+#include "curve_drawing/edge_distances.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {

@@ -5,11 +5,12 @@
 
 #include "base/parallel.h"
 #include "edge_detection/load_image.h"
-#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {
 
+// Of all images together.
+constexpr std::int64_t kMaxImageBytes = std::int64_t{1} << 30;
 // Against noise and aliasing.
 constexpr double kBlurPx = 0.7;
 
@@ -50,10 +51,9 @@ BlurredImage Blur(GrayImage gray, int shrink) {
 }  // namespace
 
 std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
-                                            std::int64_t max_bytes,
                                             int num_threads) {
   int shrink = 1;
-  while (Bytes(scene, shrink) > max_bytes) shrink *= 2;
+  while (Bytes(scene, shrink) > kMaxImageBytes) shrink *= 2;
   std::vector<BlurredImage> images(scene.views.size());
   ParallelFor(images.size(), num_threads, [&](std::size_t i) {
     const View& view = scene.views[i];

@@ -5,6 +5,7 @@
 #include <curvix/scene.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,10 +29,11 @@ struct BlurredImage {
   }
 
   // Grey level, 0..255, bilinear, at (x, y) in pixels here, of which the first
-  // has its centre at (0, 0); at least 0 and less than width - 1, height - 1.
+  // has its centre at (0, 0); from 0 to width - 1 and height - 1. Of at least
+  // two pixels either way.
   float At(float x, float y) const {
-    const int column = static_cast<int>(x);
-    const int row = static_cast<int>(y);
+    const int column = std::min(static_cast<int>(x), width - 2);
+    const int row = std::min(static_cast<int>(y), height - 2);
     const float right = x - static_cast<float>(column);
     const float below = y - static_cast<float>(row);
     const std::uint8_t* const p = &pixels[static_cast<std::size_t>(row) *
@@ -45,9 +47,8 @@ struct BlurredImage {
 };
 
 // One per view, in order; empty where the image cannot be read. If all of them
-// would take more than max_bytes, they are halved until they do not.
+// would take more than a gigabyte, they are halved until they do not.
 std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
-                                            std::int64_t max_bytes,
                                             int num_threads);
 
 }  // namespace curvix

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -17,7 +16,6 @@
 #include "curve_kinds/blurred_images.h"
 #include "curve_kinds/nearby_points.h"
 #include "curve_kinds/strips.h"
-#include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 
@@ -25,9 +23,6 @@ namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-
-// Of all images together.
-constexpr std::int64_t kMaxImageBytes = std::int64_t{1} << 30;
 
 // Places along a curve, in pixels, and how many to either side are taken
 // together. They are not independent: their strips share errors of the poses
@@ -157,18 +152,17 @@ bool IsSeenBy(const std::vector<int>& views, const std::vector<int>& of_point) {
   return 3 * common.size() >= std::min(views.size(), of_point.size());
 }
 
-// The points within `radius` that the views of the sample see.
-// `views_of_points` by point, ascending.
-std::vector<std::size_t> SeenNear(
-    const PointTree& points,
-    const std::vector<std::vector<int>>& views_of_points,
-    const CurveSample& sample,
-    double radius) {
+// The points within `radius` that the views of the sample see. `views_of(i)`
+// are those of point i, ascending.
+template <typename F>
+std::vector<std::size_t> SeenNear(const PointTree& points,
+                                  const F& views_of,
+                                  const CurveSample& sample,
+                                  double radius) {
   const std::vector<int> views = ViewsOf(sample);
   std::vector<std::size_t> seen = points.Within(sample.position, radius);
-  std::erase_if(seen, [&](std::size_t i) {
-    return !IsSeenBy(views, views_of_points[i]);
-  });
+  std::erase_if(seen,
+                [&](std::size_t i) { return !IsSeenBy(views, views_of(i)); });
   return seen;
 }
 
@@ -206,19 +200,71 @@ class Classifier {
     for (const View& view : scene.views) {
       cameras_.push_back(&CameraOf(scene, view));
     }
-    for (const ScenePoint& point : points_) {
-      views_of_points_.push_back(point.view_idxs);
+  }
+
+  void Classify(std::size_t curve_idx, Curve* curve) const {
+    const std::vector<std::size_t>& chosen = places_.samples[curve_idx];
+    if (chosen.empty()) return;
+    const std::vector<SurfaceEvidence> evidence =
+        EvidenceAlong(curve_idx, *curve);
+    std::size_t nearest = 0;
+    KindProbability kind = Judge(SumAround(evidence, nearest));
+    for (std::size_t i = 0; i < curve->samples.size(); ++i) {
+      while (nearest + 1 < chosen.size() &&
+             2 * i > chosen[nearest] + chosen[nearest + 1]) {
+        kind = Judge(SumAround(evidence, ++nearest));
+      }
+      curve->samples[i].kind = kind.kind;
+      curve->samples[i].kind_probability = static_cast<float>(kind.probability);
     }
   }
 
-  void Classify(std::size_t curve_idx, Curve* curve) const;
-
  private:
   std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
-                                             const Curve& curve) const;
+                                             const Curve& curve) const {
+    const auto views_of_point = [&](std::size_t k) -> const std::vector<int>& {
+      return points_[k].view_idxs;
+    };
+    const double pixel = places_.pixels[curve_idx];
+    std::vector<SurfaceEvidence> evidence;
+    Vector3d normal = Vector3d::Zero();
+    for (std::size_t i : places_.samples[curve_idx]) {
+      const CurveSample& sample = curve.samples[i];
+      // A frame that turns no more than the curve does.
+      normal = Across(sample.tangent, normal);
+      std::vector<Vector3d> nearby = CurvesNearby(curve_idx, sample);
+      const StripPlace place = {
+          sample.position, sample.tangent, normal, sample.support};
+      evidence.push_back(
+          CompareStrips(place,
+                        DistancesByDirection(place, pixel, nearby),
+                        views_,
+                        cameras_,
+                        images_));
+      for (std::size_t k : SeenNear(
+               points_tree_, views_of_point, sample, kNearbyPointPx * pixel)) {
+        nearby.push_back(points_[k].position);
+      }
+      AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
+    }
+    return evidence;
+  }
+
   // Places on other curves that the views of the sample see.
   std::vector<Vector3d> CurvesNearby(std::size_t curve_idx,
-                                     const CurveSample& sample) const;
+                                     const CurveSample& sample) const {
+    const auto views_of = [&](std::size_t i) -> const std::vector<int>& {
+      return places_.views[i];
+    };
+    const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
+    std::vector<Vector3d> nearby;
+    for (std::size_t i : SeenNear(places_tree_, views_of, sample, radius)) {
+      if (places_.curves[i] != curve_idx) {
+        nearby.push_back(places_.positions[i]);
+      }
+    }
+    return nearby;
+  }
 
   const std::vector<PosedView>& views_;
   const std::vector<BlurredImage>& images_;
@@ -227,61 +273,7 @@ class Classifier {
   PointTree places_tree_;
   const std::vector<ScenePoint>& points_;
   PointTree points_tree_;
-  std::vector<std::vector<int>> views_of_points_;
 };
-
-std::vector<Vector3d> Classifier::CurvesNearby(
-    std::size_t curve_idx, const CurveSample& sample) const {
-  const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
-  std::vector<Vector3d> nearby;
-  for (std::size_t i : SeenNear(places_tree_, places_.views, sample, radius)) {
-    if (places_.curves[i] != curve_idx) nearby.push_back(places_.positions[i]);
-  }
-  return nearby;
-}
-
-std::vector<SurfaceEvidence> Classifier::EvidenceAlong(
-    std::size_t curve_idx, const Curve& curve) const {
-  std::vector<SurfaceEvidence> evidence;
-  Vector3d normal = Vector3d::Zero();
-  for (std::size_t i : places_.samples[curve_idx]) {
-    const CurveSample& sample = curve.samples[i];
-    // A frame that turns no more than the curve does.
-    normal = Across(sample.tangent, normal);
-    const double pixel = places_.pixels[curve_idx];
-    std::vector<Vector3d> nearby = CurvesNearby(curve_idx, sample);
-    const StripPlace place = {
-        sample.position, sample.tangent, normal, sample.support};
-    evidence.push_back(CompareStrips(place,
-                                     DistancesByDirection(place, pixel, nearby),
-                                     views_,
-                                     cameras_,
-                                     images_));
-    for (std::size_t k : SeenNear(
-             points_tree_, views_of_points_, sample, kNearbyPointPx * pixel)) {
-      nearby.push_back(points_[k].position);
-    }
-    AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
-  }
-  return evidence;
-}
-
-void Classifier::Classify(std::size_t curve_idx, Curve* curve) const {
-  const std::vector<std::size_t>& chosen = places_.samples[curve_idx];
-  if (chosen.empty()) return;
-  const std::vector<SurfaceEvidence> evidence =
-      EvidenceAlong(curve_idx, *curve);
-  std::size_t nearest = 0;
-  KindProbability kind = Judge(SumAround(evidence, nearest));
-  for (std::size_t i = 0; i < curve->samples.size(); ++i) {
-    while (nearest + 1 < chosen.size() &&
-           2 * i > chosen[nearest] + chosen[nearest + 1]) {
-      kind = Judge(SumAround(evidence, ++nearest));
-    }
-    curve->samples[i].kind = kind.kind;
-    curve->samples[i].kind_probability = static_cast<float>(kind.probability);
-  }
-}
 
 }  // namespace
 
@@ -297,7 +289,7 @@ void ClassifyCurves(const Scene& scene,
   };
   if (!keep_going(0)) return;
   const std::vector<BlurredImage> images =
-      LoadBlurredImages(scene, kMaxImageBytes, num_threads);
+      LoadBlurredImages(scene, num_threads);
   if (std::ranges::all_of(images, [](const BlurredImage& image) {
         return image.pixels.empty();
       })) {

@@ -28,7 +28,7 @@ constexpr double kFirstAcrossPx = 2.5;
 constexpr double kAlongStepPx = 2;
 constexpr int kNumPixels = kNumAcross * kNumAlong;
 constexpr double kReachPx = 15;
-// With this probability a surface does not reach as far, but to 7.5 px from the
+// With this probability a surface does not reach as far, but to 6.5 px from the
 // curve.
 constexpr double kNarrowProbability = 0.2;
 constexpr int kNumNarrowRows = 5;

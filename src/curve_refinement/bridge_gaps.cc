@@ -24,7 +24,7 @@ constexpr double kRingTolerance = 3;
 constexpr double kMaxOverlapPx = 6;
 constexpr double kMaxBentPx = 5;  // of an end
 constexpr double kMaxOffPx = 0.4;
-constexpr double kCostOfGap = 0.05;  // a pixel of miss is a pixel
+constexpr double kCostOfGap = 0.05;  // per length; a miss costs its length
 
 // How far from `to` the fit of `from`, carried on, passes; nullopt if it does
 // not arrive there.
@@ -68,6 +68,8 @@ class GapFinder {
   }
 
  private:
+  // Of joining the two ends, world units; nullopt if they do not continue each
+  // other.
   std::optional<double> Cost(EndIdx a, EndIdx b) const {
     const EndFit& from = ends_[a];
     const EndFit& to = ends_[b];
@@ -80,16 +82,15 @@ class GapFinder {
     const bool is_long = gap > options_.max_gap_px * unit;
     const double max_miss = tolerance * (kMaxBridgeMissPx * unit +
                                          (is_long ? 0 : kMaxMissPerGap * gap));
-    const auto forth = Miss(from,
-                            to,
-                            max_miss,
-                            tolerance * kMaxBridgeAngleDeg,
-                            kMaxOverlapPx * unit);
-    const auto back = Miss(to,
-                           from,
-                           max_miss,
-                           tolerance * kMaxBridgeAngleDeg,
-                           kMaxOverlapPx * unit);
+    const auto miss = [&](const EndFit& a_fit, const EndFit& b_fit) {
+      return Miss(a_fit,
+                  b_fit,
+                  max_miss,
+                  tolerance * kMaxBridgeAngleDeg,
+                  kMaxOverlapPx * unit);
+    };
+    const auto forth = miss(from, to);
+    const auto back = miss(to, from);
     if (!forth || !back || (is_long && !ImagesShow(a, b, unit))) {
       return std::nullopt;
     }
@@ -99,12 +100,12 @@ class GapFinder {
   bool ImagesShow(EndIdx a, EndIdx b, double unit) const {
     const Curve& curve_a = curves_[ItemOf(a)];
     const Curve& curve_b = curves_[ItemOf(b)];
-    CurveSample from = SampleFromEnd(curve_a, IsFront(a));
-    CurveSample to = SampleFromEnd(curve_b, IsFront(b));
+    CurveSample from = SampleFromEnd(curve_a, IsHead(a));
+    CurveSample to = SampleFromEnd(curve_b, IsHead(b));
     from.tangent = ends_[a].outward;
     to.tangent = -ends_[b].outward;
-    const std::size_t usual = std::min(SupportBefore(curve_a, IsFront(a)),
-                                       SupportBefore(curve_b, IsFront(b)));
+    const double usual = std::min(SupportBefore(curve_a, IsHead(a)),
+                                  SupportBefore(curve_b, IsHead(b)));
     return IsGapShown(from, to, unit, usual, images_);
   }
 
@@ -120,17 +121,17 @@ std::vector<EndFit> FitLongEnds(const std::vector<Curve>& curves,
                                 int num_threads) {
   std::vector<EndFit> ends(2 * curves.size());
   ParallelFor(ends.size(), num_threads, [&](EndIdx end) {
-    ends[end] = FitLongEnd(curves[ItemOf(end)], IsFront(end), views);
+    ends[end] = FitLongEnd(curves[ItemOf(end)], IsHead(end), views);
   });
   return ends;
 }
 
 // Last samples that leave the curve they end, as next to a corner.
 void CutBentEnds(const std::vector<PosedView>& views, Curve& curve) {
-  for (const bool front : {true, false}) {
-    const EndFit fit = FitLongEnd(curve, front, views);
+  for (const bool at_head : {true, false}) {
+    const EndFit fit = FitLongEnd(curve, at_head, views);
     if (!(fit.length > 3 * kMaxBentPx * fit.pixel)) continue;
-    CutEnd(curve, front, [&](const CurveSample& sample) {
+    CutEnd(curve, at_head, [&](const CurveSample& sample) {
       const double arc_length = fit.ArcLengthTo(sample.position);
       return arc_length < -kMaxBentPx * fit.pixel ||
              (fit.PointAt(arc_length) - sample.position).norm() <=
@@ -145,10 +146,10 @@ void CutTiedEnds(const EndTies& ties,
                  std::vector<Curve>& curves) {
   for (EndIdx end = 0; end < ties.size(); ++end) {
     if (!ties[end]) continue;
-    const bool front = IsFront(end);
+    const bool at_head = IsHead(end);
     const Eigen::Vector3d& last =
-        SampleFromEnd(trimmed[ItemOf(end)], front).position;
-    CutEnd(curves[ItemOf(end)], front, [&](const CurveSample& sample) {
+        SampleFromEnd(trimmed[ItemOf(end)], at_head).position;
+    CutEnd(curves[ItemOf(end)], at_head, [&](const CurveSample& sample) {
       return sample.position == last;
     });
   }
@@ -163,7 +164,7 @@ void CutOverlaps(const EndTies& ties,
     const EndFit& from = ends[a];
     const double overlap = -from.ArcLengthTo(ends[*ties[a]].position);
     if (!(overlap > 0)) continue;
-    CutEnd(curves[ItemOf(a)], IsFront(a), [&](const CurveSample& sample) {
+    CutEnd(curves[ItemOf(a)], IsHead(a), [&](const CurveSample& sample) {
       return from.ArcLengthTo(sample.position) < -overlap / 2;
     });
   }

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "base/angles.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 
@@ -95,7 +96,6 @@ constexpr double kLineShare = 0.5;
 
 // Of FitLongEnd.
 constexpr std::array kLongPx = {15.0, 25.0, 40.0, 60.0};
-constexpr double kBentPx = 3;
 constexpr double kMaxLongRmsPx = 0.25;
 constexpr double kMaxRmsRatio = 1.5;
 
@@ -114,11 +114,11 @@ Eigen::Vector2d ArcBasis(double curvature, double s) {
 }
 
 std::vector<Placed> Take(const Curve& curve,
-                         bool front,
+                         bool at_head,
                          const EndSegment& segment,
                          double pixel) {
   const auto position = [&](std::size_t k) -> const Eigen::Vector3d& {
-    return SampleFromEnd(curve, front, k).position;
+    return SampleFromEnd(curve, at_head, k).position;
   };
   std::vector<Placed> placed;
   double along = 0;
@@ -163,9 +163,8 @@ void Reweight(const EndFit& fit,
               double scale,
               std::vector<Placed>& placed) {
   for (Placed& p : placed) {
-    const double ratio =
-        (fit.PointAt(p.along) - last - p.offset).norm() / scale;
-    p.weight = 1 / (1 + ratio * ratio);
+    p.weight =
+        CauchyWeight((fit.PointAt(p.along) - last - p.offset).norm(), scale);
   }
 }
 
@@ -219,15 +218,15 @@ double EndFit::ArcLengthTo(const Eigen::Vector3d& point) const {
 }
 
 EndFit FitEnd(const Curve& curve,
-              bool front,
+              bool at_head,
               const EndSegment& segment,
               const std::vector<PosedView>& views) {
-  const CurveSample& last = SampleFromEnd(curve, front);
+  const CurveSample& last = SampleFromEnd(curve, at_head);
   EndFit fit;
   fit.position = last.position;
   fit.pixel = PixelSize(last, views);
   if (curve.closed || !(fit.pixel > 0)) return fit;
-  std::vector<Placed> placed = Take(curve, front, segment, fit.pixel);
+  std::vector<Placed> placed = Take(curve, at_head, segment, fit.pixel);
   if (placed.size() < kMinNumFitted) return fit;
   EndFit arc = fit;
   for (int round = 0; round < kNumFitRounds; ++round) {
@@ -250,12 +249,12 @@ EndFit FitEnd(const Curve& curve,
 }
 
 EndFit FitLongEnd(const Curve& curve,
-                  bool front,
+                  bool at_head,
                   const std::vector<PosedView>& views) {
   EndFit best;
   double max_rms = 0;
   for (const double long_px : kLongPx) {
-    const EndFit fit = FitEnd(curve, front, {kBentPx, long_px}, views);
+    const EndFit fit = FitEnd(curve, at_head, {kBentEndPx, long_px}, views);
     if (long_px == kLongPx.front()) {
       best = fit;
       max_rms = std::max(kMaxLongRmsPx * fit.pixel, kMaxRmsRatio * fit.rms);

@@ -16,6 +16,9 @@ namespace curvix {
 // Blur rounds a corner so far along either of its curves.
 constexpr double kRoundedPx = 2.5;
 
+// The last pixels before an end, which may be bent, tell nothing.
+constexpr double kBentEndPx = 3;
+
 // Bandwidths to which Gaussian weights along a curve reach.
 constexpr double kKernelReach = 3;
 
@@ -53,11 +56,11 @@ double DistanceFromParabola(const Curve& from, const Curve& to);
 // Cuts the last samples of an end off, up to the one nearest to it that `keep`
 // is true for; two stay.
 template <typename Keep>
-void CutEnd(Curve& curve, bool front, const Keep& keep) {
+void CutEnd(Curve& curve, bool at_head, const Keep& keep) {
   std::vector<CurveSample>& samples = curve.samples;
-  if (!front) std::ranges::reverse(samples);
+  if (!at_head) std::ranges::reverse(samples);
   while (samples.size() > 2 && !keep(samples.back())) samples.pop_back();
-  if (!front) std::ranges::reverse(samples);
+  if (!at_head) std::ranges::reverse(samples);
 }
 
 // A segment of a curve before one of its ends, in pixels (pixel_size.h) from
@@ -87,14 +90,14 @@ struct EndFit {
 // any radius where it comes nearer to them than their scatter explains; length
 // is 0 if they are fewer than four or of no extent, or the curve is closed.
 EndFit FitEnd(const Curve& curve,
-              bool front,
+              bool at_head,
               const EndSegment& segment,
               const std::vector<PosedView>& views);
 
 // The fit to the last 15, 25, 40 or 60 px, the last three of them aside, which
 // corners bend: the longest that fits to 0.25 px or about as well as the first.
 EndFit FitLongEnd(const Curve& curve,
-                  bool front,
+                  bool at_head,
                   const std::vector<PosedView>& views);
 
 }  // namespace curvix

@@ -9,7 +9,6 @@
 #include <map>
 #include <optional>
 
-#include "base/parallel.h"
 #include "curve_refinement/curve_ends.h"
 #include "curve_refinement/response_curve.h"
 #include "geometry/adjust_edge.h"
@@ -31,8 +30,8 @@ constexpr double kMinSlope = 0.1;
 // nearer to each other than a few millionths do not determine a place.
 constexpr double kMinInformation = 1e-12;
 
-// What 2D edges of one view say about a curve; sums while they are added up.
-struct Evidence {
+// How far 2D edges of one view are from a curve; sums while they are added up.
+struct MeanDistance {
   std::size_t view = 0;  // its place among those that see the curve
   double weight = 0;
   double distance_px = 0;
@@ -100,48 +99,48 @@ class CurveInViews {
       const double pixel = PixelSize(sample, input.views);
       const std::vector<PlaneMeasurement> measured =
           MeasureUnblurred(curve, k, pixel, input, response);
-      std::vector<Evidence>& evidence = evidence_.emplace_back();
+      std::vector<MeanDistance>& distances = distances_.emplace_back();
       for (std::size_t i = 0; i < measured.size(); ++i) {
         const auto [place, is_new] =
             places.emplace(sample.support[i].view_idx, centers_.size());
         if (is_new) centers_.push_back(measured[i].center);
         const SeenDistance distance =
             DistanceFrom(measured[i], sample.position);
-        evidence.push_back({place->second, 1, distance.px, distance.gradient});
+        distances.push_back({place->second, 1, distance.px, distance.gradient});
       }
     }
   }
 
   Agreement About(std::size_t i, double bandwidth) const {
-    std::vector<Evidence> sums(centers_.size());
+    std::vector<MeanDistance> sums(centers_.size());
     double total_weight = 0;
     for (const SampleAround& near :
          SamplesAround(curve_, i, kKernelReach * bandwidth)) {
       const double r = near.along / bandwidth;
       const double weight = std::exp(-0.5 * r * r);
       total_weight += weight;
-      for (const Evidence& e : evidence_[near.index]) {
-        Evidence& sum = sums[e.view];
-        sum.view = e.view;
+      for (const MeanDistance& d : distances_[near.index]) {
+        MeanDistance& sum = sums[d.view];
+        sum.view = d.view;
         sum.weight += weight;
-        sum.distance_px += weight * e.distance_px;
-        sum.gradient += weight * e.gradient;
+        sum.distance_px += weight * d.distance_px;
+        sum.gradient += weight * d.gradient;
       }
     }
-    std::erase_if(sums, [](const Evidence& e) { return e.weight == 0; });
+    std::erase_if(sums, [](const MeanDistance& d) { return d.weight == 0; });
     return Summary(curve_.samples[i], sums, total_weight);
   }
 
  private:
   Agreement Summary(const CurveSample& sample,
-                    const std::vector<Evidence>& sums,
+                    const std::vector<MeanDistance>& sums,
                     double total_weight) const {
     const AcrossAxes axes = AxesAcross(sample.tangent);
     Agreement result;
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     std::vector<Eigen::Vector2d> pulls;
     std::vector<Eigen::Vector3d> rays;
-    for (const Evidence& sum : sums) {
+    for (const MeanDistance& sum : sums) {
       const double share = sum.weight / total_weight;
       const Eigen::Vector2d gradient =
           axes.transpose() * sum.gradient / sum.weight;
@@ -180,8 +179,8 @@ class CurveInViews {
 
   const Curve& curve_;
   double edge_sigma_px_;
-  std::vector<Eigen::Vector3d> centers_;         // of the views that see it
-  std::vector<std::vector<Evidence>> evidence_;  // of each sample
+  std::vector<Eigen::Vector3d> centers_;  // of the views that see it
+  std::vector<std::vector<MeanDistance>> distances_;  // of each sample
 };
 
 std::vector<Agreement> MeasureAgreement(const Curve& curve,
@@ -207,11 +206,9 @@ Scatter UsualScatter(const std::vector<std::vector<Agreement>>& agreements) {
       if (agreement.scatter.freedom > 0) sum.Add(1, agreement.scatter);
     }
   }
-  Scatter usual = kSharpImages;
-  if (sum.freedom > 0) {
-    usual = {};
-    usual.Add(1 / sum.freedom, sum);
-  }
+  if (!(sum.freedom > 0)) return kSharpImages;
+  Scatter usual;
+  usual.Add(1 / sum.freedom, sum);
   return usual;
 }
 

@@ -2,8 +2,10 @@
 #include "curve_refinement/fill_gap.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
+#include "base/median.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 
@@ -53,26 +55,26 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                         });
 }
 
-std::size_t SupportBefore(const Curve& curve, bool front) {
-  std::vector<std::size_t> counts;
+double SupportBefore(const Curve& curve, bool at_head) {
+  std::vector<double> counts;
   for (std::size_t k = 0; k < std::min(kNumEndSamples, curve.samples.size());
        ++k) {
-    counts.push_back(SampleFromEnd(curve, front, k).support.size());
+    counts.push_back(
+        static_cast<double>(SampleFromEnd(curve, at_head, k).support.size()));
   }
-  std::ranges::sort(counts);
-  return counts[counts.size() / 2];
+  return Median(std::move(counts));
 }
 
 bool IsGapShown(const CurveSample& from,
                 const CurveSample& to,
                 double pixel,
-                std::size_t usual,
+                double usual,
                 const ImageSupport& images) {
   const std::vector<CurveSample> filled =
       SamplesBetween(from, to, pixel, images);
   const auto num_shown = std::ranges::count_if(filled, [&](const auto& sample) {
     return static_cast<double>(sample.support.size()) >=
-           kMinSupportShare * static_cast<double>(usual);
+           kMinSupportShare * usual;
   });
   return static_cast<double>(num_shown) >=
          kMinSupportedShare * static_cast<double>(filled.size());

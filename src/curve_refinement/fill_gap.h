@@ -3,7 +3,6 @@
 #pragma once
 
 #include <curvix/curves.h>
-#include <cstddef>
 #include <vector>
 
 #include "curve_refinement/image_support.h"
@@ -22,14 +21,14 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                                         const ImageSupport& images);
 
 // The median number of 2D edges of the last samples before an end.
-std::size_t SupportBefore(const Curve& curve, bool front);
+double SupportBefore(const Curve& curve, bool at_head);
 
 // Whether four fifths of the samples in such a gap have at least half of
 // `usual` 2D edges. `pixel`: its size, world units.
 bool IsGapShown(const CurveSample& from,
                 const CurveSample& to,
                 double pixel,
-                std::size_t usual,
+                double usual,
                 const ImageSupport& images);
 
 }  // namespace curvix

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/median.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 

@@ -32,18 +32,11 @@ constexpr double kMeetingStepPx = 1.5;
 struct CurveEnd {
   EndIdx idx = 0;
   EndFit fit;
-  // The line on which it goes on, where that matters.
-  Eigen::Vector3d direction;  // unit, out of the curve
-  Eigen::Vector3d origin;     // on the line
+};
 
-  // The tangent of the fit at its point nearest to `point`.
-  CurveEnd Near(const Eigen::Vector3d& point) const {
-    CurveEnd end = *this;
-    const double arc_length = fit.ArcLengthTo(point);
-    end.direction = fit.DirectionAt(arc_length);
-    end.origin = fit.PointAt(arc_length);
-    return end;
-  }
+struct Line {
+  Eigen::Vector3d direction;  // unit
+  Eigen::Vector3d origin;     // on the line
 };
 
 std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
@@ -52,14 +45,12 @@ std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
   std::vector<std::vector<CurveEnd>> ends(curves.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     for (const EndIdx end : {2 * i + 1, 2 * i}) {
-      const bool front = IsFront(end);
-      EndFit fit = FitEnd(curves[i], front, {kRoundedPx, kFittedPx}, views);
+      const bool at_head = IsHead(end);
+      EndFit fit = FitEnd(curves[i], at_head, {kRoundedPx, kFittedPx}, views);
       if (!(fit.length > 0)) {
-        fit = FitEnd(curves[i], front, {kShortRoundedPx, kFittedPx}, views);
+        fit = FitEnd(curves[i], at_head, {kShortRoundedPx, kFittedPx}, views);
       }
-      if (fit.length > 0) {
-        ends[i].push_back({end, fit, fit.outward, fit.position});
-      }
+      if (fit.length > 0) ends[i].push_back({end, fit});
     }
   });
   return Concatenate(std::move(ends));
@@ -73,7 +64,7 @@ std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
   std::map<Place, std::vector<Eigen::Vector3d>> directions;
   const auto place_of = [&](const CurveEnd& end) {
     const Eigen::Vector3d& last =
-        SampleFromEnd(curves[ItemOf(end.idx)], IsFront(end.idx)).position;
+        SampleFromEnd(curves[ItemOf(end.idx)], IsHead(end.idx)).position;
     return Place{last.x(), last.y(), last.z()};
   };
   for (const CurveEnd& end : ends) {
@@ -94,19 +85,18 @@ std::vector<CurveEnd> WithoutTouches(const std::vector<CurveEnd>& ends,
 
 using Members = std::vector<std::size_t>;  // indices of ends
 
-// The point with the least sum of squared distances from the ends' lines. Lines
-// that are all parallel have none.
-std::optional<Eigen::Vector3d> NearestToLines(
-    const std::vector<CurveEnd>& ends) {
+// The point with the least sum of squared distances from the lines. Lines that
+// are all parallel have none.
+std::optional<Eigen::Vector3d> NearestToLines(const std::vector<Line>& lines) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d base = ends.front().origin;
-  for (const CurveEnd& end : ends) {
-    const Eigen::Vector3d& d = end.direction;
+  const Eigen::Vector3d base = lines.front().origin;
+  for (const Line& line : lines) {
+    const Eigen::Vector3d& d = line.direction;
     const Eigen::Matrix3d across =
         Eigen::Matrix3d::Identity() - d * d.transpose();
     normal += across;
-    right += across * (end.origin - base);
+    right += across * (line.origin - base);
   }
   // The least eigenvalue of two lines at angle a is 1 - cos a.
   const double least =
@@ -115,17 +105,20 @@ std::optional<Eigen::Vector3d> NearestToLines(
   return base + normal.ldlt().solve(right);
 }
 
-// Largest distance, in pixels, between the lines and `point`; nullopt if the
-// point is out of reach of an end.
-std::optional<double> GapAt(const std::vector<CurveEnd>& ends,
-                            const Eigen::Vector3d& point,
+// Largest distance, in pixels, between the lines on which the members go on and
+// `point`; nullopt if the point is out of reach of a member.
+std::optional<double> GapAt(const Eigen::Vector3d& point,
+                            const std::vector<CurveEnd>& ends,
+                            const Members& members,
+                            const std::vector<Line>& lines,
                             double reach_px) {
   double gap = 0;
-  for (const CurveEnd& end : ends) {
-    const double reach = std::min(reach_px * end.fit.pixel, end.fit.length);
-    if ((point - end.fit.position).norm() > reach) return std::nullopt;
-    const Eigen::Vector3d offset = point - end.origin;
-    gap = std::max(gap, end.direction.cross(offset).norm() / end.fit.pixel);
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const EndFit& fit = ends[members[k]].fit;
+    const double reach = std::min(reach_px * fit.pixel, fit.length);
+    if ((point - fit.position).norm() > reach) return std::nullopt;
+    const Eigen::Vector3d offset = point - lines[k].origin;
+    gap = std::max(gap, lines[k].direction.cross(offset).norm() / fit.pixel);
   }
   return gap;
 }
@@ -144,16 +137,19 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
   for (const std::size_t i : members) {
     point += ends[i].fit.position / static_cast<double>(members.size());
   }
-  std::vector<CurveEnd> lines(members.size());
+  std::vector<Line> lines(members.size());
   for (int round = 0; round < kNumMeetingRounds; ++round) {
     for (std::size_t k = 0; k < members.size(); ++k) {
-      lines[k] = ends[members[k]].Near(point);
+      const EndFit& fit = ends[members[k]].fit;
+      const double arc_length = fit.ArcLengthTo(point);
+      lines[k] = {fit.DirectionAt(arc_length), fit.PointAt(arc_length)};
     }
     const auto nearest = NearestToLines(lines);
     if (!nearest) return std::nullopt;
     point = *nearest;
   }
-  const auto gap = GapAt(lines, point, options.junction_reach_px);
+  const auto gap =
+      GapAt(point, ends, members, lines, options.junction_reach_px);
   if (!gap || *gap > kMaxJunctionGapPx) return std::nullopt;
   return Junction{std::move(members), point, *gap};
 }
@@ -215,18 +211,18 @@ void CarryOn(const CurveEnd& end,
              const Eigen::Vector3d& junction,
              Curve& curve) {
   const EndFit& fit = end.fit;
-  const bool front = IsFront(end.idx);
-  CurveSample last = SampleFromEnd(curve, front);
+  const bool at_head = IsHead(end.idx);
+  CurveSample last = SampleFromEnd(curve, at_head);
   const double arrival = fit.ArcLengthTo(junction);
   const double limit = std::min(arrival, 0.0) - kRoundedPx * fit.pixel;
-  CutEnd(curve, front, [&](const CurveSample& sample) {
+  CutEnd(curve, at_head, [&](const CurveSample& sample) {
     return fit.ArcLengthTo(sample.position) <= limit;
   });
-  const double start = fit.ArcLengthTo(SampleFromEnd(curve, front).position);
+  const double start = fit.ArcLengthTo(SampleFromEnd(curve, at_head).position);
   const int num_steps = std::max(
       1, static_cast<int>((arrival - start) / (kMeetingStepPx * fit.pixel)));
   const Eigen::Vector3d miss = junction - fit.PointAt(arrival);
-  const double sign = front ? 1 : -1;
+  const double sign = at_head ? 1 : -1;
   std::vector<CurveSample> added;
   for (int k = 1; k <= num_steps; ++k) {
     const double share = static_cast<double>(k) / num_steps;
@@ -239,8 +235,8 @@ void CarryOn(const CurveEnd& end,
     added.push_back(last);
     last.support.clear();
   }
-  if (!front) std::ranges::reverse(added);
-  curve.samples.insert(front ? curve.samples.end() : curve.samples.begin(),
+  if (!at_head) std::ranges::reverse(added);
+  curve.samples.insert(at_head ? curve.samples.end() : curve.samples.begin(),
                        added.begin(),
                        added.end());
 }

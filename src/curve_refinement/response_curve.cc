@@ -11,8 +11,8 @@
 #include "base/angles.h"
 #include "base/parallel.h"
 #include "curve_refinement/curve_ends.h"
+#include "geometry/detected_edge.h"
 #include "geometry/directions.h"
-#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -142,55 +142,42 @@ struct NormalEquations {
   }
 };
 
-// A place on a curve, the edges that show it, and what a response curve does
-// there.
-struct ResponsePlace {
-  SpaceEdge edge;
-  std::vector<PlaneMeasurement> measurements;
-  std::vector<Eigen::Vector2d> levers;
-};
-
-ResponsePlace PlaceOf(const Curve& curve,
-                      std::size_t index,
-                      double pixel,
-                      const RefinementInput& input,
-                      const ResponseCurve& response) {
+// Of what is still missing in the response curve at a sample, without what
+// moving the sample across the curve explains as well. `pixel`: the size of a
+// pixel there, world units.
+NormalEquations WithoutMoving(const Curve& curve,
+                              std::size_t index,
+                              double pixel,
+                              const RefinementInput& input,
+                              const ResponseCurve& response) {
   const CurveSample& sample = curve.samples[index];
-  ResponsePlace place = {{sample.position, sample.tangent},
-                         MeasureUnblurred(curve, index, pixel, input, response),
-                         {}};
-  for (const EdgeRef& ref : sample.support) {
-    place.levers.push_back(ResponseShift(EdgeOf(ref, input.edge_maps)));
-  }
-  return place;
-}
-
-// Of what is still missing in the response curve, without what moving the place
-// across the curve explains as well.
-NormalEquations WithoutMoving(const ResponsePlace& place,
-                              double edge_sigma_px) {
+  const std::vector<PlaneMeasurement> measurements =
+      MeasureUnblurred(curve, index, pixel, input, response);
   const SpaceEdge adjusted =
-      AdjustEdge(place.edge, place.measurements, edge_sigma_px).edge;
+      AdjustEdge(
+          {sample.position, sample.tangent}, measurements, input.edge_sigma_px)
+          .edge;
   const AcrossAxes axes = AxesAcross(adjusted.tangent);
-  NormalEquations response, moving;
+  NormalEquations missing, moving;
   Eigen::Matrix2d mixed = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i < place.measurements.size(); ++i) {
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
     const SeenDistance distance =
-        DistanceFrom(place.measurements[i], adjusted.position);
-    const double weight = CauchyWeight(distance.px, edge_sigma_px);
-    const Eigen::Vector2d lever = place.levers[i];
+        DistanceFrom(measurements[i], adjusted.position);
+    const double weight = CauchyWeight(distance.px, input.edge_sigma_px);
+    const Eigen::Vector2d lever =
+        ResponseShift(EdgeOf(sample.support[i], input.edge_maps));
     const Eigen::Vector2d gradient = axes.transpose() * distance.gradient;
-    response.matrix += weight * lever * lever.transpose();
-    response.vector += weight * distance.px * lever;
+    missing.matrix += weight * lever * lever.transpose();
+    missing.vector += weight * distance.px * lever;
     moving.matrix += weight * gradient * gradient.transpose();
     moving.vector += weight * distance.px * gradient;
     mixed += weight * lever * gradient.transpose();
   }
   const Eigen::Matrix2d explained = mixed * moving.matrix.inverse();
-  response.matrix -= explained * mixed.transpose();
-  response.vector -= explained * moving.vector;
-  if (!response.matrix.allFinite() || !response.vector.allFinite()) return {};
-  return response;
+  missing.matrix -= explained * mixed.transpose();
+  missing.vector -= explained * moving.vector;
+  if (!missing.matrix.allFinite() || !missing.vector.allFinite()) return {};
+  return missing;
 }
 
 NormalEquations OfCurve(const Curve& curve,
@@ -210,8 +197,7 @@ NormalEquations OfCurve(const Curve& curve,
       continue;
     }
     since_last_px = 0;
-    sum += WithoutMoving(PlaceOf(curve, k, pixel, input, response),
-                         input.edge_sigma_px);
+    sum += WithoutMoving(curve, k, pixel, input, response);
   }
   return sum;
 }

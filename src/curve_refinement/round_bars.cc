@@ -204,10 +204,10 @@ Vector2d FitEdge(const BarPlace& place, const Vector2d& start) {
 // Log-likelihood ratio of a bar, whose contour on `side` is the curve, to edges
 // in space, mean over places: one edge by each contour, and the curve itself.
 // Minus infinity if too few views show both contours.
-double LogLikelihoodRatio(const std::vector<BarPlace>& places,
-                          const Bar& bar,
-                          double side,
-                          double edge_sigma_px) {
+double RatioOfBar(const std::vector<BarPlace>& places,
+                  const Bar& bar,
+                  double side,
+                  double edge_sigma_px) {
   double ratio = 0, num_views = 0, num_both = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const BarPlace& place = places[i];
@@ -237,18 +237,16 @@ double LogLikelihoodRatio(const std::vector<BarPlace>& places,
       ++num_views;
     }
   }
-  if (num_both < kMinShareOfBoth * num_views) {
-    return -kInfinity;
-  }
+  if (num_both < kMinShareOfBoth * num_views) return -kInfinity;
   return ratio / static_cast<double>(places.size());
 }
 
-// Of the bar near `start_radius_px`, whose contour on `side` is the curve.
-double LogLikelihoodRatio(const std::vector<BarPlace>& places,
-                          double start_radius_px,
-                          double side,
-                          double edge_sigma_px) {
-  constexpr double kNoBar = -kInfinity;
+// The same of the bar near `start_radius_px`, whose contour on `side` is the
+// curve; minus infinity without one.
+double RatioNear(const std::vector<BarPlace>& places,
+                 double start_radius_px,
+                 double side,
+                 double edge_sigma_px) {
   Bar bar{start_radius_px, {}};
   for (const BarPlace& place : places) {
     bar.axis.push_back(-side * start_radius_px * place.outward);
@@ -257,7 +255,7 @@ double LogLikelihoodRatio(const std::vector<BarPlace>& places,
     Adjust(places, &bar);
   }
   if (bar.radius_px < kMinBarRadiusPx || bar.radius_px > kMaxBarRadiusPx) {
-    return kNoBar;
+    return -kInfinity;
   }
   double distance_px = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -265,20 +263,18 @@ double LogLikelihoodRatio(const std::vector<BarPlace>& places,
         (bar.axis[i] + side * bar.radius_px * places[i].outward).norm();
   }
   if (distance_px > kMaxDistancePx * static_cast<double>(places.size())) {
-    return kNoBar;
+    return -kInfinity;
   }
-  return LogLikelihoodRatio(places, bar, side, edge_sigma_px);
+  return RatioOfBar(places, bar, side, edge_sigma_px);
 }
 
-// Of the likeliest bar; minus infinity without any.
-double LogLikelihoodRatio(const std::vector<BarPlace>& places,
-                          double edge_sigma_px) {
+// The same of the likeliest bar; minus infinity without any.
+double BestRatio(const std::vector<BarPlace>& places, double edge_sigma_px) {
   double best = -kInfinity;
   if (places.empty()) return best;
   for (const double radius_px : kStartRadiiPx) {
     for (const double side : {1.0, -1.0}) {
-      best = std::max(
-          best, LogLikelihoodRatio(places, radius_px, side, edge_sigma_px));
+      best = std::max(best, RatioNear(places, radius_px, side, edge_sigma_px));
     }
   }
   return best;
@@ -296,7 +292,7 @@ void LabelRoundBars(const std::vector<PosedView>& views,
     Curve& curve = (*curves)[i];
     if (MainKind(curve) == CurveKind::kOccludingContour) return;
     const double ratio =
-        LogLikelihoodRatio(LookAlong(curve, views, images), edge_sigma_px);
+        BestRatio(LookAlong(curve, views, images), edge_sigma_px);
     if (ratio < kMinLogLikelihoodRatio) return;
     for (CurveSample& sample : curve.samples) {
       sample.kind = CurveKind::kOccludingContour;

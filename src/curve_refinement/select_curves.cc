@@ -13,8 +13,8 @@
 #include "base/parallel.h"
 #include "curve_refinement/occluding_contours.h"
 #include "geometry/adjust_edge.h"
+#include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/image_edge.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -45,9 +45,7 @@ void AddSupport(const CurveSample& sample,
     if (!(in_camera.z() > 0)) continue;
     const Eigen::Vector2d offset =
         views[view_idx].Pixel(in_camera) - edge.position;
-    const Eigen::Vector2d tangent = ToImageEdge(edge).tangent;
-    support.distances_px.push_back(
-        std::abs(offset.x() * tangent.y() - offset.y() * tangent.x()));
+    support.distances_px.push_back(std::abs(ToBrightSide(edge).dot(offset)));
     support.sharpness[ref.view_idx].push_back(
         static_cast<double>(edge.sharpness));
   }

@@ -58,17 +58,17 @@ struct Passage {
 };
 
 OpenEnd MakeEnd(const Curve& curve,
-                bool front,
+                bool at_head,
                 const std::vector<PosedView>& views) {
-  const CurveSample& last = SampleFromEnd(curve, front);
+  const CurveSample& last = SampleFromEnd(curve, at_head);
   OpenEnd end;
   end.position = last.position;
-  end.outward = front ? last.tangent : Eigen::Vector3d(-last.tangent);
+  end.outward = at_head ? last.tangent : Eigen::Vector3d(-last.tangent);
   if (curve.closed) return end;
   const double pixel = PixelSize(last, views);
   end.branch = BranchTo(curve,
-                        front ? curve.samples.size() - 1 : 0,
-                        front,
+                        at_head ? curve.samples.size() - 1 : 0,
+                        at_head,
                         {kBentEndPx * pixel, kMaxBranchPx * pixel});
   if (Length(end.branch) >= kMinBranchPx * pixel) end.pixel = pixel;
   return end;
@@ -86,7 +86,7 @@ class MeetingFinder {
         ends_(2 * curves.size()),
         passages_(ends_.size()) {
     ParallelFor(ends_.size(), num_threads, [&](EndIdx end) {
-      ends_[end] = MakeEnd(curves[ItemOf(end)], IsFront(end), views);
+      ends_[end] = MakeEnd(curves[ItemOf(end)], IsHead(end), views);
       passages_[end] = PassagesAt(end);
     });
   }
@@ -157,7 +157,7 @@ class MeetingFinder {
   // A curve may pass its own end, but not with its last samples.
   bool LeadsToEnd(EndIdx end, std::size_t c, std::size_t k) const {
     const std::size_t from_end =
-        IsFront(end) ? curves_[c].samples.size() - 1 - k : k;
+        IsHead(end) ? curves_[c].samples.size() - 1 - k : k;
     return c == ItemOf(end) && from_end < 2 * ends_[end].branch.samples.size();
   }
 
@@ -216,7 +216,7 @@ class MeetingFinder {
   bool ImagesShow(const Curve& from, const Curve& to, double pixel) const {
     CurveSample arrival = to.samples.back();
     arrival.tangent = -arrival.tangent;
-    const std::size_t usual =
+    const double usual =
         std::min(SupportBefore(from, true), SupportBefore(to, true));
     return IsGapShown(from.samples.back(), arrival, pixel, usual, images_);
   }
@@ -247,15 +247,10 @@ std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
   return meetings;
 }
 
-// The ends of a curve that was cut in the middle.
-struct LooseEnds {
-  EndIdx before = 0;
-  EndIdx after = 0;
-};
-
-// Takes what is between `a` and `b` out of the passing curve. An end of it may
-// become one of a new curve.
-LooseEnds CutOut(Meeting& meeting, std::vector<Curve>& curves) {
+// Takes what is between `a` and `b` out of the passing curve, and returns the
+// ends before and after the cut. An end of the curve may become one of a new
+// curve.
+std::pair<EndIdx, EndIdx> CutOut(Meeting& meeting, std::vector<Curve>& curves) {
   const std::size_t before = meeting.passing_idx;
   std::vector<CurveSample>& samples = curves[before].samples;
   const std::size_t after = curves.size();
@@ -275,9 +270,9 @@ void CutBentEnd(EndIdx end,
                 const std::vector<PosedView>& views,
                 std::vector<Curve>& curves) {
   Curve& curve = curves[ItemOf(end)];
-  const CurveSample last = SampleFromEnd(curve, IsFront(end));
+  const CurveSample last = SampleFromEnd(curve, IsHead(end));
   const double bent = kBentEndPx * PixelSize(last, views);
-  CutEnd(curve, IsFront(end), [&](const CurveSample& sample) {
+  CutEnd(curve, IsHead(end), [&](const CurveSample& sample) {
     return (sample.position - last.position).norm() >= bent;
   });
 }
@@ -298,9 +293,9 @@ EndTies TieMeetings(const std::vector<Meeting>& meetings,
     }
     for (const std::size_t c : members) is_busy[c] = true;
     if (meeting.exchange) {
-      const LooseEnds loose = CutOut(meeting, curves);
-      pairs.emplace_back(meeting.a, loose.after);
-      pairs.emplace_back(loose.before, meeting.b);
+      const auto [before, after] = CutOut(meeting, curves);
+      pairs.emplace_back(meeting.a, after);
+      pairs.emplace_back(before, meeting.b);
     } else {
       pairs.emplace_back(meeting.a, meeting.b);
     }

@@ -10,9 +10,6 @@
 
 namespace curvix {
 
-// The last pixels before an end, which may be bent, tell nothing.
-inline constexpr double kBentEndPx = 3;
-
 // Where two curves touch, the shared segment is traced once: one curve breaks,
 // or the two are swapped behind it. Wherever two ends meet beside a passing
 // curve, both curves are carried on through what they share, exchanged if need

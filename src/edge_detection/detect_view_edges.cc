@@ -19,7 +19,7 @@
 #include "edge_detection/smooth_contours.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
 namespace {
@@ -49,16 +49,12 @@ struct LocatedContours {
   bool is_crowded = false;  // more edges than the limit
 };
 
-double HalfPixelsPerEdge(const EdgeMap& map) {
-  return map.spacing_px / EdgeMap().spacing_px;
-}
-
 // Drops contours that do not fit.
 void KeepWithinLimit(const EdgeDetectionOptions& options,
                      std::int64_t max_edges,
                      EdgeMap* map) {
   ContourLimits limits;
-  limits.half_pixels_per_edge = HalfPixelsPerEdge(*map);
+  limits.spacing_px = map->spacing_px;
   limits.max_edges = max_edges;
   KeptEdges kept = KeepContours(map->edges, map->neighbors, options, limits);
   if (kept.num_over_limit == 0) return;
@@ -77,16 +73,15 @@ LocatedContours LocateContours(const ViewImage& image,
   EdgeMap& map = located.map;
   map.noise = image.noise;
   map.spacing_px = scale.spacing_px();
-  const double half_pixels = HalfPixelsPerEdge(map);
   const auto edges_of = [&](std::int64_t sampled_twice_a_pixel) {
     return std::llround(static_cast<double>(sampled_twice_a_pixel) /
-                        half_pixels);
+                        (2 * map.spacing_px));
   };
   const std::int64_t limit =
       MaxEdges(options, image.pixels.width, image.pixels.height);
   ContourLimits limits;
   limits.min_gradient = GradientThreshold(options, scale.sigma_px, map.noise);
-  limits.half_pixels_per_edge = half_pixels;
+  limits.spacing_px = map.spacing_px;
   limits.max_edges = edges_of(kMaxOfContours * limit);
   limits.thinning = {edges_of(limit), kThinnedSpacingPx};
 
@@ -94,7 +89,7 @@ LocatedContours LocateContours(const ViewImage& image,
       LocateEdges(image.pixels, scale, limits.min_gradient);
   if (image.mask) map.num_dropped_masked = DropMaskedEdges(*image.mask, &all);
   if (std::ssize(all) > limits.thinning.max_edges) {
-    MeasureCrowding(half_pixels, &all);
+    MeasureCrowding(map.spacing_px, &all);
   }
   map.num_dropped_over_limit =
       DropLeastProminent(edges_of(kMaxProminent * limit), &all);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -49,25 +50,13 @@ double MeanStraightRun(const std::vector<Edge2d>& edges,
   return sum_px / static_cast<double>(path.size());
 }
 
-struct Contour {
-  std::int64_t num_edges = 0;
-  double strength = 0;  // mean of its edges
-  bool is_kept = false;
-};
-
-std::vector<Contour> Measure(const std::vector<Edge2d>& edges,
-                             const Contours& paths) {
-  std::vector<Contour> contours(paths.size());
-  for (std::size_t c = 0; c < paths.size(); ++c) {
-    const std::span<const std::int32_t> path = paths[c];
-    double sum = 0;
-    for (const std::int32_t i : path) {
-      sum += static_cast<double>(At(edges, i).strength);
-    }
-    contours[c].num_edges = static_cast<std::int64_t>(path.size());
-    contours[c].strength = sum / static_cast<double>(path.size());
+double MeanStrength(const std::vector<Edge2d>& edges,
+                    std::span<const std::int32_t> path) {
+  double sum = 0;
+  for (const std::int32_t i : path) {
+    sum += static_cast<double>(At(edges, i).strength);
   }
-  return contours;
+  return sum / static_cast<double>(path.size());
 }
 
 // How much each contour tells of structure: the mean prominence of its edges
@@ -75,9 +64,8 @@ std::vector<Contour> Measure(const std::vector<Edge2d>& edges,
 // are short, bent and crowded.
 std::vector<double> MeasureStructure(const std::vector<Edge2d>& edges,
                                      const Contours& paths,
-                                     double half_pixels_per_edge) {
-  const std::vector<double> prominence =
-      Prominence(edges, half_pixels_per_edge);
+                                     double spacing_px) {
+  const std::vector<double> prominence = Prominence(edges, spacing_px);
   std::vector<double> structure(paths.size());
   for (std::size_t c = 0; c < paths.size(); ++c) {
     const std::span<const std::int32_t> path = paths[c];
@@ -92,43 +80,45 @@ std::vector<double> MeasureStructure(const std::vector<Edge2d>& edges,
 }
 
 std::vector<Edge2d> Selected(const std::vector<Edge2d>& edges,
-                             const std::vector<bool>& is_kept) {
+                             const std::vector<bool>& is_selected) {
   std::vector<Edge2d> selected;
-  selected.reserve(static_cast<std::size_t>(std::ranges::count(is_kept, true)));
+  selected.reserve(
+      static_cast<std::size_t>(std::ranges::count(is_selected, true)));
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (is_kept[i]) selected.push_back(edges[i]);
+    if (is_selected[i]) selected.push_back(edges[i]);
   }
   return selected;
 }
 
-std::int64_t NumKept(const std::vector<Contour>& contours) {
+// The number of edges of the contours that are kept.
+std::int64_t NumKept(const Contours& paths, const std::vector<bool>& is_kept) {
   std::int64_t num_edges = 0;
-  for (const Contour& contour : contours) {
-    if (contour.is_kept) num_edges += contour.num_edges;
+  for (std::size_t c = 0; c < paths.size(); ++c) {
+    if (is_kept[c]) num_edges += std::ssize(paths[c]);
   }
   return num_edges;
 }
 
 // Of the contours that are kept, keeps the first that fit.
-void KeepStructure(const std::vector<double>& structure,
+void KeepStructure(const Contours& paths,
+                   const std::vector<double>& structure,
                    double min_num_edges,
                    std::int64_t max_edges,
-                   std::vector<Contour>& contours) {
+                   std::vector<bool>& is_kept) {
   using Rank =
       std::tuple<bool, double, std::size_t>;  // the first is kept first
   std::vector<Rank> order;
-  for (std::size_t i = 0; i < contours.size(); ++i) {
-    if (!contours[i].is_kept) continue;
-    const bool is_short =
-        static_cast<double>(contours[i].num_edges) < min_num_edges;
-    order.emplace_back(is_short, -structure[i], i);
+  for (std::size_t c = 0; c < paths.size(); ++c) {
+    if (!is_kept[c]) continue;
+    const bool is_short = static_cast<double>(paths[c].size()) < min_num_edges;
+    order.emplace_back(is_short, -structure[c], c);
   }
   std::ranges::sort(order);
   std::int64_t num_edges = 0;
   for (const Rank& rank : order) {
-    Contour& contour = contours[std::get<std::size_t>(rank)];
-    num_edges += contour.num_edges;
-    contour.is_kept = num_edges <= max_edges;
+    const std::size_t c = std::get<std::size_t>(rank);
+    num_edges += std::ssize(paths[c]);
+    is_kept[c] = num_edges <= max_edges;
   }
 }
 
@@ -181,31 +171,32 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const ContourLimits& limits) {
   CURVIX_CHECK(edges.size() == neighbors.size(), edges.size() << " edges");
   const Contours paths(neighbors);
-  std::vector<Contour> contours = Measure(edges, paths);
   const double weak = kShortContourFactor * limits.min_gradient;
   const double min_num_edges =
-      options.min_contour_edges / limits.half_pixels_per_edge;
+      options.min_contour_edges / (2 * limits.spacing_px);
+  std::vector<bool> is_kept(paths.size());
   KeptEdges kept;
-  for (Contour& contour : contours) {
-    contour.is_kept = static_cast<double>(contour.num_edges) >= min_num_edges ||
-                      contour.strength >= weak;
-    if (contour.is_kept) continue;
-    kept.num_isolated += static_cast<std::int32_t>(contour.num_edges);
+  for (std::size_t c = 0; c < paths.size(); ++c) {
+    is_kept[c] = static_cast<double>(paths[c].size()) >= min_num_edges ||
+                 MeanStrength(edges, paths[c]) >= weak;
+    if (is_kept[c]) continue;
+    kept.num_isolated += static_cast<std::int32_t>(paths[c].size());
   }
-  if (NumKept(contours) > limits.max_edges) {
-    KeepStructure(MeasureStructure(edges, paths, limits.half_pixels_per_edge),
+  if (NumKept(paths, is_kept) > limits.max_edges) {
+    KeepStructure(paths,
+                  MeasureStructure(edges, paths, limits.spacing_px),
                   min_num_edges,
                   limits.max_edges,
-                  contours);
+                  is_kept);
   }
-  const std::int64_t num_kept = NumKept(contours);
+  const std::int64_t num_kept = NumKept(paths, is_kept);
   const double spacing_px =
       num_kept > limits.thinning.max_edges ? limits.thinning.spacing_px : 0;
-  std::vector<bool> is_kept(edges.size());
+  std::vector<bool> is_selected(edges.size());
   for (std::size_t c = 0; c < paths.size(); ++c) {
-    if (contours[c].is_kept) MarkSpaced(edges, paths[c], spacing_px, is_kept);
+    if (is_kept[c]) MarkSpaced(edges, paths[c], spacing_px, is_selected);
   }
-  kept.edges = Selected(edges, is_kept);
+  kept.edges = Selected(edges, is_selected);
   const auto size = static_cast<std::int64_t>(edges.size());
   const auto num_selected = static_cast<std::int64_t>(kept.edges.size());
   kept.num_over_limit =

@@ -29,8 +29,7 @@ struct Thinning {
 struct ContourLimits {
   // The weakest gradient that the detector kept, grey levels per pixel.
   double min_gradient = 0;
-  // How many edges sampled twice a pixel each edge stands for.
-  double half_pixels_per_edge = 1;
+  double spacing_px = 0.5;     // of edges along their contours, on average
   std::int64_t max_edges = 0;  // before thinning
   Thinning thinning;
 };

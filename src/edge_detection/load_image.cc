@@ -239,16 +239,12 @@ Status CheckImageFiles(const View& view, const Camera& camera) {
   return CheckFile(view.mask_path, name, IsOfShape(name, expected));
 }
 
-Result<GrayImage> LoadGrayImage(const std::filesystem::path& path,
-                                const std::optional<ImageSize>& expected) {
-  const std::string name = ImageNamed(path);
-  if (expected) return LoadFile(path, name, IsOfSize(name, *expected));
-  return LoadFile(path, name, [](const ImageSize&) { return Status(); });
-}
-
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   const ImageSize expected = {camera.width, camera.height};
-  if (!view.image) return LoadGrayImage(view.image_path, expected);
+  if (!view.image) {
+    const std::string name = ImageNamed(view.image_path);
+    return LoadFile(view.image_path, name, IsOfSize(name, expected));
+  }
   const ImageInMemory& image = *view.image;
   const ImageSize size = {image.width, image.height};
   if (size != expected) return WrongSize("Image " + view.name, size, expected);

@@ -22,24 +22,18 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 // but WebP files, size and bits. Their errors.
 Status CheckImageFiles(const View& view, const Camera& camera);
 
-// The image in the file, as stored: an EXIF rotation is ignored, as COLMAP
-// does. Grey, colour (0.299 R + 0.587 G + 0.114 B) and either with alpha, 8 or
-// 16 bits per channel; 16 bits are scaled to 0..255. Fractions are kept: on
-// a clean render, rounding grey levels moves one edge in a hundred by more than
-// 0.017 px. Alpha is straight and the background black, composited before
-// anything else.
+// The image of a view: that in memory, if there is one, else that in the file,
+// as stored: an EXIF rotation is ignored, as COLMAP does. Grey, colour
+// (0.299 R + 0.587 G + 0.114 B) and either with alpha, 8 or 16 bits per
+// channel; 16 bits are scaled to 0..255. Fractions are kept: on a clean render,
+// rounding grey levels moves one edge in a hundred by more than 0.017 px. Alpha
+// is straight and the background black, composited before anything else.
 //
 // kNotFound: no such file. kDataLoss: the file is empty, broken or cut short.
-// kUnsupported: another pixel format. kInvalidArgument: not of the `expected`
-// size, which is found out before any but a WebP is decoded. The message names
-// the file.
-Result<GrayImage> LoadGrayImage(
-    const std::filesystem::path& path,
-    const std::optional<ImageSize>& expected = std::nullopt);
-
-// The image of a view, as above: that in memory, if there is one, else that in
-// the file. kInvalidArgument also for one in memory without values, or with a
-// number of channels other than 1, 3 and 4.
+// kUnsupported: another pixel format. kInvalidArgument: not of the size of the
+// camera, which is found out before any but a WebP is decoded; or in memory
+// without values, or with a number of channels other than 1, 3 and 4. The
+// message names the image.
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera);
 
 // The mask of a view, if it has one, as its image would be read. One in another

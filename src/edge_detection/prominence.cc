@@ -64,14 +64,14 @@ cv::Mat1f StrengthPerPixel(const std::vector<Edge>& edges,
 
 template <typename Edge>
 std::vector<float> CrowdingOf(const std::vector<Edge>& edges,
-                              double half_pixels_per_edge) {
+                              double spacing_px) {
   const cv::Rect pixels = PixelsOf(edges);
   const cv::Mat1f strengths = StrengthPerPixel(edges, pixels);
   const auto strength_at = [&](const Eigen::Vector2d& position) {
     const cv::Point pixel = PixelAt(position);
     return pixels.contains(pixel) ? strengths(pixel - pixels.tl()) : 0.0f;
   };
-  const auto weight = static_cast<float>(half_pixels_per_edge);
+  const auto weight = static_cast<float>(2 * spacing_px);
   std::vector<float> crowding;
   crowding.reserve(edges.size());
   for (const Edge& edge : edges) {
@@ -91,9 +91,8 @@ double Prominence(float strength, float crowding) {
 
 }  // namespace
 
-void MeasureCrowding(double half_pixels_per_edge,
-                     std::vector<LocatedEdge>* edges) {
-  const std::vector<float> crowding = CrowdingOf(*edges, half_pixels_per_edge);
+void MeasureCrowding(double spacing_px, std::vector<LocatedEdge>* edges) {
+  const std::vector<float> crowding = CrowdingOf(*edges, spacing_px);
   for (std::size_t i = 0; i < edges->size(); ++i) {
     (*edges)[i].crowding = crowding[i];
   }
@@ -104,8 +103,8 @@ double Prominence(const LocatedEdge& edge) {
 }
 
 std::vector<double> Prominence(const std::vector<Edge2d>& edges,
-                               double half_pixels_per_edge) {
-  const std::vector<float> crowding = CrowdingOf(edges, half_pixels_per_edge);
+                               double spacing_px) {
+  const std::vector<float> crowding = CrowdingOf(edges, spacing_px);
   std::vector<double> prominence;
   prominence.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {

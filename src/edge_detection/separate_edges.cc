@@ -10,7 +10,7 @@
 
 #include "base/grid_index.h"
 #include "base/median.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
 namespace {
@@ -89,33 +89,31 @@ Lanes ShiftsOfSteps(const std::array<PeakPair, kLanes>& pairs) {
   return step;
 }
 
-// The edges beside each, as far as the blur mixes them.
-class Neighborhood {
- public:
-  Neighborhood(const std::vector<Edge2d>& edges, double spacing_px, double blur)
-      : edges_(edges),
-        max_along_px_(kMaxAlongSpacings * spacing_px),
-        blur_(blur),
-        index_(edges, kReachBlurs * blur) {}
-
-  // Appends edge `i` with the nearest parallel edge on either side.
-  void AppendPairs(std::size_t i, std::vector<PeakPair>& pairs) const {
-    const Edge2d& edge = edges_[i];
+// Each edge with the nearest parallel edge on either side, as far as the blur
+// mixes them.
+std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges,
+                                double spacing_px,
+                                double blur) {
+  const double reach = kReachBlurs * blur;
+  const double max_along_px = kMaxAlongSpacings * spacing_px;
+  const GridIndex index(edges, reach);
+  std::vector<PeakPair> pairs;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge2d& edge = edges[i];
     const Eigen::Vector2d tangent = TangentAt(edge.angle);
     const Eigen::Vector2d normal(-tangent.y(), tangent.x());
-    const double reach = kReachBlurs * blur_;
     double ahead = reach, behind = -reach;
     double height_ahead = 0, height_behind = 0;
-    index_.VisitAround(edge.position, reach, [&](const IndexedEdge& other) {
+    index.VisitAround(edge.position, reach, [&](const IndexedEdge& other) {
       const auto j = static_cast<std::size_t>(other.edge_idx);
-      const Eigen::Vector2d offset = edges_[j].position - edge.position;
-      if (std::abs(offset.dot(tangent)) > max_along_px_) return;
+      const Eigen::Vector2d offset = edges[j].position - edge.position;
+      if (std::abs(offset.dot(tangent)) > max_along_px) return;
       const double cosine = tangent.dot(other.tangent.cast<double>());
       if (std::abs(cosine) < kMinCosine) return;
       const double across = offset.dot(normal);
       const double height =
-          std::copysign(static_cast<double>(edges_[j].strength), cosine);
-      if (std::abs(across) < kMinAcrossBlurs * blur_) return;
+          std::copysign(static_cast<double>(edges[j].strength), cosine);
+      if (std::abs(across) < kMinAcrossBlurs * blur) return;
       if (across > 0 && across < ahead) {
         ahead = across;
         height_ahead = height;
@@ -129,28 +127,12 @@ class Neighborhood {
       if (height == 0) return;
       pairs.push_back({i,
                        normal.cast<float>(),
-                       static_cast<float>(across / blur_),
+                       static_cast<float>(across / blur),
                        edge.strength,
                        static_cast<float>(height)});
     };
     append(ahead, height_ahead);
     append(behind, height_behind);
-  }
-
- private:
-  const std::vector<Edge2d>& edges_;
-  double max_along_px_;
-  double blur_;
-  GridIndex index_;
-};
-
-std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges,
-                                double spacing_px,
-                                double blur) {
-  const Neighborhood neighborhood(edges, spacing_px, blur);
-  std::vector<PeakPair> pairs;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    neighborhood.AppendPairs(i, pairs);
   }
   return pairs;
 }

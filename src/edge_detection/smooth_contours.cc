@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
 namespace {
@@ -100,19 +101,18 @@ std::optional<Parabola> FitParabola(const std::vector<ContourPlace>& places,
 Edge2d Smoothed(const Edge2d& edge,
                 const std::vector<ContourPlace>& places,
                 double reach) {
-  const double angle = static_cast<double>(edge.angle);
-  const Eigen::Vector2d tangent(std::cos(angle), std::sin(angle));
+  const ImageEdge before = ToImageEdge(edge);
   for (; reach >= kMinReachPx; reach /= 2) {
-    const auto fit = FitParabola(places, tangent, reach);
+    const auto fit = FitParabola(places, before.tangent, reach);
     if (!fit) return edge;
     if (!(fit->residual <= kMaxResidualPx) ||
         !(fit->curvature * reach <= kMaxBendRad)) {
       continue;
     }
     Edge2d smoothed = edge;
-    smoothed.position +=
-        fit->shift * Eigen::Vector2d(-tangent.y(), tangent.x());
-    smoothed.angle = static_cast<float>(WrapDirected(angle + fit->turn));
+    smoothed.position += fit->shift * before.Normal();
+    smoothed.angle = static_cast<float>(
+        WrapDirected(static_cast<double>(edge.angle) + fit->turn));
     return smoothed;
   }
   return edge;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/check.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "geometry/lens.h"
 
 namespace curvix {

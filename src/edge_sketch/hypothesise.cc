@@ -5,7 +5,7 @@
 
 #include "base/angles.h"
 #include "edge_sketch/slide_to_line.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
 namespace {
@@ -16,17 +16,6 @@ constexpr std::size_t kUsualNumCandidates = 64;  // to reserve memory for
 constexpr double kMinEpipolarAngle = DegToRad(5);
 
 }  // namespace
-
-std::optional<HypothesisViews> HypothesisViews::Make(
-    const PosedView& h1,
-    const PosedView& h2,
-    const std::vector<Edge2d>& edges2,
-    const DepthRange& depths,
-    const Options& options) {
-  const auto pencil = EpipolarPencil::Make(h1, h2);
-  if (!pencil) return std::nullopt;
-  return HypothesisViews(*pencil, h1, h2, edges2, depths, options);
-}
 
 HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
                                  const PosedView& h1,

@@ -5,7 +5,6 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
-#include <optional>
 #include <vector>
 
 #include "edge_sketch/cluster_edges.h"
@@ -37,12 +36,14 @@ struct Hypotheses {
 // The edges of H2, indexed for pairing with those of H1.
 class HypothesisViews {
  public:
-  // Only hypotheses at `depths` of H1. nullopt if the views share their centre.
-  static std::optional<HypothesisViews> Make(const PosedView& h1,
-                                             const PosedView& h2,
-                                             const std::vector<Edge2d>& edges2,
-                                             const DepthRange& depths,
-                                             const Options& options);
+  // Only hypotheses at `depths` of H1. `pencil`: of both views. The views and
+  // the options must outlive it.
+  HypothesisViews(const EpipolarPencil& pencil,
+                  const PosedView& h1,
+                  const PosedView& h2,
+                  const std::vector<Edge2d>& edges2,
+                  const DepthRange& depths,
+                  const Options& options);
 
   // Candidates in the epipolar wedge of `edge1`, moved onto its epipolar line,
   // clustered and triangulated. None for an edge that runs along its epipolar
@@ -60,13 +61,6 @@ class HypothesisViews {
     float angle = 0;
     std::int32_t edge_idx = 0;
   };
-
-  HypothesisViews(const EpipolarPencil& pencil,
-                  const PosedView& h1,
-                  const PosedView& h2,
-                  const std::vector<Edge2d>& edges2,
-                  const DepthRange& depths,
-                  const Options& options);
 
   // The part of the epipolar line of `pixel1` that shows `depths_`, extended by
   // the longest slide of an edge. Pixels along the line.

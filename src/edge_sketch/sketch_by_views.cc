@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "base/angles.h"
@@ -16,6 +18,7 @@
 #include "edge_sketch/select_views.h"
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_index.h"
+#include "geometry/epipolar.h"
 
 namespace curvix {
 namespace {
@@ -37,7 +40,7 @@ struct H1Result {
 // A partner of an H1 view, and the query views of their hypotheses.
 struct Partner {
   HypothesisViews pair;
-  QueryViews to_ask;
+  ViewsToAsk to_ask;
 };
 
 // All partners of an H1 view.
@@ -47,161 +50,157 @@ struct H1View {
   std::vector<std::int32_t> not_asked;  // others that overlap it
 };
 
-class ViewSketcher {
- public:
-  explicit ViewSketcher(const SketchInput& input) : input_(input) {}
+// View h1, and those that look from nearly the same direction.
+std::size_t NumOnThisSide(const SketchInput& input, int h1) {
+  const std::vector<ViewOverlap>& overlaps =
+      input.distinct.overlaps[static_cast<std::size_t>(h1)];
+  return 1 + static_cast<std::size_t>(std::ranges::count_if(
+                 overlaps, [](const ViewOverlap& overlap) {
+                   return overlap.ray_angle_rad <= kSameSideRad;
+                 }));
+}
 
-  // View h1 and its partners, ready for pairing.
-  H1View Prepare(int h1) const {
-    H1View view;
-    const auto i = static_cast<std::size_t>(h1);
-    const std::vector<int> partners =
-        SelectPartners(input_.distinct.overlaps[i], input_.options.hypotheses);
-    const std::vector<int> validators =
-        SelectValidators(input_.distinct, h1, partners);
-    for (const ViewOverlap& overlap : input_.distinct.overlaps[i]) {
-      if (!std::ranges::binary_search(validators, overlap.other)) {
-        view.not_asked.push_back(overlap.other);
+// The views next to either in direction, then both.
+std::vector<std::int32_t> FirstViews(int h1,
+                                     int h2,
+                                     const NeighborsByView& neighbors) {
+  std::vector<std::int32_t> first;
+  for (const int view_idx : {h1, h2}) {
+    for (const ViewNeighbor& neighbor :
+         neighbors[static_cast<std::size_t>(view_idx)]) {
+      first.push_back(neighbor.view_idx);
+    }
+  }
+  std::erase_if(first, [&](int i) { return i == h1 || i == h2; });
+  std::ranges::sort(first);
+  first.erase(std::unique(first.begin(), first.end()), first.end());
+  first.insert(first.end(), {h1, h2});
+  return first;
+}
+
+// View h1 and its partners, ready for pairing.
+H1View Prepare(const SketchInput& input, int h1) {
+  H1View view;
+  const auto i = static_cast<std::size_t>(h1);
+  const std::vector<int> partners =
+      SelectPartners(input.distinct.overlaps[i], input.options.hypotheses);
+  const std::vector<int> validators =
+      SelectValidators(input.distinct, h1, partners);
+  for (const ViewOverlap& overlap : input.distinct.overlaps[i]) {
+    if (!std::ranges::binary_search(validators, overlap.other)) {
+      view.not_asked.push_back(overlap.other);
+    }
+  }
+  view.neighbors =
+      NeighborsInDirection(OverlapsAmong(input.distinct.overlaps, validators));
+  const std::size_t fewest_supports =
+      FewestSupports(input.options.validation, NumOnThisSide(input, h1));
+  std::vector<std::optional<HypothesisViews>> pairs(partners.size());
+  ParallelFor(
+      pairs.size(), input.options.runtime.num_threads, [&](std::size_t k) {
+        const auto j = static_cast<std::size_t>(partners[k]);
+        const auto pencil =
+            EpipolarPencil::Make(input.views[i], input.views[j]);
+        if (!pencil) return;
+        pairs[k].emplace(*pencil,
+                         input.views[i],
+                         input.views[j],
+                         input.edge_maps[j].edges,
+                         input.depths[i],
+                         input.options);
+      });
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (!pairs[k]) continue;
+    view.partners.push_back({*std::move(pairs[k]),
+                             {FirstViews(h1, partners[k], view.neighbors),
+                              validators,
+                              fewest_supports,
+                              input.finds_seeds}});
+  }
+  return view;
+}
+
+std::optional<TrackedEdge> Track(const SketchInput& input,
+                                 const Hypothesis& hypothesis,
+                                 const Partner& partner,
+                                 const NeighborsByView& neighbors) {
+  if (!MayBeSupported(hypothesis.edge, input.indices, partner.to_ask)) {
+    return std::nullopt;
+  }
+  const EdgeEstimate start =
+      EstimateAtMeeting(hypothesis.edge,
+                        MeasurePlane(partner.pair.h1(), hypothesis.edge1),
+                        MeasurePlane(partner.pair.h2(), hypothesis.edge2.edge),
+                        input.sigma_px);
+  return TrackSupport(start,
+                      input.indices,
+                      neighbors,
+                      partner.to_ask,
+                      input.sigma_px,
+                      input.options.validation);
+}
+
+// Hypotheses from several partners end at the same 3D edge.
+bool IsKnown(const TrackedEdge& edge, const std::vector<TrackedEdge>& known) {
+  return std::ranges::any_of(known, [&](const TrackedEdge& other) {
+    std::vector<EdgeRef> shared;
+    std::set_intersection(edge.support.begin(),
+                          edge.support.end(),
+                          other.support.begin(),
+                          other.support.end(),
+                          std::back_inserter(shared));
+    return 2 * shared.size() >= edge.support.size();
+  });
+}
+
+// All views were queried for the tracked edges already, so another partner
+// would lead to the same 3D edge.
+bool IsSettled(const H1Result& result, const ValidationOptions& options) {
+  return std::ranges::any_of(result.tracked, [&](const TrackedEdge& edge) {
+    return edge.evidence >= kSettledEvidence * options.min_log_likelihood_ratio;
+  });
+}
+
+void DropRivals(H1Result& result) {
+  double best = 0;
+  for (const TrackedEdge& edge : result.tracked) {
+    best = std::max(best, edge.evidence);
+  }
+  const double least = kMinRelativeSupport * best;
+  result.rivals += static_cast<std::int64_t>(std::erase_if(
+      result.tracked,
+      [&](const TrackedEdge& edge) { return edge.evidence < least; }));
+}
+
+// What an edge of an H1 view leads to.
+H1Result Sketch(const SketchInput& input,
+                const Edge2d& edge1,
+                const H1View& view) {
+  H1Result result;
+  for (const Partner& partner : view.partners) {
+    if (IsSettled(result, input.options.validation)) break;
+    const Hypotheses found = partner.pair.Hypothesise(edge1);
+    for (const Hypothesis& hypothesis : found.hypotheses) {
+      ++result.hypotheses;
+      auto tracked = Track(input, hypothesis, partner, view.neighbors);
+      if (!tracked) {
+        ++result.unsupported;
+      } else if (!IsKnown(*tracked, result.tracked)) {
+        result.tracked.push_back(*std::move(tracked));
       }
     }
-    view.neighbors = NeighborsInDirection(
-        OverlapsAmong(input_.distinct.overlaps, validators));
-    const std::size_t fewest_supports =
-        FewestSupports(input_.options.validation, NumOnThisSide(h1));
-    std::vector<std::optional<HypothesisViews>> pairs(partners.size());
-    ParallelFor(
-        pairs.size(), input_.options.runtime.num_threads, [&](std::size_t k) {
-          const auto j = static_cast<std::size_t>(partners[k]);
-          pairs[k] = HypothesisViews::Make(input_.views[i],
-                                           input_.views[j],
-                                           input_.edge_maps[j].edges,
-                                           input_.depths[i],
-                                           input_.options);
-        });
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      if (!pairs[k]) continue;
-      view.partners.push_back({*std::move(pairs[k]),
-                               {FirstViews(h1, partners[k], view.neighbors),
-                                validators,
-                                fewest_supports,
-                                input_.finds_seeds}});
-    }
-    return view;
   }
-
-  H1Result Sketch(const Edge2d& edge1, const H1View& view) const {
-    H1Result result;
-    for (const Partner& partner : view.partners) {
-      if (IsSettled(result)) break;
-      const Hypotheses found = partner.pair.Hypothesise(edge1);
-      for (const Hypothesis& hypothesis : found.hypotheses) {
-        ++result.hypotheses;
-        auto tracked = Track(hypothesis, partner, view.neighbors);
-        if (!tracked) {
-          ++result.unsupported;
-        } else if (!IsKnown(*tracked, result.tracked)) {
-          result.tracked.push_back(*std::move(tracked));
-        }
-      }
-    }
-    DropRivals(result);
-    for (const TrackedEdge& tracked : result.tracked) {
-      const std::vector<EdgeRef> more =
-          FindMoreSupport(tracked.estimate,
-                          input_.indices,
-                          view.not_asked,
-                          input_.sigma_px,
-                          input_.options.validation);
-      result.also_shown.insert(
-          result.also_shown.end(), more.begin(), more.end());
-    }
-    return result;
+  DropRivals(result);
+  for (const TrackedEdge& tracked : result.tracked) {
+    const std::vector<EdgeRef> more = FindMoreSupport(tracked.estimate,
+                                                      input.indices,
+                                                      view.not_asked,
+                                                      input.sigma_px,
+                                                      input.options.validation);
+    result.also_shown.insert(result.also_shown.end(), more.begin(), more.end());
   }
-
- private:
-  // View h1, and those that look from nearly the same direction.
-  std::size_t NumOnThisSide(int h1) const {
-    const std::vector<ViewOverlap>& overlaps =
-        input_.distinct.overlaps[static_cast<std::size_t>(h1)];
-    return 1 + static_cast<std::size_t>(std::ranges::count_if(
-                   overlaps, [](const ViewOverlap& overlap) {
-                     return overlap.ray_angle_rad <= kSameSideRad;
-                   }));
-  }
-
-  // The views next to either in direction, then both.
-  static std::vector<std::int32_t> FirstViews(
-      int h1, int h2, const NeighborsByView& neighbors) {
-    std::vector<std::int32_t> first;
-    for (const int view_idx : {h1, h2}) {
-      for (const ViewNeighbor& neighbor :
-           neighbors[static_cast<std::size_t>(view_idx)]) {
-        first.push_back(neighbor.view_idx);
-      }
-    }
-    std::erase_if(first, [&](int i) { return i == h1 || i == h2; });
-    std::ranges::sort(first);
-    first.erase(std::unique(first.begin(), first.end()), first.end());
-    first.insert(first.end(), {h1, h2});
-    return first;
-  }
-
-  std::optional<TrackedEdge> Track(const Hypothesis& hypothesis,
-                                   const Partner& partner,
-                                   const NeighborsByView& neighbors) const {
-    if (!MayBeSupported(hypothesis.edge, input_.indices, partner.to_ask)) {
-      return std::nullopt;
-    }
-    const EdgeEstimate start = EstimateAtMeeting(
-        hypothesis.edge,
-        MeasurePlane(partner.pair.h1(), hypothesis.edge1),
-        MeasurePlane(partner.pair.h2(), hypothesis.edge2.edge),
-        input_.sigma_px);
-    return TrackSupport(start,
-                        input_.indices,
-                        neighbors,
-                        partner.to_ask,
-                        input_.sigma_px,
-                        input_.options.validation);
-  }
-
-  // Hypotheses from several partners end at the same 3D edge.
-  static bool IsKnown(const TrackedEdge& edge,
-                      const std::vector<TrackedEdge>& known) {
-    return std::ranges::any_of(known, [&](const TrackedEdge& other) {
-      std::vector<EdgeRef> shared;
-      std::set_intersection(edge.support.begin(),
-                            edge.support.end(),
-                            other.support.begin(),
-                            other.support.end(),
-                            std::back_inserter(shared));
-      return 2 * shared.size() >= edge.support.size();
-    });
-  }
-
-  // All views were queried for the tracked edges already, so another partner
-  // would lead to the same 3D edge.
-  bool IsSettled(const H1Result& result) const {
-    return std::ranges::any_of(result.tracked, [&](const TrackedEdge& edge) {
-      return edge.evidence >=
-             kSettledEvidence *
-                 input_.options.validation.min_log_likelihood_ratio;
-    });
-  }
-
-  void DropRivals(H1Result& result) const {
-    double best = 0;
-    for (const TrackedEdge& edge : result.tracked) {
-      best = std::max(best, edge.evidence);
-    }
-    const double least = kMinRelativeSupport * best;
-    result.rivals += static_cast<std::int64_t>(std::erase_if(
-        result.tracked,
-        [&](const TrackedEdge& edge) { return edge.evidence < least; }));
-  }
-
-  const SketchInput& input_;
-};
+  return result;
+}
 
 Edge3d ToEdge3d(TrackedEdge tracked) {
   Edge3d edge;
@@ -247,7 +246,6 @@ std::optional<int> NextView(const SketchInput& input,
 // each contour, then, unless images are crowded, those next to one that led to
 // a 3D edge.
 std::vector<H1Result> QueryInTurns(const SketchInput& input,
-                                   const ViewSketcher& sketcher,
                                    int h1,
                                    const H1View& view,
                                    const UsedEdges& used) {
@@ -258,7 +256,7 @@ std::vector<H1Result> QueryInTurns(const SketchInput& input,
                 input.options.runtime.num_threads,
                 [&](std::size_t k) {
                   const auto i = static_cast<std::size_t>(edge_idxs[k]);
-                  results[i] = sketcher.Sketch(map.edges[i], view);
+                  results[i] = Sketch(input, map.edges[i], view);
                 });
   };
   const auto has_found = [&](const std::optional<std::int32_t>& edge_idx) {
@@ -305,7 +303,6 @@ void Add(H1Result result,
 }  // namespace
 
 EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
-  const ViewSketcher sketcher(input);
   UsedEdges used(input.edge_maps);
   EdgeSketch sketch;
   sketch.edge_sigma_px = input.sigma_px;
@@ -315,9 +312,9 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     const auto h1 = NextView(input, used.num_unused(), done);
     if (!h1) break;
     done[static_cast<std::size_t>(*h1)] = true;
-    const H1View view = sketcher.Prepare(*h1);
+    const H1View view = Prepare(input, *h1);
     sketch.counts.view_pairs += static_cast<std::int64_t>(view.partners.size());
-    for (H1Result& result : QueryInTurns(input, sketcher, *h1, view, used)) {
+    for (H1Result& result : QueryInTurns(input, *h1, view, used)) {
       Add(std::move(result), input, used, sketch);
     }
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "edge_sketch/visible_side.h"
+#include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/image_edge.h"
 #include "geometry/nearest_edge.h"
 
 namespace curvix {
@@ -60,7 +60,7 @@ std::optional<std::int32_t> FindEdge(const EdgeEstimate& estimate,
       view.grid, projected, NarrowGate(search.widest, *expected_px));
 }
 
-std::size_t FewestToGoOn(const QueryViews& to_ask) {
+std::size_t FewestToGoOn(const ViewsToAsk& to_ask) {
   return std::min(kFewestToGoOn, to_ask.fewest_supports);
 }
 
@@ -149,7 +149,7 @@ std::size_t FewestSupports(const ValidationOptions& options,
 
 bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
-                    const QueryViews& to_ask) {
+                    const ViewsToAsk& to_ask) {
   const std::vector<std::int32_t>& asked = to_ask.first;
   const std::size_t fewest = FewestToGoOn(to_ask);
   std::size_t num_found = 0;
@@ -164,7 +164,7 @@ bool MayBeSupported(const SpaceEdge& edge,
 std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
                                         const std::vector<ViewIndex>& views,
                                         const NeighborsByView& neighbors,
-                                        const QueryViews& to_ask,
+                                        const ViewsToAsk& to_ask,
                                         double sigma_px,
                                         const ValidationOptions& options) {
   const Search search{sigma_px, WidestGate(options)};

@@ -24,7 +24,7 @@ struct TrackedEdge {
 };
 
 // The views that are queried for hypotheses of one pair of hypothesis views.
-struct QueryViews {
+struct ViewsToAsk {
   // The neighbours of the hypothesis views, then these themselves, which hardly
   // distinguish right hypotheses from wrong ones.
   std::vector<std::int32_t> first;
@@ -49,7 +49,7 @@ std::size_t FewestSupports(const ValidationOptions& options,
 // covariance.
 bool MayBeSupported(const SpaceEdge& edge,
                     const std::vector<ViewIndex>& views,
-                    const QueryViews& to_ask);
+                    const ViewsToAsk& to_ask);
 
 // Finds the support of `start`. Two rays determine a 3D edge to a few tenths of
 // a pixel in their own views, and to several pixels in a view at a right angle.
@@ -65,7 +65,7 @@ bool MayBeSupported(const SpaceEdge& edge,
 std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
                                         const std::vector<ViewIndex>& views,
                                         const NeighborsByView& neighbors,
-                                        const QueryViews& to_ask,
+                                        const ViewsToAsk& to_ask,
                                         double sigma_px,
                                         const ValidationOptions& options);
 

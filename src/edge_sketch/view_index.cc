@@ -8,7 +8,7 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
 namespace {
@@ -67,11 +67,11 @@ double VoteWithSupport(const ViewIndex& view,
                        const ImageEdge& projected,
                        double expected_px,
                        const ImageEdge& support) {
-  const Eigen::Vector2d normal(-support.tangent.y(), support.tangent.x());
   const double angle = AngleOf(projected.tangent);
-  const SupportFit fit{normal.dot(projected.position - support.position),
-                       expected_px,
-                       UndirectedDifference(angle, AngleOf(support.tangent))};
+  const SupportFit fit{
+      support.Normal().dot(projected.position - support.position),
+      expected_px,
+      UndirectedDifference(angle, AngleOf(support.tangent))};
   return VoteWithSupport(fit, view.density.Density(projected.position, angle));
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -12,6 +11,7 @@
 
 #include "base/angles.h"
 #include "base/median.h"
+#include "geometry/directions.h"
 #include "geometry/epipolar.h"
 
 namespace curvix {
@@ -95,9 +95,7 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
   for (const Eigen::Vector3d& place : places) {
     const Eigen::Vector3d x = other.InCamera(place);
     if (!(x.z() > 0) || !other.Contains(other.Pixel(x))) continue;
-    const Eigen::Vector3d ray1 = place - view.center;
-    const Eigen::Vector3d ray2 = place - other.center;
-    angles.push_back(std::atan2(ray1.cross(ray2).norm(), ray1.dot(ray2)));
+    angles.push_back(AngleBetween(place - view.center, place - other.center));
   }
   if (angles.empty()) return std::nullopt;
   ViewOverlap overlap;

@@ -12,9 +12,8 @@
 #include "edge_detection/load_image.h"
 #include "evaluation/holdout.h"
 #include "evaluation/image_agreement.h"
-#include "geometry/camera_of.h"
 #include "geometry/pixel_size.h"
-#include "geometry/posed_views.h"
+#include "model/posed_view.h"
 
 namespace curvix {
 namespace {

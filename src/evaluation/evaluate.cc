@@ -238,15 +238,18 @@ std::optional<double> MeasurePure(const Comparison& c,
   return 100 * static_cast<double>(num_pure) / static_cast<double>(num_near);
 }
 
-void MeasureCurves(const Comparison& c, double step, Evaluation& result) {
-  const std::optional<double> spacing = TrueSpacing(c.truth);
-  if (!spacing) return;
-  const double recalled = CountBelow(c.true_mm, kNearMm) * *spacing;
+// `step` and `spacing`: the lengths that one predicted and one true sample
+// stand for, world units.
+void MeasureCurves(const Comparison& c,
+                   double step,
+                   double spacing,
+                   Evaluation& result) {
+  const double recalled = CountBelow(c.true_mm, kNearMm) * spacing;
   if (recalled > 0) {
     result.duplication = CountBelow(c.predicted_mm, kNearMm) * step / recalled;
   }
   const std::vector<int> groups = SmoothGroups(c.truth, kMaxGapMm / c.unit_mm);
-  MeasureWhole(c, groups, *spacing, result);
+  MeasureWhole(c, groups, spacing, result);
   result.pure = MeasurePure(c, groups);
 }
 
@@ -256,8 +259,7 @@ std::size_t CountCurves(const std::vector<CurveStep>& steps) {
   return curves.size();
 }
 
-// `step` and `spacing`: the lengths that one predicted and one true sample
-// stand for, world units.
+// `step` and `spacing` as above.
 KindAgreement MeasureKinds(const Comparison& c, double step, double spacing) {
   auto kinds = MeasureTruth(c, spacing * c.unit_mm);
   const double step_mm = step * c.unit_mm;
@@ -316,8 +318,11 @@ Result<Evaluation> EvaluateCurves(const CurveSet& curves,
   }
   MeasureVisible(c, result);
   if (truth.has_tangents) result.tangent_deg = MedianTangentAngle(c);
-  if (truth.has_curve_ids) MeasureCurves(c, options.step, result);
-  if (const auto spacing = TrueSpacing(c.truth); truth.has_kinds && spacing) {
+  const std::optional<double> spacing = TrueSpacing(c.truth);
+  if (truth.has_curve_ids && spacing) {
+    MeasureCurves(c, options.step, *spacing, result);
+  }
+  if (truth.has_kinds && spacing) {
     result.kinds = MeasureKinds(c, options.step, *spacing);
   }
   result.num_curves = CountCurves(c.predicted);

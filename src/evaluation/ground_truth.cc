@@ -15,32 +15,31 @@
 namespace curvix {
 namespace {
 
-// The numbers of one line, comments removed; nothing if a word is not a finite
-// number.
+// The numbers of one line, with blanks or commas between, comments removed;
+// nothing if a word is not a finite number.
 std::optional<std::vector<double>> ParseRow(std::string_view line) {
-  constexpr std::string_view kBlank = " \t\r\v\f,";
-  line = line.substr(0, line.find('#'));
+  std::string words(line.substr(0, line.find('#')));
+  std::ranges::replace(words, ',', ' ');
   std::vector<double> row;
-  while (true) {
-    const std::size_t begin = line.find_first_not_of(kBlank);
-    if (begin == std::string_view::npos) return row;
-    line.remove_prefix(begin);
-    const std::string_view word = line.substr(0, line.find_first_of(kBlank));
-    line.remove_prefix(word.size());
-    const std::optional<double> value = ParseNumber<double>(word);
-    if (!value || !std::isfinite(*value)) return std::nullopt;
-    row.push_back(*value);
+  for (WordReader reader(words); !reader.AtEnd();) {
+    row.push_back(reader.Number<double>());
+    if (reader.failed() || !std::isfinite(row.back())) return std::nullopt;
   }
+  return row;
 }
 
 int ToInt(double value) {
   return static_cast<int>(std::clamp(value, -2e9, 2e9));
 }
 
+// Whether a row may have so many numbers.
+bool IsColumnCount(std::size_t count) {
+  return count == 3 || (count >= 6 && count <= 10);
+}
+
 bool HasKnownKind(const std::vector<double>& row) {
-  constexpr auto kLast = static_cast<int>(CurveKind::kOccludingContour);
-  return row.size() < 10 ||
-         (row[9] >= 0 && row[9] <= kLast && row[9] == std::floor(row[9]));
+  return row.size() < 10 || (row[9] >= 0 && row[9] < kNumCurveKinds &&
+                             row[9] == std::floor(row[9]));
 }
 
 TrueSample MakeSample(const std::vector<double>& row) {
@@ -85,7 +84,8 @@ Result<GroundTruth> ParseGroundTruth(std::string_view text) {
     if (!row) return Broken(number);
     if (row->empty()) continue;
     if (num_columns == 0) num_columns = row->size();
-    if (row->size() != num_columns || num_columns < 3 || !HasKnownKind(*row)) {
+    if (row->size() != num_columns || !IsColumnCount(num_columns) ||
+        !HasKnownKind(*row)) {
       return Broken(number);
     }
     truth.samples.push_back(MakeSample(*row));

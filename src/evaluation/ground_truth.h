@@ -23,10 +23,10 @@ struct GroundTruth {
 
 // Reads rows
 //   x y z [tx ty tz [curve_id [num_views_seen [num_views_edge [kind]]]]]
-// of 3 to 10 numbers, the same count in each row; '#' starts a comment. Without
-// a ninth column num_views_edge is num_views_seen. The kind is the number of
-// its CurveKind: 1 crease, 2 boundary, 3 marking, 4 occluding contour, 0
-// unknown. kDataLoss for anything else, or if there is no row.
+// of 3 or 6 to 10 numbers, the same count in each row; '#' starts a comment.
+// Without a ninth column num_views_edge is num_views_seen. The kind is the
+// number of its CurveKind: 1 crease, 2 boundary, 3 marking, 4 occluding
+// contour, 0 unknown. kDataLoss for anything else, or if there is no row.
 Result<GroundTruth> ParseGroundTruth(std::string_view text);
 
 // Gives the samples of `truth` the kinds of their curves, from rows

@@ -12,7 +12,7 @@
 #include "base/angles.h"
 #include "base/grid_index.h"
 #include "base/median.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
 namespace {

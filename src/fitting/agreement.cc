@@ -71,8 +71,8 @@ class Finder {
     return groups;
   }
 
-  // Squared distance from the group in standard deviations; infinite: too far.
-  double Distance(std::size_t i, const ValueGroup& group) const {
+  // From the group, in standard deviations; infinite: too far.
+  double SquaredDistance(std::size_t i, const ValueGroup& group) const {
     const UncertainValue v = relative_(i, group.seed);
     const Eigen::Vector2d off = v.value - group.mean;
     if (!(off.norm() <= v.bound)) return kInfinity;
@@ -91,9 +91,9 @@ class Finder {
     std::size_t nearest = groups.size();
     double least = kInfinity;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const double distance = Distance(i, groups[g]);
-      if (distance < least) nearest = g;
-      least = std::min(least, distance);
+      const double squared = SquaredDistance(i, groups[g]);
+      if (squared < least) nearest = g;
+      least = std::min(least, squared);
     }
     return nearest;
   }

@@ -26,40 +26,39 @@ constexpr std::size_t kLineParameters = 6;
 constexpr std::size_t kArcParameters = 8;
 constexpr std::size_t kNodeParameters = 3;
 
-// What a curve is made of.
-struct Explanation {
-  std::vector<Primitive> primitives;
-  double residual_cost = kInfinity;
+struct FitCost {
+  double residual = kInfinity;
   std::size_t num_parameters = 0;
 
   double Total(double parameter_cost) const {
-    return residual_cost + parameter_cost * static_cast<double>(num_parameters);
+    return residual + parameter_cost * static_cast<double>(num_parameters);
   }
+};
+
+// What a curve is made of.
+struct Explanation {
+  std::vector<Primitive> primitives;
+  FitCost cost;
 };
 
 struct Link {
   Shape shape;
-  double cost = kInfinity;  // of residuals
-  std::size_t num_parameters = 0;
-
-  double Total(double parameter_cost) const {
-    return cost + parameter_cost * static_cast<double>(num_parameters);
-  }
+  FitCost cost;
 };
 
 // The better of a line and an arc. The search is content with rough arcs.
 Link FitLink(FitSpan samples, double parameter_cost, bool is_rough) {
   Link best;
   if (const auto line = FitLine(samples)) {
-    best = {*line, CostOf(*line, samples), kLineParameters};
+    best = {*line, {CostOf(*line, samples), kLineParameters}};
     if (Explains(*line, samples)) return best;
   }
-  const double least = best.Total(parameter_cost);
+  const double least = best.cost.Total(parameter_cost);
   if (!(parameter_cost * kArcParameters < least)) return best;
   const auto arc = is_rough ? RoughCircle(samples) : FitCircle(samples);
   if (!arc) return best;
-  Link link = {*arc, CostOf(*arc, samples), kArcParameters};
-  if (!(link.Total(parameter_cost) < least) || GoesRound(*arc, samples)) {
+  Link link = {*arc, {CostOf(*arc, samples), kArcParameters}};
+  if (!(link.cost.Total(parameter_cost) < least) || GoesRound(*arc, samples)) {
     return best;
   }
   link.shape = Directed(*arc, samples);
@@ -114,12 +113,13 @@ std::vector<std::size_t> SearchJoints(const FitSamples& curve,
       }
       const Link link = FitLink(
           Part(thin, places[i], places[j]), parameter_cost / scale, true);
-      const double cost = least[i] + scale * link.Total(parameter_cost / scale);
+      const double cost =
+          least[i] + scale * link.cost.Total(parameter_cost / scale);
       if (cost < least[j]) {
         least[j] = cost;
         from[j] = i;
       }
-      if (scale * link.cost > hopeless) break;
+      if (scale * link.cost.residual > hopeless) break;
     }
   }
   std::vector<std::size_t> joints = {curve.size() - 1};
@@ -143,9 +143,9 @@ void MoveJoint(const FitSamples& curve,
   const std::size_t after = joints[k + 1];
   const auto cost = [&](std::size_t joint) {
     return FitLink(Part(curve, before, joint), parameter_cost, true)
-               .Total(parameter_cost) +
+               .cost.Total(parameter_cost) +
            FitLink(Part(curve, joint, after), parameter_cost, true)
-               .Total(parameter_cost);
+               .cost.Total(parameter_cost);
   };
   double least = cost(here);
   for (const std::size_t there : {here - std::min(step, here), here + step}) {
@@ -200,7 +200,7 @@ Explanation ChainPrimitives(const FitSamples& curve,
   if (closed && joints.size() == 2) return {};
   MoveJoints(samples, parameter_cost, joints);
   Explanation chain;
-  chain.residual_cost = 0;
+  chain.cost.residual = 0;
   for (std::size_t k = 1; k < joints.size(); ++k) {
     const Link link =
         FitLink(Part(samples, joints[k - 1], joints[k]), parameter_cost, false);
@@ -208,9 +208,9 @@ Explanation ChainPrimitives(const FitSamples& curve,
                                 (first + joints[k - 1]) % curve.size(),
                                 joints[k] - joints[k - 1] + 1,
                                 false});
-    chain.residual_cost += link.cost;
-    chain.num_parameters += link.num_parameters;
-    if (k > 1 || closed) chain.num_parameters -= kNodeParameters;
+    chain.cost.residual += link.cost.residual;
+    chain.cost.num_parameters += link.cost.num_parameters;
+    if (k > 1 || closed) chain.cost.num_parameters -= kNodeParameters;
   }
   return chain;
 }
@@ -227,10 +227,10 @@ struct Choice {
   // Whether an explanation with so many parameters could be better.
   bool CanWin(std::size_t num_parameters) const {
     return parameter_cost * static_cast<double>(num_parameters) <
-           best.Total(parameter_cost);
+           best.cost.Total(parameter_cost);
   }
   void Offer(Explanation other) {
-    if (other.Total(parameter_cost) < best.Total(parameter_cost)) {
+    if (other.cost.Total(parameter_cost) < best.cost.Total(parameter_cost)) {
       best = std::move(other);
     }
   }
@@ -258,8 +258,7 @@ void OfferSplines(const FitSamples& curve, bool closed, Choice& choice) {
     const std::optional<Spline> spline = FitSpline(samples, n, ends);
     if (!spline) continue;
     choice.Offer({{{*spline, 0, samples.size(), closed}},
-                  CostOf(*spline, samples),
-                  3 * n});
+                  {CostOf(*spline, samples), 3 * n}});
   }
 }
 
@@ -303,8 +302,8 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
     if (!primitive) continue;
     if (Explains(primitive->shape, curve)) return {*primitive};
     choice.Offer({{*primitive},
-                  CostOf(primitive->shape, curve),
-                  single.num_parameters + (primitive->closed ? 0 : 2)});
+                  {CostOf(primitive->shape, curve),
+                   single.num_parameters + (primitive->closed ? 0 : 2)}});
   }
   if (choice.CanWin(2 * kLineParameters - kNodeParameters)) {
     choice.Offer(ChainPrimitives(curve, closed, parameter_cost));

@@ -21,14 +21,14 @@ struct Observation {
   Vector3d row;
   double weight = 0;
   double variance = 0;          // independent of the others
-  Vector3d shared = {0, 0, 0};  // standard deviations, shape by shape
+  Vector3d shared = {0, 0, 0};  // standard deviations, mode by mode
 };
 
 // Of the parameters that least squares gives. A sum of squares, so that no
 // variance is below 0.
 Matrix3d CovarianceOf(const std::vector<Observation>& observations) {
   Matrix3d information = Matrix3d::Zero();
-  Matrix3d shared = Matrix3d::Zero();  // a column per shape
+  Matrix3d shared = Matrix3d::Zero();  // a column per mode
   for (const Observation& o : observations) {
     information += o.weight * o.row * o.row.transpose();
     shared += o.weight * o.row * o.shared.transpose();
@@ -43,8 +43,9 @@ Matrix3d CovarianceOf(const std::vector<Observation>& observations) {
   return covariance;
 }
 
-// At share x of the way along an arc, from -1 to 1, or at angle t.
-Vector3d Shapes(double x, double t, bool is_whole) {
+// The modes in which samples err together, at share x of the way along an arc,
+// from -1 to 1, or at angle t.
+Vector3d SharedModes(double x, double t, bool is_whole) {
   if (is_whole) return {1, std::cos(t), std::sin(t)};
   return {1, x, (3 * x * x - 1) / 2};
 }
@@ -162,7 +163,7 @@ PrimitiveEnd EndOf(const Shape& shape, const FitSamples& samples, bool at_end) {
   PrimitiveEnd end;
   end.sample = sample;
   const std::optional<SpaceEdge> foot = FootOn(shape, sample.position);
-  end.is_shape = foot.has_value();
+  end.fixes_node = foot.has_value();
   end.foot = foot ? foot->position : sample.position;
   end.tangent = foot ? foot->tangent : ChordAt(samples, at_end);
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
@@ -195,7 +196,7 @@ Eigen::Matrix3d MeetingCovariance(const std::vector<PrimitiveEnd>& ends,
     const Eigen::Matrix3d own = end.covariance.inverse();
     information += own;
     common = std::max(common, end.common);
-    if (!end.is_shape) continue;
+    if (!end.fixes_node) continue;
     const Eigen::Vector3d offset = position - end.foot;
     const Eigen::Vector3d off = offset - end.tangent.dot(offset) * end.tangent;
     missed += off.dot(own * off);
@@ -226,7 +227,8 @@ Eigen::Matrix<double, 7, 7> ArcCovariance(
     const double squared = (s.position - circle.At(t)).squaredNorm();
     const double weight = RobustWeight(squared, s.sigma, kNumRounds - 1);
     const double own = s.sigma * s.sigma - s.common * s.common;
-    const Vector3d shared = s.common * Shapes((t - middle) / half, t, is_whole);
+    const Vector3d shared =
+        s.common * SharedModes((t - middle) / half, t, is_whole);
     in_plane.push_back({frame.RowInPlane(t), weight, factor * own, shared});
     off_plane.push_back({frame.RowOffPlane(t), weight, factor * own, shared});
     sum += weight;

@@ -27,7 +27,7 @@ struct PrimitiveEnd {
   // which a corner bends edges.
   Eigen::Matrix3d covariance;  // positive definite; world units squared
   double common = 0;           // standard deviation of the shared errors
-  bool is_shape = false;       // of a line or conic, which fixes a node
+  bool fixes_node = false;     // it is of a line or conic
   int node = -1;               // index into the nodes; -1: the end is free
 };
 
@@ -50,7 +50,7 @@ struct UncertainPoint {
 // fitted to `samples` by least squares and made to pass through `points`.
 // Errors of the samples: their own, of which one in 4 px is independent and
 // which are taken as larger if the samples lie further from the circle; and, of
-// each sample's `common`, shapes that all samples share: a constant, a slope
+// each sample's `common`, modes that all samples share: a constant, a slope
 // and a bow, or a constant and a shift if the circle is whole, in the plane and
 // off it.
 Eigen::Matrix<double, 7, 7> ArcCovariance(

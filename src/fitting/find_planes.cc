@@ -84,11 +84,11 @@ class PlaneFinder {
  private:
   // Arcs, and pairs of lines that meet; the largest first.
   std::vector<Indices> Seeds() const {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> feature_of;
+    std::map<FitIndex, std::size_t> feature_of;
     std::vector<std::pair<double, Indices>> seeds;
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const LineOrArc& f = features_[i];
-      feature_of[{f.index.curve_idx, f.index.fit_idx}] = i;
+      feature_of[f.index] = i;
       if (f.is_arc()) seeds.push_back({f.size * Length(*f.fit), {i}});
     }
     for (const CurveNode& node : fitted_.nodes) {
@@ -217,8 +217,7 @@ class PlaneFinder {
     const Vector3d turned =
         (plane.frame * Vector3d(-solution.y(), -solution.z(), 1)).normalized();
     plane.frame =
-        Eigen::Quaterniond::FromTwoVectors(normal, turned).toRotationMatrix() *
-        plane.frame;
+        ShortestRotation(normal, turned).toRotationMatrix() * plane.frame;
     return plane;
   }
 

@@ -12,7 +12,7 @@
 #include "fitting/meet_in_nodes.h"
 #include "fitting/primitive.h"
 #include "fitting/structure.h"
-#include "geometry/posed_views.h"
+#include "model/posed_view.h"
 
 namespace curvix {
 namespace {

@@ -13,7 +13,7 @@
 namespace curvix {
 
 // Within these a fit may be said to agree with others: a share of its size, and
-// the angle to which main_axes.h wants directions known.
+// an angle, kKnownDeg of known_directions.h.
 constexpr double kNear = 0.01;
 constexpr double kNearAngle = DegToRad(1.5);
 

@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Times as much as the standard deviations of what they hold weigh relations:
-// they are met to a millionth of what a fit moves.
+// Weights of relations are kHard / sigma, against 1 / sigma of the
+// observations: relations are met to a millionth of what a fit moves.
 constexpr double kHard = 1e3;
 constexpr double kMaxAdjustmentSigmas = 3;
 
@@ -81,8 +81,6 @@ struct Shared {
   double radius = 0;
 };
 
-using FitKey = std::pair<std::size_t, std::size_t>;
-
 class Adjustment {
  public:
   explicit Adjustment(const FittedCurves& fitted)
@@ -106,9 +104,9 @@ class Adjustment {
     for (std::size_t k = 0; k < points_.size(); ++k) {
       Stay(points_[k].covariance, points_[k].position);
     }
-    for (auto& [key, arc] : arcs_) {
+    for (auto& [index, arc] : arcs_) {
       Stay(arc.covariance, arc.values);
-      const CurveFit& fit = FitOf(key);
+      const CurveFit& fit = FitOf(index);
       for (const int node : {fit.start_node, fit.end_node}) {
         if (node < 0) continue;
         Add(Auto<NodeOnArcCost, 2, 3, 6>({arc.normal, kHard / fit.sigma}),
@@ -142,8 +140,8 @@ class Adjustment {
   }
 
   // Fits that are, or end in, what has moved too far.
-  std::set<FitKey> MovedTooFar() const {
-    std::set<FitKey> far;
+  std::set<FitIndex> MovedTooFar() const {
+    std::set<FitIndex> far;
     const auto is_far = [](const auto& whitening, const auto& move) {
       return !((whitening * move).norm() <= kMaxAdjustmentSigmas);
     };
@@ -155,17 +153,17 @@ class Adjustment {
     }
     for (std::size_t c = 0; c < fitted_.curves.size(); ++c) {
       for (std::size_t f = 0; f < fitted_.curves[c].fits.size(); ++f) {
-        const FitKey key{c, f};
-        const auto arc = arcs_.find(key);
+        const FitIndex index{c, f};
+        const auto arc = arcs_.find(index);
         bool moved =
             arc != arcs_.end() &&
             is_far(Whitening(arc->second.covariance),
-                   (arc->second.values - arcs_before_.at(key).values).eval());
+                   (arc->second.values - arcs_before_.at(index).values).eval());
         for (const bool at_end : {false, true}) {
-          const auto end = end_points_.find({key, at_end});
+          const auto end = end_points_.find({index, at_end});
           if (end != end_points_.end()) moved |= point_is_far[end->second];
         }
-        if (moved) far.insert(key);
+        if (moved) far.insert(index);
       }
     }
     return far;
@@ -176,18 +174,18 @@ class Adjustment {
       fitted.nodes[n].position = points_[n].position;
     }
     for (const auto& [end, point] : end_points_) {
-      const auto& [key, at_end] = end;
-      CurveFit& fit = fitted.curves[key.first].fits[key.second];
+      const auto& [index, at_end] = end;
+      CurveFit& fit = fitted.curves[index.curve_idx].fits[index.fit_idx];
       (at_end ? fit.end : fit.start) = points_[point].position;
     }
-    for (const auto& [key, arc] : arcs_) {
-      WriteArc(arc, fitted.curves[key.first].fits[key.second]);
+    for (const auto& [index, arc] : arcs_) {
+      WriteArc(arc, fitted.curves[index.curve_idx].fits[index.fit_idx]);
     }
   }
 
  private:
-  const CurveFit& FitOf(const FitKey& key) const {
-    return fitted_.curves[key.first].fits[key.second];
+  const CurveFit& FitOf(const FitIndex& index) const {
+    return fitted_.curves[index.curve_idx].fits[index.fit_idx];
   }
 
   template <typename... Blocks>
@@ -202,14 +200,14 @@ class Adjustment {
   }
 
   // The nodes of a fit, and its free ends if it is a line, are points.
-  void AddFit(const FitKey& key, const CurveFit& fit) {
-    if (fit.kind == FitKind::kArc) arcs_.emplace(key, ArcOf(fit));
+  void AddFit(const FitIndex& index, const CurveFit& fit) {
+    if (fit.kind == FitKind::kArc) arcs_.emplace(index, ArcOf(fit));
     for (const bool at_end : {false, true}) {
       const int node = at_end ? fit.end_node : fit.start_node;
       if (node >= 0) {
-        end_points_[{key, at_end}] = static_cast<std::size_t>(node);
+        end_points_[{index, at_end}] = static_cast<std::size_t>(node);
       } else if (fit.kind == FitKind::kLine) {
-        end_points_[{key, at_end}] = points_.size();
+        end_points_[{index, at_end}] = points_.size();
         points_.push_back(
             at_end ? UncertainPoint{fit.end, WithoutSliding(fit.end_covariance)}
                    : UncertainPoint{fit.start,
@@ -218,19 +216,18 @@ class Adjustment {
     }
   }
 
-  double* EndOf(const FitKey& key, bool at_end) {
-    return points_[end_points_.at({key, at_end})].position.data();
+  double* EndOf(const FitIndex& index, bool at_end) {
+    return points_[end_points_.at({index, at_end})].position.data();
   }
 
   void AddMember(const FitGroup& group, const FitIndex& index, Shared& shared) {
-    const FitKey key{index.curve_idx, index.fit_idx};
-    const CurveFit& fit = FitOf(key);
+    const CurveFit& fit = FitOf(index);
     const bool is_arc = fit.kind == FitKind::kArc;
     const Chart direction(group.direction);
     const double weight = kHard / fit.sigma;
-    double* arc = is_arc ? arcs_.at(key).values.data() : nullptr;
+    double* arc = is_arc ? arcs_.at(index).values.data() : nullptr;
     std::vector<double*> positions = {arc};
-    if (!is_arc) positions = {EndOf(key, false), EndOf(key, true)};
+    if (!is_arc) positions = {EndOf(index, false), EndOf(index, true)};
     const double turn_weight =
         weight * (is_arc ? fit.major.norm() : (fit.end - fit.start).norm());
     if (group.kind == GroupKind::kEqualRadius) {
@@ -248,7 +245,7 @@ class Adjustment {
     }
     if (is_arc && (is_plane || is_parallel)) {
       Add(Auto<ArcAlongCost, 2, 6, 2>(
-              {arcs_.at(key).normal, direction, turn_weight}),
+              {arcs_.at(index).normal, direction, turn_weight}),
           arc,
           shared.turn.data());
     } else if (is_parallel) {
@@ -279,8 +276,7 @@ class Adjustment {
     Conic conic;
     conic.center = arc.values.head<3>();
     conic.a = conic.b = arc.values(5);
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(arc.normal.base, normal);
+    const Eigen::Quaterniond turn = ShortestRotation(arc.normal.base, normal);
     const Vector3d x = (turn * fit.major).normalized();
     conic.frame << x, normal.cross(x), normal;
     // Free ends go to their feet.
@@ -294,19 +290,19 @@ class Adjustment {
 
   const FittedCurves& fitted_;
   std::vector<UncertainPoint> points_, before_;
-  std::map<FitKey, Arc> arcs_, arcs_before_;
-  std::map<std::pair<FitKey, bool>, std::size_t> end_points_;
+  std::map<FitIndex, Arc> arcs_, arcs_before_;
+  std::map<std::pair<FitIndex, bool>, std::size_t> end_points_;
   std::vector<Shared> shared_;
   ceres::Problem problem_;
 };
 
 // Without these fits, and without groups that say nothing any more. False:
 // there was nothing to drop.
-bool Drop(const std::set<FitKey>& fits, FitStructure& structure) {
+bool Drop(const std::set<FitIndex>& fits, FitStructure& structure) {
   bool any = false;
   for (FitGroup& group : structure.groups) {
     any |= std::erase_if(group.fits, [&](const FitIndex& i) {
-             return fits.count({i.curve_idx, i.fit_idx}) > 0;
+             return fits.count(i) > 0;
            }) > 0;
   }
   std::erase_if(structure.perpendicular, [&](const PerpendicularGroups& p) {
@@ -339,7 +335,7 @@ void Regularize(FittedCurves& fitted) {
   while (!fitted.structure.groups.empty()) {
     Adjustment adjustment(fitted);
     adjustment.Solve();
-    const std::set<FitKey> far = adjustment.MovedTooFar();
+    const std::set<FitIndex> far = adjustment.MovedTooFar();
     if (far.empty() || !Drop(far, fitted.structure)) {
       if (far.empty()) adjustment.WriteTo(fitted);
       return;

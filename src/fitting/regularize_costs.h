@@ -11,7 +11,7 @@ namespace curvix {
 template <typename T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;
 template <typename T>
-using In = Eigen::Map<const Vector3<T>>;
+using Vector3Map = Eigen::Map<const Vector3<T>>;
 
 // A direction that turns about where it was: base + across * (p, q).
 struct Chart {
@@ -41,7 +41,8 @@ struct LineAlongCost {
 
   template <typename T>
   bool operator()(const T* start, const T* end, const T* turn, T* out) const {
-    direction.Across<T>(In<T>(end) - In<T>(start), turn, T(weight), out);
+    direction.Across<T>(
+        Vector3Map<T>(end) - Vector3Map<T>(start), turn, T(weight), out);
     return true;
   }
 };
@@ -82,7 +83,8 @@ struct OnPlaneCost {
                   const T* offset,
                   T* out) const {
     out[0] = T(weight) *
-             (normal.At(turn).dot(In<T>(position) - point.cast<T>()) - *offset);
+             (normal.At(turn).dot(Vector3Map<T>(position) - point.cast<T>()) -
+              *offset);
     return true;
   }
 };
@@ -100,7 +102,8 @@ struct OnAxisCost {
     const Vector3<T> through =
         point.cast<T>() + direction.across.cast<T>() *
                               Eigen::Map<const Eigen::Matrix<T, 2, 1>>(offset);
-    direction.Across<T>(In<T>(position) - through, turn, T(weight), out);
+    direction.Across<T>(
+        Vector3Map<T>(position) - through, turn, T(weight), out);
     return true;
   }
 };
@@ -122,7 +125,7 @@ struct NodeOnArcCost {
   template <typename T>
   bool operator()(const T* node, const T* arc, T* out) const {
     const Vector3<T> axis = normal.At(arc + 3).normalized();
-    const Vector3<T> offset = In<T>(node) - In<T>(arc);
+    const Vector3<T> offset = Vector3Map<T>(node) - Vector3Map<T>(arc);
     const T height = axis.dot(offset);
     out[0] = T(weight) * height;
     out[1] = T(weight) * ((offset - height * axis).norm() - arc[5]);

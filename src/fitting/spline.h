@@ -23,8 +23,7 @@ struct Spline {
 std::optional<Spline> FitSpline(
     FitSpan samples,
     std::size_t num_control_points,
-    const std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& ends =
-        std::nullopt);
+    const std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& ends);
 
 // Squared distances of the samples from the spline, each near its own place.
 std::vector<double> SquaredDistances(const Spline& spline, FitSpan samples);

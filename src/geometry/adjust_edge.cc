@@ -6,8 +6,6 @@
 #include <array>
 #include <span>
 
-#include "geometry/directions.h"
-
 namespace curvix {
 namespace {
 
@@ -27,8 +25,9 @@ NormalEquations Linearise(const EdgeEstimate& estimate,
   for (const PlaneMeasurement& m : measurements) {
     const SeenDistance distance = DistanceFrom(m, estimate.edge.position);
     const double weight = CauchyWeight(distance.px, sigma_px);
-    const Eigen::Vector2d gradient(distance.gradient.dot(estimate.across1),
-                                   distance.gradient.dot(estimate.across2));
+    const Eigen::Vector2d gradient(
+        distance.gradient.dot(estimate.across.col(0)),
+        distance.gradient.dot(estimate.across.col(1)));
     sum.matrix += weight * gradient * gradient.transpose();
     sum.vector += weight * distance.px * gradient;
     sum.weighted_squares += weight * distance.px * distance.px;
@@ -61,12 +60,6 @@ Eigen::Vector3d FitTangent(const EdgeEstimate& estimate,
   return tangent.dot(estimate.edge.tangent) < 0 ? -tangent : tangent;
 }
 
-void SetAxes(EdgeEstimate& estimate) {
-  const AcrossAxes axes = AxesAcross(estimate.edge.tangent);
-  estimate.across1 = axes.col(0);
-  estimate.across2 = axes.col(1);
-}
-
 }  // namespace
 
 PlaneMeasurement MeasurePlane(const PosedView& view, const ImageEdge& edge) {
@@ -78,15 +71,15 @@ EdgeEstimate AdjustEdge(const SpaceEdge& start,
                         double sigma_px) {
   EdgeEstimate estimate;
   estimate.edge = start;
-  SetAxes(estimate);
+  estimate.across = AxesAcross(estimate.edge.tangent);
   for (int i = 0; i < kNumIterations; ++i) {
     const NormalEquations sum = Linearise(estimate, measurements, sigma_px);
     const Eigen::Vector2d step = -(sum.matrix.inverse() * sum.vector);
     estimate.edge.position +=
-        step.x() * estimate.across1 + step.y() * estimate.across2;
+        step.x() * estimate.across.col(0) + step.y() * estimate.across.col(1);
   }
   estimate.edge.tangent = FitTangent(estimate, measurements, sigma_px);
-  SetAxes(estimate);
+  estimate.across = AxesAcross(estimate.edge.tangent);
   const NormalEquations sum = Linearise(estimate, measurements, sigma_px);
   const double spread2 = sum.weighted_squares / std::max(sum.weights, 1e-12);
   estimate.covariance =
@@ -100,7 +93,7 @@ EdgeEstimate EstimateAtMeeting(const SpaceEdge& edge,
                                double sigma_px) {
   EdgeEstimate estimate;
   estimate.edge = edge;
-  SetAxes(estimate);
+  estimate.across = AxesAcross(estimate.edge.tangent);
   const std::array measurements = {measurement1, measurement2};
   estimate.covariance =
       sigma_px * sigma_px *
@@ -115,8 +108,8 @@ double VarianceAcross(const PosedView& view,
   const Eigen::Vector3d plane = EdgePlane(view, projected);
   const double depth =
       view.rotation.row(2).dot(estimate.edge.position - view.center);
-  const Eigen::Vector2d gradient(plane.dot(estimate.across1) / depth,
-                                 plane.dot(estimate.across2) / depth);
+  const Eigen::Vector2d gradient(plane.dot(estimate.across.col(0)) / depth,
+                                 plane.dot(estimate.across.col(1)) / depth);
   return gradient.dot(estimate.covariance * gradient);
 }
 

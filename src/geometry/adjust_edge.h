@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "geometry/directions.h"
 #include "geometry/edge_geometry.h"
 #include "model/posed_view.h"
 
@@ -43,10 +44,10 @@ inline double CauchyWeight(double distance_px, double sigma_px) {
 }
 
 // An estimate and how well it is known: `covariance` of the position across the
-// tangent, on the axes `across1`, `across2`, world units squared.
+// tangent, on the axes `across`, world units squared.
 struct EdgeEstimate {
   SpaceEdge edge;
-  Eigen::Vector3d across1, across2;  // unit, orthogonal to the tangent
+  AcrossAxes across;  // of edge.tangent
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 

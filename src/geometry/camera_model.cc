@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 #include <curvix/scene.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -244,6 +245,16 @@ Eigen::Matrix2d ImageFromIdealJacobian(const Camera& camera,
                                        const Eigen::Vector2d& uv) {
   const Pinhole pinhole = PinholeOf(camera);
   return pinhole.focal.matrix().asDiagonal() * Linearize(camera, uv).jacobian;
+}
+
+std::optional<Eigen::Vector2d> Project(const Camera& camera,
+                                       const Rigid3& cam_from_world,
+                                       const Eigen::Vector3d& position) {
+  const Eigen::Vector3d x = cam_from_world * position;
+  if (!(x.z() > 0)) return std::nullopt;
+  const Eigen::Vector2d pixel = ImageFromIdeal(camera, x.hnormalized());
+  if (!pixel.allFinite()) return std::nullopt;
+  return pixel;
 }
 
 }  // namespace curvix

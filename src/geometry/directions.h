@@ -31,6 +31,11 @@ inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+// The rotation by the least angle that brings the direction of `from` to that
+// of `to`; the vectors may have any length but 0.
+Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from,
+                                    const Eigen::Vector3d& to);
+
 // By |turn| about `turn`.
 inline Eigen::Quaterniond RotationBy(const Eigen::Vector3d& turn) {
   const double angle = turn.norm();

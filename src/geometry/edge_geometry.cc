@@ -7,7 +7,7 @@
 namespace curvix {
 
 Eigen::Vector3d EdgePlane(const PosedView& view, const ImageEdge& edge) {
-  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
+  const Eigen::Vector2d normal = edge.Normal();
   const Eigen::Vector3d line(
       normal.x(), normal.y(), -normal.dot(edge.position));
   return view.rotation.transpose() * (view.calibration.transpose() * line);

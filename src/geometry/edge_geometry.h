@@ -14,6 +14,9 @@ namespace curvix {
 struct ImageEdge {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
   Eigen::Vector2d tangent = Eigen::Vector2d::UnitX();
+
+  // The tangent, turned from x to y by 90 degrees.
+  Eigen::Vector2d Normal() const { return {-tangent.y(), tangent.x()}; }
 };
 
 // An oriented edge in space. `tangent` is unit and sign-free.
@@ -25,7 +28,7 @@ struct SpaceEdge {
 // The plane through the camera centre and an edge's tangent line, as the vector
 // w for which w . (X - center) / depth(X) is the signed distance, in pixels, of
 // the projection of X from the tangent line, positive on the side to which
-// (-tangent.y, tangent.x) points.
+// edge.Normal() points.
 Eigen::Vector3d EdgePlane(const PosedView& view, const ImageEdge& edge);
 
 // The edge in space whose projections are edge1 and edge2. The position lies on

@@ -44,16 +44,6 @@ Eigen::Vector3d Step(const Eigen::Vector3d& position,
 
 }  // namespace
 
-std::optional<Eigen::Vector2d> Project(const Camera& camera,
-                                       const Rigid3& cam_from_world,
-                                       const Eigen::Vector3d& position) {
-  const Eigen::Vector3d x = cam_from_world * position;
-  if (!(x.z() > 0)) return std::nullopt;
-  const Eigen::Vector2d pixel = ImageFromIdeal(camera, x.hnormalized());
-  if (!pixel.allFinite()) return std::nullopt;
-  return pixel;
-}
-
 Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
                          const std::vector<PointInImage>& seen) {
   constexpr int kMaxNumSteps = 20;

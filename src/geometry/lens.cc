@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/median.h"
 #include "geometry/distortion.h"
 
 namespace curvix {
@@ -33,11 +34,6 @@ std::vector<Eigen::Vector2d> IdealGrid(const Camera& camera) {
   return grid;
 }
 
-std::size_t NumUsed(const Camera& camera) {
-  return std::min(camera.params.size(),
-                  static_cast<std::size_t>(LensChange::SizeAtCompileTime));
-}
-
 // What a model is a special case of.
 constexpr std::array<std::pair<CameraModel, CameraModel>, 7> kMoreTerms = {
     {{CameraModel::kSimplePinhole, CameraModel::kSimpleRadial},
@@ -49,12 +45,12 @@ constexpr std::array<std::pair<CameraModel, CameraModel>, 7> kMoreTerms = {
      {CameraModel::kRadialFisheye, CameraModel::kOpenCVFisheye}}};
 
 // One parameter changed. The second focal length keeps its ratio to the first.
-Camera WithStep(Camera camera, std::size_t param_idx, double step) {
+Camera WithStep(Camera camera, int param_idx, double step) {
   std::vector<double>& params = camera.params;
   if (param_idx == 0 && NumFocalLengths(camera.model) == 2) {
     params[1] *= 1 + step / params[0];
   }
-  params[param_idx] += step;
+  params[static_cast<std::size_t>(param_idx)] += step;
   return camera;
 }
 
@@ -107,7 +103,7 @@ std::optional<ImageEdge> CarryEdge(const ImageEdge& edge,
 
 Lens::Lens(const Camera& start) : start_(start) {
   const std::vector<Eigen::Vector2d> grid = IdealGrid(start);
-  for (std::size_t i = 0; i < NumUsed(start); ++i) {
+  for (int i = 0; i < num_used(); ++i) {
     const Camera changed = WithStep(start, i, kSmallChange);
     double largest_px = 0;
     for (const Eigen::Vector2d& ideal : grid) {
@@ -115,10 +111,13 @@ Lens::Lens(const Camera& start) : start_(start) {
           ImageFromIdeal(changed, ideal) - ImageFromIdeal(start, ideal);
       largest_px = std::max(largest_px, shift.norm());
     }
-    if (largest_px > 0) {
-      units_[static_cast<Eigen::Index>(i)] = kSmallChange / largest_px;
-    }
+    if (largest_px > 0) units_[i] = kSmallChange / largest_px;
   }
+}
+
+int Lens::num_used() const {
+  return std::min(static_cast<int>(start_.params.size()),
+                  static_cast<int>(LensChange::SizeAtCompileTime));
 }
 
 std::optional<Eigen::Index> Lens::AspectRatioIndex() const {
@@ -128,9 +127,8 @@ std::optional<Eigen::Index> Lens::AspectRatioIndex() const {
 
 Camera Lens::Changed(const LensChange& change) const {
   Camera camera = start_;
-  for (std::size_t i = 0; i < NumUsed(start_); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    camera = WithStep(std::move(camera), i, units_[k] * change[k]);
+  for (int i = 0; i < num_used(); ++i) {
+    camera = WithStep(std::move(camera), i, units_[i] * change[i]);
   }
   return camera;
 }
@@ -138,14 +136,34 @@ Camera Lens::Changed(const LensChange& change) const {
 LensChange Lens::ChangeTo(const Camera& camera) const {
   LensChange change = LensChange::Zero();
   Camera changed = start_;
-  for (std::size_t i = 0; i < NumUsed(start_); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    if (!(units_[k] > 0)) continue;
-    const double step = camera.params[i] - changed.params[i];
-    change[k] = step / units_[k];
+  for (int i = 0; i < num_used(); ++i) {
+    if (!(units_[i] > 0)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const double step = camera.params[k] - changed.params[k];
+    change[i] = step / units_[i];
     changed = WithStep(std::move(changed), i, step);
   }
   return change;
+}
+
+double ShiftOfImage(const Camera& from, const Camera& to) {
+  constexpr int kSteps = 10;
+  const Eigen::Vector2d size(from.width, from.height);
+  const auto shift_at = [&](const Eigen::Vector2d& pixel) {
+    const auto ideal = IdealFromImage(from, pixel);
+    return ideal ? Eigen::Vector2d(ImageFromIdeal(to, *ideal) - pixel)
+                 : Eigen::Vector2d(0, 0);
+  };
+  const Eigen::Vector2d middle = shift_at(size / 2);
+  std::vector<double> shifts;
+  for (int y = 0; y <= kSteps; ++y) {
+    for (int x = 0; x <= kSteps; ++x) {
+      const Eigen::Vector2d pixel =
+          Eigen::Array2d(x, y) / kSteps * size.array();
+      shifts.push_back((shift_at(pixel) - middle).norm());
+    }
+  }
+  return MedianOrNan(std::move(shifts));
 }
 
 Camera WithMoreTerms(const Camera& camera) {

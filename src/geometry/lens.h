@@ -44,6 +44,9 @@ class Lens {
   // `start` must be valid.
   explicit Lens(const Camera& start);
 
+  // How many of the changes are used.
+  int num_used() const;
+
   Camera Changed(const LensChange& change) const;
 
   // The change that makes `camera`, which has the model of `start`, of it.
@@ -57,8 +60,13 @@ class Lens {
   LensChange units_ = LensChange::Zero();  // parameter per px
 };
 
+// By how much pixels shift from one camera to the other, once both look the
+// same way at the middle of the image: the median over the image, which has the
+// same size in both.
+double ShiftOfImage(const Camera& from, const Camera& to);
+
 // The same camera by the next of COLMAP's models that has all of its terms and
-// more: SIMPLE_PINHOLE and PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV; or
+// more: SIMPLE_PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV; PINHOLE, OPENCV; or
 // SIMPLE_FISHEYE, SIMPLE_RADIAL_FISHEYE, RADIAL_FISHEYE, OPENCV_FISHEYE. As it
 // is, if there is none.
 Camera WithMoreTerms(const Camera& camera);

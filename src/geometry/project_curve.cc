@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "geometry/camera_of.h"
-
 namespace curvix {
 namespace {
 

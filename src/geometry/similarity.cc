@@ -44,11 +44,6 @@ Eigen::Quaterniond MeanRotation(const std::vector<Rigid3>& from,
                                             svd.matrixV().transpose()));
 }
 
-// The scale of the similarity with any rotation that brings `a` nearest to `b`.
-double BestScale(const Points& a, const Points& b) {
-  return Eigen::umeyama(a, b, true).block<3, 1>(0, 0).norm();
-}
-
 }  // namespace
 
 Rigid3 MovePose(const Similarity3& b_from_a, const Rigid3& cam_from_a) {
@@ -56,6 +51,15 @@ Rigid3 MovePose(const Similarity3& b_from_a, const Rigid3& cam_from_a) {
   const Eigen::Quaterniond rotation =
       (cam_from_a.rotation * b_from_a.rotation.conjugate()).normalized();
   return {rotation, rotation * -center};
+}
+
+Similarity3 AlignPoints(const Points& from, const Points& to) {
+  const Eigen::Matrix4d to_from = Eigen::umeyama(from, to, true);
+  Similarity3 result;
+  result.scale = to_from.block<3, 1>(0, 0).norm();
+  result.rotation = Eigen::Matrix3d(to_from.block<3, 3>(0, 0) / result.scale);
+  result.translation = to_from.block<3, 1>(0, 3);
+  return result;
 }
 
 std::optional<Similarity3> AlignPoses(const std::vector<Rigid3>& from,
@@ -74,7 +78,7 @@ std::optional<Similarity3> AlignPoses(const std::vector<Rigid3>& from,
   if (!is_place) {
     const Points turned = result.rotation.toRotationMatrix() * centered_a;
     if (!(turned.cwiseProduct(centered_b).sum() > 0)) return std::nullopt;
-    result.scale = BestScale(centered_a, centered_b);
+    result.scale = AlignPoints(centered_a, centered_b).scale;
   }
   const Eigen::Vector3d mean_a = a.rowwise().mean();
   const Eigen::Vector3d mean_b = b.rowwise().mean();

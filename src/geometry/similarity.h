@@ -32,13 +32,18 @@ struct Similarity3 {
 // seen from the camera change by the scale, its images do not.
 Rigid3 MovePose(const Similarity3& b_from_a, const Rigid3& cam_from_a);
 
+// The least squares similarity from the points `from` to the points `to`
+// (Umeyama 1991); columns with the same index are of one point. Points on a
+// line leave the rotation about it open.
+Similarity3 AlignPoints(const Eigen::Matrix3Xd& from,
+                        const Eigen::Matrix3Xd& to);
+
 // The similarity that brings the cameras of `from` back to those of `to`; two
 // poses with the same index are of one camera. The rotation is the mean of the
 // rotations between the cameras: it keeps the images in place where centres
 // on a line, or in a small part of space, tell little about it. The scale is
-// the one of the least squares similarity between the centres (Umeyama 1991),
-// or 1 where they coincide in both sets. The translation brings the means of
-// the centres together.
+// the one of AlignPoints between the centres, or 1 where they coincide in both
+// sets. The translation brings the means of the centres together.
 // nullopt: no poses, not finite, or the centres contradict each other (they
 // coincide in one of the sets only, or point the other way).
 std::optional<Similarity3> AlignPoses(const std::vector<Rigid3>& from,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,12 +22,6 @@ namespace {
 constexpr char kFrameLayer[] = "FRAME";
 constexpr char kPhotographLayer[] = "PHOTOGRAPH";
 constexpr char kDimensionsLayer[] = "DIMENSIONS";
-
-// What an entity is drawn with.
-struct Pen {
-  const char* layer;
-  bool dashed = false;
-};
 
 std::vector<DrawingLayer> KindLayers() {
   return {kDrawingLayers.begin(), kDrawingLayers.end()};
@@ -54,8 +49,9 @@ double AngleIn(const Eigen::Matrix3d& frame, const Eigen::Vector3d& offset) {
   return angle < 0 ? angle + 360 : angle;
 }
 
-void PutArc(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
-  w.BeginEntity(fit.closed ? "CIRCLE" : "ARC", pen.layer, pen.dashed);
+void PutArc(const CurveFit& fit, bool dashed, DxfWriter& w) {
+  w.BeginEntity(
+      fit.closed ? "CIRCLE" : "ARC", LayerOf(fit.curve_kind).name, dashed);
   const Eigen::Vector3d normal = fit.major.cross(fit.minor).normalized();
   const Eigen::Matrix3d frame = FrameOfNormal(normal);
   w.Put(100, "AcDbCircle");
@@ -68,8 +64,8 @@ void PutArc(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
   w.Put(51, AngleIn(frame, PointAt(fit, 1) - fit.center));
 }
 
-void PutEllipse(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
-  w.BeginEntity("ELLIPSE", pen.layer, pen.dashed);
+void PutEllipse(const CurveFit& fit, bool dashed, DxfWriter& w) {
+  w.BeginEntity("ELLIPSE", LayerOf(fit.curve_kind).name, dashed);
   w.Put(100, "AcDbEllipse");
   w.Put(10, fit.center);
   w.Put(11, fit.major);
@@ -79,9 +75,9 @@ void PutEllipse(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
   w.Put(42, fit.closed ? 2 * kPi : fit.end_angle);
 }
 
-void PutSpline(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
+void PutSpline(const CurveFit& fit, bool dashed, DxfWriter& w) {
   constexpr int kDegree = 3;
-  w.BeginEntity("SPLINE", pen.layer, pen.dashed);
+  w.BeginEntity("SPLINE", LayerOf(fit.curve_kind).name, dashed);
   w.Put(100, "AcDbSpline");
   w.Put(210, Eigen::Vector3d(0, 0, 1));
   w.Put(70, fit.closed ? 1 : 0);
@@ -96,24 +92,30 @@ void PutSpline(const CurveFit& fit, const Pen& pen, DxfWriter& w) {
 }
 
 void PutFit(const CurveFit& fit, bool dashed, DxfWriter& w) {
-  const Pen pen{LayerOf(fit.curve_kind).name, dashed};
   switch (fit.kind) {
     case FitKind::kLine:
-      w.BeginEntity("LINE", pen.layer, pen.dashed);
+      w.BeginEntity("LINE", LayerOf(fit.curve_kind).name, dashed);
       w.Put(100, "AcDbLine");
       w.Put(10, fit.start);
       w.Put(11, fit.end);
       return;
     case FitKind::kArc:
-      return PutArc(fit, pen, w);
+      return PutArc(fit, dashed, w);
     case FitKind::kEllipse:
-      return PutEllipse(fit, pen, w);
+      return PutEllipse(fit, dashed, w);
     case FitKind::kSpline:
-      return PutSpline(fit, pen, w);
+      return PutSpline(fit, dashed, w);
   }
 }
 
-// Characters beyond ASCII as \U+00E4, which every code page has.
+// Appends a unit of UTF-16 as \U+00E4, which every code page has.
+void AppendEscape(unsigned unit, std::string& out) {
+  std::array<char, 16> text;
+  std::snprintf(text.data(), text.size(), "\\U+%04X", unit);
+  out += text.data();
+}
+
+// With escapes for the characters beyond ASCII.
 std::string DxfText(std::string_view utf8) {
   std::string out;
   for (std::size_t i = 0; i < utf8.size();) {
@@ -127,9 +129,12 @@ std::string DxfText(std::string_view utf8) {
     for (int k = 0; k < num_more && i < utf8.size(); ++k) {
       code = code << 6U | (static_cast<unsigned char>(utf8[i++]) & 0x3fU);
     }
-    std::array<char, 16> text;
-    std::snprintf(text.data(), text.size(), "\\U+%04X", code);
-    out += text.data();
+    if (code >= 0x10000) {
+      code -= 0x10000;
+      AppendEscape(0xd800 + (code >> 10U), out);
+      code = 0xdc00 + (code & 0x3ffU);
+    }
+    AppendEscape(code, out);
   }
   return out;
 }
@@ -162,12 +167,23 @@ std::string PutImage(const SheetPicture& picture, DxfWriter& w) {
   return handle;
 }
 
-void PutText(const Sheet& sheet, const SheetText& text, DxfWriter& w) {
-  w.BeginEntity("TEXT", kFrameLayer);
+// With an angle, the text is centred above its start.
+void PutText(const Sheet& sheet,
+             const SheetText& text,
+             const char* layer,
+             std::optional<double> angle,
+             DxfWriter& w) {
+  w.BeginEntity("TEXT", layer);
   w.Put(100, "AcDbText");
-  w.Put(10, OnSheet(sheet.FromPaper(text.start)));
+  const Eigen::Vector3d at = OnSheet(sheet.FromPaper(text.start));
+  w.Put(10, at);
   w.Put(40, text.height / sheet.scale);
   w.Put(1, DxfText(text.text));
+  if (angle) {
+    w.Put(50, RadToDeg(*angle));
+    w.Put(72, 1);
+    w.Put(11, at);
+  }
   w.Put(100, "AcDbText");
 }
 
@@ -191,16 +207,7 @@ std::vector<DxfBlock> BlocksOf(const Sheet& sheet, DxfWriter& w) {
     for (const SheetLine& line : marks.lines) {
       PutLine(sheet, line, kDimensionsLayer, w);
     }
-    w.BeginEntity("TEXT", kDimensionsLayer);
-    w.Put(100, "AcDbText");
-    const Eigen::Vector3d at = OnSheet(sheet.FromPaper(marks.text.start));
-    w.Put(10, at);
-    w.Put(40, marks.text.height / sheet.scale);
-    w.Put(1, DxfText(marks.text.text));
-    w.Put(50, RadToDeg(marks.angle));
-    w.Put(72, 1);
-    w.Put(11, at);
-    w.Put(100, "AcDbText");
+    PutText(sheet, marks.text, kDimensionsLayer, marks.angle, w);
     blocks.push_back(
         {"*D" + std::to_string(blocks.size() + 1), handle, w.Take()});
   }
@@ -252,8 +259,7 @@ void EncodeDxfDrawing(const FittedCurves& fitted,
     next_handle += static_cast<int>(curve.fits.size());
   }
   sink(DxfHeader(next_handle, unit, 1, nullptr));
-  w.Put(0, "SECTION");
-  w.Put(2, "ENTITIES");
+  w.BeginSection("ENTITIES");
   for (const FittedCurve& curve : fitted.curves) {
     for (const CurveFit& fit : curve.fits) PutFit(fit, false, w);
     sink(w.Take());
@@ -277,8 +283,7 @@ std::string EncodeDxfSheet(const Sheet& sheet) {
       mm,
       blocks,
       w);
-  w.Put(0, "SECTION");
-  w.Put(2, "ENTITIES");
+  w.BeginSection("ENTITIES");
   DxfPicture picture;
   if (sheet.picture) {
     picture = {DxfText(sheet.picture->file),
@@ -292,7 +297,9 @@ std::string EncodeDxfSheet(const Sheet& sheet) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     PutDimension(sheet, sheet.dimensions[i], blocks[i].name, w);
   }
-  for (const SheetText& text : sheet.texts) PutText(sheet, text, w);
+  for (const SheetText& text : sheet.texts) {
+    PutText(sheet, text, kFrameLayer, std::nullopt, w);
+  }
   w.Put(0, "ENDSEC");
   PutDxfObjects(sheet.picture ? &picture : nullptr, w);
   // mm on the paper to drawing units.

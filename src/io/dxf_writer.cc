@@ -170,16 +170,8 @@ void PutDimensionStyles(double mm, DxfWriter& w) {
   w.Put(0, "ENDTAB");
 }
 
-std::vector<DxfBlock> AndSpaces(const std::vector<DxfBlock>& blocks) {
-  std::vector<DxfBlock> all = {{"*Model_Space", kModelSpace, ""},
-                               {"*Paper_Space", kPaperSpace, ""}};
-  all.insert(all.end(), blocks.begin(), blocks.end());
-  return all;
-}
-
 void PutBlocks(const std::vector<DxfBlock>& blocks, DxfWriter& w) {
-  w.Put(0, "SECTION");
-  w.Put(2, "BLOCKS");
+  w.BeginSection("BLOCKS");
   const auto begin = [&](const char* type, const std::string& record) {
     w.Put(0, type);
     w.PutHandle();
@@ -188,7 +180,7 @@ void PutBlocks(const std::vector<DxfBlock>& blocks, DxfWriter& w) {
     if (record == kPaperSpace) w.Put(67, 1);
     w.Put(8, "0");
   };
-  for (const auto& [name, record, entities] : AndSpaces(blocks)) {
+  for (const auto& [name, record, entities] : blocks) {
     begin("BLOCK", record);
     w.Put(100, "AcDbBlockBegin");
     w.Put(2, name);
@@ -265,6 +257,11 @@ void DxfWriter::Put(int code, double value) {
   Put(code, text);
 }
 
+void DxfWriter::BeginSection(const char* name) {
+  Put(0, "SECTION");
+  Put(2, name);
+}
+
 std::string DxfWriter::PutHandle() {
   std::string handle = NewHandle();
   Put(5, handle);
@@ -293,8 +290,10 @@ void PutDxfTables(const std::vector<DrawingLayer>& layers,
                   double mm,
                   const std::vector<DxfBlock>& blocks,
                   DxfWriter& w) {
-  w.Put(0, "SECTION");
-  w.Put(2, "TABLES");
+  std::vector<DxfBlock> all = {{"*Model_Space", kModelSpace, ""},
+                               {"*Paper_Space", kPaperSpace, ""}};
+  all.insert(all.end(), blocks.begin(), blocks.end());
+  w.BeginSection("TABLES");
   PutViewport(view, w);
   PutLineTypes(kDash * mm, kDashGap * mm, w);
   PutLayers(layers, w);
@@ -309,7 +308,6 @@ void PutDxfTables(const std::vector<DrawingLayer>& layers,
   w.Put(70, 0);
   w.Put(0, "ENDTAB");
   PutDimensionStyles(mm, w);
-  const std::vector<DxfBlock> all = AndSpaces(blocks);
   BeginTable("BLOCK_RECORD", kBlockRecords, static_cast<int>(all.size()), w);
   for (const DxfBlock& block : all) {
     BeginRecord("BLOCK_RECORD",
@@ -322,12 +320,11 @@ void PutDxfTables(const std::vector<DrawingLayer>& layers,
   }
   w.Put(0, "ENDTAB");
   w.Put(0, "ENDSEC");
-  PutBlocks(blocks, w);
+  PutBlocks(all, w);
 }
 
 void PutDxfObjects(const DxfPicture* picture, DxfWriter& w) {
-  w.Put(0, "SECTION");
-  w.Put(2, "OBJECTS");
+  w.BeginSection("OBJECTS");
   BeginDictionary("C", "0", w);
   w.Put(3, "ACAD_GROUP");
   w.Put(350, "D");
@@ -360,8 +357,7 @@ std::string DxfHeader(int next_handle,
                       double mm,
                       const DxfPaper* paper) {
   DxfWriter w;
-  w.Put(0, "SECTION");
-  w.Put(2, "HEADER");
+  w.BeginSection("HEADER");
   w.Put(9, "$ACADVER");
   w.Put(1, "AC1015");
   w.Put(9, "$HANDSEED");
@@ -383,8 +379,7 @@ std::string DxfHeader(int next_handle,
     w.Put(40, paper->scale);
   }
   w.Put(0, "ENDSEC");
-  w.Put(0, "SECTION");
-  w.Put(2, "CLASSES");
+  w.BeginSection("CLASSES");
   PutClass("ACDBDICTIONARYWDFLT", "AcDbDictionaryWithDefault", false, w);
   PutClass("IMAGE", "AcDbRasterImage", true, w);
   PutClass("IMAGEDEF", "AcDbRasterImageDef", false, w);

@@ -25,6 +25,7 @@ class DxfWriter {
   void Put(int code, const Eigen::Vector2d& v) {
     for (int i = 0; i < 2; ++i) Put(code + 10 * i, v[i]);
   }
+  void BeginSection(const char* name);
   // The start of an entity in model space, of the type of lines of its layer,
   // or dashed.
   void BeginEntity(const char* type, const char* layer, bool dashed = false);

@@ -3,10 +3,10 @@
 // their head (stage_file.h) hold the number of 2D edges of the part's own
 // views, of 3D edges in its core, and of curves (8 bytes each); the number of
 // bytes of each curve (8 bytes each); per curve: closed (1 byte), number of
-// samples; per sample the fields of a 3D edge
-// (stage_io.cc) and its covariance (6 doubles: the upper triangle, row by row);
-// number of 2D edges behind it, to which its supports refer, as in stage_io.cc
-// but for neighbours.
+// samples; per sample the fields of a 3D edge (EdgeFields), its covariance (6
+// doubles: the upper triangle, row by row), its kind (1 byte) and the
+// probability of that (float); number of 2D edges behind the curve, to which
+// its supports refer, these as in stage_io.cc but for neighbours.
 #include <cstddef>
 #include <cstdint>
 #include <istream>

@@ -18,18 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The columns of `element` with these names; nothing if one is missing.
-std::optional<std::vector<std::size_t>> FindScalars(
-    const PlyElement& element, const std::vector<std::string_view>& names) {
-  std::vector<std::size_t> columns;
-  for (const std::string_view name : names) {
-    const std::optional<std::size_t> column = FindScalar(element, name);
-    if (!column) return std::nullopt;
-    columns.push_back(*column);
-  }
-  return columns;
-}
-
 Status NoColumns(const std::string& what) {
   return Status::Unsupported("the PLY has no " + what +
                              ", so it is not a set of lines; a point " +

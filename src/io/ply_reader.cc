@@ -11,6 +11,13 @@
 #include "base/text_fields.h"
 
 namespace curvix {
+
+struct PlyScalar {
+  std::string_view name, other_name;
+  std::size_t size;  // bytes
+  double (*load)(const char* bytes, std::endian order);
+};
+
 namespace {
 
 template <typename T>
@@ -18,14 +25,7 @@ double Load(const char* bytes, std::endian order) {
   return static_cast<double>(LoadBytes<T>(bytes, order));
 }
 
-struct TypeRow {
-  std::string_view name, other_name;
-  std::size_t size;  // bytes
-  double (*load)(const char* bytes, std::endian order);
-};
-
-// In the order of PlyType.
-constexpr std::array<TypeRow, 8> kTypes = {
+constexpr std::array<PlyScalar, 8> kScalars = {
     {{"char", "int8", 1, Load<std::int8_t>},
      {"uchar", "uint8", 1, Load<std::uint8_t>},
      {"short", "int16", 2, Load<std::int16_t>},
@@ -35,17 +35,12 @@ constexpr std::array<TypeRow, 8> kTypes = {
      {"float", "float32", 4, Load<float>},
      {"double", "float64", 8, Load<double>}}};
 
-const TypeRow& RowOf(PlyType type) {
-  return kTypes[static_cast<std::size_t>(type)];
-}
-
-std::optional<PlyType> TypeOf(std::string_view name) {
-  for (std::size_t i = 0; i < kTypes.size(); ++i) {
-    if (name == kTypes[i].name || name == kTypes[i].other_name) {
-      return static_cast<PlyType>(i);
-    }
+// Null if there is none.
+const PlyScalar* TypeOf(std::string_view name) {
+  for (const PlyScalar& scalar : kScalars) {
+    if (name == scalar.name || name == scalar.other_name) return &scalar;
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 std::optional<PlyFormat> FormatOf(std::string_view name) {
@@ -69,13 +64,12 @@ std::optional<PlyProperty> ParseProperty(std::string_view words) {
   std::string_view type_name = TakeWord(words);
   if (type_name == "list") {
     property.count_type = TypeOf(TakeWord(words));
-    if (!property.count_type) return std::nullopt;
+    if (property.count_type == nullptr) return std::nullopt;
     type_name = TakeWord(words);
   }
-  const std::optional<PlyType> type = TypeOf(type_name);
+  property.type = TypeOf(type_name);
   property.name = TakeWord(words);
-  if (!type || property.name.empty()) return std::nullopt;
-  property.type = *type;
+  if (property.type == nullptr || property.name.empty()) return std::nullopt;
   return property;
 }
 
@@ -105,19 +99,23 @@ bool ParseHeaderLine(std::string_view line, PlyHeader& header) {
   return false;
 }
 
-std::optional<double> TakeScalar(PlyType type,
+// What comes first in a row: the scalar, or the length of the list.
+const PlyScalar& FirstType(const PlyProperty& property) {
+  return property.count_type != nullptr ? *property.count_type : *property.type;
+}
+
+std::optional<double> TakeScalar(const PlyScalar& type,
                                  PlyFormat format,
                                  std::string_view& body) {
   if (format == PlyFormat::kAscii) {
     return ParseNumber<double>(TakeWord(body));
   }
-  const TypeRow& row = RowOf(type);
-  if (body.size() < row.size) return std::nullopt;
+  if (body.size() < type.size) return std::nullopt;
   const double value =
-      row.load(body.data(),
-               format == PlyFormat::kBinaryBigEndian ? std::endian::big
-                                                     : std::endian::little);
-  body.remove_prefix(row.size);
+      type.load(body.data(),
+                format == PlyFormat::kBinaryBigEndian ? std::endian::big
+                                                      : std::endian::little);
+  body.remove_prefix(type.size);
   return value;
 }
 
@@ -128,7 +126,7 @@ bool SkipListItems(const PlyProperty& property,
   // Every item takes at least a byte.
   if (!(count >= 0 && count <= static_cast<double>(body.size()))) return false;
   for (auto left = static_cast<std::uint64_t>(count); left > 0; --left) {
-    if (!TakeScalar(property.type, format, body)) return false;
+    if (!TakeScalar(*property.type, format, body)) return false;
   }
   return true;
 }
@@ -140,11 +138,12 @@ bool TakeRow(const PlyElement& element,
              std::vector<double>& row) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& property = element.properties[i];
-    const PlyType type = property.count_type.value_or(property.type);
-    const std::optional<double> value = TakeScalar(type, format, body);
+    const std::optional<double> value =
+        TakeScalar(FirstType(property), format, body);
     if (!value) return false;
     row[i] = *value;
-    if (property.count_type && !SkipListItems(property, *value, format, body)) {
+    if (property.count_type != nullptr &&
+        !SkipListItems(property, *value, format, body)) {
       return false;
     }
   }
@@ -157,7 +156,7 @@ std::uint64_t MinRowBytes(const PlyElement& element, PlyFormat format) {
   for (const PlyProperty& property : element.properties) {
     bytes += format == PlyFormat::kAscii
                  ? 2  // a digit and the blank or line end after it
-                 : RowOf(property.count_type.value_or(property.type)).size;
+                 : FirstType(property).size;
   }
   return bytes;
 }
@@ -186,13 +185,19 @@ Result<PlyHeader> TakePlyHeader(std::string_view& bytes) {
       "the PLY header has no end_header; the file is truncated");
 }
 
-std::optional<std::size_t> FindScalar(const PlyElement& element,
-                                      std::string_view name) {
-  for (std::size_t i = 0; i < element.properties.size(); ++i) {
-    const PlyProperty& property = element.properties[i];
-    if (property.name == name && !property.count_type) return i;
+std::optional<std::vector<std::size_t>> FindScalars(
+    const PlyElement& element, const std::vector<std::string_view>& names) {
+  std::vector<std::size_t> columns;
+  for (const std::string_view name : names) {
+    const auto& properties = element.properties;
+    const auto found =
+        std::ranges::find_if(properties, [&](const PlyProperty& property) {
+          return property.name == name && property.count_type == nullptr;
+        });
+    if (found == properties.end()) return std::nullopt;
+    columns.push_back(static_cast<std::size_t>(found - properties.begin()));
   }
-  return std::nullopt;
+  return columns;
 }
 
 Result<std::vector<double>> TakePlyRows(const PlyElement& element,

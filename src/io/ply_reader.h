@@ -14,21 +14,12 @@ namespace curvix {
 
 enum class PlyFormat { kAscii, kBinaryLittleEndian, kBinaryBigEndian };
 
-enum class PlyType {
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kFloat32,
-  kFloat64,
-};
+struct PlyScalar;  // a type of numbers
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;   // of the scalar, or of the list's items
-  std::optional<PlyType> count_type;  // present if this is a list
+  const PlyScalar* type = nullptr;  // of the scalar, or of the list's items
+  const PlyScalar* count_type = nullptr;  // null: no list
 };
 
 struct PlyElement {
@@ -46,9 +37,10 @@ struct PlyHeader {
 // one.
 Result<PlyHeader> TakePlyHeader(std::string_view& bytes);
 
-// The scalar property `name` of `element`, if it has one.
-std::optional<std::size_t> FindScalar(const PlyElement& element,
-                                      std::string_view name);
+// The scalar properties of `element` with these names, by their numbers;
+// nothing if one is missing.
+std::optional<std::vector<std::size_t>> FindScalars(
+    const PlyElement& element, const std::vector<std::string_view>& names);
 
 // Takes the rows of `element` off `body` and returns columns `wanted` (property
 // numbers of scalars) as one row-major table. kDataLoss if there are fewer

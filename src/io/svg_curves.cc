@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/text_fields.h"
-#include "geometry/camera_of.h"
 #include "io/curve_style.h"
 
 namespace curvix {

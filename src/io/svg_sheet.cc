@@ -104,15 +104,14 @@ std::string BeginLayer(const std::string& name, double width) {
          name + "\" stroke-width=\"" + Number(width) + "\">\n";
 }
 
-std::string PictureText(const Sheet& sheet, const Page& page) {
+std::string PictureText(const Sheet& sheet) {
   const SheetPicture& picture = *sheet.picture;
   const Eigen::Vector2d size = picture.pixel * picture.size.cast<double>();
   const Eigen::Vector2d top_left =
       picture.corner + Eigen::Vector2d(0, size.y());
-  const std::string at = page.Of({top_left.x(), top_left.y(), 0});
-  const std::size_t blank = at.find(' ');
+  const Eigen::Vector2d at = sheet.ToPaper(top_left);
   return "<image xlink:href=\"" + Escaped(UrlOf(picture.file)) + "\" x=\"" +
-         at.substr(0, blank) + "\" y=\"" + at.substr(blank + 1) +
+         Number(at.x()) + "\" y=\"" + Number(sheet.size.y() - at.y()) +
          "\" width=\"" + Number(sheet.scale * size.x()) + "\" height=\"" +
          Number(sheet.scale * size.y()) +
          "\" preserveAspectRatio=\"none\" opacity=\"" + kPaleness + "\"/>\n";
@@ -175,7 +174,7 @@ std::string EncodeSvgSheet(const Sheet& sheet) {
       "<rect width=\"" +
       width + "\" height=\"" + height + "\" fill=\"white\" stroke=\"none\"/>\n";
   if (sheet.picture) {
-    out += BeginLayer("PHOTOGRAPH", 0) + PictureText(sheet, page) + "</g>\n";
+    out += BeginLayer("PHOTOGRAPH", 0) + PictureText(sheet) + "</g>\n";
   }
   const std::string dashes =
       " stroke-dasharray=\"" + Pair(kDash, kDashGap) + "\"";

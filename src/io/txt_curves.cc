@@ -18,11 +18,6 @@ namespace {
 // image id -> view number
 using ViewByImageId = std::map<std::uint32_t, std::int32_t>;
 
-struct CurveHead {
-  bool closed = false;
-  std::size_t num_samples = 0;
-};
-
 void AppendSample(const CurveSample& sample,
                   const Scene& scene,
                   std::string& out) {
@@ -43,7 +38,8 @@ void AppendSample(const CurveSample& sample,
   out += '\n';
 }
 
-std::optional<CurveHead> ParseHead(std::string_view line) {
+// Sets `curve.closed` and returns the number of samples that follow.
+std::optional<std::size_t> ParseHead(std::string_view line, Curve& curve) {
   WordReader words(line);
   words.Number<std::uint64_t>();  // the id
   const std::string_view closed = words.Word();
@@ -52,7 +48,8 @@ std::optional<CurveHead> ParseHead(std::string_view line) {
   if (words.failed() || !words.AtEnd() || !is_flag || count < 2) {
     return std::nullopt;
   }
-  return CurveHead{closed == "1", static_cast<std::size_t>(count)};
+  curve.closed = closed == "1";
+  return static_cast<std::size_t>(count);
 }
 
 std::optional<CurveSample> ParseSample(std::string_view line,
@@ -84,20 +81,19 @@ Status Broken(std::size_t line_number, const std::string& expected) {
                           "; the file is truncated or was changed by hand");
 }
 
-// Reads the samples that `head` announces into `curve`.
-Status ReadSamples(const CurveHead& head,
+// Reads so many samples into `curve`.
+Status ReadSamples(std::size_t num_samples,
                    const ViewByImageId& views,
                    LineReader& lines,
                    Curve& curve) {
   // Seven digits, "crease", seven blanks.
   constexpr std::size_t kMinBytesOfSample = 20;
-  if (head.num_samples > lines.bytes_left() / kMinBytesOfSample) {
+  if (num_samples > lines.bytes_left() / kMinBytesOfSample) {
     return Broken(lines.line_number(),
                   "followed by as many samples as it announces");
   }
-  curve.closed = head.closed;
-  curve.samples.reserve(head.num_samples);
-  for (std::size_t i = 0; i < head.num_samples; ++i) {
+  curve.samples.reserve(num_samples);
+  for (std::size_t i = 0; i < num_samples; ++i) {
     const std::optional<std::string_view> line = lines.NextFilled();
     std::optional<CurveSample> sample;
     if (line) sample = ParseSample(*line, views);
@@ -144,13 +140,13 @@ Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene) {
   LineReader lines(bytes);
   CurveSet curves;
   while (const std::optional<std::string_view> line = lines.NextFilled()) {
-    const std::optional<CurveHead> head = ParseHead(*line);
-    if (!head) {
+    Curve curve;
+    const std::optional<std::size_t> num_samples = ParseHead(*line, curve);
+    if (!num_samples) {
       return Broken(lines.line_number(),
                     "a curve (CURVE_ID CLOSED NUM_SAMPLES)");
     }
-    Curve curve;
-    Status status = ReadSamples(*head, views, lines, curve);
+    Status status = ReadSamples(*num_samples, views, lines, curve);
     if (!status.ok()) return status;
     curves.curves.push_back(std::move(curve));
   }

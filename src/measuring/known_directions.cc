@@ -62,10 +62,13 @@ double DirectionVariance(const CurveFit& line) {
   return (sum.trace() - along.dot(sum * along)) / (2 * chord.squaredNorm());
 }
 
-double LengthSigma(const CurveFit& line) {
-  const Eigen::Vector3d along = (line.end - line.start).normalized();
-  return std::sqrt(
-      along.dot((line.start_covariance + line.end_covariance) * along));
+double DistanceSigma(const Eigen::Vector3d& between,
+                     const Eigen::Matrix3d& a,
+                     const Eigen::Matrix3d& b) {
+  const double length = between.norm();
+  if (!(length > 0)) return std::sqrt((a + b).trace());
+  const Eigen::Vector3d along = between / length;
+  return std::sqrt(along.dot((a + b) * along));
 }
 
 DirectionsOfCurves DirectionsOf(const FittedCurves& fitted) {

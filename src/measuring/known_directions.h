@@ -25,8 +25,10 @@ struct KnownDirection {
 // The variance of the direction of a line; see KnownDirection::variance.
 double DirectionVariance(const CurveFit& line);
 
-// Standard deviation of the length of a line, from the covariances of its ends.
-double LengthSigma(const CurveFit& line);
+// Standard deviation of a distance between points with these covariances.
+double DistanceSigma(const Eigen::Vector3d& between,
+                     const Eigen::Matrix3d& a,
+                     const Eigen::Matrix3d& b);
 
 // Of lines, of the axes of arcs, and from each circle to the nearest one of its
 // size in its plane; longest first, ties as in `fitted`. Arcs without an

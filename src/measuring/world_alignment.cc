@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "geometry/directions.h"
+#include "measuring/known_directions.h"
 
 namespace curvix {
 namespace {
@@ -65,16 +66,15 @@ class Estimator {
     if (!usable.ok()) return usable;
     Equations equations;
     WorldAlignment& a = result_.alignment;
-    for (int step = 0; step < kNumSteps; ++step) {
+    for (int step = 0; step <= kNumSteps; ++step) {
+      if (step > 0) {
+        a.world_from_model =
+            Moved(a.world_from_model, a.covariance * equations.right);
+      }
       EstimatePositionSigma();
       equations = Linearise();
       a.covariance = Covariance(equations.normal);
-      a.world_from_model =
-          Moved(a.world_from_model, a.covariance * equations.right);
     }
-    EstimatePositionSigma();
-    equations = Linearise();
-    a.covariance = Covariance(equations.normal);
     const int num_free = equations.count - (a.has_scale + 3 * a.has_rotation +
                                             3 * a.has_translation);
     if (num_free > 0) {
@@ -143,15 +143,12 @@ class Estimator {
     WorldAlignment& a = result_.alignment;
     Similarity3& start = a.world_from_model;
     if (SpanAPlane(model)) {
-      const Eigen::Matrix4d m = Eigen::umeyama(model, world, true);
-      start.scale = m.block<3, 1>(0, 0).norm();
-      start.rotation = Eigen::Matrix3d(m.block<3, 3>(0, 0) / start.scale);
+      start = AlignPoints(model, world);
       a.has_rotation = a.has_scale = true;
     } else if (!a.has_rotation) {
       return Status::InvalidArgument(
           "The positions do not fix the axes: give three or more that are not "
-          "on "
-          "a line, or --axes auto as well");
+          "on a line, or --axes auto as well");
     } else if (n > 1) {
       const double from = (model.colwise() - model.rowwise().mean()).norm();
       const double to = (world.colwise() - world.rowwise().mean()).norm();
@@ -221,11 +218,8 @@ class Estimator {
   std::pair<double, double> Misfit(const KnownDistance& d) const {
     const Eigen::Vector3d between = d.b - d.a;
     const double distance = between.norm();
-    const Eigen::Vector3d along = between / distance;
-    const double variance =
-        along.dot((d.covariance_a + d.covariance_b) * along);
-    const double share =
-        std::hypot(std::sqrt(variance) / distance, d.sigma / d.length);
+    const double sigma = DistanceSigma(between, d.covariance_a, d.covariance_b);
+    const double share = std::hypot(sigma / distance, d.sigma / d.length);
     const double scale = result_.alignment.world_from_model.scale;
     return {std::log(d.length / (scale * distance)), std::max(share, 1e-12)};
   }

@@ -41,6 +41,14 @@ bool IsIn(const std::optional<std::int32_t>& idx, std::size_t size) {
   return !idx || (*idx >= 0 && static_cast<std::size_t>(*idx) < size);
 }
 
+bool IsSound(const ScenePoint& point, std::size_t num_views) {
+  return point.position.allFinite() &&
+         (point.pixels.empty() ||
+          point.pixels.size() == point.view_idxs.size()) &&
+         std::ranges::all_of(point.view_idxs,
+                             [&](int idx) { return IsIn(idx, num_views); });
+}
+
 bool IsSound(const EdgeMap& map) {
   if (map.neighbors.size() != map.edges.size()) return false;
   if (!(map.spacing_px > 0) || !std::isfinite(map.spacing_px)) return false;
@@ -90,16 +98,10 @@ Status CheckScene(const Scene& scene) {
     if (Status status = CheckView(scene, view); !status.ok()) return status;
   }
   for (const ScenePoint& point : scene.points) {
-    bool sound =
-        point.position.allFinite() &&
-        (point.pixels.empty() || point.pixels.size() == point.view_idxs.size());
-    for (const int idx : point.view_idxs) {
-      sound = sound && idx >= 0 &&
-              static_cast<std::size_t>(idx) < scene.views.size();
-    }
-    if (!sound)
-      return Status::InvalidArgument(
-          "a sparse point is not finite or has no view");
+    if (IsSound(point, scene.views.size())) continue;
+    return Status::InvalidArgument(
+        "a sparse point is not sound: a finite position, views of the scene "
+        "and, if it has pixels, one per view are needed");
   }
   return {};
 }

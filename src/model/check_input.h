@@ -10,7 +10,8 @@
 namespace curvix {
 
 // kInvalidArgument: fewer than three views, a view without camera, a camera
-// that is none, a pose or a point that is not finite.
+// that is none, a pose or a point that is not finite, a point of views that are
+// not there or with a number of pixels that is neither zero nor that of views.
 Status CheckScene(const Scene& scene);
 
 // kInvalidArgument: not one map per view, not one entry of neighbours per edge,

@@ -88,13 +88,13 @@ namespace {
 
 // Leaves item `start` by `end` and walks on to the last item or back to
 // `start`; returns the items on the way, without `start`, in order.
-// `flipped` is whether walking from front to back counts as flipped.
+// `flipped` is whether walking from head to tail counts as flipped.
 std::vector<ChainItem> Walk(const EndTies& ties, EndIdx end, bool forward) {
   const std::size_t start = ItemOf(end);
   std::vector<ChainItem> items;
   while (ties[end].has_value() && ItemOf(*ties[end]) != start) {
     const EndIdx entered = *ties[end];
-    items.push_back({ItemOf(entered), IsFront(entered) == forward});
+    items.push_back({ItemOf(entered), IsHead(entered) == forward});
     end = OtherEnd(entered);
   }
   return items;
@@ -103,10 +103,10 @@ std::vector<ChainItem> Walk(const EndTies& ties, EndIdx end, bool forward) {
 bool IsClosed(const EndTies& ties,
               std::size_t start,
               const std::vector<ChainItem>& ahead) {
-  const EndIdx front =
+  const EndIdx head =
       ahead.empty() ? 2 * start
                     : 2 * ahead.back().item + (ahead.back().flipped ? 1 : 0);
-  return ties[front] == 2 * start + 1;
+  return ties[head] == 2 * start + 1;
 }
 
 EndChain ChainThrough(const EndTies& ties, std::size_t start) {

@@ -11,20 +11,20 @@
 
 namespace curvix {
 
-// End 2 i is the front of item i (where its direction points), 2 i + 1 its
-// back.
+// End 2 i is the head of item i (where its direction points: the last sample of
+// a curve), 2 i + 1 its tail.
 using EndIdx = std::size_t;
 
 inline EndIdx OtherEnd(EndIdx end) { return end ^ 1; }
 inline std::size_t ItemOf(EndIdx end) { return end / 2; }
-inline bool IsFront(EndIdx end) { return end % 2 == 0; }
+inline bool IsHead(EndIdx end) { return end % 2 == 0; }
 
-// The sample `k` before the last one at the front, or after the first one at
-// the back.
+// The sample `k` before the last one at the head, or after the first one at the
+// tail.
 inline const CurveSample& SampleFromEnd(const Curve& curve,
-                                        bool front,
+                                        bool at_head,
                                         std::size_t k = 0) {
-  return curve.samples[front ? curve.samples.size() - 1 - k : k];
+  return curve.samples[at_head ? curve.samples.size() - 1 - k : k];
 }
 
 // The end that each end is tied to, if any; mutual. The two ends of one item
@@ -33,10 +33,10 @@ using EndTies = std::vector<std::optional<EndIdx>>;
 
 struct ChainItem {
   std::size_t item = 0;
-  bool flipped = false;  // runs from front to back
+  bool flipped = false;  // runs from head to tail
 };
 
-// Items from back to front. If `closed`, the last is tied to the first.
+// Items from tail to head. If `closed`, the last is tied to the first.
 struct EndChain {
   bool closed = false;
   std::vector<ChainItem> items;

@@ -2,8 +2,10 @@
 // Paper: none (engineering). What the stages need to know of a view.
 #pragma once
 
+#include <curvix/scene.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <vector>
 
 namespace curvix {
 
@@ -41,5 +43,11 @@ struct PosedView {
     return rotation.transpose() * in_camera;
   }
 };
+
+// The ideal pinhole of a camera, which must be valid.
+PosedView MakePosedView(const Camera& camera, const Rigid3& cam_from_world);
+
+// One per view of the scene, in order. Cameras must be valid.
+std::vector<PosedView> MakePosedViews(const Scene& scene);
 
 }  // namespace curvix

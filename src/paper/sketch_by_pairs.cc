@@ -2,6 +2,7 @@
 #include "paper/sketch_by_pairs.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/angles.h"
@@ -9,6 +10,7 @@
 #include "edge_sketch/hypothesise.h"
 #include "edge_sketch/select_views.h"
 #include "geometry/edge_geometry.h"
+#include "geometry/epipolar.h"
 #include "paper/wedge_support.h"
 
 namespace curvix {
@@ -46,12 +48,7 @@ class PairSketcher {
                       static_cast<int>(i) == pair.h2) {
                     return;
                   }
-                  validators_[i] = WedgeSupport::Make(
-                      hypothesis_views.h1(),
-                      hypothesis_views.h2(),
-                      input.views[i],
-                      input.edge_maps[i].edges,
-                      input.options.hypotheses.location_tolerance_px);
+                  validators_[i] = SupportIn(i);
                 });
   }
 
@@ -81,6 +78,23 @@ class PairSketcher {
   }
 
  private:
+  // nullopt if the view shares its centre with a hypothesis view.
+  std::optional<WedgeSupport> SupportIn(std::size_t view_idx) const {
+    const PosedView& h1 = hypothesis_views_.h1();
+    const PosedView& h2 = hypothesis_views_.h2();
+    const PosedView& view = input_.views[view_idx];
+    const auto pencil1 = EpipolarPencil::Make(h1, view);
+    const auto pencil2 = EpipolarPencil::Make(h2, view);
+    if (!pencil1 || !pencil2) return std::nullopt;
+    return WedgeSupport(*pencil1,
+                        *pencil2,
+                        h1,
+                        h2,
+                        view,
+                        input_.edge_maps[view_idx].edges,
+                        input_.options.hypotheses.location_tolerance_px);
+  }
+
   std::vector<EdgeRef> FindSupport(const Hypothesis& hypothesis) const {
     std::vector<EdgeRef> support;
     for (std::size_t i = 0; i < validators_.size(); ++i) {
@@ -171,14 +185,15 @@ EdgeSketch SketchByPairs(const SketchInput& input, const StepDone& step_done) {
     done.push_back(*pair);
     const auto h1 = static_cast<std::size_t>(pair->h1);
     const auto h2 = static_cast<std::size_t>(pair->h2);
-    const auto hypothesis_views =
-        HypothesisViews::Make(input.views[h1],
-                              input.views[h2],
-                              input.edge_maps[h2].edges,
-                              input.depths[h1],
-                              input.options);
-    if (!hypothesis_views) continue;
-    const PairSketcher sketcher(input, *pair, *hypothesis_views);
+    const auto pencil = EpipolarPencil::Make(input.views[h1], input.views[h2]);
+    if (!pencil) continue;
+    const HypothesisViews hypothesis_views(*pencil,
+                                           input.views[h1],
+                                           input.views[h2],
+                                           input.edge_maps[h2].edges,
+                                           input.depths[h1],
+                                           input.options);
+    const PairSketcher sketcher(input, *pair, hypothesis_views);
     const std::vector<Edge2d>& edges = input.edge_maps[h1].edges;
     std::vector<PairResult> results(edges.size());
     ParallelFor(edges.size(),

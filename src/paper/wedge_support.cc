@@ -7,17 +7,6 @@
 
 namespace curvix {
 
-std::optional<WedgeSupport> WedgeSupport::Make(const PosedView& h1,
-                                               const PosedView& h2,
-                                               const PosedView& view,
-                                               const std::vector<Edge2d>& edges,
-                                               double tolerance_px) {
-  const auto pencil1 = EpipolarPencil::Make(h1, view);
-  const auto pencil2 = EpipolarPencil::Make(h2, view);
-  if (!pencil1 || !pencil2) return std::nullopt;
-  return WedgeSupport(*pencil1, *pencil2, h1, h2, view, edges, tolerance_px);
-}
-
 WedgeSupport::WedgeSupport(const EpipolarPencil& pencil1,
                            const EpipolarPencil& pencil2,
                            const PosedView& h1,

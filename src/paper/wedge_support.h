@@ -19,12 +19,15 @@ namespace curvix {
 // validation view supports them.
 class WedgeSupport {
  public:
-  // nullopt if the view shares its centre with a hypothesis view.
-  static std::optional<WedgeSupport> Make(const PosedView& h1,
-                                          const PosedView& h2,
-                                          const PosedView& view,
-                                          const std::vector<Edge2d>& edges,
-                                          double tolerance_px);
+  // `pencil1`: of H1 and `view`; `pencil2`: of H2 and `view`. The views and the
+  // edges must outlive it.
+  WedgeSupport(const EpipolarPencil& pencil1,
+               const EpipolarPencil& pencil2,
+               const PosedView& h1,
+               const PosedView& h2,
+               const PosedView& view,
+               const std::vector<Edge2d>& edges,
+               double tolerance_px);
 
   // The edge nearest to `projected` (ties: smaller index) among those in both
   // epipolar wedges, that of `edge1` in H1 and that of `edge2` in H2, and
@@ -35,14 +38,6 @@ class WedgeSupport {
                                    double max_angle_rad) const;
 
  private:
-  WedgeSupport(const EpipolarPencil& pencil1,
-               const EpipolarPencil& pencil2,
-               const PosedView& h1,
-               const PosedView& h2,
-               const PosedView& view,
-               const std::vector<Edge2d>& edges,
-               double tolerance_px);
-
   EpipolarPencil pencil1_, pencil2_;
   const PosedView *h1_, *h2_, *view_;
   const std::vector<Edge2d>* edges_;

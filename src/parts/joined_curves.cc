@@ -41,13 +41,13 @@ void TrimSecond(EndIdx first,
                 const std::vector<PosedView>& views,
                 std::vector<Curve>& curves) {
   const Curve& curve = curves[ItemOf(first)];
-  const CurveSample& from = SampleFromEnd(curve, IsFront(first));
+  const CurveSample& from = SampleFromEnd(curve, IsHead(first));
   const Eigen::Vector3d outward =
-      IsFront(first) ? from.tangent : Eigen::Vector3d(-from.tangent);
+      IsHead(first) ? from.tangent : Eigen::Vector3d(-from.tangent);
   const double min_step = kMinStepPx * PixelSize(from, views);
   std::vector<CurveSample>& next = curves[ItemOf(second)].samples;
   while (next.size() > 2) {
-    const auto nearest = IsFront(second) ? next.end() - 1 : next.begin();
+    const auto nearest = IsHead(second) ? next.end() - 1 : next.begin();
     if (outward.dot(nearest->position - from.position) >= min_step) break;
     next.erase(nearest);
   }

@@ -4,24 +4,18 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "base/infinity.h"
 #include "geometry/directions.h"
-#include "geometry/image_edge.h"
 #include "model/sample_ranges.h"
 
 namespace curvix {
 namespace {
 
 using Eigen::Vector3d;
-
-bool IsBelow(const SceneCut& cut, const Eigen::Vector3d& position) {
-  return cut.normal.dot(position) < cut.offset;
-}
 
 void Visit(const ScenePartition& partition,
            int node,
@@ -215,7 +209,7 @@ int OwnerOf(const ScenePartition& partition, const Eigen::Vector3d& position) {
   int node = partition.cuts.empty() ? -1 : 0;
   while (node >= 0) {
     const SceneCut& cut = partition.cuts[static_cast<std::size_t>(node)];
-    node = IsBelow(cut, position) ? cut.below : cut.above;
+    node = cut.normal.dot(position) < cut.offset ? cut.below : cut.above;
   }
   return -1 - node;
 }
@@ -251,15 +245,6 @@ std::vector<Curve> CutCurves(const std::vector<Curve>& curves,
                       std::back_inserter(pieces));
   }
   return pieces;
-}
-
-TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps) {
-  TracedCurve traced{std::move(curve), {}};
-  ForEachSupport(traced.curve, [&](EdgeRef& ref) {
-    traced.edges.push_back(EdgeOf(ref, edge_maps));
-    ref.edge_idx = static_cast<std::int32_t>(traced.edges.size() - 1);
-  });
-  return traced;
 }
 
 }  // namespace curvix

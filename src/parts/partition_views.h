@@ -42,9 +42,6 @@ std::vector<Curve> CutCurves(const std::vector<Curve>& curves,
                              const std::vector<Border>& core,
                              double overlap);
 
-// The curve with the edges that it names: those of its samples, in order.
-TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps);
-
 // Calls f(ref) for all support of the curve, in order.
 template <typename F>
 void ForEachSupport(Curve& curve, const F& f) {

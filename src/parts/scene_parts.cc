@@ -10,8 +10,9 @@
 #include "base/count_text.h"
 #include "base/median.h"
 #include "edge_sketch/view_overlap.h"
-#include "geometry/posed_views.h"
+#include "geometry/detected_edge.h"
 #include "model/check_input.h"
+#include "model/posed_view.h"
 #include "parts/joined_curves.h"
 #include "parts/partition_views.h"
 
@@ -32,6 +33,16 @@ double TypicalPixel(const std::vector<PosedView>& views,
     pixels.push_back(Median(std::move(depths)) / views[i].calibration(0, 0));
   }
   return Median(std::move(pixels));
+}
+
+// The curve with the edges that it names: those of its samples, in order.
+TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps) {
+  TracedCurve traced{std::move(curve), {}};
+  ForEachSupport(traced.curve, [&](EdgeRef& ref) {
+    traced.edges.push_back(EdgeOf(ref, edge_maps));
+    ref.edge_idx = static_cast<std::int32_t>(traced.edges.size() - 1);
+  });
+  return traced;
 }
 
 }  // namespace
@@ -70,15 +81,6 @@ PartResult TakePart(const ScenePartition& partition,
     }
   }
   return result;
-}
-
-std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
-                                int part_idx,
-                                std::vector<Edge3d> edges) {
-  std::erase_if(edges, [&](const Edge3d& edge) {
-    return OwnerOf(partition, edge.position) != part_idx;
-  });
-  return edges;
 }
 
 Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,

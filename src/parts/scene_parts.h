@@ -78,11 +78,6 @@ PartResult TakePart(const ScenePartition& partition,
                     const CurveSet& curves,
                     const std::vector<EdgeMap>& edge_maps);
 
-// Those of the 3D edges that lie in the core of a part.
-std::vector<Edge3d> EdgesInCore(const ScenePartition& partition,
-                                int part_idx,
-                                std::vector<Edge3d> edges);
-
 // The curves of PartResult of all parts, wherever they are.
 class PartResults {
  public:

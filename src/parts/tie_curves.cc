@@ -46,34 +46,6 @@ struct SampleRef {
   std::size_t border_sample = 0;  // index into PartCurve::border_samples
 };
 
-// For border samples, their duplicate in each other part: the nearest sample,
-// at most kMaxNormalDistancePx away and options.max_angle_deg off in direction.
-// Ties: the earlier sample.
-class DuplicateSamples {
- public:
-  // Partition and curves outlive it.
-  DuplicateSamples(const ScenePartition& partition,
-                   const std::vector<PartCurve>& curves,
-                   const ConnectivityOptions& options);
-
-  // In the order of the parts.
-  const std::vector<SampleRef>& Of(const SampleRef& ref) const {
-    return duplicates_[ref.curve][ref.border_sample];
-  }
-
-  // Whether the sample stays, of it and its duplicates. The sample in the part
-  // with the smallest index says where the place is. The sample of the part
-  // whose core holds this place stays; if that part has none, that of the part
-  // with the smallest index.
-  bool Stays(const SampleRef& ref) const;
-
- private:
-  const ScenePartition& partition_;
-  const std::vector<PartCurve>& part_curves_;
-  // Of each border sample of each curve.
-  std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
-};
-
 const BorderSample& At(const std::vector<PartCurve>& curves,
                        const SampleRef& ref) {
   return curves[ref.curve].border_samples[ref.border_sample];
@@ -89,58 +61,80 @@ std::vector<SampleRef> AllOf(const std::vector<PartCurve>& curves) {
   return refs;
 }
 
-DuplicateSamples::DuplicateSamples(const ScenePartition& partition,
-                                   const std::vector<PartCurve>& curves,
-                                   const ConnectivityOptions& options)
-    : partition_(partition), part_curves_(curves) {
-  for (const PartCurve& curve : curves) {
-    duplicates_.emplace_back(curve.border_samples.size());
-  }
-  const std::vector<SampleRef> refs = AllOf(curves);
-  const PointTree tree(
-      refs, [&](const SampleRef& ref) { return At(curves, ref).position; });
-  const double min_cosine = std::cos(DegToRad(options.max_angle_deg));
-  for (const SampleRef& ref : refs) {
-    const BorderSample& sample = At(curves, ref);
-    const int own_part = curves[ref.curve].part_idx;
-    const double reach = kMaxNormalDistancePx * sample.pixel;
-    std::map<int, std::pair<double, SampleRef>> nearest;  // by part
-    for (const std::size_t k : tree.Within(sample.position, reach)) {
-      const int part_idx = curves[refs[k].curve].part_idx;
-      const BorderSample& other = At(curves, refs[k]);
-      if (part_idx == own_part ||
-          std::abs(sample.tangent.dot(other.tangent)) < min_cosine) {
-        continue;
+// For border samples, their duplicate in each other part: the nearest sample,
+// at most kMaxNormalDistancePx away and options.max_angle_deg off in direction.
+// Ties: the earlier sample.
+class DuplicateSamples {
+ public:
+  // Partition and curves outlive it.
+  DuplicateSamples(const ScenePartition& partition,
+                   const std::vector<PartCurve>& curves,
+                   const ConnectivityOptions& options)
+      : partition_(partition), part_curves_(curves) {
+    for (const PartCurve& curve : curves) {
+      duplicates_.emplace_back(curve.border_samples.size());
+    }
+    const std::vector<SampleRef> refs = AllOf(curves);
+    const PointTree tree(
+        refs, [&](const SampleRef& ref) { return At(curves, ref).position; });
+    const double min_cosine = std::cos(DegToRad(options.max_angle_deg));
+    for (const SampleRef& ref : refs) {
+      const BorderSample& sample = At(curves, ref);
+      const int own_part = curves[ref.curve].part_idx;
+      const double reach = kMaxNormalDistancePx * sample.pixel;
+      std::map<int, std::pair<double, SampleRef>> nearest;  // by part
+      for (const std::size_t k : tree.Within(sample.position, reach)) {
+        const int part_idx = curves[refs[k].curve].part_idx;
+        const BorderSample& other = At(curves, refs[k]);
+        if (part_idx == own_part ||
+            std::abs(sample.tangent.dot(other.tangent)) < min_cosine) {
+          continue;
+        }
+        const double distance = (other.position - sample.position).norm();
+        const auto [at, is_new] =
+            nearest.try_emplace(part_idx, distance, refs[k]);
+        if (!is_new && distance < at->second.first) {
+          at->second = {distance, refs[k]};
+        }
       }
-      const double distance = (other.position - sample.position).norm();
-      const auto [at, is_new] =
-          nearest.try_emplace(part_idx, distance, refs[k]);
-      if (!is_new && distance < at->second.first) {
-        at->second = {distance, refs[k]};
+      for (const auto& [part_idx, duplicate] : nearest) {
+        duplicates_[ref.curve][ref.border_sample].push_back(duplicate.second);
       }
     }
-    for (const auto& [part_idx, duplicate] : nearest) {
-      duplicates_[ref.curve][ref.border_sample].push_back(duplicate.second);
-    }
   }
-}
 
-bool DuplicateSamples::Stays(const SampleRef& ref) const {
-  const std::vector<SampleRef>& duplicates = Of(ref);
-  if (duplicates.empty()) return true;
-  const auto part = [&](const SampleRef& r) {
-    return part_curves_[r.curve].part_idx;
-  };
-  const SampleRef& first =
-      part(ref) < part(duplicates.front()) ? ref : duplicates.front();
-  const int owner = OwnerOf(partition_, At(part_curves_, first).position);
-  const bool owner_is_there =
-      part(ref) == owner ||
-      std::ranges::any_of(duplicates, [&](const SampleRef& duplicate) {
-        return part(duplicate) == owner;
-      });
-  return part(ref) == (owner_is_there ? owner : part(first));
-}
+  // In the order of the parts.
+  const std::vector<SampleRef>& Of(const SampleRef& ref) const {
+    return duplicates_[ref.curve][ref.border_sample];
+  }
+
+  // Whether the sample stays, of it and its duplicates. The sample in the part
+  // with the smallest index says where the place is. The sample of the part
+  // whose core holds this place stays; if that part has none, that of the part
+  // with the smallest index.
+  bool Stays(const SampleRef& ref) const {
+    const std::vector<SampleRef>& duplicates = Of(ref);
+    if (duplicates.empty()) return true;
+    const auto part = [&](const SampleRef& r) {
+      return part_curves_[r.curve].part_idx;
+    };
+    const SampleRef& first =
+        part(ref) < part(duplicates.front()) ? ref : duplicates.front();
+    const int owner = OwnerOf(partition_, At(part_curves_, first).position);
+    const bool owner_is_there =
+        part(ref) == owner ||
+        std::ranges::any_of(duplicates, [&](const SampleRef& duplicate) {
+          return part(duplicate) == owner;
+        });
+    return part(ref) == (owner_is_there ? owner : part(first));
+  }
+
+ private:
+  const ScenePartition& partition_;
+  const std::vector<PartCurve>& part_curves_;
+  // Of each border sample of each curve.
+  std::vector<std::vector<std::vector<SampleRef>>> duplicates_;
+};
 
 // Samples of a segment that may lie beyond the sample at which it is entered.
 constexpr std::size_t kMaxSkipped = 10;
@@ -206,15 +200,15 @@ class Tier {
     const PartCurve& curve = part_curves_[from.curve];
     const std::size_t size = curve.num_samples;
     const std::size_t last =
-        IsFront(end) ? from.range.end - 1 : from.range.begin;
-    std::size_t num_beyond = IsFront(end) ? size - 1 - last : last;
+        IsHead(end) ? from.range.end - 1 : from.range.begin;
+    std::size_t num_beyond = IsHead(end) ? size - 1 - last : last;
     if (curve.closed) num_beyond = size - (from.range.end - from.range.begin);
     for (std::size_t k = 1; k <= num_beyond; ++k) {
-      const std::size_t step = IsFront(end) ? k : size - k;
+      const std::size_t step = IsHead(end) ? k : size - k;
       const std::size_t sample = (last + step) % size;
       if (const auto own = SegmentOf(from.curve, sample)) {
         return EndPair{
-            static_cast<double>(k), end, 2 * *own + (IsFront(end) ? 1 : 0)};
+            static_cast<double>(k), end, 2 * *own + (IsHead(end) ? 1 : 0)};
       }
       const auto across = TieAcross(end, k, RefTo(from.curve, sample));
       if (across) return across;
@@ -230,11 +224,14 @@ class Tier {
     for (const SampleRef& duplicate : duplicates_.Of(beyond)) {
       const std::size_t sample = At(part_curves_, duplicate).sample;
       const auto to = SegmentOf(duplicate.curve, sample);
-      if (!to || IsOfOtherKind(beyond.curve, duplicate.curve)) continue;
+      const bool is_of_other_kind =
+          part_curves_[beyond.curve].is_occluding_contour !=
+          part_curves_[duplicate.curve].is_occluding_contour;
+      if (!to || is_of_other_kind) continue;
       const bool runs_on =
           (At(part_curves_, beyond)
                .tangent.dot(At(part_curves_, duplicate).tangent) > 0) ==
-          IsFront(end);
+          IsHead(end);
       const SampleRange& range = segments_[*to].range;
       const std::size_t skipped =
           runs_on ? sample - range.begin : range.end - 1 - sample;
@@ -243,11 +240,6 @@ class Tier {
           static_cast<double>(k + skipped), end, 2 * *to + (runs_on ? 1 : 0)};
     }
     return std::nullopt;
-  }
-
-  bool IsOfOtherKind(std::size_t a, std::size_t b) const {
-    return part_curves_[a].is_occluding_contour !=
-           part_curves_[b].is_occluding_contour;
   }
 
   const std::vector<PartCurve>& part_curves_;

@@ -29,10 +29,9 @@
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
-#include "geometry/camera_of.h"
-#include "geometry/posed_views.h"
 #include "model/check_input.h"
 #include "model/curve_chains.h"
+#include "model/posed_view.h"
 #include "paper/align_edges.h"
 #include "pipeline/run_recorder.h"
 #include "pipeline/sketch_edges.h"
@@ -140,7 +139,7 @@ EdgeSketch Sketch(const Scene& scene,
                   RunRecorder& run) {
   if (!run.Begin("sketch_edges")) return {};
   EdgeSketch sketch =
-      SketchEdges(views, edge_maps, scene.points, options, run.Steps());
+      SketchViews(views, edge_maps, scene.points, options, run.Steps());
   run.End(CountsOf(sketch));
   return sketch;
 }

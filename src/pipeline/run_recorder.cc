@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_recorder.h"
 
-#include "base/cancelled.h"
 #include "base/free_memory.h"
 #include "base/parallel.h"
 
@@ -52,8 +51,7 @@ bool RunRecorder::Begin(const std::string& stage) {
 }
 
 void RunRecorder::End(Counts counts) {
-  report_.stages.push_back(stopwatch_.Read(stage_));
-  report_.stages.back().counts = std::move(counts);
+  report_.stages.push_back(stopwatch_.Read(stage_, std::move(counts)));
 }
 
 bool RunRecorder::Tell(int done, int total) {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "base/stopwatch.h"
-#include "edge_sketch/sketch_input.h"
 
 namespace curvix {
 

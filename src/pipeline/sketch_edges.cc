@@ -17,7 +17,7 @@ bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options) {
   return options.curve_growth.enabled && AreCrowded(edge_maps);
 }
 
-EdgeSketch SketchEdges(const std::vector<PosedView>& views,
+EdgeSketch SketchViews(const std::vector<PosedView>& views,
                        const std::vector<EdgeMap>& edge_maps,
                        const std::vector<ScenePoint>& points,
                        const Options& options,

@@ -18,7 +18,7 @@ bool CurvesGrow(const std::vector<EdgeMap>& edge_maps, const Options& options);
 
 // As in the paper (pairs of views, support in wedges) or by every view with its
 // partners and tracked support: options.hypotheses.view_selection.
-EdgeSketch SketchEdges(const std::vector<PosedView>& views,
+EdgeSketch SketchViews(const std::vector<PosedView>& views,
                        const std::vector<EdgeMap>& edge_maps,
                        const std::vector<ScenePoint>& points,
                        const Options& options,

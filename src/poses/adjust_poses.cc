@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "base/median.h"
-#include "geometry/camera_of.h"
 #include "geometry/directions.h"
 #include "geometry/lens.h"
 #include "poses/pose_equations.h"
@@ -133,12 +132,6 @@ std::vector<bool> FreeLenses(const PoseProblem& problem,
   return is_free;
 }
 
-// Of the parameters of a camera, those that are unknowns if it is free.
-int NumUnknowns(const Camera& camera) {
-  return std::min(static_cast<int>(camera.params.size()),
-                  static_cast<int>(LensChange::SizeAtCompileTime));
-}
-
 // Ceres' problem, from which samples and points are eliminated.
 class PoseAdjuster {
  public:
@@ -155,7 +148,7 @@ class PoseAdjuster {
         ceres_(ProblemOptions(&equations_)) {
     equations_.PrepareForEvaluation(true, true);
     start_costs_ = CostsBySample();
-    AddObservations(start.cameras);
+    AddObservations();
     AddRadiusPriors(problem.samples.size());
     AddPosePriors(problem);
     AddLensPriors(start.cameras);
@@ -214,7 +207,7 @@ class PoseAdjuster {
 
  private:
   // Without those of samples that are behind a camera.
-  void AddObservations(const std::vector<Camera>& cameras) {
+  void AddObservations() {
     for (std::size_t i = 0; i < equations_.observations().size(); ++i) {
       const PoseObservation& seen = equations_.observations()[i];
       const PoseEquation& equation = equations_.equations()[i];
@@ -225,7 +218,7 @@ class PoseAdjuster {
       int num_lens_params = 0;
       if (is_free_[seen.camera_idx]) {
         unknowns.push_back(unknowns_.lenses[seen.camera_idx].data());
-        num_lens_params = NumUnknowns(cameras[seen.camera_idx]);
+        num_lens_params = equations_.lenses()[seen.camera_idx].num_used();
       }
       ceres_.AddResidualBlock(new ObservationCost(equation, num_lens_params),
                               new ObservationLoss(equation),
@@ -295,7 +288,7 @@ class PoseAdjuster {
       double* change = unknowns_.lenses[i].data();
       if (!is_free_[i] || !ceres_.HasParameterBlock(change)) continue;
       const Lens& lens = equations_.lenses()[i];
-      const int size = NumUnknowns(typical[i]);
+      const int size = lens.num_used();
       AddPrior<Eigen::VectorXd>(LensPriorFactors(lens).head(size),
                                 lens.ChangeTo(typical[i]).head(size),
                                 change,

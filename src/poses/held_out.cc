@@ -24,11 +24,9 @@ constexpr double kNothingFitsPx = 1;
 // Standard deviations, exceeded by chance once in some twenty times.
 constexpr double kContrary = 2;
 
-using Error = std::optional<double>;
-
-// The errors of a place fitted to the poses of `edges`, in its query views.
-std::vector<Error> ErrorsOfPlace(const CurvePlace& start,
-                                 const PosedEdges& edges) {
+// The errors of a place fitted to the poses of `edges`, by query view.
+std::map<std::size_t, double> ErrorsOfPlace(const CurvePlace& start,
+                                            const PosedEdges& edges) {
   const std::vector<std::size_t> views = edges.QueryViews(start);
   CurvePlace place = start;
   struct Pass {
@@ -40,11 +38,9 @@ std::vector<Error> ErrorsOfPlace(const CurvePlace& start,
     place.contour = edges.Adjusted(place, pass.sigma_px);
   }
   const std::vector<double> gates(edges.views().size(), kMaxErrorPx);
-  std::vector<Error> errors(views.size());
+  std::map<std::size_t, double> errors;
   for (const EdgeRef& ref : edges.FindEdges(place.contour, views, gates)) {
-    const auto found =
-        std::ranges::lower_bound(views, static_cast<std::size_t>(ref.view_idx));
-    errors[static_cast<std::size_t>(found - views.begin())] =
+    errors[static_cast<std::size_t>(ref.view_idx)] =
         std::min(kMaxErrorPx, edges.Distance(place.contour, ref));
   }
   return errors;
@@ -80,6 +76,12 @@ class TruncatedLoss {
   double scale_px_;
 };
 
+double MeanSquare(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
+}
+
 // The largest e(t) = sum of (t x - log cosh(t x)), t >= 0, over `gains` x of
 // mean square 1: if signs are random, their sum is reached with a probability
 // of at most exp(-e(t)) for any t.
@@ -107,6 +109,19 @@ double LargestChernoffExponent(const std::vector<double>& gains) {
 
 }  // namespace
 
+double FallOfErrors(const HeldOutErrors& before, const HeldOutErrors& after) {
+  std::vector<double> places_before, places_after;
+  for (const ErrorPair& pair : PairErrors(before, after)) {
+    places_before.push_back(pair.before);
+    places_after.push_back(pair.after);
+  }
+  const double fall =
+      std::max(MeanSquare(places_before) - MeanSquare(places_after),
+               MeanSquare(Concatenate(before.points)) -
+                   MeanSquare(Concatenate(after.points)));
+  return std::sqrt(std::max(0.0, fall));
+}
+
 bool PointsFit(const PoseObservationSet& held_out,
                const HeldOutErrors& errors,
                std::size_t num_views) {
@@ -123,12 +138,10 @@ bool PointsFit(const PoseObservationSet& held_out,
   });
 }
 
-bool EdgesFit(const PoseObservationSet& held_out,
-              const HeldOutErrors& errors,
-              const PosedEdges& edges) {
+bool EdgesFit(const HeldOutErrors& errors) {
   std::vector<double> of_places;
-  for (const ErrorPair& pair : PairErrors(held_out, errors, errors, edges)) {
-    of_places.push_back(pair.before);
+  for (const auto& of_place : errors.places) {
+    for (const auto& [view_idx, error] : of_place) of_places.push_back(error);
   }
   return MedianOr(kNothingFitsPx, std::move(of_places)) < kGoodEnoughPx;
 }
@@ -146,10 +159,6 @@ double SignificanceOf(const std::vector<double>& gains) {
   std::vector<double> scaled;
   for (const double gain : gains) scaled.push_back(scale * gain);
   return sign * std::sqrt(2 * LargestChernoffExponent(scaled));
-}
-
-double GainsByCell::Significance() const {
-  return SignificanceOf(Normalized());
 }
 
 std::vector<double> GainsByCell::Normalized() const {
@@ -178,20 +187,19 @@ HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
   return errors;
 }
 
-std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
-                                  const HeldOutErrors& before,
-                                  const HeldOutErrors& after,
-                                  const PosedEdges& edges) {
+std::vector<ErrorPair> PairErrors(const HeldOutErrors& before,
+                                  const HeldOutErrors& after) {
   std::vector<ErrorPair> pairs;
-  for (std::size_t i = 0; i < held_out.places.size(); ++i) {
-    const std::vector<std::size_t> views = edges.QueryViews(held_out.places[i]);
-    for (std::size_t k = 0; k < views.size(); ++k) {
-      const Error& from = before.places[i][k];
-      const Error& to = after.places[i][k];
-      if (!from && !to) continue;
-      pairs.push_back(
-          {i, views[k], from.value_or(kMaxErrorPx), to.value_or(kMaxErrorPx)});
+  for (std::size_t i = 0; i < before.places.size(); ++i) {
+    std::map<std::size_t, ErrorPair> by_view;
+    for (const auto& [view_idx, error] : before.places[i]) {
+      by_view[view_idx] = {i, view_idx, error, kMaxErrorPx};
     }
+    for (const auto& [view_idx, error] : after.places[i]) {
+      const ErrorPair new_pair = {i, view_idx, kMaxErrorPx, kMaxErrorPx};
+      by_view.try_emplace(view_idx, new_pair).first->second.after = error;
+    }
+    for (const auto& [view_idx, pair] : by_view) pairs.push_back(pair);
   }
   return pairs;
 }
@@ -199,9 +207,8 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
 HeldOutGains CompareErrors(const PoseObservationSet& held_out,
                            const SpaceCells& cells,
                            const HeldOutErrors& before,
-                           const HeldOutErrors& after,
-                           const PosedEdges& edges) {
-  const auto pairs = PairErrors(held_out, before, after, edges);
+                           const HeldOutErrors& after) {
+  const std::vector<ErrorPair> pairs = PairErrors(before, after);
   std::vector<double> from, to;
   for (const ErrorPair& pair : pairs) {
     from.push_back(pair.before);
@@ -242,20 +249,15 @@ HeldOutGains CompareLosses(const PoseObservationSet& held_out,
 }
 
 SignificanceOfGain Together(const HeldOutGains& gains) {
-  std::vector<double> all = gains.places.Normalized();
-  const std::vector<double> of_points = gains.points.Normalized();
-  all.insert(all.end(), of_points.begin(), of_points.end());
-  return {gains.places.Significance(),
-          gains.points.Significance(),
-          SignificanceOf(all)};
+  const std::vector<double> places = gains.places.Normalized();
+  const std::vector<double> points = gains.points.Normalized();
+  return {SignificanceOf(places),
+          SignificanceOf(points),
+          SignificanceOf(Concatenate<double>({places, points}))};
 }
 
-bool IsBetter(const SignificanceOfGain& gain) {
-  return gain.all >= kSignificant && IsNoWorse(gain);
-}
-
-bool IsBetterByOneStandardError(const SignificanceOfGain& gain) {
-  return gain.all >= 1 && IsNoWorse(gain);
+bool IsBetter(const SignificanceOfGain& gain, double least) {
+  return gain.all >= least && IsNoWorse(gain);
 }
 
 bool IsNoWorse(const SignificanceOfGain& gain) {

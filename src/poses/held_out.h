@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "poses/pose_observation_set.h"
@@ -16,9 +15,8 @@ namespace curvix {
 // Errors of places and points, fitted anew to the present poses and cameras.
 // Pixels.
 struct HeldOutErrors {
-  // By place and query view: distance from the nearest edge; nothing if none is
-  // near.
-  std::vector<std::vector<std::optional<double>>> places;
+  // By place: distances from the nearest edges, by query view with one near.
+  std::vector<std::map<std::size_t, double>> places;
   // By point and observation, at most 2 px.
   std::vector<std::vector<double>> points;
 };
@@ -36,10 +34,13 @@ struct ErrorPair {
   double after = 0;
 };
 
-std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
-                                  const HeldOutErrors& before,
-                                  const HeldOutErrors& after,
-                                  const PosedEdges& edges);
+// By place, then by view.
+std::vector<ErrorPair> PairErrors(const HeldOutErrors& before,
+                                  const HeldOutErrors& after);
+
+// By how many pixels errors fall: the root of the fall of their mean square, of
+// places or of points, whichever is larger; 0 if both rise.
+double FallOfErrors(const HeldOutErrors& before, const HeldOutErrors& after);
 
 // Whether poses are good enough. Points: if their errors are small in each of
 // the views, they contradict any other poses. Edges: if the errors of the
@@ -47,9 +48,7 @@ std::vector<ErrorPair> PairErrors(const PoseObservationSet& held_out,
 bool PointsFit(const PoseObservationSet& held_out,
                const HeldOutErrors& errors,
                std::size_t num_views);
-bool EdgesFit(const PoseObservationSet& held_out,
-              const HeldOutErrors& errors,
-              const PosedEdges& edges);
+bool EdgesFit(const HeldOutErrors& errors);
 
 // z of the sum of independent gains: if losses are as likely as gains, z or
 // more has a probability of at most exp(-z^2 / 2) (Chernoff's bound). At least
@@ -69,7 +68,6 @@ class GainsByCell {
   void Add(const GainsByCell& other) {
     for (const auto& [cell, gain] : other.gains_) gains_[cell] += gain;
   }
-  double Significance() const;
   // The gains over the root of the sum of their squares.
   std::vector<double> Normalized() const;
 
@@ -96,8 +94,7 @@ SignificanceOfGain Together(const HeldOutGains& gains);
 HeldOutGains CompareErrors(const PoseObservationSet& held_out,
                            const SpaceCells& cells,
                            const HeldOutErrors& before,
-                           const HeldOutErrors& after,
-                           const PosedEdges& edges);
+                           const HeldOutErrors& after);
 
 // Of losses of places, then of points, where both are finite.
 HeldOutGains CompareLosses(const PoseObservationSet& held_out,
@@ -110,12 +107,9 @@ HeldOutGains CompareLosses(const PoseObservationSet& held_out,
 // thousand accepts a gain by chance.
 inline constexpr double kSignificant = 4.267;
 
-// Whether the gain is significant, and neither places nor points contradict it.
-bool IsBetter(const SignificanceOfGain& gain);
-
-// Whether the gain of both together is at least one standard error, and neither
-// places nor points contradict it.
-bool IsBetterByOneStandardError(const SignificanceOfGain& gain);
+// Whether the gain of both together is at least so many standard deviations,
+// and neither places nor points contradict it.
+bool IsBetter(const SignificanceOfGain& gain, double least = kSignificant);
 
 // Whether neither places nor points show a loss.
 bool IsNoWorse(const SignificanceOfGain& gain);

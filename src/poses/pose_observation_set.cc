@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-
 #include <iterator>
 #include <optional>
 
@@ -19,6 +18,8 @@ constexpr std::size_t kMinPoints = 100;
 constexpr int kMaxPointsPerView = 2000;  // for time and memory
 constexpr std::size_t kPointsPerHeldOut = 5;
 constexpr double kCellsPerDistance = 10;
+// Several for each of the at most eight parameters.
+constexpr int kMinObservationsPerLens = 50;
 
 std::optional<PointSample> SampleOf(const ScenePoint& point,
                                     const Scene& scene) {
@@ -27,9 +28,8 @@ std::optional<PointSample> SampleOf(const ScenePoint& point,
   for (std::size_t i = 0; i < point.pixels.size(); ++i) {
     const View& view =
         scene.views[static_cast<std::size_t>(point.view_idxs[i])];
-    const auto k = static_cast<std::size_t>(view.camera_idx);
     if (point.pixels[i].allFinite() &&
-        Project(scene.cameras[k], view.cam_from_world, point.position)) {
+        Project(CameraOf(scene, view), view.cam_from_world, point.position)) {
       sample.observations.push_back({point.view_idxs[i], point.pixels[i]});
     }
   }
@@ -52,6 +52,19 @@ void MoveSets(const SpaceCells& cells,
 }
 
 }  // namespace
+
+std::vector<bool> ObservedLenses(const PoseObservationSet& observations,
+                                 const Scene& scene) {
+  std::vector<int> counts(scene.cameras.size(), 0);
+  VisitSeen(observations, [&](std::size_t i, const Eigen::Vector3d&) {
+    ++counts[static_cast<std::size_t>(scene.views[i].camera_idx)];
+  });
+  std::vector<bool> observed;
+  for (const int count : counts) {
+    observed.push_back(count >= kMinObservationsPerLens);
+  }
+  return observed;
+}
 
 std::vector<Eigen::Vector3d> PositionsOf(
     const PoseObservationSet& observations) {

@@ -48,12 +48,16 @@ void VisitSeen(const PoseObservationSet& observations, const F& f) {
   }
 }
 
+// By camera: whether it has enough observations to be refined.
+std::vector<bool> ObservedLenses(const PoseObservationSet& observations,
+                                 const Scene& scene);
+
 // The points of the scene with known pixels in two views or more; none if they
 // are fewer than a hundred.
 std::vector<PointSample> UsablePoints(const Scene& scene);
 
-// `chosen`: points with the most views, as many as the views need, but every
-// fifth of these, from the one after the first `held_out_set` on. `held_out`:
+// `chosen`: points with the most views, as many as the views need, without
+// every fifth of these, the first after 4 - `held_out_set` others. `held_out`:
 // all others. Ties: the order of `points`.
 struct ChosenPoints {
   std::vector<PointSample> chosen;

@@ -8,7 +8,6 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "geometry/camera_of.h"
 #include "geometry/directions.h"
 #include "geometry/fit_point.h"
 #include "poses/find_shift.h"
@@ -178,7 +177,8 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& observations,
     PoseSample& sample = samples.emplace_back();
     sample.contour = place.contour;
     for (const EdgeRef& ref : place.support) {
-      sample.observations.push_back({ref.view_idx, edges_.EdgeInImage(ref)});
+      sample.observations.push_back(
+          {ref.view_idx, edges_.EdgeInPhotograph(ref)});
     }
   }
   return AdjustPoses({scene_,

@@ -16,12 +16,11 @@
 #include "base/parallel.h"
 #include "edge_detection/undistort_edges.h"
 #include "edge_sketch/sketch_by_views.h"
-#include "geometry/camera_of.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "geometry/lens.h"
 #include "geometry/nearest_edge.h"
-#include "geometry/posed_views.h"
 #include "model/check_input.h"
+#include "model/posed_view.h"
 
 namespace curvix {
 namespace {
@@ -73,7 +72,7 @@ PosedEdges::PosedEdges(const Scene& scene,
       neighbors_(NeighborsInDirection(FindOverlaps(views_, scene.points))),
       moved_(Unmoved()) {}
 
-const Camera& PosedEdges::CameraOf(std::size_t view_idx) const {
+const Camera& PosedEdges::PresentCameraOf(std::size_t view_idx) const {
   return moved_
       .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];
 }
@@ -86,12 +85,12 @@ Rigid3 PosedEdges::PoseOf(std::size_t view_idx) const {
 void PosedEdges::Move(const MovedCameras& moved) {
   moved_ = moved;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    views_[i] = MakePosedView(CameraOf(i), PoseOf(i));
+    views_[i] = MakePosedView(PresentCameraOf(i), PoseOf(i));
   }
 }
 
 const Camera& PosedEdges::InputCameraOf(std::size_t view_idx) const {
-  return curvix::CameraOf(scene_, scene_.views[view_idx]);
+  return CameraOf(scene_, scene_.views[view_idx]);
 }
 
 std::optional<ImageEdge> PosedEdges::Seen(const OccludingContour& contour,
@@ -99,13 +98,14 @@ std::optional<ImageEdge> PosedEdges::Seen(const OccludingContour& contour,
   const PosedView& view = views_[view_idx];
   const auto seen = ProjectEdge(view, SeenFrom(contour, view.center));
   if (!seen || !view.Contains(seen->position)) return std::nullopt;
-  return CarryEdge(*seen, CameraOf(view_idx), InputCameraOf(view_idx));
+  return CarryEdge(*seen, PresentCameraOf(view_idx), InputCameraOf(view_idx));
 }
 
 std::vector<EdgeMap> PosedEdges::CarriedMaps() const {
   std::vector<EdgeMap> carried(views_.size());
   ParallelFor(views_.size(), options_.runtime.num_threads, [&](std::size_t i) {
-    auto edges = CarryEdges(edge_maps_[i], InputCameraOf(i), CameraOf(i));
+    auto edges =
+        CarryEdges(edge_maps_[i], InputCameraOf(i), PresentCameraOf(i));
     if (edges) carried[i] = *std::move(edges);
   });
   return carried;
@@ -244,7 +244,7 @@ std::vector<EdgesAround> PosedEdges::LookAround(
     if (!projected) continue;
     const Eigen::Vector2d& tangent = projected->tangent;
     EdgesAround around;
-    around.normal = {-tangent.y(), tangent.x()};
+    around.normal = projected->Normal();
     const auto look = [&](const IndexedEdge& edge) {
       const Eigen::Vector2d offset =
           edge.position.cast<double>() - projected->position;
@@ -269,9 +269,9 @@ ImageEdge PosedEdges::InputEdge(const EdgeRef& ref) const {
   return ToImageEdge(EdgeOf(ref, edge_maps_));
 }
 
-ImageEdge PosedEdges::EdgeInImage(const EdgeRef& ref) const {
+ImageEdge PosedEdges::EdgeInPhotograph(const EdgeRef& ref) const {
   const auto i = static_cast<std::size_t>(ref.view_idx);
-  return curvix::EdgeInImage(InputEdge(ref), InputCameraOf(i));
+  return EdgeInImage(InputEdge(ref), InputCameraOf(i));
 }
 
 double PosedEdges::Distance(const OccludingContour& contour,
@@ -279,22 +279,21 @@ double PosedEdges::Distance(const OccludingContour& contour,
   const auto seen = Seen(contour, static_cast<std::size_t>(ref.view_idx));
   if (!seen) return std::numeric_limits<double>::infinity();
   const ImageEdge edge = InputEdge(ref);
-  const Eigen::Vector2d normal(-edge.tangent.y(), edge.tangent.x());
-  return std::abs(normal.dot(seen->position - edge.position));
+  return std::abs(edge.Normal().dot(seen->position - edge.position));
 }
 
 std::vector<PointInImage> PosedEdges::Observed(const PointSample& point) const {
   std::vector<PointInImage> seen;
   for (const PointSample::Observation& at : point.observations) {
     const auto i = static_cast<std::size_t>(at.view_idx);
-    seen.push_back({&CameraOf(i), PoseOf(i), at.pixel});
+    seen.push_back({&PresentCameraOf(i), PoseOf(i), at.pixel});
   }
   return seen;
 }
 
 std::optional<Eigen::Vector2d> PosedEdges::PixelByInputCamera(
     std::size_t view_idx, const Eigen::Vector3d& x) const {
-  const auto seen = Project(CameraOf(view_idx), PoseOf(view_idx), x);
+  const auto seen = Project(PresentCameraOf(view_idx), PoseOf(view_idx), x);
   if (!seen) return std::nullopt;
   const auto ideal = IdealFromImage(InputCameraOf(view_idx), *seen);
   if (!ideal) return std::nullopt;
@@ -309,7 +308,7 @@ std::optional<double> PosedEdges::ShiftIn(std::size_t view_idx,
       Project(before.cameras[static_cast<std::size_t>(view.camera_idx)],
               before.new_cam_from_cam[view_idx] * view.cam_from_world,
               x);
-  const auto to = Project(CameraOf(view_idx), PoseOf(view_idx), x);
+  const auto to = Project(PresentCameraOf(view_idx), PoseOf(view_idx), x);
   if (!from || !to) return std::nullopt;
   return (*to - *from).norm();
 }
@@ -320,20 +319,11 @@ OccludingContour PosedEdges::Adjusted(const CurvePlace& place,
   std::vector<PlaneMeasurement> measurements;
   for (const EdgeRef& ref : place.support) {
     const auto i = static_cast<std::size_t>(ref.view_idx);
-    const auto edge = CarryEdge(InputEdge(ref), InputCameraOf(i), CameraOf(i));
+    const auto edge =
+        CarryEdge(InputEdge(ref), InputCameraOf(i), PresentCameraOf(i));
     if (edge) measurements.push_back(MeasurePlane(views_[i], *edge));
   }
   return AdjustOccludingContour(place.contour, measurements, sigma_px);
-}
-
-Status CanCarryEdges(const Scene& scene,
-                     const std::vector<EdgeMap>& edge_maps,
-                     const std::vector<Camera>& cameras) {
-  for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    const auto edges = EdgesWithCamera(scene, i, edge_maps[i], cameras);
-    if (!edges.ok()) return edges.status();
-  }
-  return {};
 }
 
 Result<std::vector<EdgeMap>> EdgesWithCameras(

@@ -6,7 +6,6 @@
 #include <curvix/edges.h>
 #include <curvix/options.h>
 #include <curvix/scene.h>
-#include <curvix/status.h>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -43,7 +42,7 @@ class PosedEdges {
   MovedCameras Unmoved() const {
     return {std::vector<Rigid3>(views_.size()), scene_.cameras};
   }
-  const Camera& CameraOf(std::size_t view_idx) const;
+  const Camera& PresentCameraOf(std::size_t view_idx) const;
   // The pose of the scene followed by the view's increment.
   Rigid3 PoseOf(std::size_t view_idx) const;
   void Move(const MovedCameras& moved);
@@ -73,8 +72,7 @@ class PosedEdges {
       std::size_t view_idx,
       double reach_px) const;
 
-  // In pixels of the photograph.
-  ImageEdge EdgeInImage(const EdgeRef& ref) const;
+  ImageEdge EdgeInPhotograph(const EdgeRef& ref) const;
   // Pixels; of the projection of `contour` from the line of the edge.
   double Distance(const OccludingContour& contour, const EdgeRef& ref) const;
   // The pixels of the point, with the present poses and cameras.
@@ -121,11 +119,5 @@ class PosedEdges {
   MovedCameras moved_;
   std::size_t min_supports_ = 0;
 };
-
-// Whether EdgesWithCameras() has a result; else kInvalidArgument and the first
-// view that has none. Input as there, and not checked.
-Status CanCarryEdges(const Scene& scene,
-                     const std::vector<EdgeMap>& edge_maps,
-                     const std::vector<Camera>& cameras);
 
 }  // namespace curvix

@@ -4,7 +4,6 @@
 #include <curvix/refine_poses.h>
 #include <algorithm>
 #include <iterator>
-
 #include <numeric>
 #include <optional>
 #include <string>
@@ -26,10 +25,12 @@ namespace curvix {
 namespace {
 
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
+// Of a camera's pixels, over the fall of errors. A new camera whose shift the
+// poses and the scene all but undo bends these, away from dense models and
+// images that have the old one, to which the points have been adjusted.
+constexpr double kMaxShiftPerFall = 4;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
-// Several for each of the at most eight parameters.
-constexpr int kMinObservationsPerLens = 50;
 
 ErrorsOfViews Summarize(const std::vector<double>& errors) {
   const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
@@ -68,18 +69,18 @@ class Refiner {
     } else if (held_out_.places.size() + held_out_.points.size() <
                kMinHeldOut) {
       reason_to_stay_ = "too little is left to judge by";
-    } else if (!search_.ShiftViews(observations_.places) &&
-               EdgesFit(held_out_, before_, search_.edges())) {
+    } else if (!search_.ShiftViews(observations_.places) && EdgesFit(before_)) {
       reason_to_stay_ = "the edges are where the poses put them";
     } else {
       Improve();
     }
-    RestoreWorseViews(Measure());
     after_ = Measure();
-    gains_ = CompareErrors(held_out_, cells_, before_, after_, search_.edges());
+    if (RestoreWorseViews()) after_ = Measure();
+    gains_ = CompareErrors(held_out_, cells_, before_, after_);
   }
 
   const SpaceCells& cells() const { return cells_; }
+  bool cameras_stay() const { return !reason_of_cameras_.empty(); }
   const HeldOutGains& gains() const { return *gains_; }
 
   // Adds those of another search, in which other cells were held out.
@@ -151,25 +152,11 @@ class Refiner {
     SketchAgain();
   }
 
-  // By camera: whether it has enough observations.
-  std::vector<bool> ObservedLenses(
-      const PoseObservationSet& observations) const {
-    std::vector<int> counts(scene_.cameras.size(), 0);
-    VisitSeen(observations, [&](std::size_t i, const Eigen::Vector3d&) {
-      ++counts[static_cast<std::size_t>(scene_.views[i].camera_idx)];
-    });
-    std::vector<bool> observed;
-    for (const int count : counts) {
-      observed.push_back(count >= kMinObservationsPerLens);
-    }
-    return observed;
-  }
-
   // Refines cameras, first by their own terms, then by more. Two fifths of
   // space determine them; all else is test data. Poses are adjusted to it with
   // the old and with the new cameras, which are kept if that is proven to fit
   // better. Once the input's are given up, one standard error decides between
-  // models. Whether cameras have changed.
+  // models. Whether cameras have changed: not if they would bend the scene.
   bool TryLenses() {
     if (!refine_intrinsics_) return false;
     PoseObservationSet training = observations_;
@@ -182,7 +169,7 @@ class Refiner {
     std::vector<double> best_losses = search_.LossesOf(test);
     MovedCameras best = before;
     std::vector<Camera> cameras = before.cameras;
-    const std::vector<bool> free_lenses = ObservedLenses(training);
+    const std::vector<bool> free_lenses = ObservedLenses(training, scene_);
     search_.FreeLenses(free_lenses);
     while (!search_.is_stopped()) {
       PoseObservationSet adjusted = training;
@@ -191,10 +178,9 @@ class Refiner {
       std::vector<double> losses = search_.LossesOf(test);
       const SignificanceOfGain gain =
           Together(CompareLosses(test, cells_, best_losses, losses));
-      const bool is_better = best.cameras == before.cameras
-                                 ? IsBetter(gain)
-                                 : IsBetterByOneStandardError(gain);
-      if (is_better && search_.edges().moved().cameras != before.cameras) {
+      const double least = best.cameras == before.cameras ? kSignificant : 1;
+      if (IsBetter(gain, least) &&
+          search_.edges().moved().cameras != before.cameras) {
         best_losses = std::move(losses);
         best = search_.edges().moved();
       }
@@ -202,28 +188,48 @@ class Refiner {
       if (longer == cameras) break;
       cameras = std::move(longer);
     }
-    const bool have_changed = best.cameras != before.cameras;
-    search_.Move(best);
-    if (have_changed) {
-      search_.Fit(&observations_);
-    } else {
+    if (best.cameras == before.cameras || BendsScene(before, best)) {
+      search_.Move(before);
       search_.FreeLenses({});
+      return false;
     }
-    return have_changed;
+    search_.Move(best);
+    search_.Fit(&observations_);
+    return true;
+  }
+
+  // Whether new cameras shift the image too far for what they explain.
+  bool BendsScene(const MovedCameras& before, const MovedCameras& after) {
+    if (observations_.points.empty()) return false;
+    std::vector<double> shifts_px;
+    for (std::size_t i = 0; i < before.cameras.size(); ++i) {
+      if (after.cameras[i] == before.cameras[i]) continue;
+      shifts_px.push_back(ShiftOfImage(before.cameras[i], after.cameras[i]));
+    }
+    const double shift_px = Median(std::move(shifts_px));
+    search_.Move(after);
+    const double fall_px = FallOfErrors(before_, Measure());
+    if (shift_px <= kMaxShiftPerFall * fall_px) return false;
+    reason_of_cameras_ = "; cameras stay: others would shift images by " +
+                         FixedText(shift_px, 2) +
+                         " px for errors that fall by " +
+                         FixedText(fall_px, 2) + " px";
+    return true;
   }
 
   // Views in which errors grow keep their poses, unless lenses have changed,
-  // for which the old poses do not hold.
-  void RestoreWorseViews(const HeldOutErrors& after) {
-    if (!search_.free_lenses().empty()) return;
+  // for which the old poses do not hold. Whether there are such views.
+  bool RestoreWorseViews() {
+    if (!search_.free_lenses().empty()) return false;
     const std::vector<bool> worse =
-        WorseViews(PairErrors(held_out_, before_, after, search_.edges()),
-                   scene_.views.size());
+        WorseViews(PairErrors(before_, after_), scene_.views.size());
+    if (std::ranges::find(worse, true) == worse.end()) return false;
     MovedCameras moved = search_.edges().moved();
     for (std::size_t i = 0; i < worse.size(); ++i) {
       if (worse[i]) moved.new_cam_from_cam[i] = Rigid3();
     }
     search_.Move(moved);
+    return true;
   }
 
   CurvePoses Judge() {
@@ -242,8 +248,7 @@ class Refiner {
 
   void SummarizeErrors(CurvePoses* result) const {
     std::vector<double> from, to;
-    for (const ErrorPair& pair :
-         PairErrors(held_out_, before_, after_, search_.edges())) {
+    for (const ErrorPair& pair : PairErrors(before_, after_)) {
       from.push_back(pair.before);
       to.push_back(pair.after);
     }
@@ -269,7 +274,7 @@ class Refiner {
     return std::string(IsAccepted() ? "" : "may be chance: ") +
            "what was held out comes nearer by " + FixedText(gain.all, 1) +
            " standard deviations (edges " + FixedText(gain.places, 1) +
-           ", points " + FixedText(gain.points, 1) + ")";
+           ", points " + FixedText(gain.points, 1) + ")" + reason_of_cameras_;
   }
 
   // Adjusts to all observations, held-out ones included; places are those found
@@ -339,6 +344,7 @@ class Refiner {
   HeldOutErrors before_, after_;
   std::optional<HeldOutGains> gains_;
   std::string reason_to_stay_;
+  std::string reason_of_cameras_;  // to stay, although others fit better
 };
 
 // Held out is one set of cells; as long as this leaves open if the poses are
@@ -351,7 +357,11 @@ CurvePoses Refine(const Scene& scene,
   Refiner refiner(scene, edge_maps, options, refine_intrinsics, run);
   refiner.Search(0, std::nullopt);
   for (int set = 1; set < SpaceCells::kNumSets && refiner.IsOpen(set); ++set) {
-    Refiner other(scene, edge_maps, options, refine_intrinsics, run);
+    Refiner other(scene,
+                  edge_maps,
+                  options,
+                  refine_intrinsics && !refiner.cameras_stay(),
+                  run);
     other.Search(set, refiner.cells());
     refiner.Add(other.gains());
   }
@@ -375,7 +385,8 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
   CurvePoses result =
       Refine(scene, edge_maps, options, refine_intrinsics, &run);
   // Later steps need the edges of the new cameras.
-  if (const Status status = CanCarryEdges(scene, edge_maps, result.cameras);
+  if (const Status status =
+          EdgesWithCameras(scene, edge_maps, result.cameras).status();
       !status.ok()) {
     result = Refine(scene, edge_maps, options, false, &run);
     result.reason += "; cameras stay: " + status.message();

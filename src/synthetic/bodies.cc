@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "base/angles.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 
@@ -25,8 +26,7 @@ SolidPrimitive Frustum(const Vector3d& base,
   SolidPrimitive frustum;
   frustum.shape = PrimitiveShape::kFrustum;
   frustum.size = {base_radius, top_radius, axis.norm()};
-  frustum.world_from_own = {
-      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis), base};
+  frustum.world_from_own = {ShortestRotation(Vector3d::UnitZ(), axis), base};
   return frustum;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "base/angles.h"
 #include "geometry/directions.h"
@@ -19,13 +20,8 @@ using Eigen::Vector3d;
 
 constexpr double kFocalPerSide = 1.3;
 
-// What `distortion` may be for `model`.
-struct DistortionRange {
-  double min;
-  double max;
-};
-
-DistortionRange RangeOf(CameraModel model) {
+// The least and the largest `distortion` for `model`.
+std::pair<double, double> RangeOf(CameraModel model) {
   switch (model) {
     case CameraModel::kPinhole:
     case CameraModel::kSimplePinhole:
@@ -74,15 +70,13 @@ double RmsMove(const Rigid3& from,
 Result<Camera> MakeCamera(const SyntheticOptions& options) {
   const CameraModel model = options.camera_model;
   const std::string name(ModelName(model));
-  const DistortionRange range = RangeOf(model);
-  if (!(options.distortion >= range.min && options.distortion <= range.max)) {
+  const auto [min, max] = RangeOf(model);
+  if (!(options.distortion >= min && options.distortion <= max)) {
     return Status::InvalidArgument(
         "distortion is " + std::to_string(options.distortion) +
-        (range.max == 0
-             ? "; it must be 0, as " + name + " has no radial coefficient"
-             : "; with " + name + " it must be between " +
-                   std::to_string(range.min) + " and " +
-                   std::to_string(range.max)));
+        (max == 0 ? "; it must be 0, as " + name + " has no radial coefficient"
+                  : "; with " + name + " it must be between " +
+                        std::to_string(min) + " and " + std::to_string(max)));
   }
   Camera camera{model, options.width, options.height, {}};
   camera.params.assign(static_cast<std::size_t>(NumParams(model)), 0.0);

@@ -17,11 +17,10 @@ using Eigen::Vector3d;
 
 // Whether a face's point x is where a ray from outside meets the surface.
 bool IsOnSurface(const Solid& solid,
-                 int primitive_idx,
+                 std::size_t primitive_idx,
                  int face_idx,
                  const Vector3d& x) {
-  const SolidPrimitive& primitive =
-      solid.primitives()[static_cast<std::size_t>(primitive_idx)];
+  const SolidPrimitive& primitive = solid.primitives()[primitive_idx];
   const Rigid3& pose = primitive.world_from_own;
   const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
   const double clear = (primitive.is_added ? 1e-5 : -1e-5) * solid.detail();
@@ -109,7 +108,7 @@ class EdgeShadow {
     if (!hit) return std::nullopt;
     return Place{ray.origin + hit->t * away,
                  hit->normal,
-                 8 * hit->primitive_idx + hit->face_idx};
+                 static_cast<int>(8 * hit->primitive_idx) + hit->face_idx};
   }
 
   // The key of the face where the shadow ends across; -1: it does not.
@@ -192,13 +191,12 @@ std::vector<TrueCurve> MarkingCurves(const Solid& solid,
   for (std::size_t p = 0; p < solid.primitives().size(); ++p) {
     const SolidPrimitive& primitive = solid.primitives()[p];
     for (int face = 0; face < NumFaces(primitive.shape); ++face) {
-      const auto idx = static_cast<int>(p);
-      const FacePattern* pattern = surfaces.PatternOf(idx, face);
+      const FacePattern* pattern = surfaces.PatternOf(p, face);
       if (pattern == nullptr) continue;
       for (const TrueCurve& flat : pattern->Outlines()) {
         const TrueCurve whole = OnFace(primitive, face, flat);
         const auto on_surface = [&](double s) {
-          return IsOnSurface(solid, idx, face, whole.Position(s));
+          return IsOnSurface(solid, p, face, whole.Position(s));
         };
         std::ranges::copy(PartsWhere(whole, solid.detail(), on_surface),
                           std::back_inserter(curves));

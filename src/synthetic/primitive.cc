@@ -219,12 +219,6 @@ double FarthestDistance(const SolidPrimitive& primitive) {
   return farthest;
 }
 
-double OwnRadius(const SolidPrimitive& primitive) {
-  SolidPrimitive at_origin = primitive;
-  at_origin.world_from_own = {};
-  return FarthestDistance(at_origin);
-}
-
 Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives) {
   Eigen::AlignedBox3d box;
   for (const SolidPrimitive& primitive : primitives) {

@@ -81,9 +81,6 @@ std::optional<double> SheetHit(const SolidPrimitive& sheet, const Ray& own_ray);
 // The largest distance of the primitive from the world's origin.
 double FarthestDistance(const SolidPrimitive& primitive);
 
-// The largest distance of the primitive from the origin of its own frame.
-double OwnRadius(const SolidPrimitive& primitive);
-
 // Of the added bodies; empty without any.
 Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "geometry/directions.h"
 #include "synthetic/bodies.h"
 #include "synthetic/walks.h"
 
@@ -129,8 +130,7 @@ std::vector<SolidPrimitive> Cone() {
 std::vector<SolidPrimitive> CutSphere() {
   const Vector3d up = Vector3d(-0.35, -0.3, 0.9).normalized();
   SolidPrimitive cut = Box({-1, -1, 0}, {1, 1, 1});
-  cut.world_from_own.rotation =
-      Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up);
+  cut.world_from_own.rotation = ShortestRotation(Vector3d::UnitZ(), up);
   cut.world_from_own.translation = (0.22 + 0.5) * up;
   return {Sphere({0, 0, 0}, 0.5), Without(cut)};
 }

@@ -15,7 +15,7 @@ Solid::Solid(std::vector<SolidPrimitive> primitives)
     : primitives_(std::move(primitives)) {
   for (const SolidPrimitive& primitive : primitives_) {
     CURVIX_CHECK(primitive.size.allFinite(), "size of a primitive");
-    const double reach = (1 + 1e-9) * OwnRadius(primitive);
+    const double reach = (1 + 1e-9) * primitive.size.norm();
     placed_.push_back(
         {primitive.world_from_own.rotation.conjugate().toRotationMatrix(),
          primitive.world_from_own.translation,
@@ -64,7 +64,7 @@ std::vector<Solid::Span> Solid::Spans(const Ray& ray) const {
     }
     const RayInterval inside = Intersect(primitives_[i], InFrameOf(i, ray));
     if (inside.IsEmpty() || inside.exit <= 0) continue;
-    spans.push_back({inside, static_cast<int>(i)});
+    spans.push_back({inside, i});
   }
   return spans;
 }
@@ -79,20 +79,20 @@ bool Solid::IsInsideAfter(const std::vector<Span>& spans, double t) const {
   bool is_inside = false;
   for (const Span& span : spans) {
     if (span.enter <= t && t < span.exit) {
-      is_inside =
-          primitives_[static_cast<std::size_t>(span.primitive_idx)].is_added;
+      is_inside = primitives_[span.primitive_idx].is_added;
     }
   }
   return is_inside;
 }
 
 Vector3d Solid::Normal(const Hit& hit, const Vector3d& world) const {
-  const auto i = static_cast<std::size_t>(hit.primitive_idx);
-  const Eigen::Matrix3d& rotation = placed_[i].own_from_world_rotation;
-  const Vector3d own = rotation * (world - placed_[i].origin);
+  const SolidPrimitive& primitive = primitives_[hit.primitive_idx];
+  const Placed& placed = placed_[hit.primitive_idx];
+  const Eigen::Matrix3d& rotation = placed.own_from_world_rotation;
+  const Vector3d own = rotation * (world - placed.origin);
   const Vector3d normal =
-      rotation.transpose() * OwnNormal(primitives_[i], hit.face_idx, own);
-  return primitives_[i].is_added ? normal : Vector3d(-normal);
+      rotation.transpose() * OwnNormal(primitive, hit.face_idx, own);
+  return primitive.is_added ? normal : Vector3d(-normal);
 }
 
 void Solid::TraceSheets(const Ray& ray,
@@ -103,7 +103,7 @@ void Solid::TraceSheets(const Ray& ray,
     const std::optional<double> t = SheetHit(primitives_[i], own);
     if (!t || *t >= hit.t || IsInsideAfter(spans, *t)) continue;
     hit.t = *t;
-    hit.primitive_idx = static_cast<int>(i);
+    hit.primitive_idx = i;
     hit.face_idx = own.direction.z() < 0 ? 0 : 1;
   }
 }
@@ -114,8 +114,7 @@ std::optional<Hit> Solid::Trace(const Ray& ray) const {
   Hit hit;
   hit.t = kInfinity;
   for (const Span& span : spans) {
-    const bool is_added =
-        primitives_[static_cast<std::size_t>(span.primitive_idx)].is_added;
+    const bool is_added = primitives_[span.primitive_idx].is_added;
     const double t = is_added ? span.enter : span.exit;
     if (t <= 0 || t >= hit.t || !IsInsideAfter(spans, t)) continue;
     hit.t = t;

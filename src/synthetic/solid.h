@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace curvix {
 // Where a ray enters the solid: origin + t * direction.
 struct Hit {
   double t = 0;
-  int primitive_idx = 0;
+  std::size_t primitive_idx = 0;
   int face_idx = 0;        // of the primitive, see NumFaces
   Eigen::Vector3d normal;  // unit, out of the solid
 };
@@ -48,7 +49,7 @@ class Solid {
     double squared_reach;  // nothing of it is further from the origin
   };
   struct Span : RayInterval {  // the part of a ray inside one primitive
-    int primitive_idx = 0;
+    std::size_t primitive_idx = 0;
   };
   std::vector<Span> Spans(const Ray& ray) const;
   Ray InFrameOf(std::size_t primitive_idx, const Ray& ray) const;

@@ -128,7 +128,7 @@ bool HasPattern(const Solid& solid) {
 
 }  // namespace
 
-Surfaces::Surfaces(const Solid& solid, const SurfaceOptions& options)
+Surfaces::Surfaces(const Solid& solid, const SyntheticOptions& options)
     : solid_(solid),
       options_(options),
       mottle_(HasPattern(solid) ? kMottle : 0) {
@@ -150,10 +150,9 @@ const Vector3d& Surfaces::SunDirection() {
   return direction;
 }
 
-const FacePattern* Surfaces::PatternOf(int primitive_idx, int face_idx) const {
-  return patterns_[static_cast<std::size_t>(primitive_idx)]
-                  [static_cast<std::size_t>(face_idx)]
-                      .get();
+const FacePattern* Surfaces::PatternOf(std::size_t primitive_idx,
+                                       int face_idx) const {
+  return patterns_[primitive_idx][static_cast<std::size_t>(face_idx)].get();
 }
 
 bool Surfaces::IsSunny(const Vector3d& x, const Vector3d& normal) const {
@@ -180,10 +179,9 @@ Look Surfaces::At(const Ray& ray, const Hit& hit) const {
   const SurfaceTexture mottle{
       mottle_, options_.scale / 24, Mix(options_.seed, 1), false};
   const auto spots = texture.At(x);
-  const auto primitive_idx = static_cast<std::size_t>(hit.primitive_idx);
-  const SolidPrimitive& primitive = solid_.primitives()[primitive_idx];
+  const SolidPrimitive& primitive = solid_.primitives()[hit.primitive_idx];
   const std::uint64_t face =
-      8 * primitive_idx + static_cast<unsigned>(hit.face_idx);
+      8 * hit.primitive_idx + static_cast<unsigned>(hit.face_idx);
   Look look{primitive.albedo * Shade(hit.normal),
             Mix(spots.patch_id, face + 1)};
   if (const FacePattern* pattern = PatternOf(hit.primitive_idx, hit.face_idx)) {

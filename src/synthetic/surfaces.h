@@ -3,22 +3,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "synthetic/face_pattern.h"
 #include "synthetic/solid.h"
+#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
-
-struct SurfaceOptions {
-  double scale = 1;          // SyntheticOptions::scale
-  double texture = 0;        // SyntheticOptions::texture
-  bool shadows = false;      // the sun shines, and bodies cast hard shadows
-  bool reflections = false;  // lamps far away are mirrored
-  std::uint64_t seed = 0;
-};
 
 // What a ray sees. Brightness is smooth where `id` is constant.
 struct Look {
@@ -34,14 +28,15 @@ struct Look {
 // besides, without edges.
 class Surfaces {
  public:
-  // `solid` outlives this.
-  Surfaces(const Solid& solid, const SurfaceOptions& options);
+  // `solid` outlives this. Of `options`, scale, texture, shadows, reflections
+  // and seed count.
+  Surfaces(const Solid& solid, const SyntheticOptions& options);
 
   // Where `ray` meets the solid.
   Look At(const Ray& ray, const Hit& hit) const;
 
   // What is painted on a face; null: nothing.
-  const FacePattern* PatternOf(int primitive_idx, int face_idx) const;
+  const FacePattern* PatternOf(std::size_t primitive_idx, int face_idx) const;
 
   // Whether the sun shines on a point of the surface, `normal` its unit normal
   // out of the solid. False where the surface looks away from it.
@@ -58,7 +53,7 @@ class Surfaces {
                   std::uint64_t& id) const;
 
   const Solid& solid_;
-  SurfaceOptions options_;
+  SyntheticOptions options_;
   double mottle_ = 0;  // contrast, grey levels
   std::vector<std::vector<std::unique_ptr<FacePattern>>> patterns_;
 };

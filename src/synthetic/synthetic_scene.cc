@@ -28,17 +28,16 @@ std::string ViewName(std::size_t i) {
   return "view_" + number + ".png";
 }
 
-RgbImage WithNoise(const RenderedImage& rendered,
-                   double sigma,
-                   std::uint64_t seed) {
-  RgbImage image{rendered.width, rendered.height, {}};
-  image.pixels.reserve(3 * rendered.grey.size());
+SyntheticImage WithNoise(const RenderedImage& rendered,
+                         double sigma,
+                         std::uint64_t seed) {
+  SyntheticImage image{rendered.width, rendered.height, {}};
+  image.pixels.reserve(rendered.grey.size());
   for (std::size_t i = 0; i < rendered.grey.size(); ++i) {
     double grey = static_cast<double>(rendered.grey[i]);
     if (sigma > 0) grey += sigma * Gaussian(seed, i);
-    const auto level =
-        static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0, 255.0)));
-    image.pixels.insert(image.pixels.end(), 3, level);
+    image.pixels.push_back(
+        static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0, 255.0))));
   }
   return image;
 }
@@ -147,12 +146,9 @@ Result<SyntheticScene> MakeSyntheticScene(
 
   const Solid solid = MakeSolid(
       options.solid, options.scale, options.num_views, options.pattern);
-  const Surfaces surfaces(solid,
-                          {options.scale,
-                           options.texture,
-                           options.shadows,
-                           options.reflections,
-                           Mix(options.seed, kTexture)});
+  SyntheticOptions of_surfaces = options;
+  of_surfaces.seed = Mix(options.seed, kTexture);
+  const Surfaces surfaces(solid, of_surfaces);
   const std::vector<Rigid3> poses = Poses(options, solid);
 
   bool is_cancelled = false;

@@ -55,8 +55,8 @@ struct SyntheticOptions {
   int num_threads = 0;  // 0: all cores; the result does not depend on it
 };
 
-// 8-bit RGB, row-major.
-struct RgbImage {
+// Grey levels, row-major.
+struct SyntheticImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
@@ -77,7 +77,8 @@ struct SyntheticScene {
   // Poses as written, views named view_000.png ..., along the facade in order;
   // points of the surface that two exact cameras or more see.
   Scene scene;
-  std::vector<RgbImage> images;   // one per view, rendered with the exact poses
+  // One per view, rendered with the exact poses.
+  std::vector<SyntheticImage> images;
   std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
 };
 

@@ -52,7 +52,7 @@ std::vector<ScenePoint> FindPoints(
 // curve. Faces that continue each other smoothly make no edge. Candidates are
 // plane with plane, plane with frustum at right angles to its axis, and plane
 // with sphere; other pairs are not looked at. Edges shorter than a hundredth of
-// the solid's radius are left out.
+// the solid's detail() are left out.
 //
 // Sheets have edges at their rims alone: creases where they stand on a face or
 // touch another sheet, boundaries elsewhere.

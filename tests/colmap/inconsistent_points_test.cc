@@ -23,10 +23,9 @@ Scene SceneWithPoints(int num_views = 4) {
     point.position = {0.1 * i, 0.05 * i, 0};
     for (std::size_t v = 0; v < scene.views.size(); ++v) {
       const View& view = scene.views[v];
-      const auto k = static_cast<std::size_t>(view.camera_idx);
       point.view_idxs.push_back(static_cast<int>(v));
       point.pixels.push_back(
-          *Project(scene.cameras[k], view.cam_from_world, point.position));
+          *Project(CameraOf(scene, view), view.cam_from_world, point.position));
     }
   }
   return scene;

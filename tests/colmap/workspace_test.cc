@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colmap/workspace.h"
 
+#include <curvix/colmap_io.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -168,6 +169,46 @@ TEST_F(WorkspaceTest, LinkedModelsKeepTheirResultsBesideTheLink) {
   fs::create_directory_symlink(At("data/sparse"), At("proj/sparse"));
   fs::create_directory_symlink(At("data/images"), At("proj/images"));
   Expect(Root(), "data/sparse/0", "data/images", "proj/curvix/0");
+}
+
+TEST_F(WorkspaceTest, ResultsDoNotFollowLinks) {
+  MakeModel("proj/sparse/0");
+  MakeImages("proj/images");
+  fs::create_directories(At("private/0"));
+  fs::create_directory_symlink(At("private"), At("proj/curvix"));
+  const Result<Workspace> found = FindWorkspace(Root());
+  ASSERT_TRUE(found.ok()) << found.status().message();
+  const Status status = CheckOutputLinks(Root(), *found);
+  EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  EXPECT_THAT(status.message(), HasSubstr("curvix is a link"));
+  WorkspacePaths given = Root();
+  given.output_path = At("proj/curvix/0");
+  EXPECT_TRUE(CheckOutputLinks(given, *FindWorkspace(given)).ok());
+  // Nothing is written.
+  EXPECT_TRUE(ReadColmapScene(At("proj")).ok());
+}
+
+TEST_F(WorkspaceTest, ResultsOfAModelCalledCurvixDoNotFollowLinks) {
+  MakeModel("elsewhere/curvix");
+  MakeImages("proj/images");
+  WorkspacePaths paths = Root();
+  paths.input_path = At("elsewhere/curvix");
+  Expect(paths, "elsewhere/curvix", "proj/images", "proj/curvix/curvix");
+  EXPECT_TRUE(CheckOutputLinks(paths, *FindWorkspace(paths)).ok());
+  fs::create_directories(At("private"));
+  fs::create_directory_symlink(At("private"), At("proj/curvix"));
+  EXPECT_EQ(CheckOutputLinks(paths, *FindWorkspace(paths)).code(),
+            StatusCode::kInvalidArgument);
+}
+
+TEST_F(WorkspaceTest, TheWorkspaceMayBeALinkCalledCurvix) {
+  MakeModel("proj/sparse/0");
+  MakeImages("proj/images");
+  fs::create_directory_symlink(At("proj"), At("curvix"));
+  WorkspacePaths paths;
+  paths.workspace_path = At("curvix");
+  Expect(paths, "proj/sparse/0", "proj/images", "curvix/curvix/0");
+  EXPECT_TRUE(CheckOutputLinks(paths, *FindWorkspace(paths)).ok());
 }
 
 TEST_F(WorkspaceTest, ProjectFileNamesTheImages) {

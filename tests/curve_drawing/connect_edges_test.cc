@@ -72,27 +72,27 @@ TEST(ConnectEdges, ConnectsOnlyEdgesThatChooseEachOther) {
   // 0 and 1 both see 2 ahead; 2 prefers 1.
   const EndTies ties =
       Connected({EdgeAtPx(0, 0.6), EdgeAtPx(0.3, 0), EdgeAtPx(1.5, 0)});
-  EXPECT_EQ(ties[Back(2)], Front(1));
-  EXPECT_NE(ties[Front(0)], Back(2));
+  EXPECT_EQ(ties[Tail(2)], Head(1));
+  EXPECT_NE(ties[Head(0)], Tail(2));
 }
 
 TEST(ConnectEdges, RespectsStepAngleAndLinks) {
   EXPECT_FALSE(
-      Connected({EdgeAtPx(0, 0), EdgeAtPx(6, 0)})[Front(0)].has_value());
+      Connected({EdgeAtPx(0, 0), EdgeAtPx(6, 0)})[Head(0)].has_value());
   Edge3d turned = EdgeAtPx(1, 0);
   turned.tangent = Eigen::Vector3d::UnitY();
-  EXPECT_FALSE(Connected({EdgeAtPx(0, 0), turned})[Front(0)].has_value());
+  EXPECT_FALSE(Connected({EdgeAtPx(0, 0), turned})[Head(0)].has_value());
   const EndTies unlinked = ConnectEdges({EdgeAtPx(0, 0), EdgeAtPx(1, 0)},
                                         NeighborhoodGraph::FromRows({{}, {}}),
                                         RingOfViews(8),
                                         {},
                                         1);
-  EXPECT_FALSE(unlinked[Front(0)].has_value());
+  EXPECT_FALSE(unlinked[Head(0)].has_value());
 }
 
 TEST(ConnectEdges, TakesDegenerateInput) {
   EXPECT_TRUE(Connected({}).empty());
-  EXPECT_FALSE(Connected({EdgeAtPx(0, 0)})[Front(0)].has_value());
+  EXPECT_FALSE(Connected({EdgeAtPx(0, 0)})[Head(0)].has_value());
   for (const auto& tie : Connected(std::vector<Edge3d>(5, EdgeAtPx(0, 0)))) {
     EXPECT_FALSE(tie.has_value());
   }

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "geometry/pixel_size.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"

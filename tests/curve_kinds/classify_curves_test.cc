@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "geometry/posed_views.h"
+#include "model/posed_view.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_views.h"
 

@@ -35,11 +35,11 @@ TEST(FitEnd, ALineIsALineInSpiteOfNoise) {
   for (CurveSample& sample : line.samples) {
     sample.position += 0.1 * kPixel * random.Across(sample.tangent);
   }
-  const EndFit front = FitEnd(line, true, {0, 20}, FrontalViews());
-  EXPECT_EQ(front.bend.norm(), 0);
-  EXPECT_NEAR(front.outward.x(), 1, 1e-3);
-  const EndFit back = FitEnd(line, false, {0, 20}, FrontalViews());
-  EXPECT_NEAR(back.outward.x(), -1, 1e-3);
+  const EndFit head = FitEnd(line, true, {0, 20}, FrontalViews());
+  EXPECT_EQ(head.bend.norm(), 0);
+  EXPECT_NEAR(head.outward.x(), 1, 1e-3);
+  const EndFit tail = FitEnd(line, false, {0, 20}, FrontalViews());
+  EXPECT_NEAR(tail.outward.x(), -1, 1e-3);
 }
 
 TEST(FitEnd, AnOutlierHardlyMatters) {

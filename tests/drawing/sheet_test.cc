@@ -143,6 +143,15 @@ TEST(Sheet, DxfIsInDrawingUnits) {
   EXPECT_GT(layers["FRAME"].size(), 8u);
 }
 
+// Escapes of DXF have four digits.
+TEST(Sheet, DxfHasRareCharactersAsTwoUnitsOfUtf16) {
+  SheetSettings settings = InMetres();
+  settings.title = "\xf0\x9f\x98\x80 \xe2\x82\xac";
+  const auto sheet = LaySheet(settings, Front(), std::nullopt);
+  ASSERT_TRUE(sheet.ok()) << sheet.status().message();
+  EXPECT_THAT(EncodeDxfSheet(*sheet), HasSubstr("\\U+D83D\\U+DE00 \\U+20AC"));
+}
+
 TEST(Sheet, SvgNamesItsPictureByAUrl) {
   auto sheet = LaySheet(InMetres(), Front(), std::nullopt);
   ASSERT_TRUE(sheet.ok());

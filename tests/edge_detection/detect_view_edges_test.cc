@@ -15,7 +15,7 @@
 
 #include "base/median.h"
 #include "edge_detection/gaussian_derivatives.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "tests/edge_detection/rendered_images.h"
 #include "tests/support/picture.h"
 #include "tests/support/temporary_folder.h"

@@ -23,6 +23,13 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using Bytes = std::vector<char>;
 
+Camera CameraOfSize(const ImageSize& size) {
+  Camera camera;
+  camera.width = size.width;
+  camera.height = size.height;
+  return camera;
+}
+
 class LoadGrayImageTest : public ::testing::Test {
  protected:
   fs::path Written(const std::string& name, const cv::Mat& image) const {
@@ -38,6 +45,7 @@ class LoadGrayImageTest : public ::testing::Test {
   }
 
   const TemporaryFolder folder_;
+  const Camera camera_ = CameraOfSize({80, 60});
 };
 
 Bytes Contents(const fs::path& path) {
@@ -53,8 +61,21 @@ cv::Mat Texture(int type) {
   return image;
 }
 
+// The image in the file as that of a view whose camera has this size.
+Result<GrayImage> Loaded(const fs::path& path, const ImageSize& size) {
+  View view;
+  view.image_path = path;
+  return LoadGrayImage(view, CameraOfSize(size));
+}
+
+// Whose camera has the size of the image, if it can be told.
+Result<GrayImage> Loaded(const fs::path& path) {
+  const Result<ImageSize> size = ReadImageSize(path);
+  return Loaded(path, size.ok() ? *size : ImageSize());
+}
+
 StatusCode CodeOf(const fs::path& path) {
-  const Result<GrayImage> image = LoadGrayImage(path);
+  const Result<GrayImage> image = Loaded(path);
   EXPECT_THAT(image.status().message(), HasSubstr(path.filename().string()));
   return image.status().code();
 }
@@ -64,7 +85,7 @@ TEST_F(LoadGrayImageTest, KeepsGrey) {
   for (int i = 0; i < 6; ++i) {
     image.at<std::uint8_t>(i / 3, i % 3) = static_cast<std::uint8_t>(40 * i);
   }
-  const Result<GrayImage> gray = LoadGrayImage(Written("a b.png", image));
+  const Result<GrayImage> gray = Loaded(Written("a b.png", image));
   ASSERT_TRUE(gray.ok()) << gray.status().message();
   EXPECT_EQ(gray->width, 3);
   EXPECT_EQ(gray->height, 2);
@@ -76,7 +97,7 @@ TEST_F(LoadGrayImageTest, WeighsColoursAndKeepsFractions) {
   image.at<cv::Vec3b>(0, 0) = {0, 0, 101};
   image.at<cv::Vec3b>(0, 1) = {0, 101, 0};
   image.at<cv::Vec3b>(0, 2) = {101, 0, 0};
-  const Result<GrayImage> gray = LoadGrayImage(Written("rgb.png", image));
+  const Result<GrayImage> gray = Loaded(Written("rgb.png", image));
   ASSERT_TRUE(gray.ok());
   EXPECT_NEAR(gray->at(0, 0), 0.299 * 101, 1e-4);
   EXPECT_NEAR(gray->at(1, 0), 0.587 * 101, 1e-4);
@@ -88,7 +109,7 @@ TEST_F(LoadGrayImageTest, CompositesAlphaOverBlack) {
   image.at<cv::Vec4b>(0, 0) = {200, 200, 200, 255};
   image.at<cv::Vec4b>(0, 1) = {200, 200, 200, 51};
   image.at<cv::Vec4b>(0, 2) = {200, 200, 200, 0};
-  const Result<GrayImage> gray = LoadGrayImage(Written("rgba.png", image));
+  const Result<GrayImage> gray = Loaded(Written("rgba.png", image));
   ASSERT_TRUE(gray.ok());
   EXPECT_NEAR(gray->at(0, 0), 200, 1e-4);
   EXPECT_NEAR(gray->at(1, 0), 40, 1e-4);
@@ -101,8 +122,8 @@ TEST_F(LoadGrayImageTest, ScalesSixteenBits) {
   gray16.at<std::uint16_t>(0, 1) = 1000;
   cv::Mat rgba16(1, 1, CV_16UC4);
   rgba16.at<cv::Vec4w>(0, 0) = {1000, 1000, 1000, 13107};
-  const Result<GrayImage> gray = LoadGrayImage(Written("g.png", gray16));
-  const Result<GrayImage> rgba = LoadGrayImage(Written("c.png", rgba16));
+  const Result<GrayImage> gray = Loaded(Written("g.png", gray16));
+  const Result<GrayImage> rgba = Loaded(Written("c.png", rgba16));
   ASSERT_TRUE(gray.ok() && rgba.ok());
   EXPECT_NEAR(gray->at(0, 0), 255, 1e-4);
   EXPECT_NEAR(gray->at(1, 0), 1000 / 257.0, 1e-4);
@@ -131,22 +152,20 @@ View InMemory(const cv::Mat& image) {
 }
 
 TEST_F(LoadGrayImageTest, ImagesInMemoryAreAsTheirFiles) {
-  const Camera camera = {CameraModel::kPinhole, 80, 60, {100, 100, 40, 30}};
   for (const int type : {CV_8UC1, CV_8UC3, CV_8UC4, CV_16UC1, CV_16UC4}) {
     const cv::Mat image = Texture(type);
-    const Result<GrayImage> expected = LoadGrayImage(Written("a.png", image));
+    const Result<GrayImage> expected = Loaded(Written("a.png", image));
     const View view = image.depth() == CV_8U ? InMemory<std::uint8_t>(image)
                                              : InMemory<std::uint16_t>(image);
-    const Result<GrayImage> gray = LoadGrayImage(view, camera);
+    const Result<GrayImage> gray = LoadGrayImage(view, camera_);
     ASSERT_TRUE(expected.ok() && gray.ok()) << gray.status().message();
     EXPECT_EQ(gray->pixels, expected->pixels) << type;
   }
 }
 
 TEST_F(LoadGrayImageTest, RefusesBrokenImagesInMemory) {
-  const Camera camera = {CameraModel::kPinhole, 80, 60, {100, 100, 40, 30}};
   View view = InMemory<std::uint8_t>(Texture(CV_8UC1));
-  const auto message = [&] { return LoadGrayImage(view, camera).status(); };
+  const auto message = [&] { return LoadGrayImage(view, camera_).status(); };
   view.image->num_channels = 2;
   EXPECT_THAT(message().message(), HasSubstr("a.png in memory"));
   view.image = {80, 60, 1, {}};
@@ -169,7 +188,7 @@ TEST_F(LoadGrayImageTest, IgnoresTheExifRotation) {
   rotated.insert(rotated.end(), plain.begin() + 2, plain.end());
   const fs::path path = Written("rotated.jpg", rotated);
   ASSERT_EQ(cv::imread(path.string()).cols, 60) << "OpenCV sees a rotation";
-  const Result<GrayImage> gray = LoadGrayImage(path);
+  const Result<GrayImage> gray = Loaded(path);
   ASSERT_TRUE(gray.ok());
   EXPECT_EQ(gray->width, 80);
   EXPECT_EQ(gray->height, 60);
@@ -216,7 +235,7 @@ TEST_F(LoadGrayImageTest, IgnoresTheOrientationOfTiff) {
   for (const bool is_big : {false, true}) {
     for (int orientation = 1; orientation <= 8; ++orientation) {
       const fs::path path = Written("a.tif", Tiff(is_big, orientation));
-      const Result<GrayImage> gray = LoadGrayImage(path);
+      const Result<GrayImage> gray = Loaded(path);
       ASSERT_TRUE(gray.ok()) << gray.status().message();
       EXPECT_EQ(gray->width, 3);
       EXPECT_EQ(gray->height, 2);
@@ -236,7 +255,7 @@ TEST_F(LoadGrayImageTest, ExplainsWhatIsMissing) {
 
 TEST_F(LoadGrayImageTest, NamesHeif) {
   const Bytes bytes = {0, 0, 0, 24, 'f', 't', 'y', 'p', 'h', 'e', 'i', 'c'};
-  const Status status = LoadGrayImage(Written("photo.heic", bytes)).status();
+  const Status status = Loaded(Written("photo.heic", bytes)).status();
   EXPECT_EQ(status.code(), StatusCode::kUnsupported);
   EXPECT_THAT(status.message(), HasSubstr("photo.heic is HEIF"));
 }
@@ -244,7 +263,7 @@ TEST_F(LoadGrayImageTest, NamesHeif) {
 TEST_F(LoadGrayImageTest, NoticesTruncatedFiles) {
   for (const char* name : {"whole.png", "whole.jpg"}) {
     const Bytes whole = Contents(Written(name, Texture(CV_8UC3)));
-    ASSERT_TRUE(LoadGrayImage(folder_.path() / name).ok());
+    ASSERT_TRUE(Loaded(folder_.path() / name).ok());
     for (const std::size_t tenths : {1u, 5u, 9u}) {
       const auto size = static_cast<std::ptrdiff_t>(whole.size() * tenths / 10);
       EXPECT_EQ(CodeOf(Written(std::string("cut_") + name,
@@ -259,12 +278,12 @@ TEST_F(LoadGrayImageTest, RefusesOtherSizesBeforeItDecodes) {
   for (const char* name : {"a.png", "a.jpg", "a.tiff", "a.bmp"}) {
     const fs::path path = Written(name, Texture(CV_8UC3));
     EXPECT_EQ(*ReadImageSize(path), (ImageSize{80, 60})) << name;
-    EXPECT_TRUE(LoadGrayImage(path, ImageSize{80, 60}).ok()) << name;
-    const Status status = LoadGrayImage(path, ImageSize{60, 80}).status();
+    EXPECT_TRUE(Loaded(path, ImageSize{80, 60}).ok()) << name;
+    const Status status = Loaded(path, ImageSize{60, 80}).status();
     EXPECT_EQ(status.code(), StatusCode::kInvalidArgument) << name;
     EXPECT_THAT(status.message(), HasSubstr("is 80 x 60 pixels"));
     EXPECT_THAT(status.message(), HasSubstr("EXIF")) << "the sides are swapped";
-    EXPECT_THAT(LoadGrayImage(path, ImageSize{60, 81}).status().message(),
+    EXPECT_THAT(Loaded(path, ImageSize{60, 81}).status().message(),
                 ::testing::Not(HasSubstr("EXIF")));
   }
   // A head without a body, of an image of a terabyte.
@@ -273,7 +292,7 @@ TEST_F(LoadGrayImageTest, RefusesOtherSizesBeforeItDecodes) {
   head[16] = head[20] = 0;
   head[17] = head[21] = 15;
   const fs::path path = Written("huge.png", head);
-  EXPECT_EQ(LoadGrayImage(path, ImageSize{80, 60}).status().code(),
+  EXPECT_EQ(Loaded(path, ImageSize{80, 60}).status().code(),
             StatusCode::kInvalidArgument);
 }
 
@@ -284,9 +303,6 @@ TEST_F(LoadGrayImageTest, RefusesOtherPixelFormats) {
 
 // By the header alone: bodies are cut off.
 TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
-  Camera camera;
-  camera.width = 80;
-  camera.height = 60;
   View view;
   const std::vector<std::pair<std::string, cv::Mat>> images = {
       {"a.png", Texture(CV_8UC3)},
@@ -303,31 +319,28 @@ TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
       {"wide.pgm", cv::Mat(60, 81, CV_8U, cv::Scalar(7))}};
   for (const auto& [name, image] : images) {
     view.image_path = Written(name, image);
-    EXPECT_EQ(CheckImageFiles(view, camera).message(),
-              LoadGrayImage(view, camera).status().message());
-    EXPECT_EQ(CheckImageFiles(view, camera).ok(), name[0] == 'a') << name;
+    EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+              LoadGrayImage(view, camera_).status().message());
+    EXPECT_EQ(CheckImageFiles(view, camera_).ok(), name[0] == 'a') << name;
   }
   for (const std::string start : {"", "hello", "GIF89a\x50", "....ftypheic"}) {
     view.image_path = Written("a.gif", Bytes(start.begin(), start.end()));
-    EXPECT_FALSE(CheckImageFiles(view, camera).ok()) << start;
-    EXPECT_EQ(CheckImageFiles(view, camera).message(),
-              LoadGrayImage(view, camera).status().message());
+    EXPECT_FALSE(CheckImageFiles(view, camera_).ok()) << start;
+    EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+              LoadGrayImage(view, camera_).status().message());
   }
   // No more than the header is looked at, and formats without one pass.
   for (const char* name : {"a.png", "a.jpg", "a.bmp", "a.pgm"}) {
     Bytes head = Contents(folder_.path() / name);
     head.resize(head.size() / 2);
     view.image_path = Written(std::string("cut_") + name, head);
-    EXPECT_TRUE(CheckImageFiles(view, camera).ok()) << name;
+    EXPECT_TRUE(CheckImageFiles(view, camera_).ok()) << name;
   }
   view.image_path = Written("b.webp", Texture(CV_8UC3));
-  EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+  EXPECT_TRUE(CheckImageFiles(view, camera_).ok());
 }
 
 TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
-  Camera camera;
-  camera.width = 80;
-  camera.height = 60;
   View view;
   // From the top row down: the height is below 0.
   Bytes bmp = Contents(Written("down.bmp", Texture(CV_8UC3)));
@@ -335,9 +348,9 @@ TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
   for (const int height : {60, 59}) {
     bmp[22] = static_cast<char>(-height);
     view.image_path = Written("down.bmp", bmp);
-    EXPECT_EQ(CheckImageFiles(view, camera).ok(), height == 60);
-    EXPECT_EQ(CheckImageFiles(view, camera).message(),
-              LoadGrayImage(view, camera).status().message());
+    EXPECT_EQ(CheckImageFiles(view, camera_).ok(), height == 60);
+    EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+              LoadGrayImage(view, camera_).status().message());
   }
   for (const auto& [text, is_right] :
        {std::pair("P5\n# 7 9\n80 60\n255\n", true),
@@ -348,7 +361,7 @@ TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
     const std::string start = text;
     view.image_path = Written("a.pnm", Bytes(start.begin(), start.end()));
     EXPECT_EQ(ReadImageHeader(view.image_path).has_value() &&
-                  CheckImageFiles(view, camera).ok(),
+                  CheckImageFiles(view, camera_).ok(),
               is_right)
         << start;
   }
@@ -363,28 +376,22 @@ Bytes TiffHeader(char bits) {
 }
 
 TEST_F(LoadGrayImageTest, ChecksTheBitsOfColours) {
-  Camera camera;
-  camera.width = 80;
-  camera.height = 60;
   View view;
   view.image_path = Written("short.tiff", TiffHeader(16));
-  EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+  EXPECT_TRUE(CheckImageFiles(view, camera_).ok());
   view.image_path = Written("float.tiff", TiffHeader(32));
-  EXPECT_EQ(CheckImageFiles(view, camera).code(), StatusCode::kUnsupported);
+  EXPECT_EQ(CheckImageFiles(view, camera_).code(), StatusCode::kUnsupported);
 }
 
 TEST_F(LoadGrayImageTest, ChecksTheShapeOfMasks) {
-  Camera camera;
-  camera.width = 80;
-  camera.height = 60;
   View view;
   view.image_path = Written("a.png", Texture(CV_8UC1));
   view.mask_path = Written("half.png", cv::Mat(30, 40, CV_8U, cv::Scalar(7)));
-  EXPECT_TRUE(CheckImageFiles(view, camera).ok());
+  EXPECT_TRUE(CheckImageFiles(view, camera_).ok());
   view.mask_path = Written("flat.png", cv::Mat(20, 40, CV_8U, cv::Scalar(7)));
-  EXPECT_EQ(CheckImageFiles(view, camera).message(),
-            LoadMask(view, camera).status().message());
-  EXPECT_THAT(CheckImageFiles(view, camera).message(), HasSubstr("flat.png"));
+  EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+            LoadMask(view, camera_).status().message());
+  EXPECT_THAT(CheckImageFiles(view, camera_).message(), HasSubstr("flat.png"));
 }
 
 }  // namespace

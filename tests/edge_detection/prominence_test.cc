@@ -25,7 +25,7 @@ std::vector<Edge2d> Lines(const std::vector<double>& ys, float strength) {
 }
 
 float AtMiddle(const std::vector<Edge2d>& edges, std::size_t line) {
-  return static_cast<float>(Prominence(edges, 1).at(60 * line + 30));
+  return static_cast<float>(Prominence(edges, 0.5).at(60 * line + 30));
 }
 
 TEST(Prominence, CountsTheEmptierSide) {
@@ -45,9 +45,9 @@ TEST(Prominence, IsLittleLessAmongWeakerEdges) {
 
 TEST(Prominence, DoesNotDependOnWhichSideIsBright) {
   std::vector<Edge2d> edges = Lines({30, 38, 46, 54}, 10);
-  const std::vector<double> before = Prominence(edges, 1);
+  const std::vector<double> before = Prominence(edges, 0.5);
   for (Edge2d& edge : edges) edge.angle += 3.14159265f;
-  const std::vector<double> after = Prominence(edges, 1);
+  const std::vector<double> after = Prominence(edges, 0.5);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     EXPECT_NEAR(before[i], after[i], 1e-6);
   }
@@ -61,8 +61,9 @@ TEST(Prominence, OfLocatedEdgesIsThatOfEdgesAcrossTheirGradients) {
     located.push_back(
         {{x, y}, {(5 + turn) * std::cos(turn), (5 + turn) * std::sin(turn)}});
   }
-  const std::vector<double> expected = Prominence(AcrossGradients(located), 1);
-  MeasureCrowding(1, &located);
+  const std::vector<double> expected =
+      Prominence(AcrossGradients(located), 0.5);
+  MeasureCrowding(0.5, &located);
   for (std::size_t i = 0; i < located.size(); ++i) {
     EXPECT_NEAR(Prominence(located[i]), expected[i], 1e-5 * expected[i]);
   }
@@ -73,7 +74,7 @@ TEST(MeasureCrowding, IsTheStrengthOfEdgesOnTheEmptierSide) {
   for (const double y : {42.0, 50.0, 58.0}) {
     for (int x = 20; x < 80; ++x) located.push_back({{x + 0.5, y}, {0, 10}});
   }
-  MeasureCrowding(1, &located);
+  MeasureCrowding(0.5, &located);
   EXPECT_EQ(located.at(30).crowding, 0) << "the first line is a border";
   EXPECT_FLOAT_EQ(located.at(90).crowding, 9.0F / 81)
       << "nine edges in a square of 81 pixels, each as strong";
@@ -87,25 +88,26 @@ TEST(Prominence, DoesNotDependOnTheSampling) {
   const std::vector<Edge2d> often = Lines({42, 50, 58}, 10);
   std::vector<Edge2d> seldom;
   for (std::size_t i = 0; i < often.size(); i += 2) seldom.push_back(often[i]);
-  EXPECT_NEAR(Prominence(seldom, 2).at(45), Prominence(often, 1).at(90), 0.5);
-  EXPECT_LT(Prominence(often, 1).at(90), 6);
+  EXPECT_NEAR(Prominence(seldom, 1).at(45), Prominence(often, 0.5).at(90), 0.5);
+  EXPECT_LT(Prominence(often, 0.5).at(90), 6);
 }
 
 TEST(Prominence, StaysWhenEdgesMoveOutOfTheImage) {
   std::vector<Edge2d> edges = Lines({30, 38, 46, 54}, 10);
-  const std::vector<double> before = Prominence(edges, 1);
+  const std::vector<double> before = Prominence(edges, 0.5);
   for (Edge2d& edge : edges) edge.position -= Eigen::Vector2d(50, 41);
-  const std::vector<double> after = Prominence(edges, 1);
+  const std::vector<double> after = Prominence(edges, 0.5);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     EXPECT_NEAR(before[i], after[i], 1e-6);
   }
 }
 
 TEST(Prominence, AcceptsNoEdgesAndTheBorderOfTheImage) {
-  EXPECT_TRUE(Prominence(std::vector<Edge2d>(), 1).empty());
+  EXPECT_TRUE(Prominence(std::vector<Edge2d>(), 0.5).empty());
   Edge2d corner;
   corner.strength = 1;
-  EXPECT_EQ(Prominence(std::vector<Edge2d>{corner}, 1), std::vector<double>{1});
+  EXPECT_EQ(Prominence(std::vector<Edge2d>{corner}, 0.5),
+            std::vector<double>{1});
 }
 
 }  // namespace

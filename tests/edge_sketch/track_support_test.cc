@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 #include "tests/support/test_views.h"
@@ -100,7 +100,8 @@ Vector2d ErrorOf(const EdgeEstimate& estimate, const TestCurve& curve) {
     }
   }
   const Vector3d offset = estimate.edge.position - curve.position(s);
-  return {offset.dot(estimate.across1), offset.dot(estimate.across2)};
+  return {offset.dot(estimate.across.col(0)),
+          offset.dot(estimate.across.col(1))};
 }
 
 TEST_F(TrackSupportTest, FindsExactCurvesInEveryView) {

@@ -52,7 +52,8 @@ TEST_F(Cluster, SnakemakeGivesWhatTheStepsGive) {
       " snakemake --snakefile " + Quoted(kCluster / "Snakefile") +
       " --cores 2 --config workspace=" + Quoted(street_) + " results=" +
       Quoted(results) + " program=" + Quoted(fs::path(CURVIX_PROGRAM)) +
-      " max_views_per_part=44 2>&1");
+      " max_views_per_part=44 'paths=--image_path " +
+      (street_ / "images").string() + "' 2>&1");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
 
   EXPECT_THAT(Step("partition --max_views_per_part 44"),

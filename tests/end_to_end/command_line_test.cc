@@ -51,6 +51,9 @@ TEST(ProgramAlone, WrongCommandLinesAreRefusedWithAHint) {
       {"evaluate --workspace_path x --truth_path y --holdout_every 4",
        "give either"},
       {"evaluate --workspace_path x --holdout_every 1", "must be >= 2"},
+      {"evaluate --workspace_path x --holdout_every 4 "
+       "--Hypotheses.min_ray_angle_deg 90",
+       "Hypotheses.min_ray_angle_deg"},
       {"synthesize --workspace_path x --num_views 2", "num_views is 2"},
       {"synthesize --workspace_path x --width 9000", "width is 9000"},
       {"synthesize --workspace_path x --scale 1e-20", "scale is 1e-20"},

@@ -98,7 +98,7 @@ TEST(AdjustEdge, KeepsItsAxesAcrossAndItsTangentOnTheSideOfTheStart) {
         start, MeasureAll(RingOfViews(8), kSigmaPx, random), kSigmaPx);
     EXPECT_GT(estimate.edge.tangent.dot(start.tangent), 0.9);
     Eigen::Matrix3d axes;
-    axes << estimate.across1, estimate.across2, estimate.edge.tangent;
+    axes << estimate.across, estimate.edge.tangent;
     EXPECT_LT((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm(),
               1e-9);
   }
@@ -125,9 +125,7 @@ Scatter MeasureScatter(const std::vector<PosedView>& views,
     const Vector2d error =
         axes.transpose() * (estimate.edge.position - kTruth.position);
     scatter.actual += error * error.transpose() / num_trials;
-    Eigen::Matrix<double, 3, 2> own;
-    own << estimate.across1, estimate.across2;
-    const Matrix2d turn = axes.transpose() * own;
+    const Matrix2d turn = axes.transpose() * estimate.across;
     scatter.stated +=
         turn * estimate.covariance * turn.transpose() / num_trials;
   }
@@ -180,7 +178,8 @@ TEST(AdjustEdge, StaysNearTheStartWherePlanesHardlyDiffer) {
   // A residual of 0.1 px is 0.75 thousandths here, across the line of sight.
   EXPECT_LT((estimate.edge.position - kTruth.position).norm(), 0.05);
   EXPECT_LT(estimate.edge.tangent.cross(kTruth.tangent).norm(), 0.01);
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> axes(estimate.covariance);
+  Eigen::SelfAdjointEigenSolver<Matrix2d> axes;
+  axes.computeDirect(estimate.covariance);
   EXPECT_GT(axes.eigenvalues()(1), 100 * axes.eigenvalues()(0));
 }
 
@@ -206,7 +205,8 @@ TEST(AdjustEdge, StatesTheScatterOfTheEdgeInAnotherView) {
                         other.Pixel(other.InCamera(x - h))) /
              2e-5;
     };
-    const Vector2d gradient(slope(estimate.across1), slope(estimate.across2));
+    const Vector2d gradient(slope(estimate.across.col(0)),
+                            slope(estimate.across.col(1)));
     predicted += gradient.dot(estimate.covariance * gradient) / num_trials;
   }
   EXPECT_NEAR(std::sqrt(predicted / actual), 1, 0.2);

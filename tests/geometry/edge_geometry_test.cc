@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "tests/support/random.h"
 #include "tests/support/test_views.h"
 

@@ -94,6 +94,17 @@ TEST(Lens, LeavesWhatTheModelDoesNotHave) {
   EXPECT_EQ(lens.Changed(LensChange::Unit(7)), kRadial);
 }
 
+TEST(ShiftOfImage, IsThatOfTheMedianPixelWithoutTheTurn) {
+  const Camera camera{CameraModel::kSimplePinhole, 200, 100, {100, 100, 50}};
+  Camera turned = camera, longer = camera;
+  turned.params[1] += 30;
+  EXPECT_NEAR(ShiftOfImage(camera, turned), 0, 1e-12);
+  longer.params[0] = 110;
+  const double shift_px = ShiftOfImage(camera, longer);
+  EXPECT_GT(shift_px, 0.1 * 50);
+  EXPECT_LT(shift_px, 0.1 * 100);
+}
+
 TEST(WithMoreTerms, IsTheSameCamera) {
   const Camera starts[] = {
       {CameraModel::kSimplePinhole, 640, 480, {500, 320, 240}},

@@ -94,6 +94,11 @@ TEST_F(CheckInput, NeedsPointsOfViewsThatAreThere) {
         s.points.push_back({{0, kNan, 0}, {0}, {}});
       },
       "sparse point");
+  ExpectSceneRefused(
+      [](Scene& s) {
+        s.points.push_back({{0, 0, 0}, {0, 1}, {{5, 5}}});
+      },
+      "if it has pixels, one per view");
 }
 
 TEST_F(CheckInput, NeedsOneMapPerView) {

@@ -61,8 +61,8 @@ TEST(StringTogether, LeavesCurvesWithoutTiesAsTheyAre) {
 
 TEST(StringTogether, PutsOneCurveAfterTheOtherAndFillsTheGap) {
   const std::vector<Curve> curves = {CurveAt({1, 2}), CurveAt({4, 5})};
-  // The front of a curve is the end at which it arrives.
-  const EndTies ties = Tied(2, {{Front(0), Back(1)}});
+  // The head of a curve is the end at which it arrives.
+  const EndTies ties = Tied(2, {{Head(0), Tail(1)}});
   const auto strung = StringTogether(curves, ties, Middle);
   ASSERT_EQ(strung.size(), 1u);
   EXPECT_FALSE(strung[0].closed);
@@ -73,7 +73,7 @@ TEST(StringTogether, PutsOneCurveAfterTheOtherAndFillsTheGap) {
 
 TEST(StringTogether, RunsThroughFlippedCurvesFromTheirEnds) {
   const auto strung = StringTogether({CurveAt({1, 2}), CurveAt({5, 4})},
-                                     Tied(2, {{Front(0), Front(1)}}),
+                                     Tied(2, {{Head(0), Head(1)}}),
                                      Middle);
   ASSERT_EQ(strung.size(), 1u);
   EXPECT_EQ(PlacesOf(strung[0]), (Places{1, 2, 3, 4, 5}));

@@ -32,25 +32,25 @@ std::vector<std::string> Drawings(const EndTies& ties) {
 TEST(FollowEnds, GivesEveryItemOnce) {
   EXPECT_EQ(Drawings({}), std::vector<std::string>{});
   EXPECT_EQ(Drawings(Tied(3, {})), (std::vector<std::string>{"0", "1", "2"}));
-  EXPECT_EQ(Drawings(Tied(3, {{Front(2), Back(0)}})),
+  EXPECT_EQ(Drawings(Tied(3, {{Head(2), Tail(0)}})),
             (std::vector<std::string>{"2 0", "1"}));
 }
 
 TEST(FollowEnds, FlipsItemsThatAreTiedAtTheSameSide) {
-  EXPECT_EQ(Drawings(Tied(2, {{Front(0), Front(1)}})),
+  EXPECT_EQ(Drawings(Tied(2, {{Head(0), Head(1)}})),
             (std::vector<std::string>{"0 1-"}));
-  EXPECT_EQ(Drawings(Tied(2, {{Back(0), Back(1)}})),
+  EXPECT_EQ(Drawings(Tied(2, {{Tail(0), Tail(1)}})),
             (std::vector<std::string>{"1- 0"}));
-  EXPECT_EQ(Drawings(Tied(3, {{Front(0), Front(1)}, {Back(1), Front(2)}})),
+  EXPECT_EQ(Drawings(Tied(3, {{Head(0), Head(1)}, {Tail(1), Head(2)}})),
             (std::vector<std::string>{"0 1- 2-"}));
 }
 
 TEST(FollowEnds, ClosesRings) {
-  EXPECT_EQ(Drawings(Tied(1, {{Front(0), Back(0)}})),
+  EXPECT_EQ(Drawings(Tied(1, {{Head(0), Tail(0)}})),
             (std::vector<std::string>{"(0)"}));
   EXPECT_EQ(
       Drawings(Tied(
-          3, {{Front(0), Front(2)}, {Back(2), Back(1)}, {Front(1), Back(0)}})),
+          3, {{Head(0), Head(2)}, {Tail(2), Tail(1)}, {Head(1), Tail(0)}})),
       (std::vector<std::string>{"(0 2- 1)"}));
 }
 

@@ -10,8 +10,8 @@
 
 namespace curvix {
 
-constexpr EndIdx Front(std::size_t item) { return 2 * item; }
-constexpr EndIdx Back(std::size_t item) { return 2 * item + 1; }
+constexpr EndIdx Head(std::size_t item) { return 2 * item; }
+constexpr EndIdx Tail(std::size_t item) { return 2 * item + 1; }
 
 inline EndTies Tied(std::size_t num_items,
                     const std::vector<std::pair<EndIdx, EndIdx>>& pairs) {

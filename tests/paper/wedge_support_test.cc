@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 #include "tests/support/test_views.h"
@@ -72,8 +72,14 @@ double AngleOf(const ImageEdge& edge) {
 
 std::optional<std::int32_t> Find(const Case& c,
                                  const std::vector<Edge2d>& edges) {
-  const auto support = WedgeSupport::Make(kH1, kH2, kView, edges, kTolerancePx);
-  return support->Find(c.edge1, c.edge2, c.projected, kMaxAngle);
+  const WedgeSupport support(*EpipolarPencil::Make(kH1, kView),
+                             *EpipolarPencil::Make(kH2, kView),
+                             kH1,
+                             kH2,
+                             kView,
+                             edges,
+                             kTolerancePx);
+  return support.Find(c.edge1, c.edge2, c.projected, kMaxAngle);
 }
 
 TEST(WedgeSupport, HoldsExactlyWhatLiesInBothWedges) {
@@ -129,13 +135,6 @@ TEST(WedgeSupport, TakesTheNearestAndOfEqualsTheFirst) {
 TEST(WedgeSupport, FindsNothingAmongNoEdges) {
   Random random(4);
   EXPECT_FALSE(Find(RandomCase(random), {}));
-}
-
-TEST(WedgeSupport, NeedsAViewApartFromBothHypothesisViews) {
-  const std::vector<Edge2d> edges;
-  EXPECT_FALSE(WedgeSupport::Make(kH1, kH2, kH1, edges, kTolerancePx));
-  EXPECT_FALSE(WedgeSupport::Make(kH1, kH2, kH2, edges, kTolerancePx));
-  EXPECT_TRUE(WedgeSupport::Make(kH1, kH2, kView, edges, kTolerancePx));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "geometry/posed_views.h"
+#include "model/posed_view.h"
 #include "tests/support/wire_scene.h"
 
 namespace curvix {

@@ -33,7 +33,7 @@ void WritePictures(const Response& response,
                    const std::filesystem::path& folder,
                    SyntheticScene& made) {
   for (std::size_t i = 0; i < made.images.size(); ++i) {
-    RgbImage image = made.images[i];
+    SyntheticImage image = made.images[i];
     for (std::uint8_t& value : image.pixels) {
       value = static_cast<std::uint8_t>(
           std::lround(255 * response(0.5 * value / 255)));
@@ -42,7 +42,7 @@ void WritePictures(const Response& response,
     view.image_path = folder / view.name;
     cv::imwrite(
         view.image_path.string(),
-        cv::Mat(image.height, image.width, CV_8UC3, image.pixels.data()));
+        cv::Mat(image.height, image.width, CV_8UC1, image.pixels.data()));
   }
 }
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/image_edge.h"
+#include "geometry/detected_edge.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 #include "tests/support/test_views.h"
@@ -16,7 +16,7 @@ namespace {
 
 EdgeSketch SketchOf(const TestCurve& curve, int num_views) {
   const std::vector<PosedView> views = RingOfViews(num_views);
-  return SketchEdges(
+  return SketchViews(
       views, ExactEdgeMaps({curve}, views, 1), {}, Options(), [](int, int) {
         return true;
       });
@@ -24,7 +24,7 @@ EdgeSketch SketchOf(const TestCurve& curve, int num_views) {
 
 // A view does not ask again for what a 3D edge shows in it, whether or not that
 // view was asked about the 3D edge.
-TEST(SketchEdges, DoesNotGrowWithTheNumberOfViews) {
+TEST(SketchViews, DoesNotGrowWithTheNumberOfViews) {
   const TestCurve circle = CircleCurve({0, 0, 0}, 0.8);
   const std::size_t of_few = SketchOf(circle, 64).edges.size();
   const std::size_t of_many = SketchOf(circle, 192).edges.size();
@@ -32,14 +32,14 @@ TEST(SketchEdges, DoesNotGrowWithTheNumberOfViews) {
   EXPECT_LT(static_cast<double>(of_many), 1.5 * static_cast<double>(of_few));
 }
 
-TEST(SketchEdges, CountsRepeatedViews) {
+TEST(SketchViews, CountsRepeatedViews) {
   std::vector<PosedView> views = RingOfViews(16);
   views.insert(views.end(), 2, views[5]);
   const std::vector<EdgeMap> maps =
       ExactEdgeMaps({CircleCurve({0, 0, 0}, 0.8)}, views, 1);
   const auto sketch = [&](const std::vector<PosedView>& some) {
     const auto num_views = static_cast<std::ptrdiff_t>(some.size());
-    return SketchEdges(some,
+    return SketchViews(some,
                        {maps.begin(), maps.begin() + num_views},
                        {},
                        Options(),
@@ -69,29 +69,29 @@ double EdgeSigmaOf(double noise_px, std::size_t num_views) {
       map.edges[i].position += off_px * Eigen::Vector2d(-t.y(), t.x());
     }
   }
-  return SketchEdges(views, maps, {}, Options(), [](int, int) { return true; })
+  return SketchViews(views, maps, {}, Options(), [](int, int) { return true; })
       .edge_sigma_px;
 }
 
-TEST(SketchEdges, FindsOutHowFarEdgesAreOff) {
+TEST(SketchViews, FindsOutHowFarEdgesAreOff) {
   EXPECT_EQ(EdgeSigmaOf(0, 32), Options().hypotheses.EdgeSigmaPx());
   EXPECT_NEAR(EdgeSigmaOf(0.2, 32), 0.2, 0.05);
   EXPECT_NEAR(EdgeSigmaOf(0.3, 32), 0.3, 0.06);
 }
 
-TEST(SketchEdges, FindsOutHowFarEdgesAreOffInFiveViews) {
+TEST(SketchViews, FindsOutHowFarEdgesAreOffInFiveViews) {
   EXPECT_EQ(EdgeSigmaOf(0, 5), Options().hypotheses.EdgeSigmaPx());
   EXPECT_NEAR(EdgeSigmaOf(0.2, 5), 0.2, 0.05);
   EXPECT_NEAR(EdgeSigmaOf(0.3, 5), 0.3, 0.1);
 }
 
 // Where curves grow, a few seeds along a contour are enough.
-TEST(SketchEdges, FindsSeedsAllAlongAContour) {
+TEST(SketchViews, FindsSeedsAllAlongAContour) {
   const std::vector<PosedView> views = RingOfViews(32);
   std::vector<EdgeMap> maps =
       ExactEdgeMaps({CircleCurve({0, 0, 0}, 0.8)}, views, 1);
   const auto sketch = [&] {
-    return SketchEdges(
+    return SketchViews(
         views, maps, {}, Options(), [](int, int) { return true; });
   };
   const EdgeSketch all = sketch();

@@ -100,8 +100,7 @@ class FindMarkersTest : public testing::Test {
     }
     scene_ = ToScene(views);
     for (View& view : scene_.views) {
-      const Camera& camera =
-          scene_.cameras[static_cast<std::size_t>(view.camera_idx)];
+      const Camera& camera = CameraOf(scene_, view);
       cv::Mat image(camera.height, camera.width, CV_8U, cv::Scalar(150));
       DrawMarker(view, camera, 3, {-0.4, -0.2, 0}, image);
       DrawMarker(view, camera, 17, {0.1, 0, 0}, image);

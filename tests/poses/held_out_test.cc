@@ -54,7 +54,8 @@ TEST(GainsByCell, OfSeveralSetsAddUp) {
     sum.Add(of_set);
   }
   for (const Eigen::Vector3d& x : positions) all.Add(x, 1 + x.x());
-  EXPECT_NEAR(sum.Significance(), all.Significance(), 1e-9);
+  EXPECT_NEAR(
+      SignificanceOf(sum.Normalized()), SignificanceOf(all.Normalized()), 1e-9);
 }
 
 TEST(HoldOutMore, LeavesTwoFifthsOfSpace) {
@@ -125,7 +126,7 @@ TEST(GainsByCell, CallsChanceSignificantOnceInNineThousandTimes) {
       if (is_new) at->second = std::pow(random.Normal(), 3);
       gains.Add(x, at->second);
     }
-    num_significant += gains.Significance() >= kSignificant;
+    num_significant += SignificanceOf(gains.Normalized()) >= kSignificant;
   }
   EXPECT_LE(num_significant, kNumTrials / 9000);
 }
@@ -138,18 +139,47 @@ TEST(GainsByCell, SeesASmallGainOfManyCells) {
   for (const Eigen::Vector3d& x : positions) {
     gains.Add(x, 0.2 + random.Normal());
   }
-  EXPECT_GT(gains.Significance(), kSignificant);
+  EXPECT_GT(SignificanceOf(gains.Normalized()), kSignificant);
 }
 
 TEST(GainsByCell, IsNoneWithoutGains) {
   const SpaceCells cells({});
-  EXPECT_EQ(GainsByCell(cells).Significance(), 0);
+  EXPECT_EQ(SignificanceOf(GainsByCell(cells).Normalized()), 0);
 }
 
-TEST(IsBetterByOneStandardError, AsksLess) {
-  EXPECT_TRUE(IsBetterByOneStandardError({0, 2, 1}));
-  EXPECT_FALSE(IsBetterByOneStandardError({1, 1, 0.9}));
-  EXPECT_FALSE(IsBetterByOneStandardError({-3, 10, 5}));
+TEST(PairErrors, TakesViewsWithAnEdgeBeforeOrAfter) {
+  HeldOutErrors before, after;
+  before.places = {{{2, 0.1}, {5, 0.2}}, {}};
+  after.places = {{{1, 0.4}, {5, 0.3}}, {{0, 0.5}}};
+  std::vector<std::vector<double>> pairs;
+  for (const ErrorPair& pair : PairErrors(before, after)) {
+    pairs.push_back({static_cast<double>(pair.place_idx),
+                     static_cast<double>(pair.view_idx),
+                     pair.before,
+                     pair.after});
+  }
+  EXPECT_EQ(
+      pairs,
+      (std::vector<std::vector<double>>{
+          {0, 1, 1, 0.4}, {0, 2, 0.1, 1}, {0, 5, 0.2, 0.3}, {1, 0, 1, 0.5}}));
+}
+
+TEST(FallOfErrors, IsThatOfPlacesOrPoints) {
+  HeldOutErrors before, after;
+  before.places = {{{0, 0.5}, {1, 0.5}}};
+  after.places = {{{0, 0.3}, {1, 0.3}}};
+  EXPECT_NEAR(FallOfErrors(before, after), 0.4, 1e-12);
+  before.points = after.points = {{1.3}, {1.3, 1.3}};
+  EXPECT_NEAR(FallOfErrors(before, after), 0.4, 1e-12);
+  after.points = {{0.5}, {0.5, 0.5}};
+  EXPECT_NEAR(FallOfErrors(before, after), 1.2, 1e-12);
+  EXPECT_EQ(FallOfErrors(after, before), 0) << "both rise";
+}
+
+TEST(IsBetter, MayAskLess) {
+  EXPECT_TRUE(IsBetter({0, 2, 1}, 1));
+  EXPECT_FALSE(IsBetter({1, 1, 0.9}, 1));
+  EXPECT_FALSE(IsBetter({-3, 10, 5}, 1));
 }
 
 TEST(IsBetter, AsksBothKinds) {

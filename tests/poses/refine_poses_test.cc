@@ -26,8 +26,7 @@ const WireScene& Wires() {
 Scene Disturbed(Scene scene, double px) {
   Random random(4);
   for (View& view : scene.views) {
-    const double focal_px =
-        scene.cameras[static_cast<std::size_t>(view.camera_idx)].params[0];
+    const double focal_px = CameraOf(scene, view).params[0];
     const double sigma = px / 2 / focal_px;
     Rigid3 increment;
     const Eigen::Vector3d turn = sigma * random.NormalVector();
@@ -53,8 +52,7 @@ std::vector<double> ShiftsIn(std::size_t i,
                              const Rigid3& pose,
                              const Rigid3& meant) {
   const Scene& truth = Wires().scene;
-  const Eigen::Matrix3d k = PinholeCalibration(
-      truth.cameras[static_cast<std::size_t>(truth.views[i].camera_idx)]);
+  const Eigen::Matrix3d k = PinholeCalibration(CameraOf(truth, truth.views[i]));
   std::vector<double> shifts;
   for (const TestCurve& curve : Wires().truth) {
     for (double s = 0; s < curve.length; s += curve.length / 10) {
@@ -146,24 +144,26 @@ TEST(RefinePosesWithCurves, LeavesTruePosesAlone) {
   EXPECT_LE(MedianShift(refined.cam_from_world), 0.02) << refined.reason;
 }
 
-// Poses that points fit exactly: nothing could be better by the points.
-TEST(RefinePosesWithCurves, LeavesPosesAloneThatPointsFit) {
-  Scene scene = Disturbed(Wires().scene, 0.5);
+// 200 points on a sphere, as `camera` sees them from the poses of the scene.
+void AddPoints(const Camera& camera, double radius, Scene* scene) {
   Random random(6);
   for (std::size_t k = 0; k < 200; ++k) {
-    ScenePoint& point = scene.points.emplace_back();
-    point.position = 0.5 * random.UnitVector();
-    for (std::size_t i = k % 3; i < scene.views.size(); i += 3) {
-      const View& view = scene.views[i];
+    ScenePoint& point = scene->points.emplace_back();
+    point.position = radius * random.UnitVector();
+    for (std::size_t i = k % 3; i < scene->views.size(); i += 3) {
       const auto pixel =
-          Project(scene.cameras[static_cast<std::size_t>(view.camera_idx)],
-                  view.cam_from_world,
-                  point.position);
+          Project(camera, scene->views[i].cam_from_world, point.position);
       ASSERT_TRUE(pixel);
       point.view_idxs.push_back(static_cast<std::int32_t>(i));
       point.pixels.push_back(*pixel);
     }
   }
+}
+
+// Poses that points fit exactly: nothing could be better by the points.
+TEST(RefinePosesWithCurves, LeavesPosesAloneThatPointsFit) {
+  Scene scene = Disturbed(Wires().scene, 0.5);
+  AddPoints(CameraOf(scene, scene.views[0]), 0.5, &scene);
   const CurvePoses refined = Refine(scene);
   EXPECT_FALSE(refined.accepted);
   EXPECT_EQ(refined.reason, "the points are where the poses put them");
@@ -286,6 +286,15 @@ TEST(RefinePosesWithCurves, LeavesTheLensIfAsked) {
       RefinePosesWithCurves(wrong.scene, wrong.edge_maps, Options(), {}, false);
   ASSERT_TRUE(refined.ok()) << refined.status().message();
   EXPECT_EQ(refined->cameras, wrong.scene.cameras);
+}
+
+TEST(RefinePosesWithCurves, LeavesALensFarFromWhichPointsWereAdjusted) {
+  WrongLens wrong;
+  AddPoints(Wires().scene.cameras[0], 2, &wrong.scene);
+  const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
+  EXPECT_EQ(refined.cameras, wrong.scene.cameras);
+  EXPECT_THAT(refined.reason,
+              testing::HasSubstr("cameras stay: others would shift images by"));
 }
 
 // Cameras in the reverse order of the views, and one that no view has.

@@ -2,6 +2,7 @@
 #include "synthetic/render.h"
 
 #include "base/angles.h"
+#include "geometry/directions.h"
 
 #include <gtest/gtest.h>
 
@@ -108,8 +109,7 @@ TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
     const Eigen::Vector3d eye =
         (side % 2 == 0 ? 10 : -10) * Eigen::Vector3d::Unit(side / 2);
     Rigid3 pose;
-    pose.rotation =
-        Eigen::Quaterniond::FromTwoVectors(-eye, Eigen::Vector3d::UnitZ());
+    pose.rotation = ShortestRotation(-eye, Eigen::Vector3d::UnitZ());
     pose.translation = -(pose.rotation * eye);
     const RenderedImage image = RenderPlain(solid, pose);
     greys.push_back(static_cast<double>(GreyAt(image, 32, 16)));
@@ -128,7 +128,7 @@ TEST(RenderTest, TextureStaysWithinItsContrast) {
   const RenderedImage plain = RenderPlain(wall, FromTheFront());
   const RenderedImage textured =
       Render(wall,
-             Surfaces(wall, {.scale = 9, .texture = 40, .seed = 7}),
+             Surfaces(wall, {.texture = 40, .scale = 9, .seed = 7}),
              SmallCamera(),
              FromTheFront());
   float lowest = 0;

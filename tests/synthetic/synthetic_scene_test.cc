@@ -35,10 +35,10 @@ Eigen::Vector2d Project(const Scene& scene,
   return ImageFromIdeal(scene.cameras[0], in_cam.hnormalized());
 }
 
-int PixelAt(const RgbImage& image, const Eigen::Vector2d& pixel) {
+int PixelAt(const SyntheticImage& image, const Eigen::Vector2d& pixel) {
   const int x = std::clamp(static_cast<int>(pixel.x()), 0, image.width - 1);
   const int y = std::clamp(static_cast<int>(pixel.y()), 0, image.height - 1);
-  return image.pixels[static_cast<std::size_t>(3 * (y * image.width + x))];
+  return image.pixels[static_cast<std::size_t>(y * image.width + x)];
 }
 
 // Mean grey difference 2 px to both sides of the projected samples, all views,
@@ -213,7 +213,7 @@ TEST(SyntheticSceneTest, NoiseHasTheStandardDeviationAskedFor) {
   double sum = 0;
   double sum_squared = 0;
   double count = 0;
-  for (std::size_t i = 0; i < clean.images[3].pixels.size(); i += 3) {
+  for (std::size_t i = 0; i < clean.images[3].pixels.size(); ++i) {
     const int grey = clean.images[3].pixels[i];
     if (grey < 40 || grey > 215) continue;  // not clipped
     const double difference = noisy.images[3].pixels[i] - grey;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import operator
 import os
 
 from . import _core
@@ -35,6 +36,10 @@ class FitKind(enum.IntEnum):
     ARC = 1
     ELLIPSE = 2
     SPLINE = 3
+
+
+def _column(name: str, doc: str) -> Any:
+    return property(operator.attrgetter('_core.' + name), doc=doc)
 
 
 class Curves:
@@ -70,83 +75,28 @@ class Curves:
         positions, offsets = self.positions, self.offsets
         return (positions[offsets[i]:offsets[i + 1]] for i in range(len(self)))
 
-    @property
-    def offsets(self) -> NDArray[np.int64]:
-        """Where the samples of each curve begin, and the end (C + 1,)."""
-        return self._core.offsets
-
-    @property
-    def closed(self) -> NDArray[np.bool_]:
-        """Whether the first sample follows the last one (C,)."""
-        return self._core.closed
-
-    @property
-    def start_junction(self) -> NDArray[np.int32]:
-        """Index into `junctions` of each curve's start, or -1 (C,)."""
-        return self._core.start_junction
-
-    @property
-    def end_junction(self) -> NDArray[np.int32]:
-        """Index into `junctions` of each curve's end, or -1 (C,)."""
-        return self._core.end_junction
-
-    @property
-    def junctions(self) -> NDArray[np.float64]:
-        """Positions in which ends of curves meet (J, 3)."""
-        return self._core.junctions
-
-    @property
-    def positions(self) -> NDArray[np.float64]:
-        """Of all samples (N, 3)."""
-        return self._core.positions
-
-    @property
-    def tangents(self) -> NDArray[np.float64]:
-        """Unit vectors along the curves (N, 3)."""
-        return self._core.tangents
-
-    @property
-    def covariances(self) -> NDArray[np.float64]:
-        """Of the positions, across the curve (N, 3, 3); 0: not estimated."""
-        return self._core.covariances
-
-    @property
-    def sigmas(self) -> NDArray[np.float64]:
-        """Standard deviations across the curve (N,); 0: not estimated."""
-        return self._core.sigmas
-
-    @property
-    def evidence(self) -> NDArray[np.float64]:
-        """How strongly the views support each sample (N,)."""
-        return self._core.evidence
-
-    @property
-    def kinds(self) -> NDArray[np.uint8]:
-        """The most probable `CurveKind` of each sample (N,)."""
-        return self._core.kinds
-
-    @property
-    def kind_probabilities(self) -> NDArray[np.float32]:
-        """The probabilities of `kinds` (N,); 0 of unknown ones."""
-        return self._core.kind_probabilities
-
-    @property
-    def support_offsets(self) -> NDArray[np.int64]:
-        """Where the rows of each sample begin in `support`, and the end (N + 1,)."""
-        return self._core.support_offsets
-
-    @property
-    def support(self) -> NDArray[np.int32]:
-        """Index of a view that supports a sample, and of the 2D edge in it (S, 2)."""
-        return self._core.support
+    offsets: NDArray[np.int64] = _column('offsets', 'Where the samples of each curve begin, and the end (C + 1,).')
+    closed: NDArray[np.bool_] = _column('closed', 'Whether the first sample follows the last one (C,).')
+    start_junction: NDArray[np.int32] = _column('start_junction', "Index into `junctions` of each curve's start, or -1 (C,).")
+    end_junction: NDArray[np.int32] = _column('end_junction', "Index into `junctions` of each curve's end, or -1 (C,).")
+    junctions: NDArray[np.float64] = _column('junctions', 'Positions in which ends of curves meet (J, 3).')
+    positions: NDArray[np.float64] = _column('positions', 'Of all samples (N, 3).')
+    tangents: NDArray[np.float64] = _column('tangents', 'Unit vectors along the curves (N, 3).')
+    covariances: NDArray[np.float64] = _column('covariances', 'Of the positions, across the curve (N, 3, 3); 0: not estimated.')
+    sigmas: NDArray[np.float64] = _column('sigmas', 'Standard deviations across the curve (N,); 0: not estimated.')
+    evidence: NDArray[np.float64] = _column('evidence', 'How strongly the views support each sample (N,).')
+    kinds: NDArray[np.uint8] = _column('kinds', 'The most probable `CurveKind` of each sample (N,).')
+    kind_probabilities: NDArray[np.float32] = _column('kind_probabilities', 'The probabilities of `kinds` (N,); 0 of unknown ones.')
+    support_offsets: NDArray[np.int64] = _column('support_offsets', 'Where the rows of each sample begin in `support`, and the end (N + 1,).')
+    support: NDArray[np.int32] = _column('support', 'Index of a view that supports a sample, and of the 2D edge in it (S, 2).')
 
     @property
     def views(self) -> NDArray[np.int32]:
         """The first column of `support`: indices of views (S,)."""
         return self._core.support[:, 0]
 
-    @property
-    def fits(self) -> NDArray[np.void]:
+    fits: NDArray[np.void] = _column(
+        'fits',
         """Lines, arcs, ellipses and splines, curve after curve (F,).
 
         A structured array with the fields ``curve`` (index), ``kind``
@@ -159,33 +109,12 @@ class Curves:
         sin(a) * minor``; of splines ``first_point``, ``num_points`` (into
         `spline_points`) and ``first_knot`` (into `spline_knots`). Fitted when
         first asked for, if not by a run.
-        """
-        return self._core.fits
-
-    @property
-    def fit_offsets(self) -> NDArray[np.int64]:
-        """Where the rows of each curve begin in `fits`, and the end (C + 1,)."""
-        return self._core.fit_offsets
-
-    @property
-    def spline_points(self) -> NDArray[np.float64]:
-        """Control points of clamped cubic B-splines (P, 3)."""
-        return self._core.spline_points
-
-    @property
-    def spline_knots(self) -> NDArray[np.float64]:
-        """Their knots, ``num_points + 4`` each, from 0 to 1."""
-        return self._core.spline_knots
-
-    @property
-    def nodes(self) -> NDArray[np.float64]:
-        """Positions in which fits meet (M, 3)."""
-        return self._core.nodes
-
-    @property
-    def node_covariances(self) -> NDArray[np.float64]:
-        """Of the positions of `nodes` (M, 3, 3), world units squared."""
-        return self._core.node_covariances
+        """)
+    fit_offsets: NDArray[np.int64] = _column('fit_offsets', 'Where the rows of each curve begin in `fits`, and the end (C + 1,).')
+    spline_points: NDArray[np.float64] = _column('spline_points', 'Control points of clamped cubic B-splines (P, 3).')
+    spline_knots: NDArray[np.float64] = _column('spline_knots', 'Their knots, ``num_points + 4`` each, from 0 to 1.')
+    nodes: NDArray[np.float64] = _column('nodes', 'Positions in which fits meet (M, 3).')
+    node_covariances: NDArray[np.float64] = _column('node_covariances', 'Of the positions of `nodes` (M, 3, 3), world units squared.')
 
     @property
     def scene(self) -> Scene | None:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colmap/links.h"
+#include "colmap/files.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/posed_views.h"
+#include "model/posed_view.h"
 
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-
-#include "geometry/camera_of.h"
 
 namespace curvix {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colmap/fit_to_images.h"
+#include "colmap/scale_to_images.h"
 
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 #include "base/count_text.h"
 #include "base/image_header.h"
-#include "colmap/links.h"
+#include "colmap/files.h"
 #include "geometry/distortion.h"
 
 namespace curvix {
@@ -72,7 +72,7 @@ void Rescale(const Scale& scale, const ImageSize& size, Camera* camera) {
 
 }  // namespace
 
-std::string FitToImages(const fs::path& folder, ColmapModel* model) {
+std::string ScaleToImages(const fs::path& folder, ColmapModel* model) {
   const auto sizes = SizesOfImages(folder, *model);
   std::map<std::uint32_t, Scale> scales;
   std::string first;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Names of images to files, and links that others
-// may have put into a workspace.
+// Paper: none (engineering). Files and folders of workspaces, into which others
+// may have put links.
 #pragma once
 
 #include <algorithm>

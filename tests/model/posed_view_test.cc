@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/posed_views.h"
+#include "model/posed_view.h"
 
 #include <curvix/scene.h>
 #include <gtest/gtest.h>

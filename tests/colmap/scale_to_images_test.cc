@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "colmap/fit_to_images.h"
+#include "colmap/scale_to_images.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::string HeaderOfPng(int width, int height) {
          BigEndian(static_cast<std::uint32_t>(height));
 }
 
-class FitToImagesTest : public ::testing::Test {
+class ScaleToImagesTest : public ::testing::Test {
  protected:
   // A camera with one image a.png and a 2D point at (400, 300).
   void SetUp() override {
@@ -60,7 +60,7 @@ class FitToImagesTest : public ::testing::Test {
 
   std::string FitTo(int width, int height) {
     folder_.Write("a.png", HeaderOfPng(width, height));
-    return FitToImages(folder_.path(), &model_);
+    return ScaleToImages(folder_.path(), &model_);
   }
 
   void ExpectUntouched() const {
@@ -76,7 +76,7 @@ class FitToImagesTest : public ::testing::Test {
   ColmapModel model_;
 };
 
-TEST_F(FitToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
+TEST_F(ScaleToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
   EXPECT_EQ(FitTo(400, 300),
             "The images of 1 of 1 camera have another size than the model "
             "says (400 x 300 pixels instead of 800 x 600); this camera is "
@@ -91,13 +91,13 @@ TEST_F(FitToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
   EXPECT_EQ(model_.points[0].error, -1);
 }
 
-TEST_F(FitToImagesTest, ScalesToLargerImages) {
+TEST_F(ScaleToImagesTest, ScalesToLargerImages) {
   EXPECT_THAT(FitTo(1600, 1200), HasSubstr("scaled"));
   EXPECT_EQ(model_.cameras[0].camera.params[0], 1400);
 }
 
 // 4946 x 3286 pixels, a quarter of which is rounded.
-TEST_F(FitToImagesTest, TakesRoundedSizes) {
+TEST_F(ScaleToImagesTest, TakesRoundedSizes) {
   model_.cameras[0].camera = {
       CameraModel::kSimpleRadial, 4946, 3286, {4000, 2473, 1643, 0.01}};
   EXPECT_THAT(FitTo(1237, 822), HasSubstr("scaled"));
@@ -108,7 +108,7 @@ TEST_F(FitToImagesTest, TakesRoundedSizes) {
   EXPECT_EQ(params[3], 0.01);
 }
 
-TEST_F(FitToImagesTest, ScalesFromRoundedSizes) {
+TEST_F(ScaleToImagesTest, ScalesFromRoundedSizes) {
   model_.cameras[0].camera = {
       CameraModel::kSimplePinhole, 618, 411, {500, 309, 205.5}};
   EXPECT_THAT(FitTo(4946, 3286), HasSubstr("scaled"));
@@ -116,47 +116,47 @@ TEST_F(FitToImagesTest, ScalesFromRoundedSizes) {
 }
 
 // As behind a large thumbnail.
-TEST_F(FitToImagesTest, FindsSizesFarBehind) {
+TEST_F(ScaleToImagesTest, FindsSizesFarBehind) {
   const std::string thumbnail =
       "\xFF\xE1\xFF\xFF" + std::string(0xFFFF - 2, '\0');
   folder_.Write("a.png",
                 "\xFF\xD8" + thumbnail + thumbnail +
                     std::string("\xFF\xC0\x00\x11\x08\x01\x2C\x01\x90", 9));
-  EXPECT_THAT(FitToImages(folder_.path(), &model_), HasSubstr("400 x 300"));
+  EXPECT_THAT(ScaleToImages(folder_.path(), &model_), HasSubstr("400 x 300"));
 }
 
-TEST_F(FitToImagesTest, LeavesCamerasOfTheSameSize) {
+TEST_F(ScaleToImagesTest, LeavesCamerasOfTheSameSize) {
   EXPECT_EQ(FitTo(800, 600), "");
   ExpectUntouched();
 }
 
-TEST_F(FitToImagesTest, LeavesCamerasOfImagesInOtherProportions) {
+TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesInOtherProportions) {
   EXPECT_EQ(FitTo(400, 320), "");
   EXPECT_EQ(FitTo(600, 800), "");
   ExpectUntouched();
 }
 
-TEST_F(FitToImagesTest, LeavesCamerasOfAbsurdSizes) {
+TEST_F(ScaleToImagesTest, LeavesCamerasOfAbsurdSizes) {
   EXPECT_EQ(FitTo(20, 15), "");
   EXPECT_EQ(FitTo(40000, 30000), "");
   ExpectUntouched();
 }
 
 // A row that is cut off moves nothing.
-TEST_F(FitToImagesTest, LeavesCamerasOfImagesThatWereCut) {
+TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesThatWereCut) {
   EXPECT_EQ(FitTo(800, 599), "");
   EXPECT_EQ(FitTo(799, 599), "");
   ExpectUntouched();
 }
 
-TEST_F(FitToImagesTest, LeavesCamerasOfImagesThatTellNoSize) {
-  EXPECT_EQ(FitToImages(folder_.path(), &model_), "");
+TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesThatTellNoSize) {
+  EXPECT_EQ(ScaleToImages(folder_.path(), &model_), "");
   folder_.Write("a.png", "");
-  EXPECT_EQ(FitToImages(folder_.path(), &model_), "");
+  EXPECT_EQ(ScaleToImages(folder_.path(), &model_), "");
   ExpectUntouched();
 }
 
-TEST_F(FitToImagesTest, ScalesOnlyTheCamerasThatNeedIt) {
+TEST_F(ScaleToImagesTest, ScalesOnlyTheCamerasThatNeedIt) {
   AddCamera(
       2, {CameraModel::kSimplePinhole, 800, 600, {700, 400, 300}}, "b.png");
   folder_.Write("b.png", HeaderOfPng(200, 150));

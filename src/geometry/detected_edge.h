@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: Sec. 3. Detected edges as geometry.
+#pragma once
+
+#include <curvix/edges.h>
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "geometry/edge_geometry.h"
+
+namespace curvix {
+
+// The tangent of an Edge2d with this angle.
+inline Eigen::Vector2d TangentAt(float angle) {
+  const double radians = static_cast<double>(angle);
+  return {std::cos(radians), std::sin(radians)};
+}
+
+inline ImageEdge ToImageEdge(const Edge2d& edge) {
+  return {edge.position, TangentAt(edge.angle)};
+}
+
+// Unit, across the edge.
+inline Eigen::Vector2d ToBrightSide(const Edge2d& edge) {
+  return ToImageEdge(edge).Normal();
+}
+
+// `edge_maps` by view.
+inline const Edge2d& EdgeOf(const EdgeRef& ref,
+                            const std::vector<EdgeMap>& edge_maps) {
+  return edge_maps[static_cast<std::size_t>(ref.view_idx)]
+      .edges[static_cast<std::size_t>(ref.edge_idx)];
+}
+
+}  // namespace curvix
