@@ -177,8 +177,7 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& observations,
     PoseSample& sample = samples.emplace_back();
     sample.contour = place.contour;
     for (const EdgeRef& ref : place.support) {
-      sample.observations.push_back(
-          {ref.view_idx, edges_.EdgeInPhotograph(ref)});
+      sample.observations.push_back({ref.view_idx, edges_.DistortedEdge(ref)});
     }
   }
   return AdjustPoses({scene_,

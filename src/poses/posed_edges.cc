@@ -269,7 +269,7 @@ ImageEdge PosedEdges::InputEdge(const EdgeRef& ref) const {
   return ToImageEdge(EdgeOf(ref, edge_maps_));
 }
 
-ImageEdge PosedEdges::EdgeInPhotograph(const EdgeRef& ref) const {
+ImageEdge PosedEdges::DistortedEdge(const EdgeRef& ref) const {
   const auto i = static_cast<std::size_t>(ref.view_idx);
   return EdgeInImage(InputEdge(ref), InputCameraOf(i));
 }

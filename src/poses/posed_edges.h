@@ -72,7 +72,8 @@ class PosedEdges {
       std::size_t view_idx,
       double reach_px) const;
 
-  ImageEdge EdgeInPhotograph(const EdgeRef& ref) const;
+  // In the image with the distortion of the input camera.
+  ImageEdge DistortedEdge(const EdgeRef& ref) const;
   // Pixels; of the projection of `contour` from the line of the edge.
   double Distance(const OccludingContour& contour, const EdgeRef& ref) const;
   // The pixels of the point, with the present poses and cameras.

@@ -25,9 +25,9 @@ namespace curvix {
 namespace {
 
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
-// Of a camera's pixels, over the fall of errors. A new camera whose shift the
-// poses and the scene all but undo bends these, away from dense models and
-// images that have the old one, to which the points have been adjusted.
+// The shift of the image by a new camera, over the fall of the held-out errors.
+// Poses and structure undo nearly all of a larger shift. They bend away from
+// what was made with the old camera: points, dense models, other images.
 constexpr double kMaxShiftPerFall = 4;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
@@ -198,7 +198,8 @@ class Refiner {
     return true;
   }
 
-  // Whether new cameras shift the image too far for what they explain.
+  // Whether new cameras shift the image too far for the fall of the errors. Not
+  // without points. Moves the search to `after`.
   bool BendsScene(const MovedCameras& before, const MovedCameras& after) {
     if (observations_.points.empty()) return false;
     std::vector<double> shifts_px;

@@ -288,7 +288,8 @@ TEST(RefinePosesWithCurves, LeavesTheLensIfAsked) {
   EXPECT_EQ(refined->cameras, wrong.scene.cameras);
 }
 
-TEST(RefinePosesWithCurves, LeavesALensFarFromWhichPointsWereAdjusted) {
+TEST(RefinePosesWithCurves,
+     LeavesALensWithPointsIfAnotherShiftsTheImageTooFar) {
   WrongLens wrong;
   AddPoints(Wires().scene.cameras[0], 2, &wrong.scene);
   const CurvePoses refined = Refine(wrong.scene, wrong.edge_maps);
