@@ -86,15 +86,28 @@ PoseSearch::PoseSearch(const Scene& scene,
       sigmas_px_(scene.views.size(), kFirstSigmaPx),
       prior_px_(kFirstPriorPx) {}
 
+PoseSearch::State PoseSearch::state() const {
+  return {edges_.moved(), sigmas_px_, prior_px_, free_lenses_, min_supports_};
+}
+
+void PoseSearch::GoTo(const State& state) {
+  edges_.Move(state.moved);
+  sigmas_px_ = state.sigmas_px;
+  prior_px_ = state.prior_px;
+  free_lenses_ = state.free_lenses;
+  min_supports_ = state.min_supports;
+}
+
 std::vector<CurvePlace> PoseSearch::Sketch() {
   double sigma_px = edge_sigma_px_;
-  std::vector<CurvePlace> places = edges_.Sketch(sigma_px, step_done_);
-  while (places.size() < kMinPlaces && 2 * sigma_px <= kMaxSketchSigmaPx &&
-         !is_stopped_) {
+  PlaceSketch sketch = edges_.Sketch(sigma_px, step_done_);
+  while (sketch.places.size() < kMinPlaces &&
+         2 * sigma_px <= kMaxSketchSigmaPx && !is_stopped_) {
     sigma_px *= 2;
-    places = edges_.Sketch(sigma_px, step_done_);
+    sketch = edges_.Sketch(sigma_px, step_done_);
   }
-  return places;
+  min_supports_ = sketch.min_supports;
+  return std::move(sketch.places);
 }
 
 bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
@@ -127,7 +140,7 @@ void PoseSearch::FindEdges(std::vector<CurvePlace>* places) const {
         edges_.FindEdges(place.contour, edges_.QueryViews(place), gates_px);
   });
   std::erase_if(*places, [&](const CurvePlace& place) {
-    return place.support.size() < edges_.min_supports();
+    return place.support.size() < min_supports_;
   });
 }
 

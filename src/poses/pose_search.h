@@ -6,6 +6,7 @@
 #include <curvix/options.h>
 #include <curvix/reconstruct.h>
 #include <curvix/scene.h>
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -23,6 +24,17 @@ class PoseSearch {
              const std::vector<EdgeMap>& edge_maps,
              const Options& options,
              StepDone step_done);
+
+  // What a search changes.
+  struct State {
+    MovedCameras moved;
+    std::vector<double> sigmas_px;  // by view, of edges about projections
+    double prior_px = 0;
+    std::vector<bool> free_lenses;
+    std::size_t min_supports = 0;  // of a place, by the last sketch
+  };
+  State state() const;
+  void GoTo(const State& state);
 
   // The present poses and cameras, and the edges of the views.
   const PosedEdges& edges() const { return edges_; }
@@ -90,9 +102,10 @@ class PoseSearch {
   // Of a pixel of a point, in x and in y, by the poses of the scene.
   const double point_sigma_px_;
   PosedEdges edges_;
-  std::vector<double> sigmas_px_;  // by view, of edges about projections
+  std::vector<double> sigmas_px_;
   double prior_px_;
   std::vector<bool> free_lenses_;
+  std::size_t min_supports_ = 0;
   bool is_stopped_ = false;
 };
 

@@ -111,8 +111,7 @@ std::vector<EdgeMap> PosedEdges::CarriedMaps() const {
   return carried;
 }
 
-std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
-                                           const StepDone& step_done) {
+PlaceSketch PosedEdges::Sketch(double sigma_px, const StepDone& step_done) {
   std::size_t num_edges = 0;
   for (const EdgeMap& map : edge_maps_) num_edges += map.edges.size();
   const std::size_t num_asked =
@@ -144,16 +143,17 @@ std::vector<CurvePlace> PosedEdges::Sketch(double sigma_px,
   const auto num_usual = std::ranges::count_if(
       sketch.edges,
       [](const Edge3d& edge) { return edge.support.size() >= kUsualSupports; });
-  min_supports_ = num_usual >= kManyPlaces ? kUsualSupports : kFewSupports;
-  std::vector<CurvePlace> places;
+  PlaceSketch result;
+  result.min_supports =
+      num_usual >= kManyPlaces ? kUsualSupports : kFewSupports;
   for (const Edge3d& edge : sketch.edges) {
-    if (edge.support.size() < min_supports_) continue;
-    CurvePlace& place = places.emplace_back();
+    if (edge.support.size() < result.min_supports) continue;
+    CurvePlace& place = result.places.emplace_back();
     place.contour.axis = {edge.position, edge.tangent};
     place.support = edge.support;
     place.contour = Adjusted(place, sigma_px);
   }
-  return places;
+  return result;
 }
 
 std::vector<std::size_t> PosedEdges::QueryViews(const CurvePlace& place) const {

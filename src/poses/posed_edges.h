@@ -25,6 +25,11 @@ struct CurvePlace {
   std::vector<EdgeRef> support;  // at most one per view, ascending
 };
 
+struct PlaceSketch {
+  std::vector<CurvePlace> places;
+  std::size_t min_supports = 0;  // the fewest of a place
+};
+
 class PosedEdges {
  public:
   // The arguments must outlive it.
@@ -49,9 +54,7 @@ class PosedEdges {
 
   // Places on curves, from some thousand edges spread over the views. Edges are
   // searched within a few times `sigma_px` of their projections.
-  std::vector<CurvePlace> Sketch(double sigma_px, const StepDone& step_done);
-  // The fewest supports that the last sketch asked of a place.
-  std::size_t min_supports() const { return min_supports_; }
+  PlaceSketch Sketch(double sigma_px, const StepDone& step_done);
 
   // The query views of a place, at most forty, ascending: its supporting views
   // (if more than forty, those that differ most in direction), and neighbours
@@ -118,7 +121,6 @@ class PosedEdges {
   std::vector<DepthRange> depths_;
   NeighborsByView neighbors_;
   MovedCameras moved_;
-  std::size_t min_supports_ = 0;
 };
 
 }  // namespace curvix

@@ -47,20 +47,23 @@ std::vector<Camera> Extended(std::vector<Camera> cameras,
   return cameras;
 }
 
+// Searches for better poses without the set of cells that is held out.
 class Refiner {
  public:
+  // `search`: at the poses and cameras of the scene, which gave `places`. Must
+  // outlive it, as must the scene.
   Refiner(const Scene& scene,
-          const std::vector<EdgeMap>& edge_maps,
-          const Options& options,
+          std::vector<CurvePlace> places,
+          int num_threads,
           bool refine_intrinsics,
-          RunRecorder* run)
+          PoseSearch* search)
       : scene_(scene),
         refine_intrinsics_(refine_intrinsics),
-        num_threads_(options.runtime.num_threads),
-        search_(scene, edge_maps, options, run->Steps()),
+        num_threads_(num_threads),
+        search_(*search),
+        observations_{std::move(places), {}},
         at_sketch_(search_.edges().moved()) {}
 
-  // Searches for better poses without the set of cells that is held out.
   // `cells`: of an earlier search; nullopt: those of the places and points.
   void Search(int held_out_set, const std::optional<SpaceCells>& cells) {
     Begin(held_out_set, cells);
@@ -122,7 +125,7 @@ class Refiner {
   void Begin(int held_out_set, const std::optional<SpaceCells>& cells) {
     ChosenPoints points =
         ChoosePoints(UsablePoints(scene_), scene_.views.size(), held_out_set);
-    observations_ = {search_.Sketch(), std::move(points.chosen)};
+    observations_.points = std::move(points.chosen);
     cells_ = cells.value_or(SpaceCells(PositionsOf(observations_)))
                  .StartingWith(held_out_set);
     held_out_ = {TakeHeldOut(cells_, &observations_.places),
@@ -336,7 +339,7 @@ class Refiner {
   const Scene& scene_;
   const bool refine_intrinsics_;
   const int num_threads_;
-  PoseSearch search_;
+  PoseSearch& search_;
   PoseObservationSet observations_;
   PoseObservationSet held_out_;
   MovedCameras at_sketch_;                 // the last
@@ -355,16 +358,23 @@ CurvePoses Refine(const Scene& scene,
                   const Options& options,
                   bool refine_intrinsics,
                   RunRecorder* run) {
-  Refiner refiner(scene, edge_maps, options, refine_intrinsics, run);
+  const int num_threads = options.runtime.num_threads;
+  PoseSearch search(scene, edge_maps, options, run->Steps());
+  const std::vector<CurvePlace> places = search.Sketch();
+  const PoseSearch::State at_input = search.state();
+  Refiner refiner(scene, places, num_threads, refine_intrinsics, &search);
   refiner.Search(0, std::nullopt);
+  const PoseSearch::State found = search.state();
   for (int set = 1; set < SpaceCells::kNumSets && refiner.IsOpen(set); ++set) {
+    search.GoTo(at_input);
     Refiner other(scene,
-                  edge_maps,
-                  options,
+                  places,
+                  num_threads,
                   refine_intrinsics && !refiner.cameras_stay(),
-                  run);
+                  &search);
     other.Search(set, refiner.cells());
     refiner.Add(other.gains());
+    search.GoTo(found);
   }
   return refiner.Finish();
 }
