@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -122,6 +123,9 @@ ceres::Problem::Options ProblemOptions(PoseEquations* equations) {
   ceres::Problem::Options options;
   options.disable_all_safety_checks = true;
   options.evaluation_callback = equations;
+  // Ceres would count the references to each.
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   return options;
 }
 
@@ -220,8 +224,8 @@ class PoseAdjuster {
         unknowns.push_back(unknowns_.lenses[seen.camera_idx].data());
         num_lens_params = equations_.lenses()[seen.camera_idx].num_used();
       }
-      ceres_.AddResidualBlock(new ObservationCost(equation, num_lens_params),
-                              new ObservationLoss(equation),
+      ceres_.AddResidualBlock(&costs_.emplace_back(equation, num_lens_params),
+                              &losses_.emplace_back(equation),
                               unknowns);
       ordering_->AddElementToGroup(unknowns.front(), kSamples);
     }
@@ -241,7 +245,7 @@ class PoseAdjuster {
       ceres::Matrix factors = ceres::Matrix::Zero(2, 3);
       factors(0, 2) = std::sqrt(weights[i]);
       ceres_.AddResidualBlock(
-          new ceres::NormalPrior(factors, Eigen::Vector3d::Zero()),
+          &priors_.emplace_back(factors, Eigen::Vector3d::Zero()),
           nullptr,
           offset);
     }
@@ -254,8 +258,8 @@ class PoseAdjuster {
                 double* unknowns,
                 Group group) {
     ceres_.AddResidualBlock(
-        new ceres::NormalPrior(ceres::Matrix(factors.asDiagonal()), center),
-        new ceres::CauchyLoss(kPriorLossScale),
+        &priors_.emplace_back(ceres::Matrix(factors.asDiagonal()), center),
+        &prior_loss_,
         unknowns);
     ordering_->AddElementToGroup(unknowns, group);
   }
@@ -300,6 +304,10 @@ class PoseAdjuster {
   PoseUnknowns unknowns_;
   PoseEquations equations_;
   std::vector<double> start_costs_;  // by sample; infinite behind a camera
+  std::deque<ObservationCost> costs_;
+  std::deque<ObservationLoss> losses_;
+  std::deque<ceres::NormalPrior> priors_;
+  ceres::CauchyLoss prior_loss_{kPriorLossScale};
   ceres::Problem ceres_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_ =
       std::make_shared<ceres::ParameterBlockOrdering>();
