@@ -21,6 +21,8 @@ constexpr double kMinTruncationPx = 0.3;
 // it twice as much.
 constexpr double kGoodEnoughPx = 0.06;
 constexpr double kNothingFitsPx = 1;
+constexpr double kHarmlessShiftPx = 0.5;
+constexpr double kMaxShiftPerFall = 4;
 // Standard deviations, exceeded by chance once in some twenty times.
 constexpr double kContrary = 2;
 
@@ -120,6 +122,10 @@ double FallOfErrors(const HeldOutErrors& before, const HeldOutErrors& after) {
                MeanSquare(Concatenate(before.points)) -
                    MeanSquare(Concatenate(after.points)));
   return std::sqrt(std::max(0.0, fall));
+}
+
+bool IsShiftTooLarge(double shift_px, double fall_px) {
+  return shift_px > std::max(kHarmlessShiftPx, kMaxShiftPerFall * fall_px);
 }
 
 bool PointsFit(const PoseObservationSet& held_out,

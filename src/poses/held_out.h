@@ -42,6 +42,12 @@ std::vector<ErrorPair> PairErrors(const HeldOutErrors& before,
 // places or of points, whichever is larger; 0 if both rise.
 double FallOfErrors(const HeldOutErrors& before, const HeldOutErrors& after);
 
+// Whether a new camera shifts the image too far for such a fall. Poses and
+// structure undo nearly all of the shift then. They bend away from what was
+// made with the old camera: points, dense models, other images. Half a pixel
+// does no harm.
+bool IsShiftTooLarge(double shift_px, double fall_px);
+
 // Whether poses are good enough. Points: if their errors are small in each of
 // the views, they contradict any other poses. Edges: if the errors of the
 // places are small, there is nothing to find.

@@ -72,6 +72,19 @@ PosedEdges::PosedEdges(const Scene& scene,
       neighbors_(NeighborsInDirection(FindOverlaps(views_, scene.points))),
       moved_(Unmoved()) {}
 
+std::size_t PosedEdges::NumMoved() const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const Rigid3& increment = moved_.new_cam_from_cam[i];
+    const bool stays =
+        increment.translation.isZero(0) &&
+        increment.rotation.coeffs() == Rigid3().rotation.coeffs() &&
+        PresentCameraOf(i) == InputCameraOf(i);
+    if (!stays) ++count;
+  }
+  return count;
+}
+
 const Camera& PosedEdges::PresentCameraOf(std::size_t view_idx) const {
   return moved_
       .cameras[static_cast<std::size_t>(scene_.views[view_idx].camera_idx)];

@@ -47,6 +47,8 @@ class PosedEdges {
   MovedCameras Unmoved() const {
     return {std::vector<Rigid3>(views_.size()), scene_.cameras};
   }
+  // The views whose pose or camera is not that of the scene.
+  std::size_t NumMoved() const;
   const Camera& PresentCameraOf(std::size_t view_idx) const;
   // The pose of the scene followed by the view's increment.
   Rigid3 PoseOf(std::size_t view_idx) const;

@@ -25,10 +25,6 @@ namespace curvix {
 namespace {
 
 constexpr double kSmallShiftPx = 0.5;  // asks for no new sketch
-// The shift of the image by a new camera, over the fall of the held-out errors.
-// Poses and structure undo nearly all of a larger shift. They bend away from
-// what was made with the old camera: points, dense models, other images.
-constexpr double kMaxShiftPerFall = 4;
 constexpr int kNumFinalRounds = 2;
 constexpr std::size_t kMinHeldOut = 20;  // places and points
 
@@ -213,7 +209,7 @@ class Refiner {
     const double shift_px = Median(std::move(shifts_px));
     search_.Move(after);
     const double fall_px = FallOfErrors(before_, Measure());
-    if (shift_px <= kMaxShiftPerFall * fall_px) return false;
+    if (!IsShiftTooLarge(shift_px, fall_px)) return false;
     reason_of_cameras_ = "; cameras stay: others would shift images by " +
                          FixedText(shift_px, 2) +
                          " px for errors that fall by " +
@@ -298,21 +294,6 @@ class Refiner {
     PutPoses(observations_, result);
   }
 
-  std::size_t NumViewsMoved() const {
-    const MovedCameras& moved = search_.edges().moved();
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < scene_.views.size(); ++i) {
-      const Rigid3& increment = moved.new_cam_from_cam[i];
-      const auto k = static_cast<std::size_t>(scene_.views[i].camera_idx);
-      const bool stays =
-          increment.translation.isZero(0) &&
-          increment.rotation.coeffs() == Rigid3().rotation.coeffs() &&
-          moved.cameras[k] == scene_.cameras[k];
-      if (!stays) ++count;
-    }
-    return count;
-  }
-
   void PutPoses(const PoseObservationSet& observations,
                 CurvePoses* result) const {
     std::vector<double> shifts;
@@ -324,7 +305,7 @@ class Refiner {
     result->max_shift_px = *largest;
     result->max_shift_view_idx =
         static_cast<std::size_t>(largest - shifts.begin());
-    result->num_views_moved = NumViewsMoved();
+    result->num_views_moved = search_.edges().NumMoved();
     result->median_shift_px = MedianOr(0, std::move(shifts));
     result->cameras =
         result->accepted ? search_.edges().moved().cameras : scene_.cameras;

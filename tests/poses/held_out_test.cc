@@ -176,6 +176,12 @@ TEST(FallOfErrors, IsThatOfPlacesOrPoints) {
   EXPECT_EQ(FallOfErrors(after, before), 0) << "both rise";
 }
 
+TEST(IsShiftTooLarge, BeyondHalfAPixelAndFourTimesTheFall) {
+  EXPECT_FALSE(IsShiftTooLarge(0.4, 0)) << "harmless";
+  EXPECT_FALSE(IsShiftTooLarge(1, 0.3));
+  EXPECT_TRUE(IsShiftTooLarge(1, 0.2));
+}
+
 TEST(IsBetter, MayAskLess) {
   EXPECT_TRUE(IsBetter({0, 2, 1}, 1));
   EXPECT_FALSE(IsBetter({1, 1, 0.9}, 1));
