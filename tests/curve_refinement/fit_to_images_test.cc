@@ -31,18 +31,20 @@ SeenCurve SeeFromEightViews(Curve curve) {
   return SeeFrom(EightViews(), std::move(curve));
 }
 
-Curve Noisy(Curve curve) {
+Curve Noisy(Curve curve, double noise_px = kNoisePx) {
   Random random(11);
   for (CurveSample& sample : curve.samples) {
-    sample.position += kNoisePx * kPixel * random.Across(sample.tangent);
+    sample.position += noise_px * kPixel * random.Across(sample.tangent);
   }
   return curve;
 }
 
-std::vector<Curve> FitAll(const SeenCurve& seen, double smoothing_px = 2.5) {
+std::vector<Curve> FitAll(const SeenCurve& seen,
+                          double smoothing_px = 2.5,
+                          double noise_px = kNoisePx) {
   CurveRefinementOptions options;
   options.smoothing_px = smoothing_px;
-  return FitToImages({Noisy(seen.truth)},
+  return FitToImages({Noisy(seen.truth, noise_px)},
                      {seen.views, seen.edge_maps, kEdgeSigmaPx, options, 1},
                      {});
 }
@@ -63,6 +65,16 @@ TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
       EXPECT_NEAR(sample.position.y() / kPixel, 0, 0.25);  // the depth
       EXPECT_NEAR(sample.tangent.dot(sample.position.normalized()), 0, 0.05);
     }
+  }
+}
+
+// The loss hardly grows so far away.
+TEST(FitToImages, SamplesThatAreTenSigmasOffComeBack) {
+  const SeenCurve seen = SeeFromEightViews(Arc(100, 0, 2 * std::numbers::pi));
+  const std::vector<Curve> fitted = FitAll(seen, 2.5, 10 * kEdgeSigmaPx);
+  ASSERT_EQ(fitted.size(), 1);
+  for (const CurveSample& sample : fitted[0].samples) {
+    EXPECT_NEAR(sample.position.norm() / kPixel, 100, 0.08);
   }
 }
 
