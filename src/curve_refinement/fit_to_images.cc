@@ -48,13 +48,14 @@ struct Station {
   }
 };
 
-// The distances z (in sigmas) of a sample from its 2D edges in one cost: Ceres'
-// share of the time grows with the number of costs. Ceres has one loss for a
-// whole cost, so Cauchy's, log(1 + z^2), is in the residuals: z / sqrt(1 + z^2)
-// for each edge, and a last one that adds what their squares lack of the
-// losses. Its derivatives are 0, so that steps are those of iteratively
-// reweighted least squares. The root of the loss as residual would make them
-// too long. `station` must outlive it.
+// The distances z of a sample from its 2D edges, over sigma, in one cost:
+// Ceres' share of the time grows with the number of costs. Ceres has one loss
+// for a whole cost, so Cauchy's loss, log(1 + z^2), is in the residuals. Each
+// edge has a residual z / sqrt(1 + z^2). The square of the last residual is the
+// sum of the losses minus the squares of the others. Its Jacobian is set to 0,
+// so that steps are those of iteratively reweighted least squares; with the
+// roots of the losses as residuals, Gauss-Newton steps are too long far from
+// the edges. `station` must outlive it.
 class SupportCost : public ceres::CostFunction {
  public:
   SupportCost(const Station& station,
@@ -72,19 +73,19 @@ class SupportCost : public ceres::CostFunction {
                 double** jacobians) const override {
     const Eigen::Vector3d position = station_->At(offsets[0]);
     const bool has_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    double lack = 0;
+    double rest = 0;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
       const SeenDistance distance = DistanceFrom(measured_[i], position);
       const double z = distance.px / sigma_px_;
       const double weight = 1 / (1 + z * z);
       const double root = std::sqrt(weight);
       residuals[i] = root * z;
-      lack += std::log1p(z * z) - weight * z * z;
+      rest += std::log1p(z * z) - weight * z * z;
       if (!has_jacobian) continue;
       Eigen::Map<Eigen::Vector2d>(jacobians[0] + 2 * i) =
           root / sigma_px_ * (station_->axes.transpose() * distance.gradient);
     }
-    residuals[measured_.size()] = std::sqrt(std::max(0.0, lack));
+    residuals[measured_.size()] = std::sqrt(std::max(0.0, rest));
     if (has_jacobian) {
       Eigen::Map<Eigen::Vector2d>(jacobians[0] + 2 * measured_.size())
           .setZero();
@@ -237,7 +238,7 @@ class CurveFitter {
   std::vector<Curve> Solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    // Faster than others for matrices of this size.
+    // Faster than CHOLMOD for the small matrices of one curve.
     options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.max_num_iterations = kMaxNumIterations;
     options.function_tolerance = kMinGain;

@@ -123,7 +123,7 @@ ceres::Problem::Options ProblemOptions(PoseEquations* equations) {
   ceres::Problem::Options options;
   options.disable_all_safety_checks = true;
   options.evaluation_callback = equations;
-  // Ceres would count the references to each.
+  // Ceres counts the references to what it owns, which takes time.
   options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   return options;

@@ -42,10 +42,10 @@ std::vector<ErrorPair> PairErrors(const HeldOutErrors& before,
 // places or of points, whichever is larger; 0 if both rise.
 double FallOfErrors(const HeldOutErrors& before, const HeldOutErrors& after);
 
-// Whether a new camera shifts the image too far for such a fall. Poses and
-// structure undo nearly all of the shift then. They bend away from what was
-// made with the old camera: points, dense models, other images. Half a pixel
-// does no harm.
+// Whether a new camera, by which errors fall by `fall_px`, shifts the image too
+// far: by more than half a pixel and four times the fall. Poses and structure
+// then undo nearly all of the shift. They bend away from what was made with the
+// old camera: points, dense models, other images.
 bool IsShiftTooLarge(double shift_px, double fall_px);
 
 // Whether poses are good enough. Points: if their errors are small in each of

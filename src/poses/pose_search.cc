@@ -90,7 +90,7 @@ PoseSearch::State PoseSearch::state() const {
   return {edges_.moved(), sigmas_px_, prior_px_, free_lenses_, min_supports_};
 }
 
-void PoseSearch::GoTo(const State& state) {
+void PoseSearch::SetState(const State& state) {
   edges_.Move(state.moved);
   sigmas_px_ = state.sigmas_px;
   prior_px_ = state.prior_px;

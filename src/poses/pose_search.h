@@ -25,16 +25,16 @@ class PoseSearch {
              const Options& options,
              StepDone step_done);
 
-  // What a search changes.
+  // What the steps change.
   struct State {
     MovedCameras moved;
     std::vector<double> sigmas_px;  // by view, of edges about projections
     double prior_px = 0;
     std::vector<bool> free_lenses;
-    std::size_t min_supports = 0;  // of a place, by the last sketch
+    std::size_t min_supports = 0;  // of the last sketch
   };
   State state() const;
-  void GoTo(const State& state);
+  void SetState(const State& state);
 
   // The present poses and cameras, and the edges of the views.
   const PosedEdges& edges() const { return edges_; }

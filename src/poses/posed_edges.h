@@ -27,7 +27,7 @@ struct CurvePlace {
 
 struct PlaceSketch {
   std::vector<CurvePlace> places;
-  std::size_t min_supports = 0;  // the fewest of a place
+  std::size_t min_supports = 0;  // the fewest edges that a place may have
 };
 
 class PosedEdges {
@@ -47,7 +47,7 @@ class PosedEdges {
   MovedCameras Unmoved() const {
     return {std::vector<Rigid3>(views_.size()), scene_.cameras};
   }
-  // The views whose pose or camera is not that of the scene.
+  // The number of views whose pose or camera is not that of the scene.
   std::size_t NumMoved() const;
   const Camera& PresentCameraOf(std::size_t view_idx) const;
   // The pose of the scene followed by the view's increment.

@@ -46,8 +46,8 @@ std::vector<Camera> Extended(std::vector<Camera> cameras,
 // Searches for better poses without the set of cells that is held out.
 class Refiner {
  public:
-  // `search`: at the poses and cameras of the scene, which gave `places`. Must
-  // outlive it, as must the scene.
+  // `search` has the poses and cameras of the scene; `places` are its sketch.
+  // The search and the scene must outlive this.
   Refiner(const Scene& scene,
           std::vector<CurvePlace> places,
           int num_threads,
@@ -347,7 +347,7 @@ CurvePoses Refine(const Scene& scene,
   refiner.Search(0, std::nullopt);
   const PoseSearch::State found = search.state();
   for (int set = 1; set < SpaceCells::kNumSets && refiner.IsOpen(set); ++set) {
-    search.GoTo(at_input);
+    search.SetState(at_input);
     Refiner other(scene,
                   places,
                   num_threads,
@@ -355,7 +355,7 @@ CurvePoses Refine(const Scene& scene,
                   &search);
     other.Search(set, refiner.cells());
     refiner.Add(other.gains());
-    search.GoTo(found);
+    search.SetState(found);
   }
   return refiner.Finish();
 }

@@ -58,9 +58,15 @@ class ScaleToImagesTest : public ::testing::Test {
     model_.images.push_back(image);
   }
 
-  std::string FitTo(int width, int height) {
+  std::string ScaleTo(int width, int height) {
     folder_.Write("a.png", HeaderOfPng(width, height));
     return ScaleToImages(folder_.path(), &model_);
+  }
+
+  // Images of this size leave the model as it is.
+  void ExpectLeft(int width, int height) {
+    EXPECT_EQ(ScaleTo(width, height), "");
+    ExpectUntouched();
   }
 
   void ExpectUntouched() const {
@@ -77,7 +83,7 @@ class ScaleToImagesTest : public ::testing::Test {
 };
 
 TEST_F(ScaleToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
-  EXPECT_EQ(FitTo(400, 300),
+  EXPECT_EQ(ScaleTo(400, 300),
             "The images of 1 of 1 camera have another size than the model "
             "says (400 x 300 pixels instead of 800 x 600); this camera is "
             "scaled to them.");
@@ -92,7 +98,7 @@ TEST_F(ScaleToImagesTest, ScalesCamerasAndPointsToHalfTheSize) {
 }
 
 TEST_F(ScaleToImagesTest, ScalesToLargerImages) {
-  EXPECT_THAT(FitTo(1600, 1200), HasSubstr("scaled"));
+  EXPECT_THAT(ScaleTo(1600, 1200), HasSubstr("scaled"));
   EXPECT_EQ(model_.cameras[0].camera.params[0], 1400);
 }
 
@@ -100,7 +106,7 @@ TEST_F(ScaleToImagesTest, ScalesToLargerImages) {
 TEST_F(ScaleToImagesTest, TakesRoundedSizes) {
   model_.cameras[0].camera = {
       CameraModel::kSimpleRadial, 4946, 3286, {4000, 2473, 1643, 0.01}};
-  EXPECT_THAT(FitTo(1237, 822), HasSubstr("scaled"));
+  EXPECT_THAT(ScaleTo(1237, 822), HasSubstr("scaled"));
   const std::vector<double>& params = model_.cameras[0].camera.params;
   EXPECT_NEAR(params[0], 1000, 1);
   EXPECT_DOUBLE_EQ(params[1], 2473 * (1237 / 4946.0));
@@ -111,7 +117,7 @@ TEST_F(ScaleToImagesTest, TakesRoundedSizes) {
 TEST_F(ScaleToImagesTest, ScalesFromRoundedSizes) {
   model_.cameras[0].camera = {
       CameraModel::kSimplePinhole, 618, 411, {500, 309, 205.5}};
-  EXPECT_THAT(FitTo(4946, 3286), HasSubstr("scaled"));
+  EXPECT_THAT(ScaleTo(4946, 3286), HasSubstr("scaled"));
   EXPECT_NEAR(model_.cameras[0].camera.params[0], 4000, 4);
 }
 
@@ -125,28 +131,22 @@ TEST_F(ScaleToImagesTest, FindsSizesFarBehind) {
   EXPECT_THAT(ScaleToImages(folder_.path(), &model_), HasSubstr("400 x 300"));
 }
 
-TEST_F(ScaleToImagesTest, LeavesCamerasOfTheSameSize) {
-  EXPECT_EQ(FitTo(800, 600), "");
-  ExpectUntouched();
-}
+TEST_F(ScaleToImagesTest, LeavesCamerasOfTheSameSize) { ExpectLeft(800, 600); }
 
 TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesInOtherProportions) {
-  EXPECT_EQ(FitTo(400, 320), "");
-  EXPECT_EQ(FitTo(600, 800), "");
-  ExpectUntouched();
+  ExpectLeft(400, 320);
+  ExpectLeft(600, 800);
 }
 
 TEST_F(ScaleToImagesTest, LeavesCamerasOfAbsurdSizes) {
-  EXPECT_EQ(FitTo(20, 15), "");
-  EXPECT_EQ(FitTo(40000, 30000), "");
-  ExpectUntouched();
+  ExpectLeft(20, 15);
+  ExpectLeft(40000, 30000);
 }
 
 // A row that is cut off moves nothing.
 TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesThatWereCut) {
-  EXPECT_EQ(FitTo(800, 599), "");
-  EXPECT_EQ(FitTo(799, 599), "");
-  ExpectUntouched();
+  ExpectLeft(800, 599);
+  ExpectLeft(799, 599);
 }
 
 TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesThatTellNoSize) {
@@ -160,7 +160,7 @@ TEST_F(ScaleToImagesTest, ScalesOnlyTheCamerasThatNeedIt) {
   AddCamera(
       2, {CameraModel::kSimplePinhole, 800, 600, {700, 400, 300}}, "b.png");
   folder_.Write("b.png", HeaderOfPng(200, 150));
-  EXPECT_THAT(FitTo(800, 600), HasSubstr("1 of 2 cameras"));
+  EXPECT_THAT(ScaleTo(800, 600), HasSubstr("1 of 2 cameras"));
   EXPECT_EQ(model_.cameras[0].camera.params[0], 700);
   EXPECT_EQ(model_.images[0].points2D[0].x, 400);
   EXPECT_THAT(model_.cameras[1].camera.params, ElementsAre(175, 100, 75));

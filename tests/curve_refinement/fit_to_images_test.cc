@@ -68,7 +68,7 @@ TEST(FitToImages, CirclesComeBackAndDoNotShrink) {
   }
 }
 
-// The loss hardly grows so far away.
+// So far away the gradient of the loss falls with the distance.
 TEST(FitToImages, SamplesThatAreTenSigmasOffComeBack) {
   const SeenCurve seen = SeeFromEightViews(Arc(100, 0, 2 * std::numbers::pi));
   const std::vector<Curve> fitted = FitAll(seen, 2.5, 10 * kEdgeSigmaPx);
