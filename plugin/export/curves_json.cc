@@ -74,18 +74,19 @@ Json FitJson(const CurveFit& fit) {
 Json SupportJson(const Scene& scene,
                  const CurveSample& sample,
                  std::vector<Edge2d>::const_iterator& edge) {
-  Json support = Json::array();
+  Json::array_t support;
+  support.reserve(sample.support.size());
   for (const EdgeRef& ref : sample.support) {
     const auto shown = FindSupportingEdge(scene, sample, ref, *edge++);
-    const auto rounded = [&](double value) {
-      return shown ? Json(Rounded(value, kPixelDecimals)) : Json();
-    };
     const auto [pixel, residual_px] = shown.value_or(SupportingEdge());
-    support.push_back(
-        {scene.views[static_cast<std::size_t>(ref.view_idx)].image_id,
-         rounded(pixel.x()),
-         rounded(pixel.y()),
-         rounded(residual_px)});
+    Json::array_t row;
+    row.reserve(4);
+    row.emplace_back(
+        scene.views[static_cast<std::size_t>(ref.view_idx)].image_id);
+    for (const double value : {pixel.x(), pixel.y(), residual_px}) {
+      row.push_back(shown ? Json(Rounded(value, kPixelDecimals)) : Json());
+    }
+    support.emplace_back(std::move(row));
   }
   return support;
 }
@@ -97,13 +98,16 @@ Json SampleJson(const Scene& scene,
   for (const double x : sample.tangent) {
     tangent.push_back(Rounded(x, kTangentDecimals));
   }
-  return {{"position", VectorJson(sample.position)},
-          {"tangent", std::move(tangent)},
-          {"sigma", RoundedToDigits(sample.sigma, kCovarianceDigits)},
-          {"covariance", CovarianceJson(sample.covariance, kCovarianceDigits)},
-          {"kind_probability",
-           Rounded(sample.kind_probability, kProbabilityDecimals)},
-          {"support", SupportJson(scene, sample, edge)}};
+  // Most of the file: without the temporaries of an initializer list.
+  Json json;
+  json["position"] = VectorJson(sample.position);
+  json["tangent"] = std::move(tangent);
+  json["sigma"] = RoundedToDigits(sample.sigma, kCovarianceDigits);
+  json["covariance"] = CovarianceJson(sample.covariance, kCovarianceDigits);
+  json["kind_probability"] =
+      Rounded(sample.kind_probability, kProbabilityDecimals);
+  json["support"] = SupportJson(scene, sample, edge);
+  return json;
 }
 
 // The runs of samples of one kind.
@@ -246,9 +250,9 @@ Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {
 
 std::string JsonText(const Json& json) {
   // Not UTF-8: replaced. "<" would end a script; ASCII only for the rest.
-  const std::string text =
-      json.dump(-1, ' ', true, Json::error_handler_t::replace);
-  return boost::algorithm::replace_all_copy(text, "<", "\\u003c");
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  boost::algorithm::replace_all(text, "<", "\\u003c");
+  return text;
 }
 
 void JsonLines::Add(std::function<Json()> value) {

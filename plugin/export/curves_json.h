@@ -30,7 +30,8 @@ struct CurveRecord {
 
 // An edge of a view that supports a sample.
 struct SupportingEdge {
-  Eigen::Vector2d pixel;   // in the image, distortion included
+  // In the image, distortion included.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double residual_px = 0;  // signed distance of the projected sample from the
                            // edge's line, in the ideal pinhole image; positive
                            // on the bright side

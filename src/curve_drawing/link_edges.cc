@@ -208,35 +208,44 @@ NeighborhoodGraph PruneBySpread(const std::vector<Edge3d>& edges,
 
 namespace {
 
-double ProjectedDistance(const PosedView& view,
-                         const Eigen::Vector3d& a,
-                         const Eigen::Vector3d& b) {
-  const Eigen::Vector3d a_cam = view.InCamera(a);
-  const Eigen::Vector3d b_cam = view.InCamera(b);
-  if (!(a_cam.z() > 0) || !(b_cam.z() > 0)) {
-    return kInfinity;
+// A 3D edge in a view that supports it; the pixel is not finite behind the
+// camera.
+struct Projection {
+  std::int32_t view_idx = 0;
+  Eigen::Vector2d pixel;
+};
+
+// In all of these views, ascending.
+std::vector<Projection> Project(const Edge3d& edge,
+                                const std::vector<PosedView>& views) {
+  std::vector<Projection> projections;
+  projections.reserve(edge.support.size());
+  for (const EdgeRef& ref : edge.support) {
+    const auto view_idx = static_cast<std::size_t>(ref.view_idx);
+    CURVIX_CHECK(view_idx < views.size(), "there is no view " << ref.view_idx);
+    const PosedView& view = views[view_idx];
+    const Eigen::Vector3d in_camera = view.InCamera(edge.position);
+    const bool is_in_front = in_camera.z() > 0;
+    projections.push_back({ref.view_idx,
+                           is_in_front
+                               ? view.Pixel(in_camera)
+                               : Eigen::Vector2d::Constant(kInfinity).eval()});
   }
-  return (view.Pixel(a_cam) - view.Pixel(b_cam)).norm();
+  return projections;
 }
 
-// Whether the projections are close in all views that support both.
-bool AreCloseInAllViews(const Edge3d& a,
-                        const Edge3d& b,
-                        const std::vector<PosedView>& views,
-                        double max_distance_px) {
-  auto x = a.support.begin();
-  auto y = b.support.begin();
-  while (x != a.support.end() && y != b.support.end()) {
+// Whether the projections are close in all views that support both edges.
+bool AreClose(const std::vector<Projection>& a,
+              const std::vector<Projection>& b,
+              double max_distance_px) {
+  auto x = a.begin();
+  auto y = b.begin();
+  while (x != a.end() && y != b.end()) {
     if (x->view_idx != y->view_idx) {
       (x->view_idx < y->view_idx) ? ++x : ++y;
       continue;
     }
-    const auto view_idx = static_cast<std::size_t>(x->view_idx);
-    CURVIX_CHECK(view_idx < views.size(), "there is no view " << view_idx);
-    if (ProjectedDistance(views[view_idx], a.position, b.position) >
-        max_distance_px) {
-      return false;
-    }
+    if (!((x->pixel - y->pixel).norm() <= max_distance_px)) return false;
     ++x;
     ++y;
   }
@@ -250,10 +259,14 @@ NeighborhoodGraph PruneByProjection(const std::vector<Edge3d>& edges,
                                     const std::vector<PosedView>& views,
                                     const NeighborhoodOptions& options,
                                     int num_threads) {
+  std::vector<std::vector<Projection>> projections(edges.size());
+  ParallelFor(edges.size(), num_threads, [&](std::size_t i) {
+    projections[i] = Project(edges[i], views);
+  });
   const auto keep = [&](std::size_t i, const NeighborLink& link) {
-    const Edge3d& other = edges[static_cast<std::size_t>(link.edge_idx)];
-    return AreCloseInAllViews(
-        edges[i], other, views, options.max_projection_distance_px);
+    return AreClose(projections[i],
+                    projections[static_cast<std::size_t>(link.edge_idx)],
+                    options.max_projection_distance_px);
   };
   return graph.Filter(keep, num_threads);
 }

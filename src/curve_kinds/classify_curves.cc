@@ -191,16 +191,12 @@ class Classifier {
              const std::vector<PosedView>& views,
              const std::vector<BlurredImage>& images,
              const std::vector<Curve>& curves)
-      : views_(views),
+      : scene_(scene),
+        views_(views),
         images_(images),
         places_(ChoosePlaces(curves, views)),
         places_tree_(places_.positions),
-        points_(scene.points),
-        points_tree_(scene.points, &ScenePoint::position) {
-    for (const View& view : scene.views) {
-      cameras_.push_back(&CameraOf(scene, view));
-    }
-  }
+        points_tree_(scene.points, &ScenePoint::position) {}
 
   void Classify(std::size_t curve_idx, Curve* curve) const {
     const std::vector<std::size_t>& chosen = places_.samples[curve_idx];
@@ -223,7 +219,7 @@ class Classifier {
   std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
                                              const Curve& curve) const {
     const auto views_of_point = [&](std::size_t k) -> const std::vector<int>& {
-      return points_[k].view_idxs;
+      return scene_.points[k].view_idxs;
     };
     const double pixel = places_.pixels[curve_idx];
     std::vector<SurfaceEvidence> evidence;
@@ -238,12 +234,12 @@ class Classifier {
       evidence.push_back(
           CompareStrips(place,
                         DistancesByDirection(place, pixel, nearby),
+                        scene_,
                         views_,
-                        cameras_,
                         images_));
       for (std::size_t k : SeenNear(
                points_tree_, views_of_point, sample, kNearbyPointPx * pixel)) {
-        nearby.push_back(points_[k].position);
+        nearby.push_back(scene_.points[k].position);
       }
       AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
     }
@@ -266,12 +262,11 @@ class Classifier {
     return nearby;
   }
 
+  const Scene& scene_;
   const std::vector<PosedView>& views_;
   const std::vector<BlurredImage>& images_;
-  std::vector<const Camera*> cameras_;
   Places places_;
   PointTree places_tree_;
-  const std::vector<ScenePoint>& points_;
   PointTree points_tree_;
 };
 

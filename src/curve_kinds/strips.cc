@@ -163,11 +163,16 @@ class StripSet {
 
 StripSet::Gram StripSet::InnerProducts(int num_pixels) const {
   Gram gram;
+  std::array<float, kMaxViews> means;
   for (int i = 0; i < num_; ++i) {
-    const auto first = strips_[static_cast<std::size_t>(i)].head(num_pixels);
-    for (int j = 0; j <= i; ++j) {
-      const auto other = strips_[static_cast<std::size_t>(j)].head(num_pixels);
-      gram(i, j) = gram(j, i) = first.dot(other) - first.sum() * other.mean();
+    const auto k = static_cast<std::size_t>(i);
+    const auto first = strips_[k].head(num_pixels);
+    const float sum = first.sum();
+    means[k] = first.mean();
+    for (std::size_t j = 0; j <= k; ++j) {
+      const auto other = strips_[j].head(num_pixels);
+      gram(i, static_cast<int>(j)) = gram(static_cast<int>(j), i) =
+          first.dot(other) - sum * means[j];
     }
   }
   return gram;
@@ -246,13 +251,14 @@ double StripSet::LogBayesOfRows(int num_rows) const {
 
 SurfaceEvidence CompareStrips(const StripPlace& place,
                               const CurveDistances& other_curves_px,
+                              const Scene& scene,
                               const std::vector<PosedView>& views,
-                              const std::vector<const Camera*>& cameras,
                               const std::vector<BlurredImage>& images) {
   std::vector<LocalView> seen;
   for (const EdgeRef& ref : place.support) {
     const auto v = static_cast<std::size_t>(ref.view_idx);
-    const auto local = Locate(place, views[v], *cameras[v], images[v]);
+    const Camera& camera = CameraOf(scene, scene.views[v]);
+    const auto local = Locate(place, views[v], camera, images[v]);
     if (local) seen.push_back(*local);
   }
   seen = ChooseViews(std::move(seen));

@@ -49,12 +49,12 @@ struct SurfaceEvidence {
 // is near.
 using CurveDistances = std::array<double, kNumDirections>;
 
-// One view per scene view in `images`, `views` and `cameras`, whose ideal
-// pinholes the views are. A surface may end at the nearest other curve.
+// One of `views` and `images` per view of the scene. A surface may end at the
+// nearest other curve.
 SurfaceEvidence CompareStrips(const StripPlace& place,
                               const CurveDistances& other_curves_px,
+                              const Scene& scene,
                               const std::vector<PosedView>& views,
-                              const std::vector<const Camera*>& cameras,
                               const std::vector<BlurredImage>& images);
 
 }  // namespace curvix

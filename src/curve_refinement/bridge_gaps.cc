@@ -12,6 +12,7 @@
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
 #include "curve_refinement/fill_gap.h"
+#include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 
 namespace curvix {
@@ -21,6 +22,8 @@ constexpr double kMaxBridgeMissPx = 1;
 constexpr double kMaxMissPerGap = 0.1;
 constexpr double kMaxBridgeAngleDeg = 15;
 constexpr double kRingTolerance = 3;
+// The ends of other curves are too far apart for a ring, even after cuts.
+constexpr double kMaxRingGapPx = 100;
 constexpr double kMaxOverlapPx = 6;
 constexpr double kMaxBentPx = 5;  // of an end
 constexpr double kMaxOffPx = 0.4;
@@ -52,7 +55,8 @@ class GapFinder {
             const CurveRefinementOptions& options)
       : curves_(curves), ends_(ends), images_(images), options_(options) {}
 
-  std::vector<EndPair> Pairs(int num_threads) const {
+  // If `only_rings`, those of one curve.
+  std::vector<EndPair> Pairs(bool only_rings, int num_threads) const {
     const PointTree tree(ends_, &EndFit::position);
     std::vector<std::vector<EndPair>> pairs(ends_.size());
     ParallelFor(ends_.size(), num_threads, [&](EndIdx a) {
@@ -60,7 +64,7 @@ class GapFinder {
       const double reach =
           std::max(options_.max_gap_px * ends_[a].pixel, ends_[a].length);
       for (const EndIdx b : tree.Within(ends_[a].position, reach)) {
-        if (b == a) continue;
+        if (b == a || (only_rings && b != OtherEnd(a))) continue;
         if (const auto cost = Cost(a, b)) pairs[a].push_back({*cost, a, b});
       }
     });
@@ -115,15 +119,11 @@ class GapFinder {
   const CurveRefinementOptions& options_;
 };
 
-// By EndIdx.
-std::vector<EndFit> FitLongEnds(const std::vector<Curve>& curves,
-                                const std::vector<PosedView>& views,
-                                int num_threads) {
-  std::vector<EndFit> ends(2 * curves.size());
-  ParallelFor(ends.size(), num_threads, [&](EndIdx end) {
-    ends[end] = FitLongEnd(curves[ItemOf(end)], IsHead(end), views);
-  });
-  return ends;
+bool MayBecomeRing(const Curve& curve, const std::vector<PosedView>& views) {
+  const CurveSample& head = SampleFromEnd(curve, true);
+  const CurveSample& tail = SampleFromEnd(curve, false);
+  return (head.position - tail.position).norm() <=
+         kMaxRingGapPx * PixelSize(head, views);
 }
 
 // Last samples that leave the curve they end, as next to a corner.
@@ -178,16 +178,17 @@ std::vector<Curve> Join(std::vector<Curve> curves,
                         bool only_rings,
                         int num_threads) {
   std::vector<Curve> trimmed = curves;
-  ParallelFor(trimmed.size(), num_threads, [&](std::size_t i) {
+  std::vector<EndFit> ends(2 * curves.size());  // by EndIdx
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    if (only_rings && !MayBecomeRing(curves[i], views)) return;
     CutBentEnds(views, trimmed[i]);
+    for (const EndIdx end : {2 * i, 2 * i + 1}) {
+      ends[end] = FitLongEnd(trimmed[i], IsHead(end), views);
+    }
   });
-  const std::vector<EndFit> ends = FitLongEnds(trimmed, views, num_threads);
-  std::vector<EndPair> pairs =
-      GapFinder(trimmed, ends, images, options).Pairs(num_threads);
-  std::erase_if(pairs, [&](const EndPair& pair) {
-    return only_rings && ItemOf(pair.a) != ItemOf(pair.b);
-  });
-  const EndTies ties = TieCheapestFirst(std::move(pairs), curves.size());
+  const EndTies ties = TieCheapestFirst(
+      GapFinder(trimmed, ends, images, options).Pairs(only_rings, num_threads),
+      curves.size());
   CutTiedEnds(ties, trimmed, curves);
   CutOverlaps(ties, ends, curves);
   return StringTogetherFilled(std::move(curves), ties, views, images);

@@ -253,6 +253,7 @@ EndFit FitLongEnd(const Curve& curve,
                   const std::vector<PosedView>& views) {
   EndFit best;
   double max_rms = 0;
+  const double length = Length(curve);
   for (const double long_px : kLongPx) {
     const EndFit fit = FitEnd(curve, at_head, {kBentEndPx, long_px}, views);
     if (long_px == kLongPx.front()) {
@@ -261,6 +262,8 @@ EndFit FitLongEnd(const Curve& curve,
     } else if (fit.length > best.length && fit.rms <= max_rms) {
       best = fit;
     }
+    const bool has_all = long_px * fit.pixel > length;
+    if (has_all) break;
   }
   return best;
 }

@@ -96,13 +96,13 @@ class CurveInViews {
     std::map<std::int32_t, std::size_t> places;
     for (std::size_t k = 0; k < curve.samples.size(); ++k) {
       const CurveSample& sample = curve.samples[k];
-      const double pixel = PixelSize(sample, input.views);
+      const double pixel = pixels_.emplace_back(PixelSize(sample, input.views));
       const std::vector<PlaneMeasurement> measured =
           MeasureUnblurred(curve, k, pixel, input, response);
       std::vector<MeanDistance>& distances = distances_.emplace_back();
       for (std::size_t i = 0; i < measured.size(); ++i) {
         const auto [place, is_new] =
-            places.emplace(sample.support[i].view_idx, centers_.size());
+            places.try_emplace(sample.support[i].view_idx, centers_.size());
         if (is_new) centers_.push_back(measured[i].center);
         const SeenDistance distance =
             DistanceFrom(measured[i], sample.position);
@@ -111,7 +111,9 @@ class CurveInViews {
     }
   }
 
-  Agreement About(std::size_t i, double bandwidth) const {
+  // Samples count by their distance from sample `i`.
+  Agreement About(std::size_t i, double bandwidth_px) const {
+    const double bandwidth = bandwidth_px * pixels_[i];
     std::vector<MeanDistance> sums(centers_.size());
     double total_weight = 0;
     for (const SampleAround& near :
@@ -179,6 +181,7 @@ class CurveInViews {
 
   const Curve& curve_;
   double edge_sigma_px_;
+  std::vector<double> pixels_;            // at each sample, world units
   std::vector<Eigen::Vector3d> centers_;  // of the views that see it
   std::vector<std::vector<MeanDistance>> distances_;  // of each sample
 };
@@ -191,9 +194,7 @@ std::vector<Agreement> MeasureAgreement(const Curve& curve,
       std::max(kMinBandwidthPx, input.options.smoothing_px);
   std::vector<Agreement> agreements;
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
-    const CurveSample& sample = curve.samples[k];
-    const double pixel = PixelSize(sample, input.views);
-    agreements.push_back(in_views.About(k, bandwidth_px * pixel));
+    agreements.push_back(in_views.About(k, bandwidth_px));
   }
   return agreements;
 }

@@ -13,7 +13,6 @@ namespace curvix {
 namespace {
 
 constexpr double kSpacingPx = 1.5;
-constexpr double kMaxSupportDistancePx = 1;
 constexpr double kMinSupportShare = 0.5;    // of the usual support
 constexpr double kMinSupportedShare = 0.8;  // of the samples
 constexpr std::size_t kNumEndSamples = 10;
@@ -35,8 +34,7 @@ std::vector<CurveSample> SamplesBetween(const CurveSample& from,
     sample.tangent = (v * from.tangent + u * to.tangent).normalized();
     sample.sigma = std::max(from.sigma, to.sigma);
     sample.evidence = std::min(from.evidence, to.evidence);
-    sample.support =
-        images.Find(sample.position, sample.tangent, kMaxSupportDistancePx);
+    sample.support = images.Find({sample.position, sample.tangent});
   }
   return filled;
 }

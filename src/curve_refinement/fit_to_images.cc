@@ -29,7 +29,7 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 1e-3;     // of a step, share of the cost
+constexpr double kMinGain = 3e-3;     // of a step, share of the cost
 constexpr double kMaxStiffening = 3;  // in weak directions
 // Under robust losses the fit can leave edges. Samples at twice the default of
 // Validation.max_distance_px or more are cut out.
@@ -95,10 +95,10 @@ class SupportCost : public ceres::CostFunction {
 
   // From the 2D edges, with the sample at this offset.
   double MedianDistancePx(const double* offset) const {
+    const Eigen::Vector3d position = station_->At(offset);
     std::vector<double> distances;
     for (const PlaneMeasurement& plane : measured_) {
-      distances.push_back(
-          std::abs(DistanceFrom(plane, station_->At(offset)).px));
+      distances.push_back(std::abs(DistanceFrom(plane, position).px));
     }
     return Median(std::move(distances));
   }
@@ -134,6 +134,7 @@ class BendCost : public ceres::CostFunction {
       for (std::size_t i = 0; i < along.size(); ++i) {
         if (i != j) factors_[j] /= along[j] - along[i];
       }
+      jacobians_[j] = factors_[j] * rows_ * segment_[j].axes;
     }
   }
 
@@ -144,18 +145,19 @@ class BendCost : public ceres::CostFunction {
     for (std::size_t j = 0; j < segment_.size(); ++j) {
       sum += factors_[j] * (segment_[j].At(offsets[j]) - segment_[0].start);
       if (jacobians == nullptr || jacobians[j] == nullptr) continue;
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>{
-          jacobians[j], rows_.rows(), 2} =
-          factors_[j] * rows_ * segment_[j].axes;
+      Eigen::Map<Jacobian>{jacobians[j], rows_.rows(), 2} = jacobians_[j];
     }
     Eigen::Map<Eigen::VectorXd>{residuals, rows_.rows()} = rows_ * sum;
     return true;
   }
 
  private:
+  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
   Segment segment_;
   Rows rows_;
   std::array<double, 4> factors_ = {};
+  std::array<Jacobian, 4> jacobians_;  // by the offset of each sample
 };
 
 // A curve has many residuals that are cheap: what Ceres would do about each of
@@ -243,6 +245,8 @@ class CurveFitter {
     options.max_num_iterations = kMaxNumIterations;
     options.function_tolerance = kMinGain;
     options.initial_trust_region_radius = kTrustRegionRadius;
+    // All unknowns are pixels.
+    options.jacobi_scaling = false;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
+#include "geometry/occluding_contour.h"
 
 namespace curvix {
 namespace {
@@ -16,13 +17,13 @@ constexpr double kCellPx = 4;
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> SupportingCenters(
-    const CurveSample& sample, const std::vector<PosedView>& views) {
+Eigen::Vector3d MeanSide(const CurveSample& sample,
+                         const std::vector<PosedView>& views) {
   std::vector<Eigen::Vector3d> centers;
   for (const EdgeRef& ref : sample.support) {
     centers.push_back(views[static_cast<std::size_t>(ref.view_idx)].center);
   }
-  return centers;
+  return MeanSide({sample.position, sample.tangent}, centers);
 }
 
 ImageSupport::ImageSupport(const std::vector<PosedView>& views,
@@ -36,15 +37,12 @@ ImageSupport::ImageSupport(const std::vector<PosedView>& views,
   });
 }
 
-std::vector<EdgeRef> ImageSupport::Find(const Eigen::Vector3d& position,
-                                        const Eigen::Vector3d& tangent,
-                                        double max_distance_px) const {
-  const Gate gate{max_distance_px};
+std::vector<EdgeRef> ImageSupport::Find(const SpaceEdge& edge) const {
   std::vector<EdgeRef> support;
   for (std::size_t v = 0; v < views_.size(); ++v) {
-    const auto projected = ProjectInto(views_[v], {position, tangent});
+    const auto projected = ProjectInto(views_[v], edge);
     if (!projected) continue;
-    const auto nearest = NearestEdge(grids_[v], *projected, gate);
+    const auto nearest = NearestEdge(grids_[v], *projected, Gate());
     if (nearest) support.push_back({static_cast<std::int32_t>(v), *nearest});
   }
   return support;

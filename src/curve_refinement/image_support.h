@@ -14,9 +14,10 @@
 
 namespace curvix {
 
-// The centres of the views that support a sample.
-std::vector<Eigen::Vector3d> SupportingCenters(
-    const CurveSample& sample, const std::vector<PosedView>& views);
+// The mean side from which the views that support a sample see it; see
+// MeanSide() of geometry/occluding_contour.h.
+Eigen::Vector3d MeanSide(const CurveSample& sample,
+                         const std::vector<PosedView>& views);
 
 // The edges of all views, indexed by place. Refers to `views`.
 class ImageSupport {
@@ -26,11 +27,9 @@ class ImageSupport {
                const std::vector<EdgeMap>& edge_maps,
                int num_threads);
 
-  // In each view the edge nearest to the projection of an edge in space, if it
-  // is at most `max_distance_px` across it and 15 degrees off. Ascending.
-  std::vector<EdgeRef> Find(const Eigen::Vector3d& position,
-                            const Eigen::Vector3d& tangent,
-                            double max_distance_px) const;
+  // In each view the edge nearest to the projection of `edge` inside the gate
+  // of an edge that a view shows (geometry/nearest_edge.h). Ascending.
+  std::vector<EdgeRef> Find(const SpaceEdge& edge) const;
 
   // The edges of a view that run along a projected edge, at most 15 degrees
   // off, and pass it at most `max_distance_px` beside: their signed distances,

@@ -16,6 +16,8 @@ constexpr double kShown = 0.5;
 constexpr double kMinDensity = 0.02;
 // So many edges of a contour are found beside a place.
 constexpr double kEdgesPerContour = 2;
+// A contour further away explains nothing: exp(-72) is lost beside 1 - kShown.
+constexpr double kFarSigmas = 12;
 
 }  // namespace
 
@@ -34,6 +36,7 @@ double LogLikelihoodOfContour(double residual_px,
                               double density) {
   if (!std::isfinite(residual_px)) return 0;
   const double r = residual_px / sigma_px;
+  if (std::abs(r) > kFarSigmas) return std::log(1 - kShown);
   const double of_contour =
       std::exp(-0.5 * r * r) / (std::sqrt(2 * kPi) * sigma_px);
   return std::log(1 - kShown + kShown * of_contour / density);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "base/infinity.h"
 #include "curve_refinement/nearest_contour.h"
@@ -38,7 +39,7 @@ constexpr double kInlierPx = 1;
 // which a contour may be off.
 constexpr double kRelativeError = 0.05;
 
-// What a view sees about a place of a curve.
+// What a view with edges there sees about a place of a curve.
 struct PlaceInView {
   std::vector<double> edges_px;  // signed distances from the projected curve
   // How far the contour is seen from the curve, pixels, for a step of the axis
@@ -57,18 +58,20 @@ Place Look(const CurveSample& sample,
            const std::vector<PosedView>& views,
            const ImageSupport& images) {
   const SpaceEdge axis = {sample.position, sample.tangent};
-  const OccludingContour contour = {
-      axis, 0, MeanSide(axis, SupportingCenters(sample, views))};
+  const OccludingContour contour = {axis, 0, MeanSide(sample, views)};
   const AcrossAxes across = AxesAcross(sample.tangent);
   Place place;
   place.pixel = PixelSize(sample, views);
-  double num_edges = 0;
+  double num_edges = 0, num_views = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const auto projected = ProjectInto(views[v], axis);
     if (!projected) continue;
+    ++num_views;
+    std::vector<double> edges_px = images.Beside(v, *projected, kReachPx);
+    if (edges_px.empty()) continue;
+    num_edges += static_cast<double>(edges_px.size());
     PlaceInView& seen = place.views.emplace_back();
-    seen.edges_px = images.Beside(v, *projected, kReachPx);
-    num_edges += static_cast<double>(seen.edges_px.size());
+    seen.edges_px = std::move(edges_px);
     const Vector3d gradient =
         DistanceFrom(MeasurePlane(views[v], *projected), axis.position)
             .gradient;
@@ -77,8 +80,7 @@ Place Look(const CurveSample& sample,
         gradient.dot(side - contour.outward);
     seen.turn = 1 - side.dot(contour.outward);
   }
-  place.density = DensityOfContours(
-      num_edges, static_cast<double>(place.views.size()), kReachPx);
+  place.density = DensityOfContours(num_edges, num_views, kReachPx);
   return place;
 }
 

@@ -86,7 +86,7 @@ ImageEdge Unblurred(const Edge2d& edge,
                     const ResponseCurve& response,
                     double fine_variance_gain_px2) {
   ImageEdge unblurred = ToImageEdge(edge);
-  const Eigen::Vector2d to_bright = ToBrightSide(edge);
+  const Eigen::Vector2d to_bright = unblurred.Normal();
   const bool is_fine = edge.fine_px != Eigen::half(0);
   unblurred.position += static_cast<double>(edge.fine_px) * to_bright;
   if (!(edge.sharpness > 0)) return unblurred;

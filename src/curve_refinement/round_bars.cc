@@ -26,7 +26,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Places of a curve, at least so far apart, and no more than this.
+// Places of a curve, at most.
 constexpr std::size_t kMaxPlaces = 12;
 constexpr double kMinBarRadiusPx = 1;
 constexpr double kMaxBarRadiusPx = 16;
@@ -126,8 +126,7 @@ std::vector<BarPlace> LookAlong(const Curve& curve,
   for (const std::size_t i :
        SamplesAlong(curve, kPlaceSpacingPx * pixel, kMaxPlaces)) {
     const CurveSample& sample = curve.samples[i];
-    const Vector3d side = MeanSide({sample.position, sample.tangent},
-                                   SupportingCenters(sample, views));
+    const Vector3d side = MeanSide(sample, views);
     outward = side.dot(outward) < 0 ? Vector3d(-side) : side;
     BarPlace place = Look(sample, outward, pixel, views, images);
     if (place.views.size() >= kMinViews) places.push_back(std::move(place));

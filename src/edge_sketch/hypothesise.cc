@@ -27,6 +27,7 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
       h2_(&h2),
       options_(&options),
       pencil_(pencil),
+      line_from_normal_(h1.calibration.inverse().transpose()),
       fundamental_(FundamentalMatrix(h1, h2)),
       depths_(depths),
       projection_(h1, h2),
@@ -42,8 +43,7 @@ bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
   // The epipolar plane of the edge meets the image in its epipolar line.
   const Eigen::Vector3d normal =
       pencil_.baseline().cross(h1_->Ray(edge1.position));
-  const Eigen::Vector3d line =
-      h1_->calibration.inverse().transpose() * (h1_->rotation * normal);
+  const Eigen::Vector3d line = line_from_normal_ * (h1_->rotation * normal);
   const double sine = line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
   return std::abs(sine) < std::sin(kMinEpipolarAngle);
 }

@@ -70,6 +70,7 @@ class HypothesisViews {
   const PosedView *h1_, *h2_;
   const Options* options_;
   EpipolarPencil pencil_;
+  Eigen::Matrix3d line_from_normal_;  // of a plane, in h1's camera frame
   Eigen::Matrix3d fundamental_;
   DepthRange depths_;
   RayProjection projection_;

@@ -48,7 +48,7 @@ Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
                          const std::vector<PointInImage>& seen) {
   constexpr int kMaxNumSteps = 20;
   constexpr int kMaxNumHalvings = 8;
-  constexpr double kMinGain = 1e-9;  // of the cost
+  constexpr double kMinGain = 1e-6;  // of the cost
   Eigen::Vector3d best = start;
   double cost = Cost(best, seen);
   for (int i = 0; i < kMaxNumSteps; ++i) {

@@ -35,12 +35,16 @@ double MarginPx(const Camera& camera) {
 
 }  // namespace
 
+void SetPose(const Rigid3& cam_from_world, PosedView* view) {
+  view->rotation = cam_from_world.rotation.toRotationMatrix();
+  view->translation = cam_from_world.translation;
+  view->center = -(view->rotation.transpose() * view->translation);
+}
+
 PosedView MakePosedView(const Camera& camera, const Rigid3& cam_from_world) {
   PosedView view;
   view.calibration = PinholeCalibration(camera);
-  view.rotation = cam_from_world.rotation.toRotationMatrix();
-  view.translation = cam_from_world.translation;
-  view.center = -(view.rotation.transpose() * view.translation);
+  SetPose(cam_from_world, &view);
   view.width = camera.width;
   view.height = camera.height;
   view.margin_px = MarginPx(camera);

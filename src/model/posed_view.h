@@ -47,6 +47,9 @@ struct PosedView {
 // The ideal pinhole of a camera, which must be valid.
 PosedView MakePosedView(const Camera& camera, const Rigid3& cam_from_world);
 
+// Moves a view; its camera stays.
+void SetPose(const Rigid3& cam_from_world, PosedView* view);
+
 // One per view of the scene, in order. Cameras must be valid.
 std::vector<PosedView> MakePosedViews(const Scene& scene);
 

@@ -12,7 +12,7 @@
 namespace curvix {
 namespace {
 
-constexpr int kNumGaugeIterations = 20;
+constexpr int kNumGaugeIterations = 10;
 constexpr double kMinLossScalePx = 0.05;
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

@@ -179,15 +179,14 @@ std::vector<double> GainsByCell::Normalized() const {
 }
 
 HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
-                             int num_threads,
                              const PosedEdges& edges) {
   HeldOutErrors errors;
   errors.places.resize(held_out.places.size());
   errors.points.resize(held_out.points.size());
-  ParallelFor(errors.places.size(), num_threads, [&](std::size_t i) {
+  ParallelFor(errors.places.size(), edges.num_threads(), [&](std::size_t i) {
     errors.places[i] = ErrorsOfPlace(held_out.places[i], edges);
   });
-  ParallelFor(errors.points.size(), num_threads, [&](std::size_t i) {
+  ParallelFor(errors.points.size(), edges.num_threads(), [&](std::size_t i) {
     errors.points[i] = ErrorsOfPoint(held_out.points[i], edges);
   });
   return errors;

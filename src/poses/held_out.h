@@ -22,7 +22,6 @@ struct HeldOutErrors {
 };
 
 HeldOutErrors MeasureHeldOut(const PoseObservationSet& held_out,
-                             int num_threads,
                              const PosedEdges& edges);
 
 // Errors of one place in one view, before and after. Only where an edge is near

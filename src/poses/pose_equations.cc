@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "geometry/directions.h"
 
@@ -96,7 +96,7 @@ struct ViewState {
 struct CameraState {
   CameraState(const Lens& lens, const LensChange& change, bool has_derivatives)
       : camera(lens.Changed(change)) {
-    for (Eigen::Index i = 0; has_derivatives && i < change.size(); ++i) {
+    for (Eigen::Index i = 0; has_derivatives && i < lens.num_used(); ++i) {
       const LensChange step = kLensStepPx * LensChange::Unit(i);
       around.push_back(lens.Changed(change - step));
       around.push_back(lens.Changed(change + step));
@@ -129,7 +129,7 @@ void Evaluate(const PoseObservation& seen,
       view.rotation * (seen.position + seen.moves * offset);
   const Eigen::Vector3d x = turned + view.translation;
   if (!(x.z() > 0)) {
-    equation.loss = std::numeric_limits<double>::infinity();
+    equation.loss = kInfinity;
     return;
   }
   const Eigen::Vector2d ideal = x.hnormalized();

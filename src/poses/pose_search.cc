@@ -75,7 +75,6 @@ PoseSearch::PoseSearch(const Scene& scene,
                        const Options& options,
                        StepDone step_done)
     : scene_(scene),
-      num_threads_(options.runtime.num_threads),
       edge_sigma_px_(options.hypotheses.EdgeSigmaPx()),
       step_done_([this, step = std::move(step_done)](auto done, auto all) {
         is_stopped_ = is_stopped_ || !step(done, all);
@@ -115,7 +114,7 @@ bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
   MovedCameras moved = edges_.moved();
   std::vector<Eigen::Vector2d> shifts(num_views, Eigen::Vector2d::Zero());
   const auto by_view = edges_.PlacesByView(places);
-  ParallelFor(num_views, num_threads_, [&](std::size_t i) {
+  ParallelFor(num_views, edges_.num_threads(), [&](std::size_t i) {
     shifts[i] = FindShift(edges_.LookAround(by_view[i], i, kReachPx), kReachPx);
     const Eigen::Vector2d& shift = shifts[i];
     if (shift.isZero(0)) return;
@@ -134,7 +133,7 @@ bool PoseSearch::ShiftViews(const std::vector<CurvePlace>& places) {
 void PoseSearch::FindEdges(std::vector<CurvePlace>* places) const {
   std::vector<double> gates_px;
   for (const double sigma : sigmas_px_) gates_px.push_back(kGateSigmas * sigma);
-  ParallelFor(places->size(), num_threads_, [&](std::size_t i) {
+  ParallelFor(places->size(), edges_.num_threads(), [&](std::size_t i) {
     CurvePlace& place = (*places)[i];
     place.support =
         edges_.FindEdges(place.contour, edges_.QueryViews(place), gates_px);
@@ -159,7 +158,7 @@ std::vector<std::vector<double>> PoseSearch::DistancesByView(
 // Where few edges are found, the search becomes wider.
 void PoseSearch::UpdateSigmas(const std::vector<CurvePlace>& places) {
   const std::vector<std::vector<double>> distances = DistancesByView(places);
-  ParallelFor(sigmas_px_.size(), num_threads_, [&](std::size_t i) {
+  ParallelFor(sigmas_px_.size(), edges_.num_threads(), [&](std::size_t i) {
     const double sigma_px =
         distances[i].size() < kMinDistancesPerView
             ? 2 * sigmas_px_[i]
@@ -201,7 +200,7 @@ AdjustedPoses PoseSearch::Solve(const PoseObservationSet& observations,
                       prior_px,
                       free_lenses},
                      edges_.moved(),
-                     num_threads_,
+                     edges_.num_threads(),
                      [this] { return step_done_(0, 0); });
 }
 
@@ -219,25 +218,28 @@ void PoseSearch::Adjust(PoseObservationSet* observations) {
   for (std::size_t i = 0; i < observations->points.size(); ++i) {
     observations->points[i].position = adjusted.points[i];
   }
-  ParallelFor(observations->places.size(), num_threads_, [&](std::size_t i) {
-    CurvePlace& place = observations->places[i];
-    place.contour = adjusted.contours[i];
-    place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
-  });
+  ParallelFor(
+      observations->places.size(), edges_.num_threads(), [&](std::size_t i) {
+        CurvePlace& place = observations->places[i];
+        place.contour = adjusted.contours[i];
+        place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
+      });
   if (!free_lenses_.empty()) return;  // another prior
   prior_px_ = std::clamp(
       MedianShift(*observations, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }
 
 void PoseSearch::Fit(PoseObservationSet* observations) const {
-  ParallelFor(observations->places.size(), num_threads_, [&](std::size_t i) {
-    CurvePlace& place = observations->places[i];
-    place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
-  });
-  ParallelFor(observations->points.size(), num_threads_, [&](std::size_t i) {
-    PointSample& point = observations->points[i];
-    point.position = FitPoint(point.position, edges_.Observed(point));
-  });
+  ParallelFor(
+      observations->places.size(), edges_.num_threads(), [&](std::size_t i) {
+        CurvePlace& place = observations->places[i];
+        place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
+      });
+  ParallelFor(
+      observations->points.size(), edges_.num_threads(), [&](std::size_t i) {
+        PointSample& point = observations->points[i];
+        point.position = FitPoint(point.position, edges_.Observed(point));
+      });
 }
 
 std::vector<double> PoseSearch::LossesOf(

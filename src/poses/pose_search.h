@@ -96,7 +96,6 @@ class PoseSearch {
   void RestoreScale(PoseObservationSet* observations);
 
   const Scene& scene_;
-  const int num_threads_;
   const double edge_sigma_px_;
   const StepDone step_done_;
   // Of a pixel of a point, in x and in y, by the poses of the scene.

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 
-#include "base/angles.h"
 #include "base/count_text.h"
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "edge_detection/undistort_edges.h"
 #include "edge_sketch/sketch_by_views.h"
@@ -35,25 +34,10 @@ constexpr std::ptrdiff_t kManyPlaces = 1000;
 constexpr std::size_t kNumQueryEdges = 2500;
 constexpr std::size_t kNumQueryEdgesPerView = 50;
 constexpr double kEdgeGateSigmas = 4;
-constexpr double kMaxTangentialPx = 1;
-constexpr double kMinCosine = 0.9659258;  // 15 degrees
 // More views add little, and the cost grows with the square of their number.
 constexpr std::size_t kMaxViewsOfPlace = 40;
 // Edges along one contour are one.
 constexpr double kSameContourPx = 0.2;
-
-// The edges of a view with the one of `cameras` that is its own.
-Result<EdgeMap> EdgesWithCamera(const Scene& scene,
-                                std::size_t view_idx,
-                                const EdgeMap& edges,
-                                const std::vector<Camera>& cameras) {
-  const View& view = scene.views[view_idx];
-  const auto k = static_cast<std::size_t>(view.camera_idx);
-  auto carried = CarryEdges(edges, scene.cameras[k], cameras[k]);
-  if (carried) return *std::move(carried);
-  return Status::InvalidArgument("the camera of " + view.name +
-                                 " cannot be inverted at an edge");
-}
 
 }  // namespace
 
@@ -96,9 +80,14 @@ Rigid3 PosedEdges::PoseOf(std::size_t view_idx) const {
 }
 
 void PosedEdges::Move(const MovedCameras& moved) {
-  moved_ = moved;
+  const std::vector<Camera> cameras = std::exchange(moved_, moved).cameras;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    views_[i] = MakePosedView(PresentCameraOf(i), PoseOf(i));
+    const auto k = static_cast<std::size_t>(scene_.views[i].camera_idx);
+    if (moved_.cameras[k] == cameras[k]) {
+      SetPose(PoseOf(i), &views_[i]);
+    } else {
+      views_[i] = MakePosedView(moved_.cameras[k], PoseOf(i));
+    }
   }
 }
 
@@ -109,14 +98,14 @@ const Camera& PosedEdges::InputCameraOf(std::size_t view_idx) const {
 std::optional<ImageEdge> PosedEdges::Seen(const OccludingContour& contour,
                                           std::size_t view_idx) const {
   const PosedView& view = views_[view_idx];
-  const auto seen = ProjectEdge(view, SeenFrom(contour, view.center));
-  if (!seen || !view.Contains(seen->position)) return std::nullopt;
+  const auto seen = ProjectInto(view, SeenFrom(contour, view.center));
+  if (!seen) return std::nullopt;
   return CarryEdge(*seen, PresentCameraOf(view_idx), InputCameraOf(view_idx));
 }
 
 std::vector<EdgeMap> PosedEdges::CarriedMaps() const {
   std::vector<EdgeMap> carried(views_.size());
-  ParallelFor(views_.size(), options_.runtime.num_threads, [&](std::size_t i) {
+  ParallelFor(views_.size(), num_threads(), [&](std::size_t i) {
     auto edges =
         CarryEdges(edge_maps_[i], InputCameraOf(i), PresentCameraOf(i));
     if (edges) carried[i] = *std::move(edges);
@@ -134,15 +123,18 @@ PlaceSketch PosedEdges::Sketch(double sigma_px, const StepDone& step_done) {
   options.validation.max_distance_px =
       std::max(options.validation.max_distance_px, kEdgeGateSigmas * sigma_px);
   const bool is_as_input = moved_.cameras == scene_.cameras;
-  const int num_threads = options_.runtime.num_threads;
   std::vector<EdgeMap> carried;
   std::vector<ViewIndex> carried_indices;
   if (!is_as_input) {
     carried = CarriedMaps();
-    carried_indices = IndexViews(views_, carried, num_threads);
+    carried_indices = IndexViews(views_, carried, num_threads());
   }
   std::vector<ViewIndex>& indices = is_as_input ? indices_ : carried_indices;
-  AddPresence(options.validation, num_threads, indices);
+  const double reach_px = options.validation.max_distance_px;
+  if (!is_as_input || presence_reach_px_ != reach_px) {
+    AddPresence(options.validation, num_threads(), indices);
+    if (is_as_input) presence_reach_px_ = reach_px;
+  }
   const EdgeSketch sketch =
       SketchByViews({views_,
                      is_as_input ? edge_maps_ : carried,
@@ -231,8 +223,8 @@ std::vector<EdgeRef> PosedEdges::FindEdges(
   for (const std::size_t i : views) {
     const auto projected = Seen(contour, i);
     if (!projected) continue;
-    const Gate gate{gates_px[i], kMaxTangentialPx, kMinCosine};
-    const auto nearest = NearestEdge(indices_[i].grid, *projected, gate);
+    const auto nearest =
+        NearestEdge(indices_[i].grid, *projected, Gate{gates_px[i]});
     if (nearest) found.push_back({static_cast<std::int32_t>(i), *nearest});
   }
   return found;
@@ -256,6 +248,7 @@ std::vector<EdgesAround> PosedEdges::LookAround(
     const auto projected = Seen(place->contour, view_idx);
     if (!projected) continue;
     const Eigen::Vector2d& tangent = projected->tangent;
+    const Gate gate{reach_px};
     EdgesAround around;
     around.normal = projected->Normal();
     const auto look = [&](const IndexedEdge& edge) {
@@ -265,9 +258,10 @@ std::vector<EdgesAround> PosedEdges::LookAround(
       const auto is_same = [&](double other) {
         return std::abs(other - distance) < kSameContourPx;
       };
-      if (std::abs(edge.tangent.cast<double>().dot(tangent)) >= kMinCosine &&
-          std::abs(offset.dot(tangent)) <= kMaxTangentialPx &&
-          std::abs(distance) <= reach_px &&
+      if (std::abs(edge.tangent.cast<double>().dot(tangent)) >=
+              gate.min_cosine &&
+          std::abs(offset.dot(tangent)) <= gate.tangential_px &&
+          std::abs(distance) <= gate.normal_px &&
           std::ranges::none_of(around.distances_px, is_same)) {
         around.distances_px.push_back(distance);
       }
@@ -290,7 +284,7 @@ ImageEdge PosedEdges::DistortedEdge(const EdgeRef& ref) const {
 double PosedEdges::Distance(const OccludingContour& contour,
                             const EdgeRef& ref) const {
   const auto seen = Seen(contour, static_cast<std::size_t>(ref.view_idx));
-  if (!seen) return std::numeric_limits<double>::infinity();
+  if (!seen) return kInfinity;
   const ImageEdge edge = InputEdge(ref);
   return std::abs(edge.Normal().dot(seen->position - edge.position));
 }
@@ -353,9 +347,14 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
         std::to_string(scene.cameras.size()) + " of the scene");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
-    auto edges = EdgesWithCamera(scene, i, edge_maps[i], cameras);
-    if (!edges.ok()) return edges.status();
-    edge_maps[i] = *std::move(edges);
+    const View& view = scene.views[i];
+    const auto k = static_cast<std::size_t>(view.camera_idx);
+    auto carried = CarryEdges(edge_maps[i], scene.cameras[k], cameras[k]);
+    if (!carried) {
+      return Status::InvalidArgument("the camera of " + view.name +
+                                     " cannot be inverted at an edge");
+    }
+    edge_maps[i] = *std::move(carried);
   }
   return edge_maps;
 }

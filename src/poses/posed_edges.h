@@ -39,6 +39,8 @@ class PosedEdges {
   PosedEdges(const PosedEdges&) = delete;
   PosedEdges& operator=(const PosedEdges&) = delete;
 
+  int num_threads() const { return options_.runtime.num_threads; }
+
   // With the poses of the scene, each followed by its increment, and the
   // cameras that are set.
   const std::vector<PosedView>& views() const { return views_; }
@@ -119,6 +121,7 @@ class PosedEdges {
   const std::vector<PosedView> input_views_;
   std::vector<PosedView> views_;  // indices_ points into it
   std::vector<ViewIndex> indices_;
+  double presence_reach_px_ = 0;  // of their presences; 0: none yet
   DistinctViews distinct_;
   std::vector<DepthRange> depths_;
   NeighborsByView neighbors_;

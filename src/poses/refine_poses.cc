@@ -50,12 +50,10 @@ class Refiner {
   // The search and the scene must outlive this.
   Refiner(const Scene& scene,
           std::vector<CurvePlace> places,
-          int num_threads,
           bool refine_intrinsics,
           PoseSearch* search)
       : scene_(scene),
         refine_intrinsics_(refine_intrinsics),
-        num_threads_(num_threads),
         search_(*search),
         observations_{std::move(places), {}},
         at_sketch_(search_.edges().moved()) {}
@@ -141,7 +139,7 @@ class Refiner {
   }
 
   HeldOutErrors Measure() const {
-    return MeasureHeldOut(held_out_, num_threads_, search_.edges());
+    return MeasureHeldOut(held_out_, search_.edges());
   }
 
   // Poses from points alone; then places by these.
@@ -319,7 +317,6 @@ class Refiner {
 
   const Scene& scene_;
   const bool refine_intrinsics_;
-  const int num_threads_;
   PoseSearch& search_;
   PoseObservationSet observations_;
   PoseObservationSet held_out_;
@@ -339,20 +336,16 @@ CurvePoses Refine(const Scene& scene,
                   const Options& options,
                   bool refine_intrinsics,
                   RunRecorder* run) {
-  const int num_threads = options.runtime.num_threads;
   PoseSearch search(scene, edge_maps, options, run->Steps());
   const std::vector<CurvePlace> places = search.Sketch();
   const PoseSearch::State at_input = search.state();
-  Refiner refiner(scene, places, num_threads, refine_intrinsics, &search);
+  Refiner refiner(scene, places, refine_intrinsics, &search);
   refiner.Search(0, std::nullopt);
   const PoseSearch::State found = search.state();
   for (int set = 1; set < SpaceCells::kNumSets && refiner.IsOpen(set); ++set) {
     search.SetState(at_input);
-    Refiner other(scene,
-                  places,
-                  num_threads,
-                  refine_intrinsics && !refiner.cameras_stay(),
-                  &search);
+    Refiner other(
+        scene, places, refine_intrinsics && !refiner.cameras_stay(), &search);
     other.Search(set, refiner.cells());
     refiner.Add(other.gains());
     search.SetState(found);
@@ -376,12 +369,14 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
   if (!run.Begin("refine_poses_with_curves")) return CancelledStatus();
   CurvePoses result =
       Refine(scene, edge_maps, options, refine_intrinsics, &run);
-  // Later steps need the edges of the new cameras.
-  if (const Status status =
-          EdgesWithCameras(scene, edge_maps, result.cameras).status();
-      !status.ok()) {
-    result = Refine(scene, edge_maps, options, false, &run);
-    result.reason += "; cameras stay: " + status.message();
+  if (result.cameras != scene.cameras) {
+    // Later steps need the edges of the new cameras.
+    const Status status =
+        EdgesWithCameras(scene, edge_maps, result.cameras).status();
+    if (!status.ok()) {
+      result = Refine(scene, edge_maps, options, false, &run);
+      result.reason += "; cameras stay: " + status.message();
+    }
   }
   if (run.cancelled()) return CancelledStatus();
   return result;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/infinity.h"
+
 namespace curvix {
 namespace {
 
@@ -27,7 +29,6 @@ Mixture Improve(const Mixture& before,
                 double gate_px) {
   constexpr double kPeak = 0.7978845608028654;  // sqrt(2 / pi)
   Mixture after;
-  after.log_likelihood = 0;
   double weights = 0, squares = 0;
   for (const double distance : distances_px) {
     const double z = distance / before.spread_px;
@@ -52,7 +53,7 @@ Mixture Improve(const Mixture& before,
 
 double FitSpread(const std::vector<double>& distances_px, double gate_px) {
   Mixture best;
-  best.log_likelihood = -std::numeric_limits<double>::infinity();
+  best.log_likelihood = -kInfinity;
   for (const double start_px : std::array{1.2, 0.4, 0.1}) {
     Mixture mixture{start_px, 0.5, 0};
     for (int i = 0; i < kNumIterations; ++i) {
