@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/angles.h"
 
@@ -21,10 +22,9 @@ Eigen::Array4d CubicWeights(double t) {
 // points, beyond the reach of the Gaussian: half pixels.
 constexpr int kPadding = 3;
 
-// How far filters centred on a pixel reach where third-order orientation is
-// measured. Third derivatives feel the cut: without it weak edges that pass 5
-// sigma from strong ones turn by up to 0.3 degrees against the published
-// detector, which cuts here too.
+// How far filters centred on a pixel reach in the published detector. Third
+// derivatives feel the cut: without it weak edges that pass 5 sigma from strong
+// ones turn by up to 0.3 degrees against that detector.
 int PixelFilterRadius(double sigma) {
   return static_cast<int>(std::ceil(4 * sigma));
 }
@@ -48,10 +48,13 @@ double GradientNoiseGain(double sigma_px) {
   return 1 / (std::sqrt(8 * kPi) * sigma_px * sigma_px);
 }
 
-ImageDerivatives::ImageDerivatives(const GrayImage& image, double sigma_px)
+ImageDerivatives::ImageDerivatives(const GrayImage& image,
+                                   double sigma_px,
+                                   bool as_published)
     : image_(image),
       radius_(GaussianRadius(sigma_px)),
-      near_reach_(2 * PixelFilterRadius(sigma_px)) {
+      near_reach_(as_published ? 2 * PixelFilterRadius(sigma_px)
+                               : std::numeric_limits<int>::max()) {
   const int reach = 2 * radius_ + 1;
   for (int half_pixels = -reach - kPadding; half_pixels <= reach + kPadding;
        ++half_pixels) {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "edge_detection/gray_image.h"
+#include "base/gray_image.h"
 
 namespace curvix {
 
@@ -27,16 +27,16 @@ double GradientNoiseGain(double sigma_px);
 // calls: one object per thread.
 class ImageDerivatives {
  public:
-  // `image` must outlive this object and is not empty; sigma > 0.
-  ImageDerivatives(const GrayImage& image, double sigma_px);
+  // `image` must outlive this object and is not empty; sigma > 0. Filters reach
+  // GaussianRadius(), but if `as_published` only 4 sigma from grid points that
+  // are pixel centres.
+  ImageDerivatives(const GrayImage& image, double sigma_px, bool as_published);
 
   // Element (a, b) is d^(a + b) I / dy^a dx^b, up to a + b = 3, of the image
   // smoothed by the Gaussian at `position` (pixels, first centre at
   // (0.5, 0.5)). Computed at the 4 x 4 points of the half-pixel grid around the
   // position and interpolated between them by cubic convolution (Keys 1981,
-  // a = -0.5). Filters reach GaussianRadius(), those of grid points that are
-  // pixel centres 4 sigma. Beyond its border the image continues with its
-  // border values.
+  // a = -0.5). Beyond its border the image continues with its border values.
   Eigen::Matrix4d At(const Eigen::Vector2d& position);
 
  private:

@@ -257,7 +257,8 @@ void OrientEdges(const GrayImage& image,
                  double sigma_px,
                  bool refine,
                  std::vector<Edge2d>* edges) {
-  ImageDerivatives derivatives(image, sigma_px);
+  const bool as_published = !refine;
+  ImageDerivatives derivatives(image, sigma_px, as_published);
   for (Edge2d& edge : *edges) {
     const Eigen::Matrix4d d = derivatives.At(edge.position);
     OrientEdge(d, edge);
