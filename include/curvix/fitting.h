@@ -7,6 +7,7 @@
 #include <curvix/options.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <string_view>
 #include <tuple>
@@ -196,6 +197,11 @@ std::string_view KindName(GroupKind kind);
 // The point at `t` from 0 (start) to 1 (end); equal steps of t are equal angles
 // of arcs and ellipses and equal parameters of splines.
 Eigen::Vector3d PointAt(const CurveFit& fit, double t);
+
+// kArc, kEllipse: the unit normal, along major x minor.
+inline Eigen::Vector3d NormalOf(const CurveFit& fit) {
+  return fit.major.cross(fit.minor).normalized();
+}
 
 // The length along the primitive. World units; exact for lines and arcs.
 double Length(const CurveFit& fit);

@@ -77,7 +77,7 @@ void TakeShape(const Json& json, CurveFit& fit) {
   }
   if (fit.kind == FitKind::kArc) {
     fit.radius_sigma = SigmaOf(json, "radius_sigma");
-    const Eigen::Vector3d axis = fit.major.cross(fit.minor).normalized();
+    const Eigen::Vector3d axis = NormalOf(fit);
     const double sigma = SigmaOf(json, "axis_sigma");
     fit.arc_covariance.block<3, 3>(3, 3) =
         sigma * sigma * (Eigen::Matrix3d::Identity() - axis * axis.transpose());

@@ -12,10 +12,6 @@
 
 namespace curvix {
 
-// Names of the dictionaries: "4x4_50", "apriltag_36h11" and so on. Empty if
-// this build's OpenCV finds no markers.
-std::vector<std::string> MarkerDictionaries();
-
 struct FoundMarker {
   int id = 0;
   int num_views = 0;
@@ -34,8 +30,8 @@ struct FoundMarkers {
 // sides, triangulates their corners, and compares the squares with `size`, the
 // side of the black square, world units. The standard deviation of corners in
 // images is what the triangulation leaves. Same result for any number of
-// threads. kUnsupported: no OpenCV for it. kNotFound: an image cannot be read,
-// or no marker is seen well by three views.
+// threads. kNotFound: an image cannot be read, or no marker is seen well by
+// three views, as without OpenCV's aruco module.
 Result<FoundMarkers> FindMarkers(const Scene& scene,
                                  const std::string& dictionary,
                                  double size,

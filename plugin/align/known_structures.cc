@@ -2,7 +2,6 @@
 #include "plugin/align/known_structures.h"
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "base/median.h"
@@ -33,93 +32,69 @@ CurveNode UsualPoint(const KnownStructures& structures) {
   return point;
 }
 
-// "12" or "0,0,0".
-struct GivenPoint {
-  std::string word;
-  std::optional<std::size_t> node;
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-};
-
-struct GivenDistance {
-  std::string text;
-  GivenPoint a, b;
-  double length = 0;
-  double sigma = 0;
-};
-
-Result<GivenPoint> ReadPoint(std::string_view word, const std::string& text) {
-  GivenPoint point;
-  point.word = word;
+// What "12" or "0,0,0" means; without `structures`, whether it means something.
+Result<CurveNode> ReadPoint(std::string_view word,
+                            const std::string& text,
+                            const KnownStructures* structures) {
   if (word.find(',') != std::string_view::npos) {
     const Result<Eigen::Vector3d> position = ParseVector("the point", word);
     if (!position.ok()) return BadDistance(text, position.status().message());
-    point.position = *position;
+    if (structures == nullptr) return CurveNode();
+    CurveNode point = UsualPoint(*structures);
+    point.position = structures->model_from_world * *position;
     return point;
   }
-  point.node = ParseNumber<std::size_t>(word);
-  if (point.node) return point;
-  return BadDistance(
-      text, "\"" + point.word + "\" is no number of a node and no point x,y,z");
+  const auto node = ParseNumber<std::size_t>(word);
+  if (!node) {
+    return BadDistance(text,
+                       "\"" + std::string(word) +
+                           "\" is no number of a node and no point x,y,z");
+  }
+  if (structures == nullptr) return CurveNode();
+  const std::vector<CurveNode>& nodes = structures->fitted.nodes;
+  if (*node < nodes.size()) return nodes[*node];
+  return BadDistance(text, NoSuchNode(word, structures->fitted));
 }
 
-Result<GivenDistance> ReadDistance(std::string_view text) {
-  GivenDistance given;
-  given.text = text;
+Result<KnownDistance> ReadDistance(const std::string& text,
+                                   const KnownStructures* structures) {
   std::string_view rest = text;
   const std::string_view first = TakeWord(rest);
   const std::string_view second = TakeWord(rest);
-  const std::string_view length = TakeWord(rest);
-  const std::string_view sigma = TakeWord(rest);
-  if (length.empty() || !TakeWord(rest).empty()) {
-    return BadDistance(given.text,
+  const std::string_view length_word = TakeWord(rest);
+  const std::string_view sigma_word = TakeWord(rest);
+  if (length_word.empty() || !TakeWord(rest).empty()) {
+    return BadDistance(text,
                        "it is not three words, or four with a standard "
                        "deviation");
   }
-  Result<GivenPoint> a = ReadPoint(first, given.text);
+  const Result<CurveNode> a = ReadPoint(first, text, structures);
   if (!a.ok()) return a.status();
-  Result<GivenPoint> b = ReadPoint(second, given.text);
+  const Result<CurveNode> b = ReadPoint(second, text, structures);
   if (!b.ok()) return b.status();
-  given.a = *std::move(a);
-  given.b = *std::move(b);
-  given.length = ParseNumber<double>(length).value_or(0);
-  given.sigma = sigma.empty() ? 0 : ParseNumber<double>(sigma).value_or(-1);
-  if (!(given.length > 0) || !std::isfinite(given.length)) {
-    return BadDistance(given.text, "the distance is not a number above 0");
+  const double length = ParseNumber<double>(length_word).value_or(0);
+  if (!(length > 0) || !std::isfinite(length)) {
+    return BadDistance(text, "the distance is not a number above 0");
   }
-  if (!(given.sigma >= 0) || !std::isfinite(given.sigma)) {
-    return BadDistance(given.text,
-                       "the standard deviation is not a number from 0");
+  const double sigma =
+      sigma_word.empty() ? 0 : ParseNumber<double>(sigma_word).value_or(-1);
+  if (!(sigma >= 0) || !std::isfinite(sigma)) {
+    return BadDistance(text, "the standard deviation is not a number from 0");
   }
-  return given;
+  return KnownDistance{
+      a->position, b->position, a->covariance, b->covariance, length, sigma};
 }
 
-Result<CurveNode> FindPoint(const GivenPoint& given,
-                            const KnownStructures& structures,
-                            const std::string& text) {
-  if (!given.node) {
-    CurveNode point = UsualPoint(structures);
-    point.position = structures.model_from_world * given.position;
-    return point;
+Result<std::vector<KnownDistance>> ReadDistances(
+    const std::string& text, const KnownStructures* structures) {
+  std::vector<KnownDistance> distances;
+  for (const std::string_view part : SplitAt(text, ';')) {
+    const Result<KnownDistance> distance =
+        ReadDistance(std::string(part), structures);
+    if (!distance.ok()) return distance.status();
+    distances.push_back(*distance);
   }
-  const std::vector<CurveNode>& nodes = structures.fitted.nodes;
-  if (*given.node < nodes.size()) return nodes[*given.node];
-  return BadDistance(text, NoSuchNode(given.word, structures.fitted));
-}
-
-Result<KnownDistance> ParseDistance(std::string_view text,
-                                    const KnownStructures& structures) {
-  const Result<GivenDistance> given = ReadDistance(text);
-  if (!given.ok()) return given.status();
-  const Result<CurveNode> a = FindPoint(given->a, structures, given->text);
-  if (!a.ok()) return a.status();
-  const Result<CurveNode> b = FindPoint(given->b, structures, given->text);
-  if (!b.ok()) return b.status();
-  return KnownDistance{a->position,
-                       b->position,
-                       a->covariance,
-                       b->covariance,
-                       given->length,
-                       given->sigma};
+  return distances;
 }
 
 }  // namespace
@@ -136,22 +111,12 @@ Result<KnownStructures> ReadStructures(const fs::path& folder) {
 }
 
 Status CheckDistances(const std::string& text) {
-  for (const std::string_view part : SplitAt(text, ';')) {
-    Status status = ReadDistance(part).status();
-    if (!status.ok()) return status;
-  }
-  return {};
+  return ReadDistances(text, nullptr).status();
 }
 
 Result<std::vector<KnownDistance>> ParseDistances(
     const std::string& text, const KnownStructures& structures) {
-  std::vector<KnownDistance> distances;
-  for (const std::string_view part : SplitAt(text, ';')) {
-    Result<KnownDistance> distance = ParseDistance(part, structures);
-    if (!distance.ok()) return distance.status();
-    distances.push_back(*std::move(distance));
-  }
-  return distances;
+  return ReadDistances(text, &structures);
 }
 
 Result<Eigen::Vector3d> ParseVector(const std::string& what,

@@ -6,8 +6,6 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "plugin/align/find_markers.h"
-
 #ifdef CURVIX_HAS_ARUCO
 #if CV_VERSION_MAJOR * 100 + CV_VERSION_MINOR >= 407
 #include <opencv2/objdetect/aruco_detector.hpp>

@@ -10,6 +10,10 @@
 
 namespace curvix {
 
+// Names of the dictionaries: "4x4_50", "apriltag_36h11" and so on. Empty if
+// this build's OpenCV finds no markers.
+std::vector<std::string> MarkerDictionaries();
+
 struct SeenMarker {
   int id = 0;
   // Clockwise from the top left one of the marker; pixels of the image.

@@ -2,9 +2,9 @@
 #include "plugin/base/command_line.h"
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/program_options.hpp>
-#include <cctype>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -64,11 +64,9 @@ Status UnknownFlag(std::string token, const std::vector<Flag>& flags) {
   }
   std::vector<std::string> names = {"help", "help_all"};
   for (const Flag& flag : flags) names.push_back(flag.name);
-  const std::string nearest = NearestName(name, names);
-  return Status::InvalidArgument("There is no option '" + token + "'" +
-                                 (nearest.empty()
-                                      ? "; --help_all lists all options"
-                                      : "; did you mean '--" + nearest + "'?"));
+  return Status::InvalidArgument(
+      "There is no option '" + token + "'" +
+      Suggestion(name, names, "--", "--help_all lists all options"));
 }
 
 Status GivenTwice(const std::string& name) {
@@ -226,15 +224,38 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
 struct SplitName {
   std::string whole, section, field;
 
-  explicit SplitName(const std::string& name) {
-    for (const char c : name) {
-      whole += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
+  explicit SplitName(const std::string& name)
+      : whole(boost::algorithm::to_lower_copy(name)) {
     const std::size_t begin = whole.find('.') + 1;
     section = whole.substr(0, begin);
     field = whole.substr(begin);
   }
 };
+
+// The candidate nearest to `name`; "": none is near.
+std::string NearestName(const std::string& name,
+                        const std::vector<std::string>& candidates) {
+  std::string nearest;
+  const SplitName wanted(name);
+  // At most a third of the letters may differ.
+  std::pair<std::size_t, std::size_t> least(
+      std::max<std::size_t>(2, name.size() / 3) + 1, 0);
+  for (const std::string& candidate : candidates) {
+    const SplitName known(candidate);
+    std::size_t distance = std::min(EditDistance(wanted.whole, known.whole),
+                                    EditDistance(wanted.field, known.field));
+    if (wanted.field.size() > 2 && known.field.starts_with(wanted.field)) {
+      distance = std::min<std::size_t>(distance, 1);
+    }
+    const std::pair rating(distance,
+                           EditDistance(wanted.section, known.section));
+    if (rating < least) {
+      least = rating;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
 
 }  // namespace
 
@@ -341,28 +362,13 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
   return Request::kRun;
 }
 
-std::string NearestName(const std::string& name,
-                        const std::vector<std::string>& candidates) {
-  std::string nearest;
-  const SplitName wanted(name);
-  // At most a third of the letters may differ.
-  std::pair<std::size_t, std::size_t> least(
-      std::max<std::size_t>(2, name.size() / 3) + 1, 0);
-  for (const std::string& candidate : candidates) {
-    const SplitName known(candidate);
-    std::size_t distance = std::min(EditDistance(wanted.whole, known.whole),
-                                    EditDistance(wanted.field, known.field));
-    if (wanted.field.size() > 2 && known.field.starts_with(wanted.field)) {
-      distance = std::min<std::size_t>(distance, 1);
-    }
-    const std::pair rating(distance,
-                           EditDistance(wanted.section, known.section));
-    if (rating < least) {
-      least = rating;
-      nearest = candidate;
-    }
-  }
-  return nearest;
+std::string Suggestion(const std::string& name,
+                       const std::vector<std::string>& candidates,
+                       const std::string& prefix,
+                       const std::string& otherwise) {
+  const std::string nearest = NearestName(name, candidates);
+  return nearest.empty() ? "; " + otherwise
+                         : "; did you mean '" + prefix + nearest + "'?";
 }
 
 }  // namespace curvix

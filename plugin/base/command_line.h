@@ -88,10 +88,12 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
                            const std::vector<FlagSection>& sections,
                            const std::vector<FlagSection>& of_others = {});
 
-// The candidate nearest to `name`, or "" if none is near. Case does not count,
-// and the section only between names that are as near: "sigma" is near to
-// "EdgeDetection.sigma_px".
-std::string NearestName(const std::string& name,
-                        const std::vector<std::string>& candidates);
+// "; did you mean '<prefix><the candidate nearest to `name`>'?", or "; " and
+// `otherwise` if none is near. Case does not count, and the section only
+// between names that are as near: "sigma" is near to "EdgeDetection.sigma_px".
+std::string Suggestion(const std::string& name,
+                       const std::vector<std::string>& candidates,
+                       const std::string& prefix,
+                       const std::string& otherwise);
 
 }  // namespace curvix

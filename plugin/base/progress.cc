@@ -82,7 +82,7 @@ ProgressPrinter::~ProgressPrinter() {
 
 bool ProgressPrinter::Update(const std::string& stage, int done, int total) {
   if (stage != stage_) {
-    Finish();
+    Finish("");
     stage_ = stage;
     start_ = clock_();
     last_draw_ = start_ - 1;

@@ -35,9 +35,8 @@ class RunProgress {
   // False: the run is to stop.
   virtual bool Update(const std::string& stage, int done, int total) = 0;
 
-  // Ends the current stage, if any, with what it has done: "50 views".
+  // Ends the current stage, if any, with what it has done: "50 views", or "".
   virtual void Finish(const std::string& detail) = 0;
-  void Finish() { Finish(""); }
 
   // A sentence worth telling the user.
   virtual void Note(const std::string& line) = 0;
@@ -67,7 +66,6 @@ class ProgressPrinter : public RunProgress {
   bool Update(const std::string& stage, int done, int total) override;
 
   // "Detect edges ... 50 views, 3.1 s".
-  using RunProgress::Finish;
   void Finish(const std::string& detail) override;
 
   // Prints a line of its own, above the bar.

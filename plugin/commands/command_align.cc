@@ -7,7 +7,7 @@
 
 #include "base/file_io.h"
 #include "plugin/align/align_workspace.h"
-#include "plugin/align/find_markers.h"
+#include "plugin/align/marker_detector.h"
 #include "plugin/base/file_errors.h"
 #include "plugin/base/progress.h"
 #include "plugin/commands/commands.h"
@@ -148,15 +148,6 @@ struct AlignmentGuard {
   }
 };
 
-// Of a file that may not be there.
-Result<std::optional<std::string>> ReadIfThere(const fs::path& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return std::optional<std::string>();
-  Result<std::string> text = ReadFile(path);
-  if (!text.ok()) return text.status();
-  return std::optional<std::string>(*std::move(text));
-}
-
 }  // namespace
 
 ExitCode RunAlign(const Arguments& arguments) {
@@ -173,15 +164,20 @@ ExitCode RunAlign(const Arguments& arguments) {
       CatchFileErrors([&] { return FindInput(settings.run); });
   if (!workspace.ok()) return Fail(workspace.status());
   const fs::path path = workspace->output_path / kAlignmentName;
-  auto older = ReadIfThere(path);
-  if (!older.ok()) return Fail(older.status());
+  std::optional<std::string> older;
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    Result<std::string> read = ReadFile(path);
+    if (!read.ok()) return Fail(read.status());
+    older = *std::move(read);
+  }
   const auto text = WithProgress([&](RunProgress& progress) {
     return AlignWorkspace(settings, progress);
   });
   if (!text.ok()) return Fail(text.status());
   std::cout << *text << std::flush;
   if (!write_results) return kExitSuccess;
-  AlignmentGuard guard{path, *std::move(older)};
+  AlignmentGuard guard{path, std::move(older)};
   const ExitCode written = WriteResultsAgain(settings, workspace->output_path);
   guard.is_kept = written == kExitSuccess;
   return written;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <iostream>
+#include <string>
 #include <utility>
 
 #include "colmap/workspace.h"
@@ -19,10 +20,6 @@ struct EvaluateSettings {
 
   int holdout_every = 0;  // 0: compare with known curves
   RunSettings run;
-
-  EvaluationFormat format() const {
-    return json ? EvaluationFormat::kJson : EvaluationFormat::kTable;
-  }
 };
 
 FlagSection TruthSection(EvaluateSettings* settings) {
@@ -74,7 +71,7 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
   return sections;
 }
 
-Status EvaluateWithTruth(const EvaluateSettings& settings) {
+Result<std::string> EvaluateWithTruth(const EvaluateSettings& settings) {
   std::filesystem::path curves_path = settings.curves_path;
   if (curves_path.empty()) {
     const Result<Workspace> workspace =
@@ -82,21 +79,17 @@ Status EvaluateWithTruth(const EvaluateSettings& settings) {
     if (!workspace.ok()) return workspace.status();
     curves_path = workspace->output_path / "curves.ply";
   }
-  return EvaluateFiles(curves_path,
-                       settings.truth_path,
-                       settings.options,
-                       settings.format(),
-                       std::cout);
+  return EvaluateFiles(
+      curves_path, settings.truth_path, settings.options, settings.json);
 }
 
-Status EvaluateWorkspace(const EvaluateSettings& settings) {
+Result<std::string> EvaluateWorkspace(const EvaluateSettings& settings) {
   return WithProgress([&](RunProgress& progress) {
     return RunHoldout(settings.run,
                       settings.curves_path,
                       settings.holdout_every,
-                      settings.format(),
-                      progress,
-                      std::cout);
+                      settings.json,
+                      progress);
   });
 }
 
@@ -119,9 +112,11 @@ ExitCode RunEvaluate(const Arguments& arguments) {
   }
   const Status valid = holds_out ? Validate(settings.run.options) : Status();
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Status status =
+  const Result<std::string> text =
       holds_out ? EvaluateWorkspace(settings) : EvaluateWithTruth(settings);
-  return status.ok() ? kExitSuccess : Fail(status);
+  if (!text.ok()) return Fail(text.status());
+  std::cout << *text;
+  return kExitSuccess;
 }
 
 }  // namespace curvix

@@ -161,7 +161,7 @@ ExitCode RunPartitionCommand(const Arguments& arguments) {
 ExitCode RunMergeCommand(const Arguments& arguments) {
   RunSettings settings;
   std::vector<FlagSection> sections = ReconstructSections(&settings);
-  // Project files of runs name poses, which have no use here.
+  // Merges get the options of their parts, of which those of poses have no use.
   for (FlagSection& section : sections) {
     if (section.title != "Poses") continue;
     for (Flag& flag : section.flags) flag.is_advanced = true;

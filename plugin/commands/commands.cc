@@ -143,14 +143,10 @@ ExitCode UnknownCommand(const std::string& name) {
   std::string message = "There is no command '" + name + "'";
   std::vector<std::string> names;
   for (const Command& command : kCommands) names.push_back(command.name);
-  const std::string nearest = NearestName(name, names);
-  if (IsFolder(name)) {
-    message += "; did you mean '--workspace_path " + name + "'?";
-  } else if (!nearest.empty()) {
-    message += "; did you mean '" + nearest + "'?";
-  } else {
-    message += "; 'colmap_curvix help' lists all";
-  }
+  message +=
+      IsFolder(name)
+          ? "; did you mean '--workspace_path " + name + "'?"
+          : Suggestion(name, names, "", "'colmap_curvix help' lists all");
   return Fail(Status::InvalidArgument(message), kExitCommandLine);
 }
 

@@ -4,8 +4,9 @@
 #include <curvix/curve_io.h>
 #include <cmath>
 #include <filesystem>
-#include <ostream>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -39,28 +40,27 @@ std::string Fixed(const std::optional<double>& value) {
   return value ? Column(*value, 3) : "        -";
 }
 
-void PrintRow(const char* name,
-              const std::optional<double>& value,
-              const char* unit,
-              std::ostream& out) {
-  out << Padded(name) << Fixed(value) << ' ' << unit << '\n';
+std::string MeasureRow(const char* name,
+                       const std::optional<double>& value,
+                       const std::string& unit) {
+  return Padded(name) + Fixed(value) + " " + unit + "\n";
 }
 
-void PrintAgreement(const Evaluation& e, std::ostream& out) {
-  out << "within                       5 mm    10 mm    20 mm\n";
+std::string AgreementText(const Evaluation& e) {
+  std::string text = "within                       5 mm    10 mm    20 mm\n";
   const auto row = [&](const char* name, double Agreement::*member) {
-    out << Padded(name);
-    for (const Agreement& a : e.agreement) out << Fixed(a.*member);
-    out << " %\n";
+    text += Padded(name);
+    for (const Agreement& a : e.agreement) text += Fixed(a.*member);
+    text += " %\n";
   };
   row("precision", &Agreement::precision);
   row("recall", &Agreement::recall);
   row("F-score", &Agreement::f_score);
   row("IoU", &Agreement::iou);
-  out << "recall of visible       " << Fixed(e.visible_recall_5)
-      << Fixed(e.visible_recall_10) << Fixed(std::nullopt) << " %\n";
-  out << "F-score of visible      " << Fixed(e.visible_f_score_5)
-      << Fixed(std::nullopt) << Fixed(std::nullopt) << " %\n";
+  return text + "recall of visible       " + Fixed(e.visible_recall_5) +
+         Fixed(e.visible_recall_10) + Fixed(std::nullopt) + " %\n" +
+         "F-score of visible      " + Fixed(e.visible_f_score_5) +
+         Fixed(std::nullopt) + Fixed(std::nullopt) + " %\n";
 }
 
 // "unknown", "crease", "boundary", ...
@@ -68,47 +68,48 @@ std::string NameOf(std::size_t kind) {
   return std::string(KindName(static_cast<CurveKind>(kind)));
 }
 
-void PrintLengths(std::string_view title,
-                  const LengthPerKind& lengths_mm,
-                  std::ostream& out) {
-  out << Padded(std::string(title));
-  for (const double length : lengths_mm) out << ' ' << Column(length, 0);
+std::string LengthsText(std::string_view title,
+                        const LengthPerKind& lengths_mm) {
+  std::string text = Padded(std::string(title));
+  for (const double length : lengths_mm) text += " " + Column(length, 0);
+  return text;
 }
 
 // Lengths in millimetres: rows by the true kind, columns by the kind said.
-void PrintKinds(const KindAgreement& kinds, std::ostream& out) {
-  out << "true kind, mm              length   visible   recall\n";
+std::string KindsText(const KindAgreement& kinds) {
+  std::string text = "true kind, mm              length   visible   recall\n";
   for (const TrueKind& kind : kinds.kinds) {
-    out << Padded(std::string(KindName(kind.kind))) << ' '
-        << Column(kind.length_mm, 0) << ' ' << Column(kind.visible_length_mm, 0)
-        << Fixed(kind.visible_recall_5) << " %\n";
+    text += Padded(std::string(KindName(kind.kind))) + " " +
+            Column(kind.length_mm, 0) + " " +
+            Column(kind.visible_length_mm, 0) + Fixed(kind.visible_recall_5) +
+            " %\n";
   }
-  out << "said to be, mm             unknown    crease  boundary   marking   "
-         "contour    right\n";
+  text +=
+      "said to be, mm             unknown    crease  boundary   marking   "
+      "contour    right\n";
   for (const TrueKind& kind : kinds.kinds) {
-    PrintLengths(KindName(kind.kind), kind.predicted_mm, out);
-    out << Fixed(kind.right) << " %\n";
+    text += LengthsText(KindName(kind.kind), kind.predicted_mm) +
+            Fixed(kind.right) + " %\n";
   }
-  PrintLengths("none within 5 mm", kinds.elsewhere_mm, out);
-  out << "\n";
-  PrintRow("of the right kind", kinds.right, "%", out);
+  return text + LengthsText("none within 5 mm", kinds.elsewhere_mm) + "\n" +
+         MeasureRow("of the right kind", kinds.right, "%");
 }
 
-void PrintTable(const Evaluation& e, std::ostream& out) {
-  PrintAgreement(e, out);
-  PrintRow("accuracy", e.accuracy_mm, "mm", out);
-  PrintRow("completeness", e.completeness_mm, "mm", out);
-  PrintRow("completeness of visible", e.visible_completeness_mm, "mm", out);
-  PrintRow("tangent error, median", e.tangent_deg, "deg", out);
-  PrintRow("duplication", e.duplication, "(1 is best)", out);
-  PrintRow("recall of whole curves", e.whole, "%", out);
-  PrintRow("purity of curves", e.pure, "%", out);
-  out << "curves                  " << e.num_curves << " found, "
-      << (e.num_true_curves ? std::to_string(*e.num_true_curves) : "-")
-      << " true\n"
-      << "samples compared        " << e.num_predicted << " found, "
-      << e.num_true << " true\n";
-  if (e.kinds) PrintKinds(*e.kinds, out);
+std::string TableOf(const Evaluation& e) {
+  return AgreementText(e) + MeasureRow("accuracy", e.accuracy_mm, "mm") +
+         MeasureRow("completeness", e.completeness_mm, "mm") +
+         MeasureRow(
+             "completeness of visible", e.visible_completeness_mm, "mm") +
+         MeasureRow("tangent error, median", e.tangent_deg, "deg") +
+         MeasureRow("duplication", e.duplication, "(1 is best)") +
+         MeasureRow("recall of whole curves", e.whole, "%") +
+         MeasureRow("purity of curves", e.pure, "%") +
+         "curves                  " + std::to_string(e.num_curves) +
+         " found, " +
+         (e.num_true_curves ? std::to_string(*e.num_true_curves) : "-") +
+         " true\nsamples compared        " + std::to_string(e.num_predicted) +
+         " found, " + std::to_string(e.num_true) + " true\n" +
+         (e.kinds ? KindsText(*e.kinds) : "");
 }
 
 Json ToJson(const std::optional<double>& value) {
@@ -138,7 +139,7 @@ Json ToJson(const KindAgreement& kinds) {
   return json;
 }
 
-void PrintJson(const Evaluation& e, std::ostream& out) {
+std::string JsonOf(const Evaluation& e) {
   Json json;
   json["predicted"] = e.num_predicted;
   json["gt"] = e.num_true;
@@ -164,7 +165,7 @@ void PrintJson(const Evaluation& e, std::ostream& out) {
   if (e.num_true_curves) json["gt_curves"] = *e.num_true_curves;
   json["kinds"] = nullptr;
   if (e.kinds) json["kinds"] = ToJson(*e.kinds);
-  out << json.dump() << '\n';
+  return json.dump() + "\n";
 }
 
 // What curves are compared with.
@@ -212,44 +213,39 @@ struct HoldoutResult {
   ImageAgreement agreement;
 };
 
-void PrintRow(const char* name,
-              const std::optional<ShareAboveChance>& share,
-              std::ostream& out) {
-  out << Padded(name, 40);
-  if (share) {
-    out << Column(100 * share->share, 1) << Column(100 * share->chance, 1)
-        << Column(100 * share->Lift(), 1) << '\n';
-  } else {
-    out << "        -        -        -\n";
-  }
+std::string ShareRow(const char* name,
+                     const std::optional<ShareAboveChance>& share) {
+  const std::string start = Padded(name, 40);
+  if (!share) return start + "        -        -        -\n";
+  return start + Column(100 * share->share, 1) +
+         Column(100 * share->chance, 1) + Column(100 * share->Lift(), 1) + "\n";
 }
 
-void PrintTable(const HoldoutResult& result, std::ostream& out) {
+std::string TableOf(const HoldoutResult& result) {
   const ImageAgreement& agreement = result.agreement;
   const fs::path& alignment_path = result.input.alignment_path;
-  out << Plural(result.num_held_out, "view") << " held out, "
-      << Plural(result.curves.num_curves, "curve") << " of total length "
-      << result.curves.total_length << "\nmodel "
-      << result.input.model_path.string()
-      << (alignment_path.empty()
+  return Plural(result.num_held_out, "view") + " held out, " +
+         Plural(result.curves.num_curves, "curve") + " of total length " +
+         ShortText(result.curves.total_length, 6) + "\nmodel " +
+         result.input.model_path.string() +
+         (alignment_path.empty()
               ? ""
-              : ", in the frame of " + alignment_path.string())
-      << "\n\n"
-      << Padded("in the images held out, %", 40)
-      << "    share   chance     lift\n";
-  PrintRow("curves on a contour (precision)", agreement.precision, out);
-  PrintRow(
-      "the same where they should be seen", agreement.expected_precision, out);
-  PrintRow("strong contours with a curve", agreement.strong_contours, out);
-  PrintRow("long lines with a curve", agreement.long_lines, out);
-  out << "median length of a curve: "
-      << Column(agreement.median_piece_px, 1).substr(2)
-      << " px\n\nChance: the same after moving by 12 pixels across. Lift: what "
+              : ", in the frame of " + alignment_path.string()) +
+         "\n\n" + Padded("in the images held out, %", 40) +
+         "    share   chance     lift\n" +
+         ShareRow("curves on a contour (precision)", agreement.precision) +
+         ShareRow("the same where they should be seen",
+                  agreement.expected_precision) +
+         ShareRow("strong contours with a curve", agreement.strong_contours) +
+         ShareRow("long lines with a curve", agreement.long_lines) +
+         "median length of a curve: " +
+         Column(agreement.median_piece_px, 1).substr(2) +
+         " px\n\nChance: the same after moving by 12 pixels across. Lift: what "
          "is above chance, of\nwhat can be. Hidden curves count as being on no "
          "contour.\n";
 }
 
-void PrintJson(const HoldoutResult& result, std::ostream& out) {
+std::string JsonOf(const HoldoutResult& result) {
   const ImageAgreement& agreement = result.agreement;
   Json json;
   json["held_out"] = result.num_held_out;
@@ -269,7 +265,7 @@ void PrintJson(const HoldoutResult& result, std::ostream& out) {
   add("expected_precision", agreement.expected_precision);
   add("strong", agreement.strong_contours);
   add("lines", agreement.long_lines);
-  out << json.dump() << '\n';
+  return json.dump() + "\n";
 }
 
 Result<CurveSet> ReconstructOthers(const Scene& scene,
@@ -287,18 +283,14 @@ Result<CurveSet> ReconstructOthers(const Scene& scene,
 
 }  // namespace
 
-void PrintEvaluation(const Evaluation& evaluation,
-                     EvaluationFormat format,
-                     std::ostream& out) {
-  if (format == EvaluationFormat::kJson) return PrintJson(evaluation, out);
-  PrintTable(evaluation, out);
+std::string EvaluationText(const Evaluation& evaluation, bool json) {
+  return json ? JsonOf(evaluation) : TableOf(evaluation);
 }
 
-Status EvaluateFiles(const std::filesystem::path& curves_path,
-                     const std::filesystem::path& truth_path,
-                     const EvaluationOptions& options,
-                     EvaluationFormat format,
-                     std::ostream& out) {
+Result<std::string> EvaluateFiles(const std::filesystem::path& curves_path,
+                                  const std::filesystem::path& truth_path,
+                                  const EvaluationOptions& options,
+                                  bool json) {
   const Result<CurveSet> curves = ReadCurves(curves_path, {});
   if (!curves.ok()) return curves.status();
   const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
@@ -306,16 +298,14 @@ Status EvaluateFiles(const std::filesystem::path& curves_path,
   const Result<Evaluation> evaluation =
       EvaluateCurves(*curves, *truth, options);
   if (!evaluation.ok()) return evaluation.status();
-  PrintEvaluation(*evaluation, format, out);
-  return {};
+  return EvaluationText(*evaluation, json);
 }
 
-Status RunHoldout(const RunSettings& settings,
-                  const std::filesystem::path& curves_path,
-                  int every,
-                  EvaluationFormat format,
-                  RunProgress& progress,
-                  std::ostream& out) {
+Result<std::string> RunHoldout(const RunSettings& settings,
+                               const std::filesystem::path& curves_path,
+                               int every,
+                               bool json,
+                               RunProgress& progress) {
   Result<HoldoutScene> input =
       ReadHoldoutScene(settings, curves_path, progress);
   if (!input.ok()) return input.status();
@@ -331,14 +321,12 @@ Status RunHoldout(const RunSettings& settings,
   const Result<ImageAgreement> agreement = CompareWithImages(
       curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
   if (!agreement.ok()) return agreement.status();
-  progress.Finish();
+  progress.Finish("");
   const HoldoutResult result{*std::move(input),
                              static_cast<int>(view_idxs->size()),
                              SummarizeCurves(*curves),
                              *agreement};
-  const bool is_json = format == EvaluationFormat::kJson;
-  is_json ? PrintJson(result, out) : PrintTable(result, out);
-  return {};
+  return json ? JsonOf(result) : TableOf(result);
 }
 
 }  // namespace curvix

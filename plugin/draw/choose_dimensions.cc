@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -19,7 +20,8 @@ constexpr double kAlikeSigmas = 3;
 std::string Text(const MeasuredDimension& m) {
   const double digits = -std::floor(std::log10(m.sigma));
   return (m.drawn.is_radius ? "R" : "") +
-         FixedText(m.value, static_cast<int>(std::clamp(digits, 0.0, 9.0)));
+         FixedText(m.drawn.value,
+                   static_cast<int>(std::clamp(digits, 0.0, 9.0)));
 }
 
 bool AreAlike(const MeasuredDimension& a, const MeasuredDimension& b) {
@@ -29,7 +31,7 @@ bool AreAlike(const MeasuredDimension& a, const MeasuredDimension& b) {
                             std::sin(DegToRad(kParallelDeg));
   return a.drawn.is_radius == b.drawn.is_radius &&
          (a.drawn.is_radius || are_parallel) &&
-         std::abs(a.value - b.value) <
+         std::abs(a.drawn.value - b.drawn.value) <
              kAlikeSigmas * std::hypot(a.sigma, b.sigma);
 }
 
@@ -45,16 +47,16 @@ std::optional<MeasuredDimension> DimensionOf(const CurveFit& fit,
   MeasuredDimension m;
   if (fit.kind == FitKind::kLine) {
     if (fit.start_node < 0 || fit.end_node < 0) return std::nullopt;
-    m.value = Length(fit);
+    m.drawn.value = Length(fit);
     const double sigma = DistanceSigma(
         fit.end - fit.start, fit.start_covariance, fit.end_covariance);
-    m.sigma = std::hypot(sigma, scale_sigma * m.value);
+    m.sigma = std::hypot(sigma, scale_sigma * m.drawn.value);
     m.drawn.a = flat.start.head<2>();
     m.drawn.b = flat.end.head<2>();
-    if (m.value - Length(flat) > m.sigma) return std::nullopt;
+    if (m.drawn.value - Length(flat) > m.sigma) return std::nullopt;
   } else if (fit.kind == FitKind::kArc && flat.kind == FitKind::kArc) {
-    m.value = fit.major.norm();
-    m.sigma = std::hypot(fit.radius_sigma, scale_sigma * m.value);
+    m.drawn.value = fit.major.norm();
+    m.sigma = std::hypot(fit.radius_sigma, scale_sigma * m.drawn.value);
     m.drawn.is_radius = true;
     m.drawn.a = flat.center.head<2>();
     m.drawn.b = PointAt(flat, flat.closed ? 0.125 : 0.5).head<2>();
@@ -62,7 +64,6 @@ std::optional<MeasuredDimension> DimensionOf(const CurveFit& fit,
     return std::nullopt;
   }
   if (!(m.sigma > 0) || !std::isfinite(m.sigma)) return std::nullopt;
-  m.drawn.value = m.value;
   m.drawn.text = Text(m);
   return m;
 }
@@ -73,7 +74,9 @@ std::vector<SheetDimension> ChooseDimensions(
   for (const MeasuredDimension& m : measured) bounds.extend(MiddleOf(m));
   std::vector<MeasuredDimension> sorted = measured;
   std::ranges::stable_sort(
-      sorted, std::ranges::greater(), &MeasuredDimension::value);
+      sorted, std::ranges::greater(), [](const MeasuredDimension& m) {
+        return m.drawn.value;
+      });
   std::vector<MeasuredDimension> chosen;
   for (const MeasuredDimension& m : sorted) {
     const auto alike =

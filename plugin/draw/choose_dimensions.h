@@ -12,8 +12,7 @@ namespace curvix {
 
 struct MeasuredDimension {
   SheetDimension drawn;  // without its shift
-  double value = 0;      // world units
-  double sigma = 0;      // > 0
+  double sigma = 0;      // of the value, > 0
 };
 
 // The length of a line from node to node or the radius of an arc, if the

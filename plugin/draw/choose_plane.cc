@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/text_fields.h"
 #include "measuring/main_axes.h"
@@ -35,17 +37,26 @@ Result<DrawingPlane> AutoPlane(const CurvesFile& curves, const Scene& scene) {
   return MainPlane(curves.fitted, axes, scene.views);
 }
 
+// The numbers in "nodes 12 31 7", as they are written; empty: it is not that.
+std::vector<std::string_view> NodesIn(std::string_view text) {
+  if (TakeWord(text) != "nodes") return {};
+  std::vector<std::string_view> words;
+  for (auto word = TakeWord(text); !word.empty(); word = TakeWord(text)) {
+    if (!ParseNumber<std::size_t>(word)) return {};
+    words.push_back(word);
+  }
+  if (words.size() != 3) return {};
+  return words;
+}
+
 Result<DrawingPlane> PlaneOfNodes(const std::string& text,
                                   const CurvesFile& curves,
                                   const Scene& scene) {
   const Eigen::Vector3d up =
       AxesAreKnown(curves) ? Eigen::Vector3d::UnitZ() : MeanUp(scene.views);
-  std::string_view rest = text;
-  TakeWord(rest);
   std::vector<Eigen::Vector3d> points;
   const std::vector<CurveNode>& nodes = curves.fitted.nodes;
-  for (std::string_view word = TakeWord(rest); !word.empty();
-       word = TakeWord(rest)) {
+  for (const std::string_view word : NodesIn(text)) {
     const std::size_t id = *ParseNumber<std::size_t>(word);
     if (id >= nodes.size()) return BadPlane(NoSuchNode(word, curves.fitted));
     points.push_back(nodes[id].position);
@@ -65,17 +76,6 @@ Result<DrawingPlane> ChoosePlane(const std::string& name,
   return *AxisPlane(name);
 }
 
-// "nodes 12 31 7".
-bool IsThreeNodes(std::string_view text) {
-  if (TakeWord(text) != "nodes") return false;
-  int count = 0;
-  for (auto word = TakeWord(text); !word.empty(); word = TakeWord(text)) {
-    if (!ParseNumber<std::size_t>(word)) return false;
-    ++count;
-  }
-  return count == 3;
-}
-
 }  // namespace
 
 Status CheckPlanes(const std::string& text) {
@@ -85,7 +85,7 @@ Status CheckPlanes(const std::string& text) {
     if (!names.insert(name).second) {
       return BadPlane("it has " + name + " twice");
     }
-    if (name == "auto" || AxisPlane(name) || IsThreeNodes(name)) continue;
+    if (name == "auto" || AxisPlane(name) || !NodesIn(name).empty()) continue;
     return BadPlane("\"" + name +
                     "\" is no plane; it takes xy, xz, yz, several of these "
                     "with commas between, auto, or three nodes, as in \"nodes "

@@ -4,17 +4,17 @@
 
 #include <curvix/fitting.h>
 #include <curvix/status.h>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "base/infinity.h"
 #include "drawing/drawing_plane.h"
 
 namespace curvix {
 
 struct DrawRange {
-  double from = -std::numeric_limits<double>::infinity();
-  double to = std::numeric_limits<double>::infinity();
+  double from = -kInfinity;
+  double to = kInfinity;
 };
 
 // Coordinates of the drawing, and depths.

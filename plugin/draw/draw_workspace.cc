@@ -3,13 +3,13 @@
 
 #include <curvix/fitting.h>
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/count_text.h"
 #include "base/file_io.h"
+#include "base/infinity.h"
 #include "base/text_fields.h"
 #include "drawing/dimension_marks.h"
 #include "drawing/drawing_plane.h"
@@ -161,8 +161,8 @@ Status Drafter::TakePlanes() {
 }
 
 Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
+  double low = kInfinity;
+  double high = -kInfinity;
   for (const FittedCurve& curve : curves_.fitted.curves) {
     for (const CurveFit& fit : curve.fits) {
       for (const double t : {0.0, 0.5, 1.0}) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What elevations, plans and sections show, side by
-// side on one sheet.
+// What elevations, plans and sections show, side by side on one sheet.
 #pragma once
 
 #include <curvix/scene.h>

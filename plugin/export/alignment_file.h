@@ -13,8 +13,8 @@ namespace curvix {
 
 constexpr const char* kAlignmentName = "alignment.json";
 
-// The members of alignment.json, as docs/measuring.md describes them; those of
-// `sources`, which say what it was found from, last.
+// The members of alignment.json, as docs/measuring.md describes them, but for
+// `sources`, which say what it was found from.
 Json AlignmentJson(const WorldAlignment& alignment);
 
 // The same, back. kDataLoss, with the member that is missing or wrong.

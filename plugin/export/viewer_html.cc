@@ -99,7 +99,7 @@ Json ShortFitJson(const CurveFit& fit) {
     json["r"] = fit.major.norm();
     json["rs"] = fit.radius_sigma;
     json["o"] = VectorJson(fit.center);
-    json["n"] = VectorJson(fit.major.cross(fit.minor).normalized());
+    json["n"] = VectorJson(NormalOf(fit));
   }
   return json;
 }
@@ -217,7 +217,7 @@ void EncodeViewerHtml(const CurveRecord& record,
                       int num_threads,
                       const ByteSink& sink) {
   const std::string_view page = ViewerTemplate();
-  constexpr std::string_view kMark = "@CURVIX_DATA@";
+  constexpr std::string_view kMark = "%CURVIX_DATA%";
   const std::size_t mark = page.find(kMark);
   sink(page.substr(0, mark));
   const Scene& scene = record.scene;

@@ -25,7 +25,7 @@ void EncodeViewerHtml(const CurveRecord& record,
                       int num_threads,
                       const ByteSink& sink);
 
-// plugin/viewer/viewer.html: "@CURVIX_DATA@" stands for the data.
+// plugin/viewer/viewer.html: "%CURVIX_DATA%" stands for the data.
 std::string_view ViewerTemplate();
 
 }  // namespace curvix

@@ -54,30 +54,26 @@ std::optional<int> FirstNumber(std::string_view name) {
 }
 
 Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
-  const Result<std::map<std::string, NpyArray>> arrays =
+  const Result<std::map<std::string, Eigen::Matrix4d>> matrices =
       ReadNpz(file, [&](const std::string& name) {
         return NumberIn(name, "world_mat_", "") ||
                (normalize && NumberIn(name, "scale_mat_", ""));
       });
-  if (!arrays.ok()) return arrays.status();
-  const auto matrix = [&](const std::string& name) -> Result<Eigen::MatrixXd> {
-    const std::string label = name + " of " + file.string();
-    const auto array = arrays->find(name);
-    if (array == arrays->end()) return BrokenDtu("There is no " + label);
-    return MatrixFromNpy(array->second, 4, 4, label);
-  };
+  if (!matrices.ok()) return matrices.status();
   Projections projections;
-  for (const auto& [name, array] : *arrays) {
+  for (const auto& [name, matrix] : *matrices) {
     const std::optional<int> number = NumberIn(name, "world_mat_", "");
     if (!number) continue;
-    Result<Eigen::MatrixXd> world = matrix(name);
-    if (!world.ok()) return world.status();
+    Eigen::Matrix4d world = matrix;
     if (normalize) {
-      const auto scale = matrix("scale_mat_" + std::to_string(*number));
-      if (!scale.ok()) return scale.status();
-      *world = *world * *scale;
+      const std::string scale_name = "scale_mat_" + std::to_string(*number);
+      const auto scale = matrices->find(scale_name);
+      if (scale == matrices->end()) {
+        return BrokenDtu("There is no " + scale_name + " of " + file.string());
+      }
+      world *= scale->second;
     }
-    projections[*number] = world->topRows<3>();
+    projections[*number] = world.topRows<3>();
   }
   if (projections.empty()) {
     return BrokenDtu(file.string() + " has no world_mat_0");

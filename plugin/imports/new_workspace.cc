@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/imports/new_workspace.h"
 
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "base/cancelled.h"
+#include "base/check.h"
 #include "base/file_io.h"
 #include "colmap/files.h"
 #include "plugin/base/staged_output.h"
@@ -91,9 +91,7 @@ Status WriteNewWorkspace(const ColmapModel& model,
                          CopyPolicy policy,
                          const fs::path& workspace,
                          const std::function<bool()>& keep_going) {
-  if (image_files.size() != model.images.size()) {
-    throw std::logic_error("WriteNewWorkspace without one file per image");
-  }
+  CURVIX_CHECK(image_files.size() == model.images.size(), "one per image");
   Status status = CheckUnused(workspace / "sparse");
   if (!status.ok()) return status;
   const bool in_place = AreInPlace(model, image_files, workspace / "images");

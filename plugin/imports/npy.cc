@@ -2,18 +2,14 @@
 #include "plugin/imports/npy.h"
 
 #include <zip.h>
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "base/bytes.h"
 #include "base/count_text.h"
-#include "base/text_fields.h"
 #include "colmap/files.h"
 
 namespace curvix {
@@ -29,7 +25,7 @@ Status BrokenNpy(const std::string& name, const std::string& why) {
 struct Header {
   std::string descr;
   bool fortran_order = false;
-  std::vector<std::size_t> shape;
+  std::string shape;
 };
 
 // The text behind 'key': in a Python dictionary; empty if there is none.
@@ -39,26 +35,6 @@ std::string_view Behind(std::string_view header, const std::string& key) {
   header.remove_prefix(at + key.size() + 2);
   const std::size_t begin = header.find_first_not_of(" :");
   return begin == header.npos ? std::string_view() : header.substr(begin);
-}
-
-// "(4, 4)", "(3,)", "()", and "(4L, 4L)" of Python 2.
-std::optional<std::vector<std::size_t>> ParseShape(std::string_view text) {
-  constexpr std::size_t kMaxDimensions = 32;  // as in NumPy
-  const std::size_t end = text.find(')');
-  if (!text.starts_with('(') || end == text.npos) return std::nullopt;
-  text = text.substr(1, end - 1);
-  std::vector<std::size_t> shape;
-  while (text.find_first_not_of(' ') != text.npos) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    std::string_view item = text.substr(0, comma);
-    std::string_view word = TakeWord(item);
-    if (word.ends_with('L')) word.remove_suffix(1);
-    const auto length = ParseNumber<std::size_t>(word);
-    if (!length || shape.size() == kMaxDimensions) return std::nullopt;
-    shape.push_back(*length);
-    text.remove_prefix(std::min(comma + 1, text.size()));
-  }
-  return shape;
 }
 
 std::optional<Header> ParseHeader(std::string_view text) {
@@ -73,10 +49,10 @@ std::optional<Header> ParseHeader(std::string_view text) {
   const std::string_view order = Behind(text, "fortran_order");
   header.fortran_order = order.starts_with("True");
   if (!header.fortran_order && !order.starts_with("False")) return std::nullopt;
-  std::optional<std::vector<std::size_t>> shape =
-      ParseShape(Behind(text, "shape"));
-  if (!shape) return std::nullopt;
-  header.shape = std::move(*shape);
+  const std::string_view shape = Behind(text, "shape");
+  header.shape = shape.substr(0, shape.find(')'));
+  // Python 2 writes "(4L, 4L)".
+  std::erase_if(header.shape, [](char c) { return c == ' ' || c == 'L'; });
   return header;
 }
 
@@ -97,49 +73,26 @@ std::optional<Header> TakeHeader(std::string_view& bytes) {
   return ParseHeader(text);
 }
 
-// The number of values, if it is at most `limit`.
-std::optional<std::size_t> CountOf(const std::vector<std::size_t>& shape,
-                                   std::size_t limit) {
-  std::size_t count = 1;
-  for (const std::size_t length : shape) {
-    if (length != 0 && count > limit / length) return std::nullopt;
-    count *= length;
-  }
-  return count <= limit ? std::optional(count) : std::nullopt;
-}
+constexpr std::size_t kNumValues = 16;
 
-// The place in C order of the value that is `index`-th in Fortran order.
-std::size_t IndexInCOrder(std::size_t index,
-                          const std::vector<std::size_t>& shape) {
-  std::size_t place = 0;
-  std::size_t stride = 1;
-  for (const std::size_t length : shape) stride *= length;
-  for (const std::size_t length : shape) {
-    stride /= length;
-    place += index % length * stride;
-    index /= length;
-  }
-  return place;
-}
-
+// `bytes` hold kNumValues of T.
 template <typename T>
-std::vector<double> ValuesOf(std::string_view bytes,
-                             const Header& header,
-                             std::size_t count) {
+Eigen::Matrix4d ValuesOf(std::string_view bytes, const Header& header) {
   const std::endian order =
       header.descr[0] == '>' ? std::endian::big : std::endian::little;
-  std::vector<double> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double value = LoadBytes<T>(bytes.data() + i * sizeof(T), order);
-    values[header.fortran_order ? IndexInCOrder(i, header.shape) : i] = value;
+  Eigen::Matrix4d matrix;  // in Fortran order
+  for (std::size_t i = 0; i < kNumValues; ++i) {
+    matrix.data()[i] = LoadBytes<T>(bytes.data() + i * sizeof(T), order);
   }
-  return values;
+  if (!header.fortran_order) matrix.transposeInPlace();
+  return matrix;
 }
 
 }  // namespace
 
-Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
-  std::optional<Header> header = TakeHeader(bytes);
+Result<Eigen::Matrix4d> ParseNpy(std::string_view bytes,
+                                 const std::string& name) {
+  const std::optional<Header> header = TakeHeader(bytes);
   if (!header) return BrokenNpy(name, "does not begin like a NumPy array");
   const std::string& type = header->descr;
   const bool is_double = type == "<f8" || type == ">f8";
@@ -148,36 +101,17 @@ Result<NpyArray> ParseNpy(std::string_view bytes, const std::string& name) {
         name + " holds values of the type " + type +
         " and must hold float32 or float64; convert it with numpy's astype.");
   }
-  const std::size_t size = is_double ? sizeof(double) : sizeof(float);
-  const std::optional<std::size_t> count =
-      CountOf(header->shape, bytes.size() / size);
-  if (!count || *count * size != bytes.size()) {
+  if (header->shape != "(4,4" && header->shape != "(4,4,") {
+    return BrokenNpy(name, "is not a 4 x 4 matrix");
+  }
+  if (bytes.size() !=
+      kNumValues * (is_double ? sizeof(double) : sizeof(float))) {
     return BrokenNpy(name,
                      "is cut short or damaged: its shape does not fit the " +
                          Plural(bytes.size(), "byte") + " of its values");
   }
-  NpyArray array;
-  array.values = is_double ? ValuesOf<double>(bytes, *header, *count)
-                           : ValuesOf<float>(bytes, *header, *count);
-  array.shape = std::move(header->shape);
-  return array;
-}
-
-Result<Eigen::MatrixXd> MatrixFromNpy(const NpyArray& array,
-                                      int rows,
-                                      int cols,
-                                      const std::string& name) {
-  const std::vector<std::size_t> shape = {static_cast<std::size_t>(rows),
-                                          static_cast<std::size_t>(cols)};
-  if (array.shape != shape) {
-    return BrokenNpy(name,
-                     "is not a " + std::to_string(rows) + " x " +
-                         std::to_string(cols) + " matrix");
-  }
-  using RowMajor =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::MatrixXd matrix =
-      Eigen::Map<const RowMajor>(array.values.data(), rows, cols);
+  const Eigen::Matrix4d matrix = is_double ? ValuesOf<double>(bytes, *header)
+                                           : ValuesOf<float>(bytes, *header);
   if (!matrix.allFinite()) return BrokenNpy(name, "holds NaN or infinity");
   return matrix;
 }
@@ -233,9 +167,9 @@ std::optional<std::string> ReadEntry(zip_t* archive, const zip_stat_t& stat) {
   return bytes;
 }
 
-Result<NpyArray> ReadArray(zip_t* archive,
-                           const zip_stat_t& stat,
-                           const std::string& name) {
+Result<Eigen::Matrix4d> ReadNpyMatrix(zip_t* archive,
+                                      const zip_stat_t& stat,
+                                      const std::string& name) {
   if ((stat.valid & ZIP_STAT_SIZE) == 0 || stat.size > kMaxBytes) {
     return BrokenArchive(name,
                          "is larger than a megabyte, too large for a camera");
@@ -247,12 +181,12 @@ Result<NpyArray> ReadArray(zip_t* archive,
 
 }  // namespace
 
-Result<std::map<std::string, NpyArray>> ReadNpz(
+Result<std::map<std::string, Eigen::Matrix4d>> ReadNpz(
     const std::filesystem::path& path,
     const std::function<bool(const std::string& name)>& wanted) {
   Result<Archive> archive = OpenArchive(path);
   if (!archive.ok()) return archive.status();
-  std::map<std::string, NpyArray> arrays;
+  std::map<std::string, Eigen::Matrix4d> matrices;
   const zip_int64_t count = zip_get_num_entries(archive->get(), 0);
   for (zip_int64_t i = 0; i < count; ++i) {
     zip_stat_t stat;
@@ -266,12 +200,12 @@ Result<std::map<std::string, NpyArray>> ReadNpz(
     if (!name.ends_with(".npy")) continue;
     name.resize(name.size() - 4);
     if (!wanted(name)) continue;
-    Result<NpyArray> array =
-        ReadArray(archive->get(), stat, name + " of " + path.string());
-    if (!array.ok()) return array.status();
-    arrays[name] = std::move(array).value();
+    const Result<Eigen::Matrix4d> matrix =
+        ReadNpyMatrix(archive->get(), stat, name + " of " + path.string());
+    if (!matrix.ok()) return matrix.status();
+    matrices[name] = *matrix;
   }
-  return arrays;
+  return matrices;
 }
 
 }  // namespace curvix

@@ -190,21 +190,20 @@ Status CheckEnd(const ChildEnd& end, double timeout_s) {
 }
 
 // What COLMAP prints when it is called with `arguments`, which ask for help.
+// Temporary files go to `folder`.
 Result<std::string> ColmapHelp(const std::vector<std::string>& arguments,
                                const ColmapRun& run,
+                               const fs::path& folder,
                                const KeepGoing& keep_going) {
-  const Result<fs::path> made = ScratchFolder::Make();
-  if (!made.ok()) return made.status();
-  const ScratchFolder scratch(*made);
-  const fs::path text_path = scratch.path() / "help.txt";
+  const fs::path text_path = folder / "help.txt";
   const double timeout_s = std::min(run.timeout_s, kHelpTimeoutS);
   const Result<ChildEnd> end = RunChildProcess({run.program,
                                                 arguments,
-                                                scratch.path(),
+                                                folder,
                                                 text_path,
                                                 timeout_s,
                                                 keep_going,
-                                                LogsInto(scratch.path())});
+                                                LogsInto(folder)});
   if (!end.ok()) return end.status();
   if (end->kind == ChildEnd::Kind::kStopped) return CancelledStatus();
   if (end->kind == ChildEnd::Kind::kTimedOut) {
@@ -213,6 +212,20 @@ Result<std::string> ColmapHelp(const std::vector<std::string>& arguments,
   }
   constexpr std::size_t kMaxHelpBytes = 100000;
   return BeginningOf(text_path, kMaxHelpBytes);
+}
+
+// "3.8"; "unknown" if `help` is not COLMAP's.
+std::string VersionIn(const std::string& help) {
+  static const std::regex kBanner(R"(^COLMAP (\d+\.\d+[^ ]{0,20}))");
+  constexpr int kMaxBannerLine = 50;
+  std::istringstream text(help);
+  std::string line;
+  for (int i = 0; i < kMaxBannerLine && std::getline(text, line); ++i) {
+    std::smatch match;
+    line.resize(std::min<std::size_t>(line.size(), 200));
+    if (std::regex_search(line, match, kBanner)) return match[1].str();
+  }
+  return "unknown";
 }
 
 // The name of the option for kFunctionTolerance, which COLMAP 4 renamed; empty
@@ -266,35 +279,24 @@ Result<fs::path> FindColmap(const fs::path& given) {
                           kHowToInstall);
 }
 
-Result<std::string> ColmapVersion(const ColmapRun& run,
-                                  const KeepGoing& keep_going) {
-  const Result<std::string> help = ColmapHelp({"help"}, run, keep_going);
-  if (!help.ok()) return help.status();
-  static const std::regex kBanner(R"(^COLMAP (\d+\.\d+[^ ]{0,20}))");
-  constexpr int kMaxBannerLine = 50;
-  std::istringstream text(*help);
-  std::string line;
-  for (int i = 0; i < kMaxBannerLine && std::getline(text, line); ++i) {
-    std::smatch match;
-    line.resize(std::min<std::size_t>(line.size(), 200));
-    if (std::regex_search(line, match, kBanner)) return match[1].str();
-  }
-  return std::string("unknown");
-}
-
 Result<Scene> RefineWithColmap(const Scene& scene,
                                const ColmapRun& run,
-                               const KeepGoing& keep_going) {
-  const Result<std::string> help =
-      ColmapHelp({"bundle_adjuster", "--help"}, run, keep_going);
+                               const KeepGoing& keep_going,
+                               std::string* version) {
+  const Result<fs::path> made = ScratchFolder::Make();
+  if (!made.ok()) return made.status();
+  const ScratchFolder scratch(*made);
+  const Result<std::string> general =
+      ColmapHelp({"help"}, run, scratch.path(), keep_going);
+  if (!general.ok()) return general.status();
+  *version = VersionIn(*general);
+  const Result<std::string> help = ColmapHelp(
+      {"bundle_adjuster", "--help"}, run, scratch.path(), keep_going);
   if (!help.ok() && help.status().code() == StatusCode::kCancelled) {
     return help.status();
   }
   const std::string tolerance_option =
       help.ok() ? FunctionToleranceOption(*help) : "";
-  const Result<fs::path> made = ScratchFolder::Make();
-  if (!made.ok()) return made.status();
-  const ScratchFolder scratch(*made);
   const fs::path input = scratch.path() / "input";
   const fs::path output = scratch.path() / "output";
   std::error_code error;

@@ -23,20 +23,17 @@ struct ColmapRun {
   std::filesystem::path log_path;  // takes what COLMAP says
 };
 
-// "3.8", read from the first lines of `colmap help`; "unknown" if they are not
-// COLMAP's. kCancelled; kExternalTool if there is no answer in time.
-Result<std::string> ColmapVersion(const ColmapRun& run,
-                                  const KeepGoing& keep_going);
-
 // Adjusts poses and points of `scene` by `colmap bundle_adjuster`; cameras
 // stay. It has no robust loss, so outliers are left out. Options are those that
 // COLMAP 3.6 to 4.x know, and its function tolerance under the name that its
-// help has. kExternalTool, with a sentence that says what went wrong: it could
-// not be started, failed, took too long, or wrote no model with the same images
-// and cameras. kCancelled when keep_going says so; kInvalidArgument: no room
-// for temporary files.
+// help has. `version` is set as soon as COLMAP answers: "3.8", from the first
+// lines of its help; "unknown" if they are not COLMAP's. kExternalTool, with a
+// sentence that says what went wrong: it could not be started, failed, took too
+// long, or wrote no model with the same images and cameras. kCancelled when
+// keep_going says so; kInvalidArgument: no room for temporary files.
 Result<Scene> RefineWithColmap(const Scene& scene,
                                const ColmapRun& run,
-                               const KeepGoing& keep_going);
+                               const KeepGoing& keep_going,
+                               std::string* version);
 
 }  // namespace curvix

@@ -3,7 +3,8 @@
 
 #include <curvix/scene.h>
 #include <algorithm>
-#include <map>
+#include <cstdint>
+#include <set>
 #include <utility>
 
 #include "base/count_text.h"
@@ -16,10 +17,12 @@ namespace curvix {
 namespace {
 
 // The cameras of `before` that differ now, once more with new ids, for the
-// images that no view of `poses` shows: their poses were made for them.
+// images that are not views of `scene`: their poses were made for them.
 void KeepCamerasOfOthers(const std::vector<ColmapCamera>& before,
-                         const std::map<std::uint32_t, Rigid3>& poses,
+                         const Scene& scene,
                          ColmapModel* model) {
+  std::set<std::uint32_t> moved_ids;
+  for (const View& view : scene.views) moved_ids.insert(view.image_id);
   std::uint32_t last_id = 0;
   for (const ColmapCamera& camera : before) {
     last_id = std::max(last_id, camera.camera_id);
@@ -29,7 +32,7 @@ void KeepCamerasOfOthers(const std::vector<ColmapCamera>& before,
     bool is_used = false;
     for (ColmapImage& image : model->images) {
       if (image.camera_id != before[i].camera_id ||
-          poses.count(image.image_id) > 0) {
+          moved_ids.contains(image.image_id)) {
         continue;
       }
       image.camera_id = last_id + 1;
@@ -41,26 +44,16 @@ void KeepCamerasOfOthers(const std::vector<ColmapCamera>& before,
 
 // `model` with the poses of the views of `scene` and its cameras, and points
 // that fit them. Other images stay as they are.
-ColmapModel WithPoses(ColmapModel model,
-                      const Scene& scene,
+ColmapModel WithPoses(const ColmapModel& model,
+                      Scene scene,
                       const CurvePoses& refined) {
-  std::map<std::uint32_t, Rigid3> poses;
-  for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    poses[scene.views[i].image_id] = refined.cam_from_world[i];
-  }
-  const std::vector<ColmapCamera> before = model.cameras;
-  // A scene has all cameras of its model, in order.
-  for (std::size_t i = 0; i < model.cameras.size(); ++i) {
-    model.cameras[i].camera = refined.cameras[i];
-  }
-  for (ColmapImage& image : model.images) {
-    const auto found = poses.find(image.image_id);
-    if (found != poses.end()) image.cam_from_world = found->second;
-  }
-  KeepCamerasOfOthers(before, poses, &model);
-  Scene adjusted = AdjustableScene(model);
+  scene.points.clear();
+  MoveViews(refined, &scene);
+  ColmapModel moved = ModelWithScene(model, scene);
+  KeepCamerasOfOthers(model.cameras, scene, &moved);
+  Scene adjusted = AdjustableScene(moved);
   FitPoints(&adjusted);
-  return ModelWithScene(std::move(model), adjusted);
+  return ModelWithScene(std::move(moved), adjusted);
 }
 
 // Of the held-out samples of curves; of the held-out points if there are none.
@@ -103,6 +96,13 @@ std::string CurvePosesRefusal(const CurvePoseRecord& record) {
   const CurvePoses& poses = record.poses;
   if (poses.accepted || poses.num_views_moved == 0) return "";
   return "Refinement with curves is refused: " + poses.reason + ".";
+}
+
+void MoveViews(const CurvePoses& found, Scene* scene) {
+  scene->cameras = found.cameras;
+  for (std::size_t i = 0; i < scene->views.size(); ++i) {
+    scene->views[i].cam_from_world = found.cam_from_world[i];
+  }
 }
 
 CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,

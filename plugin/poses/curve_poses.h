@@ -47,6 +47,9 @@ std::string CurvePosesText(const CurvePoseRecord& record);
 // they are used.
 std::string CurvePosesRefusal(const CurvePoseRecord& record);
 
+// Gives `scene` the poses and cameras that were found for it.
+void MoveViews(const CurvePoses& found, Scene* scene);
+
 // What RefinePosesWithCurves() has made of `scene` for `model`. The scene is
 // that of the model, without the views whose images are missing.
 CurvePoseRefinement ModelWithCurvePoses(const ColmapModel& model,

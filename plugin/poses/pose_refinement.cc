@@ -32,10 +32,7 @@ Result<Scene> RunColmap(const Scene& scene,
   record->refiner = "colmap";
   record->colmap_path = run.program.string();
   record->colmap_version = "unknown";
-  const Result<std::string> version = ColmapVersion(run, keep_going);
-  if (!version.ok()) return version.status();
-  record->colmap_version = *version;
-  return RefineWithColmap(scene, run, keep_going);
+  return RefineWithColmap(scene, run, keep_going, &record->colmap_version);
 }
 
 // Moves the world of `refined` back to that of `input`; false if there is no

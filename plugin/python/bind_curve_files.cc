@@ -3,7 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 #include <filesystem>
-#include <sstream>
+#include <string>
 
 #include "evaluation/evaluate.h"
 #include "plugin/commands/evaluations.h"
@@ -76,10 +76,7 @@ std::string Evaluate(const PythonCurves& curves,
     for (std::size_t i = 0; i < curves.table.size(); ++i) all.push_back(i);
     return EvaluateCurves(curves.table.Select(all), *truth, options);
   };
-  const Evaluation evaluation = Take(WithoutLock(evaluate));
-  std::ostringstream json;
-  PrintEvaluation(evaluation, EvaluationFormat::kJson, json);
-  return json.str();
+  return EvaluationText(Take(WithoutLock(evaluate)), /*json=*/true);
 }
 
 }  // namespace

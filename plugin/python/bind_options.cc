@@ -36,11 +36,9 @@ Flag FlagNamed(const std::string& name, RunSettings& settings) {
     if (flag.name == name) return flag;
     names.push_back(flag.name);
   }
-  const std::string nearest = NearestName(name, names);
-  Raise(Status::InvalidArgument("There is no option '" + name + "'" +
-                                (nearest.empty()
-                                     ? "; list(pycurvix.Options()) has all"
-                                     : "; did you mean '" + nearest + "'?")));
+  Raise(Status::InvalidArgument(
+      "There is no option '" + name + "'" +
+      Suggestion(name, names, "", "list(pycurvix.Options()) has all")));
 }
 
 py::object ValueOf(const Flag& flag) {

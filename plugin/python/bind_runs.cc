@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -142,18 +142,9 @@ std::string EvaluateHoldout(const WorkspacePaths& paths,
                             const PythonOptions& options,
                             const py::object& callback) {
   const RunSettings settings = SettingsOf(options, paths);
-  return RunWithProgress(callback,
-                         [&](RunProgress& progress) -> Result<std::string> {
-                           std::ostringstream json;
-                           Status status = RunHoldout(settings,
-                                                      curves_path,
-                                                      every,
-                                                      EvaluationFormat::kJson,
-                                                      progress,
-                                                      json);
-                           if (!status.ok()) return status;
-                           return json.str();
-                         });
+  return RunWithProgress(callback, [&](RunProgress& progress) {
+    return RunHoldout(settings, curves_path, every, /*json=*/true, progress);
+  });
 }
 
 }  // namespace

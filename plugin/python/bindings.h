@@ -65,17 +65,15 @@ class PythonCurves {
   mutable std::optional<FitTable> fits_;
 };
 
-// An array that shows `count` items of `T` from `first` on without copying:
-// of each item its first numbers of type `Number`, in an array of shape
-// `item_shape`, a matrix by columns as Eigen has it. It is read only and keeps
-// `owner`, which holds the items.
+// An array that shows `items` without copying: of each item its first numbers
+// of type `Number`, in an array of shape `item_shape`, a matrix by columns as
+// Eigen has it. It is read only and keeps `owner`, which holds the items.
 template <typename Number, typename T>
 pybind11::array ViewOf(const pybind11::object& owner,
-                       const T* first,
-                       std::size_t count,
+                       const std::vector<T>& items,
                        const std::vector<pybind11::ssize_t>& item_shape) {
   std::vector<pybind11::ssize_t> shape = {
-      static_cast<pybind11::ssize_t>(count)};
+      static_cast<pybind11::ssize_t>(items.size())};
   std::vector<pybind11::ssize_t> strides = {sizeof(T)};
   pybind11::ssize_t step = sizeof(Number);
   for (const pybind11::ssize_t length : item_shape) {
@@ -87,17 +85,10 @@ pybind11::array ViewOf(const pybind11::object& owner,
   pybind11::array view(pybind11::dtype::of<Number>(),
                        shape,
                        strides,
-                       first == nullptr ? &none : first,
+                       items.empty() ? &none : items.data(),
                        owner);
   view.attr("setflags")(pybind11::arg("write") = false);
   return view;
-}
-
-template <typename Number, typename T>
-pybind11::array ViewOf(const pybind11::object& owner,
-                       const std::vector<T>& items,
-                       const std::vector<pybind11::ssize_t>& item_shape = {}) {
-  return ViewOf<Number>(owner, items.data(), items.size(), item_shape);
 }
 
 void BindOptions(pybind11::module_& module);

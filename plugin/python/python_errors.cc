@@ -2,6 +2,7 @@
 #include "plugin/python/python_errors.h"
 
 #include <array>
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -20,42 +21,36 @@ py::str Text(const std::string& text) {
 }
 
 struct ErrorClass {
-  StatusCode code;
   const char* name;
   const char* base;  // among Python's own
   const char* doc;
 };
 
+// In the order of StatusCode, from kInvalidArgument on.
 constexpr std::array kClasses = {
-    ErrorClass{StatusCode::kInvalidArgument,
-               "ArgumentError",
+    ErrorClass{"ArgumentError",
                "ValueError",
                "An option or an argument that cannot work."},
     ErrorClass{
-        StatusCode::kNotFound,
         "NotFoundError",
         "FileNotFoundError",
         "A file, folder or program that is not there or cannot be opened."},
-    ErrorClass{StatusCode::kDataLoss,
-               "DataError",
+    ErrorClass{"DataError",
                "OSError",
                "A file that is broken, truncated or cannot be written."},
-    ErrorClass{StatusCode::kUnsupported,
-               "UnsupportedError",
+    ErrorClass{"UnsupportedError",
                "ValueError",
                "Valid input that curvix does not handle."},
-    ErrorClass{StatusCode::kExternalTool,
-               "ToolError",
-               "RuntimeError",
-               "A program that was called failed."},
-    ErrorClass{StatusCode::kCancelled,
-               "CancelledError",
+    ErrorClass{
+        "ToolError", "RuntimeError", "A program that was called failed."},
+    ErrorClass{"CancelledError",
                "RuntimeError",
                "The progress function returned False."},
-    ErrorClass{StatusCode::kInternal,
-               "InternalError",
+    ErrorClass{"InternalError",
                "RuntimeError",
                "A mistake of curvix itself; please report it."}};
+static_assert(kClasses.size() ==
+              static_cast<std::size_t>(StatusCode::kInternal));
 
 // Not objects of C++, which would be destroyed after Python has ended.
 std::array<PyObject*, kClasses.size()> classes = {};
@@ -69,15 +64,10 @@ PyObject* NewClass(const std::string& name,
   return made;
 }
 
-PyObject* ClassOf(StatusCode code) {
-  for (std::size_t i = 0; i < kClasses.size(); ++i) {
-    if (kClasses[i].code == code) return classes[i];
-  }
-  return PyExc_RuntimeError;
-}
-
+// `status` is not ok.
 void Set(const Status& status) {
-  PyErr_SetObject(ClassOf(status.code()), Text(status.message()).ptr());
+  PyErr_SetObject(classes.at(static_cast<std::size_t>(status.code()) - 1),
+                  Text(status.message()).ptr());
 }
 
 }  // namespace

@@ -50,7 +50,6 @@ class PythonProgress : public RunProgress {
       : callback_(std::move(callback)) {}
 
   bool Update(const std::string& stage, int done, int total) override;
-  using RunProgress::Finish;
   void Finish(const std::string& /*detail*/) override {}
   // To the logger "pycurvix", as a warning.
   void Note(const std::string& line) override;

@@ -9,7 +9,7 @@
 #include "base/file_io.h"
 #include "base/parallel.h"
 #include "colmap/colmap_model.h"
-#include "io/stage_io.h"
+#include "io/stage_file.h"
 
 namespace curvix {
 namespace {
@@ -77,7 +77,7 @@ Result<std::vector<std::uint64_t>> HashImages(const Scene& scene,
     if (!status.ok()) return status;
   }
   if (progress.IsCancelled()) return CancelledStatus();
-  progress.Finish();
+  progress.Finish("");
   return hashes;
 }
 

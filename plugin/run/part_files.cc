@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -14,8 +16,10 @@
 #include "base/file_io.h"
 #include "base/option_table.h"
 #include "base/text_fields.h"
+#include "io/stage_file.h"
 #include "io/stage_io.h"
 #include "plugin/base/json.h"
+#include "plugin/export/curves_json.h"
 #include "plugin/run/file_hashes.h"
 #include "plugin/run/part_models.h"
 #include "plugin/run/run_report.h"
@@ -46,7 +50,7 @@ std::optional<int> NodeOf(std::string_view name) {
 }
 
 Json CutJson(const SceneCut& cut) {
-  return {{"normal", {cut.normal.x(), cut.normal.y(), cut.normal.z()}},
+  return {{"normal", VectorJson(cut.normal)},
           {"offset", cut.offset},
           {"below", NodeName(cut.below)},
           {"above", NodeName(cut.above)}};
@@ -101,8 +105,8 @@ ScenePartition PartitionOf(const Json& json) {
 
 bool IsAscending(const std::vector<int>& idxs, int num_views) {
   return !idxs.empty() && idxs.front() >= 0 && idxs.back() < num_views &&
-         std::ranges::adjacent_find(
-             idxs, [](int a, int b) { return a >= b; }) == idxs.end();
+         std::ranges::adjacent_find(idxs, std::ranges::greater_equal()) ==
+             idxs.end();
 }
 
 // Whether every cut and part is reached once from the first cut, and views
@@ -128,17 +132,6 @@ bool IsSound(const ScenePartition& partition, int num_views) {
                return IsAscending(part.view_idxs, num_views) &&
                       IsAscending(part.own_view_idxs, num_views);
              });
-}
-
-constexpr const char* kModelFiles[] = {
-    "cameras.bin", "images.bin", "points3D.bin"};
-
-template <typename T>
-std::vector<T> Chosen(const std::vector<T>& values,
-                      const std::vector<int>& idxs) {
-  std::vector<T> chosen;
-  for (const int idx : idxs) chosen.push_back(values[Idx(idx)]);
-  return chosen;
 }
 
 // "these parts are not there: 1, 3" and the like; "" without parts.
@@ -202,7 +195,7 @@ Status WritePlan(const ScenePartition& partition,
 
 Status CheckModelIsThere(const fs::path& folder) {
   std::error_code error;
-  for (const char* file : kModelFiles) {
+  for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"}) {
     if (fs::exists(folder / file, error)) continue;
     return Status::NotFound(
         "there is no " + (folder / file).string() +
@@ -277,8 +270,10 @@ Result<PartFiles> PartFiles::Open(
       missing.push_back(i);
       continue;
     }
-    const auto hashes =
-        Chosen(image_hashes, plan.partition.parts[Idx(i)].view_idxs);
+    std::vector<std::uint64_t> hashes;
+    for (const int idx : plan.partition.parts[Idx(i)].view_idxs) {
+      hashes.push_back(image_hashes[Idx(idx)]);
+    }
     Result<PartFile> file = PartFile::Open(part / kPartResultName,
                                            PartKey(plan, i, options, hashes));
     if (!file.ok()) {

@@ -14,8 +14,10 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/stopwatch.h"
+#include "colmap/files.h"
 #include "io/curve_formats.h"
 #include "io/stage_io.h"
+#include "parts/joined_curves.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/run/file_hashes.h"
 #include "plugin/run/part_files.h"
@@ -59,12 +61,9 @@ void NoteOverlap(const ScenePartition& partition, RunProgress& progress) {
 
 // Whether any part is done, of whatever plan.
 bool HasResults(const fs::path& folder) {
-  if (!fs::exists(folder)) return false;
-  return std::any_of(fs::directory_iterator(folder),
-                     fs::directory_iterator(),
-                     [](const fs::directory_entry& entry) {
-                       return fs::exists(entry.path() / kPartResultName);
-                     });
+  return std::ranges::any_of(EntriesOf(folder), [](const fs::path& entry) {
+    return fs::exists(entry / kPartResultName);
+  });
 }
 
 // Those of a model that 'partition' has written.
@@ -257,29 +256,29 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   Result<PartFiles> parts =
       PartFiles::Open(*plan, settings.options, *image_hashes, folder, progress);
   if (!parts.ok()) return parts.status();
-  const auto curves =
-      JoinParts(plan->partition, *parts, input->scene, settings.options);
-  if (!curves.ok()) return curves.status();
+  const JoinedCurves curves(
+      plan->partition, *parts, input->scene, settings.options);
+  if (!curves.status().ok()) return curves.status();
   const std::size_t num_parts = plan->partition.parts.size();
-  record.stages.push_back(since_join.Read(
-      kJoinStage,
-      {{"parts", static_cast<std::int64_t>(num_parts)},
-       {"curves", static_cast<std::int64_t>((*curves)->size())}}));
+  record.stages.push_back(
+      since_join.Read(kJoinStage,
+                      {{"parts", static_cast<std::int64_t>(num_parts)},
+                       {"curves", static_cast<std::int64_t>(curves.size())}}));
   record.result.num_edges_2d = parts->num_edges_2d();
-  status = WriteFindings(input->scene,
-                         {**curves,
-                          parts->num_edges_3d(),
-                          [&](const fs::path& path) {
-                            return ConcatenatePlyEdges(
-                                path, EdgesPaths(*plan, folder));
-                          },
-                          (*curves)->size() > 0
-                              ? ""
-                              : "no part has any; report.json in the folders "
-                                "of the parts says more"},
-                         output->folder(),
-                         record)
-               .status();
+  status =
+      WriteFindings(
+          input->scene,
+          {curves,
+           parts->num_edges_3d(),
+           [&](const fs::path& path) {
+             return ConcatenatePlyEdges(path, EdgesPaths(*plan, folder));
+           },
+           curves.size() > 0 ? ""
+                             : "no part has any; report.json in the folders "
+                               "of the parts says more"},
+          output->folder(),
+          record)
+          .status();
   if (status.ok()) status = FinishRun(since_start, *output, progress, record);
   if (!status.ok()) return status;
   return record;

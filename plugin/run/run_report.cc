@@ -13,6 +13,7 @@
 #include "plugin/base/json.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
+#include "plugin/export/curves_json.h"
 
 namespace curvix {
 namespace {
@@ -142,8 +143,6 @@ Json CountsJson(const std::vector<StageReport>& stages) {
   return json;
 }
 
-double Milli(double value) { return std::round(value * 1000) / 1000; }
-
 Json ResultJson(const ResultSummary& result) {
   Json json;
   json["num_curves"] = result.num_curves;
@@ -154,7 +153,7 @@ Json ResultJson(const ResultSummary& result) {
   json["num_edges_2d"] = result.num_edges_2d;
   // Merges and imports do not measure it.
   if (result.edge_sigma_px > 0) {
-    json["edge_sigma_px"] = Milli(result.edge_sigma_px);
+    json["edge_sigma_px"] = Rounded(result.edge_sigma_px, 3);
   }
   json["files"] = result.files;
   json["why_empty"] = result.why_empty;
@@ -168,10 +167,10 @@ double Parallelism(const StageReport& stage) {
 
 Json CostJson(const StageReport& stage) {
   return {{"name", stage.name},
-          {"wall_seconds", Milli(stage.wall_seconds)},
-          {"cpu_seconds", Milli(stage.cpu_seconds)},
-          {"parallelism", Milli(Parallelism(stage))},
-          {"peak_memory_mb", Milli(stage.peak_memory_mb)}};
+          {"wall_seconds", Rounded(stage.wall_seconds, 3)},
+          {"cpu_seconds", Rounded(stage.cpu_seconds, 3)},
+          {"parallelism", Rounded(Parallelism(stage), 3)},
+          {"peak_memory_mb", Rounded(stage.peak_memory_mb, 3)}};
 }
 
 Json RunJson(const RunRecord& record) {
@@ -344,7 +343,7 @@ std::string SummaryText(const RunRecord& record) {
           DurationText(record.total.cpu_seconds) + ", " +
           GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
   if (result.edge_sigma_px > 0) {
-    text += "  2D edges are " + ShortText(Milli(result.edge_sigma_px), 4) +
+    text += "  2D edges are " + ShortText(Rounded(result.edge_sigma_px, 3), 4) +
             " px off their 3D edges (standard deviation)\n";
   }
   text += "\n";

@@ -172,10 +172,7 @@ Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
   if (!moved.ok()) return moved.status();
   stages.edge_maps = *std::move(moved);
   stages.refined_model = std::move(result.model);
-  scene.cameras = poses.cameras;
-  for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    scene.views[i].cam_from_world = poses.cam_from_world[i];
-  }
+  MoveViews(poses, &scene);
   std::map<std::uint64_t, Eigen::Vector3d> positions;
   for (const ColmapPoint3D& point : stages.refined_model->points) {
     positions[point.point3D_id] = point.position;
@@ -230,7 +227,7 @@ Result<Reconstruction> RunStages::Reconstruct(
                        record_.settings.options,
                        progress_.Callback());
   if (!reconstruction.ok()) return reconstruction.status();
-  progress_.Finish();
+  progress_.Finish("");
   for (const StageReport& stage : reconstruction->report.stages) {
     record_.stages.push_back(stage);
   }

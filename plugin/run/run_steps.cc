@@ -12,7 +12,6 @@
 #include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "colmap/files.h"
-#include "edge_detection/load_image.h"
 #include "measuring/moved_curves.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/drawing_files.h"
@@ -125,14 +124,6 @@ Result<Workspace> FindInput(const RunSettings& settings) {
   return workspace;
 }
 
-Status CheckImages(const Scene& scene) {
-  for (const View& view : scene.views) {
-    Status status = CheckImageFiles(view, CameraOf(scene, view));
-    if (!status.ok()) return status;
-  }
-  return {};
-}
-
 Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {
   const fs::path refined = workspace.output_path / "sparse";
   if (fs::exists(refined)) workspace.model_path = refined;
@@ -231,7 +222,7 @@ Status FinishRun(const Stopwatch& since_start,
                  RunRecord& record) {
   record.result.files.push_back("report.json");
   record.total = since_start.Read("total");
-  progress.Finish();
+  progress.Finish("");
   Status status =
       WriteFileAtomically(output.folder() / "report.json", ReportJson(record));
   if (status.ok() && progress.IsCancelled()) status = CancelledStatus();

@@ -29,10 +29,6 @@ Result<Workspace> FindInput(const RunSettings& settings);
 // LoadWorkspaceScene.
 Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress);
 
-// What is wrong with the images or masks of a scene, as far as their headers
-// tell: at once, where edges would be sought only after minutes.
-Status CheckImages(const Scene& scene);
-
 // Reads the model of `workspace`, and alignment.json if the folder of results
 // has one; puts into `record` which folders and what they hold. Errors of
 // LoadWorkspaceScene, CheckOutput and ReadAlignment.

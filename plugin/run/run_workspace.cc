@@ -10,6 +10,7 @@
 #include "base/count_text.h"
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
+#include "edge_detection/load_image.h"
 #include "plugin/base/staged_output.h"
 #include "plugin/poses/pose_refinement.h"
 #include "plugin/run/run_steps.h"
@@ -18,6 +19,16 @@ namespace curvix {
 namespace {
 
 namespace fs = std::filesystem;
+
+// What is wrong with the images or masks of a scene, as far as their headers
+// tell: at once, where edges would be sought only after minutes.
+Status CheckImages(const Scene& scene) {
+  for (const View& view : scene.views) {
+    Status status = CheckImageFiles(view, CameraOf(scene, view));
+    if (!status.ok()) return status;
+  }
+  return {};
+}
 
 // Poses by bundle adjustment, if that is better: `input` takes them over.
 // Whether it does.

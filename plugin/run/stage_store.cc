@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/option_table.h"
+#include "io/stage_file.h"
 #include "io/stage_io.h"
 #include "plugin/run/run_report.h"
 
@@ -23,11 +24,10 @@ class KeyMaker {
     hash_ = HashBytes(text, hash_);
     hash_ = HashBytes(std::string_view("\0", 1), hash_);
   }
-  void Add(const std::string& text) { Add(std::string_view(text)); }
   // Bit by bit.
   template <typename T>
+  requires std::is_arithmetic_v<T>
   void Add(T value) {
-    static_assert(std::is_arithmetic_v<T>);
     hash_ = HashBytes({reinterpret_cast<const char*>(&value), sizeof(value)},
                       hash_);
   }

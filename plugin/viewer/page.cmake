@@ -18,7 +18,6 @@ file(READ ${CMAKE_CURRENT_LIST_DIR}/LICENSE.three THREE_LICENSE)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
                                        ${CMAKE_CURRENT_LIST_DIR}/measure.js)
 file(READ ${CMAKE_CURRENT_LIST_DIR}/measure.js MEASURE_SCRIPT)
-set(CURVIX_DATA "@CURVIX_DATA@") # stays, for EncodeViewerHtml
 configure_file(${CMAKE_CURRENT_LIST_DIR}/viewer.html viewer.html @ONLY)
 file(READ ${CMAKE_CURRENT_BINARY_DIR}/viewer.html CURVIX_VIEWER_PAGE)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/page.cc.template viewer_template.cc

@@ -20,8 +20,7 @@ namespace curvix {
 // Appends the bytes of `value`, least significant first.
 template <typename T>
 void AppendLittleEndian(T value, std::string& out) {
-  std::array<char, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), &value, sizeof(T));
+  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
   if constexpr (std::endian::native == std::endian::big) {
     std::ranges::reverse(bytes);
   }
@@ -34,9 +33,7 @@ T LoadBytes(const char* bytes, std::endian order) {
   std::array<char, sizeof(T)> copy;
   std::memcpy(copy.data(), bytes, sizeof(T));
   if (order != std::endian::native) std::ranges::reverse(copy);
-  T value;
-  std::memcpy(&value, copy.data(), sizeof(T));
-  return value;
+  return std::bit_cast<T>(copy);
 }
 
 template <typename T>

@@ -5,10 +5,18 @@
 #include <curvix/edges.h>
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace curvix {
+
+// The one of `count` cells of size 1 that holds `place`, the nearest one beyond
+// them.
+inline int ClampedCell(double place, int count) {
+  if (!(place > 0)) return 0;
+  return place >= count ? count - 1 : static_cast<int>(place);
+}
 
 // An edge as the index keeps it: everything that a look-up compares.
 struct IndexedEdge {
@@ -70,14 +78,10 @@ class GridIndex {
     }
   }
 
-  std::size_t size() const { return edges_.size(); }
-
  private:
   // The bucket of an offset from the origin, clamped into the grid.
   int Cell(double offset, int count) const {
-    const double cell = offset * cells_per_px_;
-    if (!(cell > 0)) return 0;
-    return cell >= count ? count - 1 : static_cast<int>(cell);
+    return ClampedCell(offset * cells_per_px_, count);
   }
   std::size_t Bucket(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +

@@ -97,10 +97,10 @@ template <typename Bytes, typename Visit>
 void VisitSegments(const Bytes& bytes, const Visit& visit) {
   std::size_t at = 2;
   while (at + 1 < bytes.size()) {
-    const std::uint32_t marker = NumberAt(bytes, at + 1, 1);
-    const bool is_marker = NumberAt(bytes, at, 1) == 0xFF && marker >= 0xC0 &&
-                           marker != 0xFF && (marker & 0xF8) != 0xD0;
-    if (!is_marker) {  // coded data, stuffing, restart markers
+    const std::uint32_t marker =
+        bytes[at] == '\xFF' ? NumberAt(bytes, at + 1, 1) : 0;
+    // Coded data, stuffing, restart markers.
+    if (marker < 0xC0 || marker == 0xFF || (marker & 0xF8) == 0xD0) {
       ++at;
       continue;
     }

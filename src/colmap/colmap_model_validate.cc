@@ -83,12 +83,14 @@ std::string WrongImages(const ColmapModel& model) {
 std::string WrongPoint(const std::vector<ColmapPoint3D>& points) {
   std::set<std::uint64_t> ids;
   for (const ColmapPoint3D& point : points) {
-    const std::string id = std::to_string(point.point3D_id);
-    if (!ids.insert(point.point3D_id).second) {
-      return "two points have the id " + id + "; export the model again.";
+    const std::size_t num_before = ids.size();
+    ids.insert(ids.end(), point.point3D_id);  // quick if they ascend
+    if (ids.size() == num_before) {
+      return "two points have the id " + std::to_string(point.point3D_id) +
+             "; export the model again.";
     }
     if (!point.position.allFinite()) {
-      return "point " + id +
+      return "point " + std::to_string(point.point3D_id) +
              " has a position that is not finite; remove it or export the "
              "model again.";
     }

@@ -149,7 +149,8 @@ ThinnedEdges ThinEdges(const std::vector<Edge3d>& edges,
       group_of[member] = static_cast<std::int32_t>(g);
     }
   });
-  return {std::move(thinned), Contract(graph, group_of, groups.size())};
+  return {std::move(thinned),
+          Contract(graph, group_of, groups.size(), num_threads)};
 }
 
 }  // namespace curvix

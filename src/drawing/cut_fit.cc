@@ -36,12 +36,10 @@ Eigen::Vector3d Blossom(const CurveFit& spline,
 
 // The piece that holds t, or ends there if t is the last knot.
 std::size_t SpanOf(const CurveFit& spline, double t) {
-  std::size_t span = kDegree;
-  while (span + 1 < spline.control_points.size() &&
-         spline.knots[span + 1] <= t) {
-    ++span;
-  }
-  return span;
+  const std::vector<double>& knots = spline.knots;
+  const auto next = std::upper_bound(
+      knots.begin() + kDegree + 1, knots.end() - kDegree - 1, t);
+  return static_cast<std::size_t>(next - knots.begin()) - 1;
 }
 
 CurveFit PartOfSpline(const CurveFit& fit, double t0, double t1) {

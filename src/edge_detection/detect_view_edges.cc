@@ -83,12 +83,13 @@ LocatedContours LocateContours(const ViewImage& image,
   limits.min_gradient = GradientThreshold(options, scale.sigma_px, map.noise);
   limits.spacing_px = map.spacing_px;
   limits.max_edges = edges_of(kMaxOfContours * limit);
-  limits.thinning = {edges_of(limit), kThinnedSpacingPx};
+  limits.max_unthinned_edges = edges_of(limit);
+  limits.thinned_spacing_px = kThinnedSpacingPx;
 
   std::vector<LocatedEdge> all =
       LocateEdges(image.pixels, scale, limits.min_gradient);
   if (image.mask) map.num_dropped_masked = DropMaskedEdges(*image.mask, &all);
-  if (std::ssize(all) > limits.thinning.max_edges) {
+  if (std::ssize(all) > limits.max_unthinned_edges) {
     MeasureCrowding(map.spacing_px, &all);
   }
   map.num_dropped_over_limit =

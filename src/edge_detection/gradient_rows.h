@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "edge_detection/gray_image.h"
+#include "base/gray_image.h"
 #include "edge_detection/steep_tiles.h"
 
 namespace curvix {

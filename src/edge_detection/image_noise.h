@@ -2,7 +2,7 @@
 // Paper: none (engineering). How noisy an image is.
 #pragma once
 
-#include "edge_detection/gray_image.h"
+#include "base/gray_image.h"
 
 namespace curvix {
 

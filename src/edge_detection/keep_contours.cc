@@ -191,7 +191,7 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
   }
   const std::int64_t num_kept = NumKept(paths, is_kept);
   const double spacing_px =
-      num_kept > limits.thinning.max_edges ? limits.thinning.spacing_px : 0;
+      num_kept > limits.max_unthinned_edges ? limits.thinned_spacing_px : 0;
   std::vector<bool> is_selected(edges.size());
   for (std::size_t c = 0; c < paths.size(); ++c) {
     if (is_kept[c]) MarkSpaced(edges, paths[c], spacing_px, is_selected);

@@ -18,20 +18,16 @@ namespace curvix {
 std::int32_t DropLeastProminent(std::int64_t max_edges,
                                 std::vector<LocatedEdge>* edges);
 
-// Thins contours if more than `max_edges` are kept: of each the first edge
-// stays, and then one each `spacing_px` along it, on average.
-struct Thinning {
-  std::int64_t max_edges = 0;
-  double spacing_px = 0;  // 0: no thinning
-};
-
 // Which contours are kept.
 struct ContourLimits {
   // The weakest gradient that the detector kept, grey levels per pixel.
   double min_gradient = 0;
   double spacing_px = 0.5;     // of edges along their contours, on average
   std::int64_t max_edges = 0;  // before thinning
-  Thinning thinning;
+  // If more edges are kept, contours are thinned: of each the first edge stays,
+  // and then one each `thinned_spacing_px` along it, on average.
+  std::int64_t max_unthinned_edges = 0;
+  double thinned_spacing_px = 0;  // 0: no thinning
 };
 
 // What KeepContours() keeps, in the order in which it came, and how many edges

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/gray_image.h"
 #include "base/image_header.h"
-#include "edge_detection/gray_image.h"
 
 namespace curvix {
 

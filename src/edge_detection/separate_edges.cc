@@ -105,11 +105,11 @@ std::vector<PeakPair> PairPeaks(const std::vector<Edge2d>& edges,
     double ahead = reach, behind = -reach;
     double height_ahead = 0, height_behind = 0;
     index.VisitAround(edge.position, reach, [&](const IndexedEdge& other) {
+      const double cosine = tangent.dot(other.tangent.cast<double>());
+      if (std::abs(cosine) < kMinCosine) return;
       const auto j = static_cast<std::size_t>(other.edge_idx);
       const Eigen::Vector2d offset = edges[j].position - edge.position;
       if (std::abs(offset.dot(tangent)) > max_along_px) return;
-      const double cosine = tangent.dot(other.tangent.cast<double>());
-      if (std::abs(cosine) < kMinCosine) return;
       const double across = offset.dot(normal);
       const double height =
           std::copysign(static_cast<double>(edges[j].strength), cosine);

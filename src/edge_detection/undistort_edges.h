@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "edge_detection/gray_image.h"
+#include "base/gray_image.h"
 #include "edge_detection/third_order_edges.h"
 
 namespace curvix {

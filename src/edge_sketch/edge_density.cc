@@ -13,18 +13,11 @@ namespace {
 constexpr double kCellPx = 16;
 constexpr int kNumBins = 12;  // of 15 degrees
 
-int Clamp(double value, int count) {
-  if (!(value > 0)) return 0;
-  return value >= count ? count - 1 : static_cast<int>(value);
-}
-
 // Place on the circle of bins, in [0, kNumBins).
 double TurnOf(double angle_rad) {
   const double turn = (WrapUndirected(angle_rad) / kPi + 0.5) * kNumBins;
   return turn < kNumBins ? turn : 0;
 }
-
-int BinOf(double angle_rad) { return Clamp(TurnOf(angle_rad), kNumBins); }
 
 }  // namespace
 
@@ -36,23 +29,23 @@ EdgeDensity::EdgeDensity(const EdgeMap& map, int width, int height)
                      static_cast<std::size_t>(rows_) * kNumBins,
                  0);
   for (const Edge2d& edge : map.edges) {
-    const int column = Clamp(edge.position.x() / kCellPx, columns_);
-    const int row = Clamp(edge.position.y() / kCellPx, rows_);
+    const int column = ClampedCell(edge.position.x() / kCellPx, columns_);
+    const int row = ClampedCell(edge.position.y() / kCellPx, rows_);
     std::uint16_t& count = counts_[static_cast<std::size_t>(
         (row * columns_ + column) * kNumBins +
-        BinOf(static_cast<double>(edge.angle)))];
+        ClampedCell(TurnOf(static_cast<double>(edge.angle)), kNumBins))];
     if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
   }
 }
 
 double EdgeDensity::Density(const Eigen::Vector2d& pixel,
                             double angle_rad) const {
-  const int column = Clamp(pixel.x() / kCellPx, columns_);
-  const int row = Clamp(pixel.y() / kCellPx, rows_);
+  const int column = ClampedCell(pixel.x() / kCellPx, columns_);
+  const int row = ClampedCell(pixel.y() / kCellPx, rows_);
   // One bin to either side of the angle: the own bin, and of the bins next to
   // it what is left of either side.
   const double turn = TurnOf(angle_rad);
-  const int bin = BinOf(angle_rad);
+  const int bin = ClampedCell(turn, kNumBins);
   const double after = turn - bin;
   const int bin_before = (bin + kNumBins - 1) % kNumBins;
   const int bin_after = (bin + 1) % kNumBins;

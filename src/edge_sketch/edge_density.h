@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/grid_index.h"
+
 namespace curvix {
 
 // Counts of edges by place (square cells) and orientation (bins of 15 degrees).
@@ -67,9 +69,7 @@ class EdgePresence {
   static constexpr std::size_t kCellsPerTile = kTileSide * kTileSide;
 
   static int Cell(double place, int count) {
-    const double cell = place * kCellsPerPx;
-    if (!(cell > 0)) return 0;
-    return cell >= count ? count - 1 : static_cast<int>(cell);
+    return ClampedCell(place * kCellsPerPx, count);
   }
   // Monotonic in the angle of the line: 0 to 2 for a half turn.
   static double DiamondAngle(const Eigen::Vector2d& t) {

@@ -13,7 +13,7 @@
 namespace curvix {
 namespace {
 
-// Views further apart in direction have no vote on each other.
+// Sigma of the weights of neighbouring views.
 constexpr double kNeighborAngleDeg = 25;
 constexpr std::size_t kMaxNumNeighbors = 4;
 constexpr double kGridCellPx = 8;

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "edge_detection/load_image.h"
-#include "evaluation/holdout.h"
 #include "evaluation/image_agreement.h"
 #include "geometry/pixel_size.h"
 #include "model/posed_view.h"
@@ -83,12 +83,9 @@ class Pen {
 
   int NumPieces(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
     constexpr double kMaxPieces = 10000;
-    const double pixel_from = PixelSize(from, {}, {posed_view_});
-    const double pixel_to = PixelSize(to, {}, {posed_view_});
-    const double pixel = pixel_from > 0 && pixel_to > 0
-                             ? std::min(pixel_from, pixel_to)
-                             : std::max(pixel_from, pixel_to);
-    if (!(pixel > 0)) return 1;
+    const double pixel =
+        std::min(PixelSizeIn(posed_view_, from), PixelSizeIn(posed_view_, to));
+    if (!(pixel < kInfinity)) return 1;
     const double pieces = (to - from).norm() / (kSpacingPx * pixel);
     return static_cast<int>(std::clamp(std::ceil(pieces), 1.0, kMaxPieces));
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -26,12 +25,12 @@ constexpr double kMinLineLength = 0.02;  // of the diagonal
 const Eigen::Vector2d kHalfPixel(0.5, 0.5);
 
 cv::Mat1b EightBits(const GrayImage& image) {
-  cv::Mat1b bytes(image.height, image.width);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      bytes(y, x) = cv::saturate_cast<std::uint8_t>(image.at(x, y));
-    }
-  }
+  const cv::Mat floats(image.height,
+                       image.width,
+                       CV_32F,
+                       const_cast<float*>(image.pixels.data()));
+  cv::Mat1b bytes;
+  floats.convertTo(bytes, CV_8U);
   return bytes;
 }
 

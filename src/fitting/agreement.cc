@@ -71,6 +71,12 @@ class Finder {
     return groups;
   }
 
+  // The square of an offset in standard deviations.
+  double Squared(const Eigen::Vector2d& off,
+                 const Eigen::Matrix2d& covariance) const {
+    return off.dot(Information(covariance, dimensions_) * off);
+  }
+
   // From the group, in standard deviations; infinite: too far.
   double SquaredDistance(std::size_t i, const ValueGroup& group) const {
     const UncertainValue v = relative_(i, group.seed);
@@ -82,7 +88,7 @@ class Finder {
     const Eigen::Matrix2d covariance =
         is_member ? v.covariance
                   : Eigen::Matrix2d(v.covariance + group.covariance);
-    const double squared = off.dot(Information(covariance, dimensions_) * off);
+    const double squared = Squared(off, covariance);
     return squared <= ChiSquaredLimit(dimensions_) ? squared : kInfinity;
   }
 
@@ -130,12 +136,10 @@ class Finder {
       if (g == groups.size() || groups[g].seed == i) continue;
       const UncertainValue v = relative_(i, groups[g].seed);
       const Eigen::Vector2d off = v.value - groups[g].mean;
-      const double squared =
-          off.dot(Information(v.covariance, dimensions_) * off);
-      const double reach =
-          dimensions_ == 1
-              ? 2 * off.norm()
-              : kPi * squared * std::sqrt(v.covariance.determinant());
+      const double reach = dimensions_ == 1
+                               ? 2 * off.norm()
+                               : kPi * Squared(off, v.covariance) *
+                                     std::sqrt(v.covariance.determinant());
       tests[k].chance = std::min(1.0, num_shared * reach / v.space);
     }
     return tests;
@@ -148,9 +152,7 @@ class Finder {
       double most = -1;
       for (std::size_t k = 0; k < group.members.size(); ++k) {
         const UncertainValue v = relative_(group.members[k], group.seed);
-        const Eigen::Vector2d off = v.value - group.mean;
-        const double squared =
-            off.dot(Information(v.covariance, dimensions_) * off);
+        const double squared = Squared(v.value - group.mean, v.covariance);
         if (squared > most) worst = k;
         most = std::max(most, squared);
       }

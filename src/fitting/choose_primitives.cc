@@ -46,22 +46,25 @@ struct Link {
   FitCost cost;
 };
 
-// The better of a line and an arc. The search is content with rough arcs.
+// The better of a line and an arc. The search is content with rough arcs, which
+// may run against the samples.
 Link FitLink(FitSpan samples, double parameter_cost, bool is_rough) {
   Link best;
   if (const auto line = FitLine(samples)) {
-    best = {*line, {CostOf(*line, samples), kLineParameters}};
-    if (Explains(*line, samples)) return best;
+    const std::vector<double> squared = SquaredDistances(*line, samples);
+    best = {*line, {CostOf(squared, samples), kLineParameters}};
+    if (Explains(squared, samples)) return best;
   }
   const double least = best.cost.Total(parameter_cost);
   if (!(parameter_cost * kArcParameters < least)) return best;
   const auto arc = is_rough ? RoughCircle(samples) : FitCircle(samples);
   if (!arc) return best;
-  Link link = {*arc, {CostOf(*arc, samples), kArcParameters}};
+  Link link = {
+      *arc, {CostOf(SquaredDistances(*arc, samples), samples), kArcParameters}};
   if (!(link.cost.Total(parameter_cost) < least) || GoesRound(*arc, samples)) {
     return best;
   }
-  link.shape = Directed(*arc, samples);
+  if (!is_rough) link.shape = Directed(*arc, samples);
   return link;
 }
 
@@ -257,8 +260,9 @@ void OfferSplines(const FitSamples& curve, bool closed, Choice& choice) {
        n += std::max<std::size_t>(1, n / 4)) {
     const std::optional<Spline> spline = FitSpline(samples, n, ends);
     if (!spline) continue;
-    choice.Offer({{{*spline, 0, samples.size(), closed}},
-                  {CostOf(*spline, samples), 3 * n}});
+    choice.Offer(
+        {{{*spline, 0, samples.size(), closed}},
+         {CostOf(SquaredDistances(*spline, samples), samples), 3 * n}});
   }
 }
 
@@ -266,8 +270,9 @@ void OfferSplines(const FitSamples& curve, bool closed, Choice& choice) {
 using SingleFit = std::optional<Primitive> (*)(const FitSamples&, bool);
 
 std::optional<Primitive> SingleLine(const FitSamples& curve, bool closed) {
+  if (closed) return std::nullopt;
   const auto line = FitLine(curve);
-  if (!line || closed) return std::nullopt;
+  if (!line) return std::nullopt;
   return Primitive{*line, 0, curve.size(), false};
 }
 std::optional<Primitive> SingleArc(const FitSamples& curve, bool closed) {
@@ -300,9 +305,10 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
   for (const Single& single : kSingles) {
     const auto primitive = single.fit(curve, closed);
     if (!primitive) continue;
-    if (Explains(primitive->shape, curve)) return {*primitive};
+    const auto squared = SquaredDistances(primitive->shape, curve);
+    if (Explains(squared, curve)) return {*primitive};
     choice.Offer({{*primitive},
-                  {CostOf(primitive->shape, curve),
+                  {CostOf(squared, curve),
                    single.num_parameters + (primitive->closed ? 0 : 2)}});
   }
   if (choice.CanWin(2 * kLineParameters - kNodeParameters)) {

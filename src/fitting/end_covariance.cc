@@ -103,11 +103,12 @@ double ReachOf(const std::vector<double>& angles, double middle) {
   return reach;
 }
 
-// The mean squared distance of the samples in squares of their sigmas, which is
-// 2 if these are right.
+// By how much the squared distances of the samples exceed what their sigmas
+// say: 1 if these are right or too large.
 double Excess(const Conic& circle, const FitSamples& samples) {
   const double free = 2 * static_cast<double>(samples.size()) - 6;
-  return std::max(1.0, CostOf(circle, samples) / std::max(1.0, free));
+  const double cost = CostOf(SquaredDistances(circle, samples), samples);
+  return std::max(1.0, cost / std::max(1.0, free));
 }
 
 // Edges this near to each other share pixels, and so do those at a corner.

@@ -68,15 +68,15 @@ class PlaneFinder {
 
   void AddTo(std::vector<FitGroup>& groups) {
     const std::vector<Indices> seeds = Seeds();
-    std::set<std::pair<std::size_t, std::size_t>> together;
+    std::vector<Indices> planes_of(features_.size());  // indices into groups
     for (const Indices& seed : seeds) {
-      if (together.count({seed.front(), seed.back()}) > 0) continue;
+      const Indices& first = planes_of[seed.front()];
+      const Indices& last = planes_of[seed.back()];
+      if (std::ranges::find_first_of(first, last) != first.end()) continue;
       Indices members = seed;
       const std::optional<Plane> plane = Grown(members);
       if (!plane || !IsSignificant(*plane, members, seeds.size())) continue;
-      for (const std::size_t a : members) {
-        for (const std::size_t b : members) together.insert({a, b});
-      }
+      for (const std::size_t i : members) planes_of[i].push_back(groups.size());
       groups.push_back(GroupOf(*plane, members));
     }
   }
@@ -153,15 +153,16 @@ class PlaneFinder {
       return observations;
     }
     const CurveFit& fit = *feature.fit;
-    if (known == nullptr || fit.start_node < 0 ||
-        known->insert(fit.start_node).second) {
+    for (const bool at_end : {false, true}) {
+      const int node = at_end ? fit.end_node : fit.start_node;
+      if (known != nullptr && node >= 0 && !known->insert(node).second) {
+        continue;
+      }
       observations.push_back(
-          PointOn(plane, fit.start, fit.start_covariance, feature.size));
-    }
-    if (known == nullptr || fit.end_node < 0 ||
-        known->insert(fit.end_node).second) {
-      observations.push_back(
-          PointOn(plane, fit.end, fit.end_covariance, feature.size));
+          PointOn(plane,
+                  at_end ? fit.end : fit.start,
+                  at_end ? fit.end_covariance : fit.start_covariance,
+                  feature.size));
     }
     return observations;
   }

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "base/angles.h"
 #include "fitting/agreement.h"
-#include "fitting/line_or_arc.h"
 #include "geometry/directions.h"
 
 namespace curvix {
@@ -21,6 +23,52 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 using Indices = std::vector<std::size_t>;
+
+LineOrArc FromLine(const FitIndex& index, const CurveFit& fit) {
+  LineOrArc line;
+  line.index = index;
+  line.fit = &fit;
+  const Vector3d chord = fit.end - fit.start;
+  line.size = chord.norm();
+  line.along = chord / line.size;
+  line.point = (fit.start + fit.end) / 2;
+  const Matrix3d sum = fit.start_covariance + fit.end_covariance;
+  const Matrix3d across =
+      Matrix3d::Identity() - line.along * line.along.transpose();
+  line.along_covariance = across * sum * across / chord.squaredNorm();
+  line.point_covariance = sum / 4;
+  return line;
+}
+
+LineOrArc FromArc(const FitIndex& index, const CurveFit& fit) {
+  LineOrArc arc;
+  arc.index = index;
+  arc.fit = &fit;
+  arc.size = fit.major.norm();
+  arc.along = NormalOf(fit);
+  arc.along_covariance = fit.arc_covariance.block<3, 3>(3, 3);
+  arc.point = fit.center;
+  arc.point_covariance = fit.arc_covariance.topLeftCorner<3, 3>();
+  return arc;
+}
+
+// Ascending; without lines of no length and arcs whose covariance is not
+// finite.
+std::vector<LineOrArc> LinesAndArcs(const FittedCurves& fitted) {
+  std::vector<LineOrArc> features;
+  for (std::size_t c = 0; c < fitted.curves.size(); ++c) {
+    const std::vector<CurveFit>& fits = fitted.curves[c].fits;
+    for (std::size_t f = 0; f < fits.size(); ++f) {
+      const CurveFit& fit = fits[f];
+      if (fit.kind == FitKind::kLine && (fit.end - fit.start).norm() > 0) {
+        features.push_back(FromLine({c, f}, fit));
+      } else if (fit.kind == FitKind::kArc && fit.arc_covariance.allFinite()) {
+        features.push_back(FromArc({c, f}, fit));
+      }
+    }
+  }
+  return features;
+}
 
 // The diameter of a sphere about the mean of all ends that holds them.
 double ExtentOf(const std::vector<LineOrArc>& features) {

@@ -57,23 +57,23 @@ std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples) {
   return std::visit(DistancesFrom{samples}, shape);
 }
 
-double CostOf(const Shape& shape, FitSpan samples) {
-  const std::vector<double> squared = SquaredDistances(shape, samples);
+double CostOf(const std::vector<double>& squared_distances, FitSpan samples) {
   double cost = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    cost += std::min(squared[i] / (samples[i].sigma * samples[i].sigma),
+    const double sigma = samples[i].sigma;
+    cost += std::min(squared_distances[i] / (sigma * sigma),
                      kOutlierSigmas * kOutlierSigmas);
   }
   return cost;
 }
 
-bool Explains(const Shape& shape, FitSpan samples) {
+bool Explains(const std::vector<double>& squared_distances, FitSpan samples) {
   constexpr double kMinInlierShare = 0.9;
   constexpr double kAxesAcross = 2;  // sigma is that of each
-  const std::vector<double> squared = SquaredDistances(shape, samples);
   double sum = 0, num_inliers = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double ratio = squared[i] / (samples[i].sigma * samples[i].sigma);
+    const double sigma = samples[i].sigma;
+    const double ratio = squared_distances[i] / (sigma * sigma);
     if (ratio > kOutlierSigmas * kOutlierSigmas) continue;
     sum += ratio;
     ++num_inliers;
@@ -144,7 +144,7 @@ Eigen::Vector3d PointAt(const CurveFit& fit, double t) {
              std::sin(angle) * fit.minor;
     }
     case FitKind::kSpline:
-      return Spline{fit.control_points, fit.knots}.At(t);
+      return SplineAt(fit.control_points, fit.knots, t);
   }
   return fit.start;
 }

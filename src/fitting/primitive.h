@@ -41,12 +41,12 @@ std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples);
 
 // The sum of squared distances in standard deviations, those of outliers cut
 // down to kOutlierSigmas.
-double CostOf(const Shape& shape, FitSpan samples);
+double CostOf(const std::vector<double>& squared_distances, FitSpan samples);
 
-// Whether the shape explains the samples within their uncertainty: nine in ten
-// are no outliers, and those are off by a standard deviation or less in each of
-// the two axes across the shape, root mean square.
-bool Explains(const Shape& shape, FitSpan samples);
+// Whether a shape at these distances explains the samples within their
+// uncertainty: nine in ten are no outliers, and those are off by a standard
+// deviation or less in each of the two axes across the shape, root mean square.
+bool Explains(const std::vector<double>& squared_distances, FitSpan samples);
 
 // Angles of the samples on a conic, each within half a turn of the one before.
 std::vector<double> UnwrappedAngles(const Conic& conic, FitSpan samples);

@@ -62,7 +62,7 @@ struct Arc {
 };
 
 Arc ArcOf(const CurveFit& fit) {
-  const Chart normal(fit.major.cross(fit.minor).normalized());
+  const Chart normal(NormalOf(fit));
   Arc arc{Vector6::Zero(), normal, Matrix6::Zero()};
   arc.values.head<3>() = fit.center;
   arc.values(5) = fit.major.norm();

@@ -18,9 +18,8 @@ struct Basis {
 
 // Cox and de Boor's recursion.
 Basis BasisAt(const std::vector<double>& knots, double t) {
-  const std::size_t num_control_points = knots.size() - 4;
-  std::size_t span = 3;
-  while (span + 1 < num_control_points && knots[span + 1] <= t) ++span;
+  const auto next = std::upper_bound(knots.begin() + 4, knots.end() - 4, t);
+  const auto span = static_cast<std::size_t>(next - knots.begin()) - 1;
   Basis basis{span - 3, {1, 0, 0, 0}};
   for (std::size_t degree = 1; degree <= 3; ++degree) {
     double carried = 0;
@@ -121,13 +120,19 @@ std::vector<double> EvenKnots(std::size_t num_control_points) {
 
 }  // namespace
 
-Eigen::Vector3d Spline::At(double t) const {
+Eigen::Vector3d SplineAt(const std::vector<Eigen::Vector3d>& control_points,
+                         const std::vector<double>& knots,
+                         double t) {
   const Basis basis = BasisAt(knots, t);
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 4; ++k) {
     point += basis.values[k] * control_points[basis.first + k];
   }
   return point;
+}
+
+Eigen::Vector3d Spline::At(double t) const {
+  return SplineAt(control_points, knots, t);
 }
 
 std::optional<Spline> FitSpline(

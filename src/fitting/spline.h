@@ -2,8 +2,10 @@
 // Paper: none (engineering). Clamped cubic B-splines with even knots.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "fitting/fit_samples.h"
 
@@ -15,6 +17,11 @@ struct Spline {
 
   Eigen::Vector3d At(double t) const;  // 0 <= t <= 1
 };
+
+// The point of a spline at t, from its parts.
+Eigen::Vector3d SplineAt(const std::vector<Eigen::Vector3d>& control_points,
+                         const std::vector<double>& knots,
+                         double t);
 
 // The spline with the least robust sum of squared distances at parameters that
 // begin as shares of the samples' length and then slide to the nearest points.

@@ -4,11 +4,34 @@
 #pragma once
 
 #include <curvix/fitting.h>
+#include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
-#include "fitting/line_or_arc.h"
+#include "base/angles.h"
 
 namespace curvix {
+
+// Within these a fit may be said to agree with others: a share of its size, and
+// an angle, kKnownDeg of known_directions.h.
+constexpr double kNear = 0.01;
+constexpr double kNearAngle = DegToRad(1.5);
+
+// A line or an arc, and how well it is known.
+struct LineOrArc {
+  FitIndex index;
+  const CurveFit* fit = nullptr;
+  // Of a line, or the normal of an arc; unit.
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX();
+  Eigen::Matrix3d along_covariance = Eigen::Matrix3d::Zero();
+  // The middle of a line, or the centre of an arc.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d point_covariance = Eigen::Matrix3d::Zero();
+  double size = 0;  // length or radius
+
+  bool is_arc() const { return fit->kind == FitKind::kArc; }
+  double along_sigma() const { return std::sqrt(along_covariance.trace() / 2); }
+};
 
 // Groups of lines and arcs that are parallel, collinear, concentric, coplanar
 // or of one radius, and which directions are perpendicular.

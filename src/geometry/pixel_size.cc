@@ -11,7 +11,6 @@
 #include "model/curve_chains.h"
 
 namespace curvix {
-namespace {
 
 double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position) {
   const double depth = view.InCamera(position).z();
@@ -19,8 +18,6 @@ double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position) {
       std::sqrt(view.calibration(0, 0) * view.calibration(1, 1));
   return depth > 0 ? depth / focal : kInfinity;
 }
-
-}  // namespace
 
 double PixelSize(const Eigen::Vector3d& position,
                  const std::vector<EdgeRef>& support,

@@ -12,6 +12,11 @@
 
 namespace curvix {
 
+// The length in space, world units, that fills one pixel of `view` at
+// `position`, if it lies parallel to the image: depth / focal length; infinite
+// if the view does not have it in front.
+double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position);
+
 // The length in space, world units, that fills one pixel at `position` in the
 // view that sees it largest, if it lies parallel to the image: the smallest
 // depth / focal length over the views of `support`, or over all views if none

@@ -20,6 +20,14 @@ double HsvChannel(double offset, double hue, double saturation, double value) {
 
 }  // namespace
 
+std::size_t CountSamples(const CurveSource& curves) {
+  std::size_t num_samples = 0;
+  curves.ForEach([&](std::size_t, const Curve& curve) {
+    num_samples += curve.samples.size();
+  });
+  return num_samples;
+}
+
 Rgb CurveColor(std::size_t id) {
   constexpr double kGoldenSection = 0.6180339887498949;
   constexpr std::array<double, 3> kValues = {0.95, 0.75, 0.55};

@@ -2,12 +2,16 @@
 // Paper: none (engineering). What the files say about a curve beyond geometry.
 #pragma once
 
+#include <curvix/curves.h>
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace curvix {
+
+// Of all curves.
+std::size_t CountSamples(const CurveSource& curves);
 
 using Rgb = std::array<std::uint8_t, 3>;
 

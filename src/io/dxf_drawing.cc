@@ -52,7 +52,7 @@ double AngleIn(const Eigen::Matrix3d& frame, const Eigen::Vector3d& offset) {
 void PutArc(const CurveFit& fit, bool dashed, DxfWriter& w) {
   w.BeginEntity(
       fit.closed ? "CIRCLE" : "ARC", LayerOf(fit.curve_kind).name, dashed);
-  const Eigen::Vector3d normal = fit.major.cross(fit.minor).normalized();
+  const Eigen::Vector3d normal = NormalOf(fit);
   const Eigen::Matrix3d frame = FrameOfNormal(normal);
   w.Put(100, "AcDbCircle");
   w.Put(10, Eigen::Vector3d(frame.transpose() * fit.center));
@@ -69,7 +69,7 @@ void PutEllipse(const CurveFit& fit, bool dashed, DxfWriter& w) {
   w.Put(100, "AcDbEllipse");
   w.Put(10, fit.center);
   w.Put(11, fit.major);
-  w.Put(210, fit.major.cross(fit.minor).normalized());
+  w.Put(210, NormalOf(fit));
   w.Put(40, fit.minor.norm() / fit.major.norm());
   w.Put(41, fit.closed ? 0.0 : fit.start_angle);
   w.Put(42, fit.closed ? 2 * kPi : fit.end_angle);

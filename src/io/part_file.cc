@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <istream>
 #include <string>
+#include <utility>
 
 #include "base/file_io.h"
 #include "io/stage_file.h"
@@ -80,8 +81,10 @@ Status WritePartResult(const fs::path& path,
     Fields(curves, const_cast<TracedCurve&>(curve));
     head.PutCount(curves.bytes().size() - begin);
   }
-  return WriteStage(
-      path, StageKind::kPartResult, key, head.bytes() + curves.bytes());
+  return WriteStage(path,
+                    StageKind::kPartResult,
+                    key,
+                    head.bytes() + std::move(curves).bytes());
 }
 
 Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {

@@ -34,10 +34,7 @@ CurvePoint ToPoint(const CurveSample& sample, std::size_t id) {
 // PCDWriter::writeBinary would write the same, but needs PCL's io library,
 // which loads VTK; its header is a template and does not.
 Status EncodePcd(const CurveSource& curves, const ByteSink& sink) {
-  std::size_t num_points = 0;
-  curves.ForEach([&](std::size_t, const Curve& curve) {
-    num_points += curve.samples.size();
-  });
+  const std::size_t num_points = CountSamples(curves);
   // PCL takes the largest number for none given.
   if (num_points >= std::numeric_limits<int>::max()) {
     return Status::Unsupported("PCL counts points with 32 bits, too few for " +

@@ -2,7 +2,6 @@
 #include "io/stage_file.h"
 
 #include "base/file_io.h"
-#include "io/stage_io.h"
 
 namespace curvix {
 namespace {
@@ -37,14 +36,17 @@ Status WriteStage(const fs::path& path,
                   StageKind kind,
                   std::uint64_t key,
                   const std::string& content) {
-  ByteWriter file;
-  file.Put(kMagic);
-  file.Put(kVersion);
-  file.Put(static_cast<std::uint32_t>(kind));
-  file.Put(key);
-  file.PutCount(content.size());
-  file.Put(HashBytes(content));
-  return WriteFileAtomically(path, file.bytes() + content);
+  ByteWriter head;
+  head.Put(kMagic);
+  head.Put(kVersion);
+  head.Put(static_cast<std::uint32_t>(kind));
+  head.Put(key);
+  head.PutCount(content.size());
+  head.Put(HashBytes(content));
+  FileWriter out(path);
+  out.Append(head.bytes());
+  out.Append(content);
+  return out.Finish();
 }
 
 Result<StageHead> ReadStageHead(const fs::path& path,

@@ -35,6 +35,10 @@ constexpr std::size_t kEdge2dBytes = 34;
 constexpr std::size_t kEdge3dBytes = 72;  // without support
 constexpr std::size_t kEdgeRefBytes = 8;
 
+// A hash of bytes (64-bit FNV-1a), for keys and checksums; goes on from `hash`.
+std::uint64_t HashBytes(std::string_view bytes,
+                        std::uint64_t hash = 0xcbf29ce484222325);
+
 // A head and the content. Errors as WriteEdgeMaps.
 Status WriteStage(const std::filesystem::path& path,
                   StageKind kind,
@@ -71,7 +75,7 @@ struct StageWriter : ByteWriter {
     (Put(values), ...);
   }
   // How many things of at least `min_bytes` each follow.
-  void Count(const std::size_t& count, std::size_t /*min_bytes*/ = 1) {
+  void Count(const std::size_t& count, std::size_t /*min_bytes*/) {
     PutCount(count);
   }
 };

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,9 +71,5 @@ class PartFile {
   std::int64_t num_own_edges_2d_ = 0;
   std::int64_t num_core_edges_3d_ = 0;
 };
-
-// A hash of bytes (64-bit FNV-1a), for keys; goes on from `hash`.
-std::uint64_t HashBytes(std::string_view bytes,
-                        std::uint64_t hash = 0xcbf29ce484222325);
 
 }  // namespace curvix

@@ -2,7 +2,7 @@
 // Paper: none (engineering). Fitted curves for CAD.
 #include "io/curve_formats.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cctype>
 #include <cstddef>
 #include <map>
@@ -113,7 +113,7 @@ int PutLine(const CurveFit& fit, const std::string& name, Writer& w) {
 // Arcs, ellipses, whole or not.
 int PutConic(const CurveFit& fit, const std::string& name, Writer& w) {
   const int center = PutPoint(fit.center, w);
-  const int normal = PutDirection(fit.major.cross(fit.minor).normalized(), w);
+  const int normal = PutDirection(NormalOf(fit), w);
   const int first_axis = PutDirection(fit.major.normalized(), w);
   const int frame = w.Put("AXIS2_PLACEMENT_3D(''," + Ref(center) + ',' +
                           Ref(normal) + ',' + Ref(first_axis) + ')');

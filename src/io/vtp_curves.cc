@@ -109,16 +109,13 @@ void PutLines(const ArrayWriter& arrays, const ByteSink& sink) {
 }  // namespace
 
 void EncodeVtpCurves(const CurveSource& curves, const ByteSink& sink) {
-  std::size_t num_points = 0;
-  curves.ForEach([&](std::size_t, const Curve& curve) {
-    num_points += curve.samples.size();
-  });
   sink(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PolyData>\n"
       "    <Piece NumberOfPoints=\"" +
-      std::to_string(num_points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+      std::to_string(CountSamples(curves)) +
+      "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
       std::to_string(curves.size()) +
       "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n");
   const ArrayWriter arrays(curves, sink);

@@ -14,18 +14,14 @@ namespace {
 
 constexpr double kSigmas = 3;
 
-Eigen::Vector3d AxisOf(const CurveFit& arc) {
-  return arc.major.cross(arc.minor).normalized();
-}
-
 // Whether both have one radius and lie in one plane.
 bool AreAlike(const CurveFit& a, const CurveFit& b) {
-  const Eigen::Vector3d axis = AxisOf(a);
+  const Eigen::Vector3d axis = NormalOf(a);
   const double tolerance = std::sin(DegToRad(kKnownDeg));
   const Eigen::Vector3d between = b.center - a.center;
   return std::abs(a.major.norm() - b.major.norm()) <
              kSigmas * std::hypot(a.radius_sigma, b.radius_sigma) &&
-         axis.cross(AxisOf(b)).norm() < tolerance &&
+         axis.cross(NormalOf(b)).norm() < tolerance &&
          std::abs(axis.dot(between)) < tolerance * between.norm();
 }
 
@@ -82,7 +78,7 @@ DirectionsOfCurves DirectionsOf(const FittedCurves& fitted) {
                               DirectionVariance(fit)});
       } else if (fit.kind == FitKind::kArc && !fit.arc_covariance.isZero(0)) {
         const Eigen::Matrix3d axis = fit.arc_covariance.block<3, 3>(3, 3);
-        directions.push_back({AxisOf(fit), Length(fit), axis.trace() / 2});
+        directions.push_back({NormalOf(fit), Length(fit), axis.trace() / 2});
         if (fit.closed) circles.push_back(&fit);
       }
     }

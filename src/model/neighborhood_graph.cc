@@ -174,7 +174,8 @@ NeighborhoodGraph UnionOf(const NeighborhoodGraph& a,
 
 NeighborhoodGraph Contract(const NeighborhoodGraph& graph,
                            const std::vector<std::int32_t>& group_of,
-                           std::size_t num_groups) {
+                           std::size_t num_groups,
+                           int num_threads) {
   CURVIX_CHECK(group_of.size() == graph.NumEdges(),
                group_of.size()
                    << " groups for " << graph.NumEdges() << " edges");
@@ -187,8 +188,9 @@ NeighborhoodGraph Contract(const NeighborhoodGraph& graph,
       if (link.edge_idx != group_of[i]) rows[group].push_back(link);
     }
   }
-  for (Row& row : rows) SortAndAdd(row);
-  return NeighborhoodGraph::FromRows(rows);
+  ParallelFor(
+      num_groups, num_threads, [&](std::size_t i) { SortAndAdd(rows[i]); });
+  return NeighborhoodGraph::FromRows(rows, num_threads);
 }
 
 }  // namespace curvix

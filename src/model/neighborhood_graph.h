@@ -34,7 +34,7 @@ class NeighborhoodGraph {
   // given at one end only, or at both with different counts: the larger counts
   // hold.
   static NeighborhoodGraph FromRows(
-      const std::vector<std::vector<NeighborLink>>& rows, int num_threads = 1);
+      const std::vector<std::vector<NeighborLink>>& rows, int num_threads);
 
   std::size_t NumEdges() const { return offsets_.size() - 1; }
   std::size_t NumLinks() const { return links_.size() / 2; }
@@ -60,13 +60,14 @@ class NeighborhoodGraph {
 // The links of both, counts added. Both must have the same number of edges.
 NeighborhoodGraph UnionOf(const NeighborhoodGraph& a,
                           const NeighborhoodGraph& b,
-                          int num_threads = 1);
+                          int num_threads);
 
 // The graph of groups of edges: group_of[i] in [0, num_groups) is the group of
 // edge i. Counts of links between two groups are added; links within one
 // vanish.
 NeighborhoodGraph Contract(const NeighborhoodGraph& graph,
                            const std::vector<std::int32_t>& group_of,
-                           std::size_t num_groups);
+                           std::size_t num_groups,
+                           int num_threads);
 
 }  // namespace curvix

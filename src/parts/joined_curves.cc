@@ -67,9 +67,9 @@ Curve EndsOf(const Curve& curve) {
 
 JoinedCurves::JoinedCurves(const ScenePartition& partition,
                            PartResults& parts,
-                           std::vector<PosedView> views,
+                           const Scene& scene,
                            const Options& options)
-    : partition_(partition), parts_(parts), views_(std::move(views)) {
+    : partition_(partition), parts_(parts), views_(MakePosedViews(scene)) {
   part_curves_ = ReadPartCurves();
   if (!status_.ok()) return;
   tied_ = TieSegments(partition, part_curves_, options.connectivity);

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <curvix/curves.h>
+#include <curvix/edges.h>
 #include <curvix/options.h>
+#include <curvix/scene.h>
+#include <curvix/status.h>
 #include <cstddef>
 #include <vector>
 
@@ -14,18 +17,24 @@
 
 namespace curvix {
 
-// The curves of JoinParts() in scene_parts.h, for posed views. The constructor
-// holds the border samples (tie_curves.h) in memory; afterwards there are a
-// table of segments, and one curve while it is shown.
+// The curves of the scene. They read those of `parts` again whenever they are
+// shown; partition and parts must outlive them. In memory are only a table of
+// the curves and the one that is shown; while they are joined, also positions
+// and directions of samples near borders (tie_curves.h).
 //
-// Tied segments (TieSegments) become one curve. First samples of the next
-// segment that would step back are dropped.
+// Of duplicates in several parts, that of the part whose core holds it stays.
+// Ends at borders are joined to their continuation in another part
+// (TieSegments), without its first samples if they would step back. Curves come
+// in the order of the parts and of the curves in them, by their first piece.
+// Pieces without a continuation go if they are shorter than
+// options.curve_refinement.min_length_px. status() is the first error of
+// `parts`, or kDataLoss if a curve names views or edges that are not there.
 class JoinedCurves final : public CurveSource {
  public:
-  // Reads each curve twice. Partition and parts outlive it.
+  // Reads each curve twice.
   JoinedCurves(const ScenePartition& partition,
                PartResults& parts,
-               std::vector<PosedView> views,
+               const Scene& scene,
                const Options& options);
 
   std::size_t size() const override { return chains_.size(); }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -13,7 +12,6 @@
 #include "geometry/detected_edge.h"
 #include "model/check_input.h"
 #include "model/posed_view.h"
-#include "parts/joined_curves.h"
 #include "parts/partition_views.h"
 
 namespace curvix {
@@ -81,16 +79,6 @@ PartResult TakePart(const ScenePartition& partition,
     }
   }
   return result;
-}
-
-Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,
-                                               PartResults& parts,
-                                               const Scene& scene,
-                                               const Options& options) {
-  auto joined = std::make_unique<JoinedCurves>(
-      partition, parts, MakePosedViews(scene), options);
-  if (!joined->status().ok()) return joined->status();
-  return std::unique_ptr<CurveSource>(std::move(joined));
 }
 
 }  // namespace curvix

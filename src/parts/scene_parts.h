@@ -10,14 +10,12 @@
 
 #include <curvix/curves.h>
 #include <curvix/edges.h>
-#include <curvix/options.h>
 #include <curvix/reconstruct.h>
 #include <curvix/scene.h>
 #include <curvix/status.h>
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace curvix {
@@ -85,21 +83,5 @@ class PartResults {
   virtual std::size_t NumCurves(int part_idx) const = 0;
   virtual Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) = 0;
 };
-
-// The curves of the scene. They read those of `parts` again whenever they are
-// shown; partition and parts must outlive them. In memory are only a table of
-// the curves and the one that is shown; while they are joined, also positions
-// and directions of samples near borders.
-//
-// Of duplicates in several parts, that of the part whose core holds it stays.
-// Ends at borders are joined to their continuation in another part. Curves come
-// in the order of the parts and of the curves in them, by their first piece.
-// Pieces without a continuation go if they are shorter than
-// options.curve_refinement.min_length_px. Errors are those of `parts`, the
-// first one; kDataLoss if a curve names views or edges that are not there.
-Result<std::unique_ptr<CurveSource>> JoinParts(const ScenePartition& partition,
-                                               PartResults& parts,
-                                               const Scene& scene,
-                                               const Options& options);
 
 }  // namespace curvix

@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_recorder.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "base/free_memory.h"
 #include "base/parallel.h"
 
 namespace curvix {
 
-Counts CountsOf(const EdgeSketch& sketch) {
+StageCounts CountsOf(const EdgeSketch& sketch) {
   const SketchCounts& c = sketch.counts;
-  Counts counts = {{"view pairs", c.view_pairs},
-                   {"edges asked", c.h1_edges},
-                   {"hypotheses", c.hypotheses},
-                   {"hypotheses without support", c.unsupported},
-                   {"weaker rivals", c.rivals},
-                   {"3D edges", static_cast<std::int64_t>(sketch.edges.size())},
-                   {"2D edges used", c.used_edges}};
+  StageCounts counts = {
+      {"view pairs", c.view_pairs},
+      {"edges asked", c.h1_edges},
+      {"hypotheses", c.hypotheses},
+      {"hypotheses without support", c.unsupported},
+      {"weaker rivals", c.rivals},
+      {"3D edges", static_cast<std::int64_t>(sketch.edges.size())},
+      {"2D edges used", c.used_edges}};
   if (c.repeated_views > 0) {
     counts.emplace(counts.begin(), "repeated views", c.repeated_views);
   }
   return counts;
 }
 
-Counts CountsOf(const CurveSet& curves) {
+StageCounts CountsOf(const CurveSet& curves) {
   std::int64_t num_samples = 0;
   for (const Curve& curve : curves.curves) {
     num_samples += static_cast<std::int64_t>(curve.samples.size());
@@ -30,8 +36,8 @@ Counts CountsOf(const CurveSet& curves) {
           {"samples", num_samples}};
 }
 
-Counts KindCounts(const CurveSet& curves) {
-  Counts counts;
+StageCounts KindCounts(const CurveSet& curves) {
+  StageCounts counts;
   for (int kind = 0; kind < kNumCurveKinds; ++kind) {
     counts.emplace_back(KindName(static_cast<CurveKind>(kind)), 0);
   }
@@ -50,7 +56,7 @@ bool RunRecorder::Begin(const std::string& stage) {
   return Tell(0, 0);
 }
 
-void RunRecorder::End(Counts counts) {
+void RunRecorder::End(StageCounts counts) {
   report_.stages.push_back(stopwatch_.Read(stage_, std::move(counts)));
 }
 

@@ -4,23 +4,19 @@
 
 #include <curvix/reconstruct.h>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "base/cancelled.h"
 #include "base/stopwatch.h"
 
 namespace curvix {
 
-using Counts = std::vector<std::pair<std::string, std::int64_t>>;
-
-Counts CountsOf(const CurveSet& curves);
+StageCounts CountsOf(const CurveSet& curves);
 
 // How many samples are of each kind.
-Counts KindCounts(const CurveSet& curves);
+StageCounts KindCounts(const CurveSet& curves);
 
 // Records one stage after the other. Once the progress callback returns false,
 // the run is cancelled, and no further stage is to begin.
@@ -30,7 +26,7 @@ class RunRecorder {
 
   // Releases what earlier stages have freed. False: the run is cancelled.
   [[nodiscard]] bool Begin(const std::string& stage);
-  void End(Counts counts);
+  void End(StageCounts counts);
 
   // A callback for a stage that counts its own steps.
   StepDone Steps();

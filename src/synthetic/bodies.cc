@@ -44,9 +44,9 @@ SolidPrimitive Sphere(const Vector3d& centre, double radius) {
   return sphere;
 }
 
-SolidPrimitive Sheet(const Vector3d& corner,
-                     const Vector3d& side,
-                     const Vector3d& other_side) {
+SolidPrimitive FlatSheet(const Vector3d& corner,
+                         const Vector3d& side,
+                         const Vector3d& other_side) {
   SolidPrimitive sheet;
   sheet.shape = PrimitiveShape::kSheet;
   sheet.size = {side.norm() / 2, other_side.norm() / 2, 0};

@@ -27,9 +27,9 @@ SolidPrimitive Cylinder(const Eigen::Vector3d& base,
 SolidPrimitive Sphere(const Eigen::Vector3d& centre, double radius);
 
 // The parallelogram of two sides at right angles that begin at `corner`.
-SolidPrimitive Sheet(const Eigen::Vector3d& corner,
-                     const Eigen::Vector3d& side,
-                     const Eigen::Vector3d& other_side);
+SolidPrimitive FlatSheet(const Eigen::Vector3d& corner,
+                         const Eigen::Vector3d& side,
+                         const Eigen::Vector3d& other_side);
 
 SolidPrimitive Without(SolidPrimitive primitive, double albedo = 1);
 

@@ -200,8 +200,7 @@ bool TouchesAnotherSheet(const Solid& solid,
         if (other.shape != PrimitiveShape::kSheet || &other == &sheet) {
           return false;
         }
-        const Rigid3& pose = other.world_from_own;
-        const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
+        const Vector3d own = OwnFromWorld(other, x);
         return ((own.cwiseAbs() - other.size).array() < tolerance).all();
       });
 }

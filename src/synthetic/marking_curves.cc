@@ -21,11 +21,10 @@ bool IsOnSurface(const Solid& solid,
                  int face_idx,
                  const Vector3d& x) {
   const SolidPrimitive& primitive = solid.primitives()[primitive_idx];
-  const Rigid3& pose = primitive.world_from_own;
-  const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
+  const Vector3d own = OwnFromWorld(primitive, x);
   const double clear = (primitive.is_added ? 1e-5 : -1e-5) * solid.detail();
-  const Vector3d out =
-      clear * (pose.rotation * OwnNormal(primitive, face_idx, own));
+  const Vector3d out = clear * (primitive.world_from_own.rotation *
+                                OwnNormal(primitive, face_idx, own));
   if (solid.Contains(x + out)) return false;
   const auto hit = solid.Trace({x + out, -out});
   return hit && hit->primitive_idx == primitive_idx &&

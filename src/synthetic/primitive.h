@@ -40,6 +40,13 @@ struct SolidPrimitive {
   Rigid3 world_from_own;  // its pose
 };
 
+// A point of the world in the frame of the primitive.
+inline Eigen::Vector3d OwnFromWorld(const SolidPrimitive& primitive,
+                                    const Eigen::Vector3d& x) {
+  const Rigid3& pose = primitive.world_from_own;
+  return pose.rotation.conjugate() * (x - pose.translation);
+}
+
 struct Ray {
   Eigen::Vector3d origin;     // world
   Eigen::Vector3d direction;  // world, any length > 0

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/render.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace curvix {
 namespace {
@@ -196,37 +200,21 @@ class CornerGrid {
 
 }  // namespace
 
-double RenderedImage::At(const Vector2d& pixel) const {
-  const double x = std::clamp(pixel.x() - 0.5, 0.0, width - 1.0);
-  const double y = std::clamp(pixel.y() - 0.5, 0.0, height - 1.0);
-  const int x0 = std::min(static_cast<int>(x), width - 2);
-  const int y0 = std::min(static_cast<int>(y), height - 2);
-  const auto at = [&](int column, int row) -> double {
-    return grey[static_cast<std::size_t>(row) *
-                    static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(column)];
-  };
-  const double fx = x - x0;
-  const double fy = y - y0;
-  return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
-         fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
-}
-
-RenderedImage Render(const Solid& solid,
-                     const Surfaces& surfaces,
-                     const Camera& camera,
-                     const Rigid3& cam_from_world) {
+GrayImage Render(const Solid& solid,
+                 const Surfaces& surfaces,
+                 const Camera& camera,
+                 const Rigid3& cam_from_world) {
   const Renderer renderer(solid, surfaces, camera, cam_from_world);
   const CornerGrid corners(renderer, camera.width, camera.height);
-  RenderedImage image{camera.width, camera.height, {}};
-  image.grey.reserve(static_cast<std::size_t>(camera.width) *
-                     static_cast<std::size_t>(camera.height));
+  GrayImage image{camera.width, camera.height, {}};
+  image.pixels.reserve(static_cast<std::size_t>(camera.width) *
+                       static_cast<std::size_t>(camera.height));
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const Cell cell = corners.PixelCell(x, y);
       const double grey =
           corners.IsQuiet(x, y) ? MeanGrey(cell) : renderer.Integrate(cell, 0);
-      image.grey.push_back(static_cast<float>(std::clamp(grey, 0.0, 255.0)));
+      image.pixels.push_back(static_cast<float>(std::clamp(grey, 0.0, 255.0)));
     }
   }
   return image;

@@ -52,8 +52,8 @@ void AddWindow(double x, std::vector<SolidPrimitive>& parts) {
                       {right + 0.03, 0.03, bottom - 0.002}));
   // Open shutters.
   const Vector3d up(0, 0, top - bottom);
-  parts.push_back(Sheet({x - 0.01, 0, bottom}, {-0.05, -0.09, 0}, up));
-  parts.push_back(Sheet({right + 0.01, 0, bottom}, {0.05, -0.09, 0}, up));
+  parts.push_back(FlatSheet({x - 0.01, 0, bottom}, {-0.05, -0.09, 0}, up));
+  parts.push_back(FlatSheet({right + 0.01, 0, bottom}, {0.05, -0.09, 0}, up));
 }
 
 // A body of which all edges are rounded: planes, cylinders and spheres that
@@ -165,8 +165,8 @@ std::vector<SolidPrimitive> House() {
       Box({0.4, -0.07, -0.01}, {0.6, 0.01, 0.02}),
       Cylinder({-0.07, -0.15, -0.01}, {0, 0, 0.34}, 0.035),
       Sphere({1.02, -0.2, 0.05}, 0.08),
-      Sheet({0.38, 0, 0.42}, {0.24, 0, 0}, {0, -0.14, -0.05}),
-      Painted(kPrint, Sheet({0.12, -0.3, 0}, {0.2, 0.06, 0}, {0, 0, 0.2}))};
+      FlatSheet({0.38, 0, 0.42}, {0.24, 0, 0}, {0, -0.14, -0.05}),
+      Painted(kPrint, FlatSheet({0.12, -0.3, 0}, {0.2, 0.06, 0}, {0, 0, 0.2}))};
   AddWindow(0.12, parts);
   AddWindow(0.7, parts);
   return parts;
@@ -177,10 +177,11 @@ std::vector<SolidPrimitive> Table() {
       Painted(kWood, Box({0, 0, -0.06}, {1, 0.8, 0})),
       Turned(20, Painted(kPrint, Box({0.12, 0.4, -0.01}, {0.4, 0.6, 0.4}))),
       Turned(-12, Painted(kBrick, Box({0.68, 0.5, -0.01}, {0.94, 0.72, 0.2}))),
-      Painted(kPrint, Sheet({0.36, 0.12, 0}, {0.2, 0.07, 0}, {0, 0, 0.2})),
-      Sheet({0.44, 0.76, 0}, {0.18, 0, 0}, {0, -0.05, 0.2}),  // a folded card
-      Sheet({0.44, 0.66, 0}, {0.18, 0, 0}, {0, 0.05, 0.2}),
-      Sheet({0.86, 0.32, 0}, {0.1, 0.1, 0}, {0, 0, 0.16}),
+      Painted(kPrint, FlatSheet({0.36, 0.12, 0}, {0.2, 0.07, 0}, {0, 0, 0.2})),
+      // A folded card.
+      FlatSheet({0.44, 0.76, 0}, {0.18, 0, 0}, {0, -0.05, 0.2}),
+      FlatSheet({0.44, 0.66, 0}, {0.18, 0, 0}, {0, 0.05, 0.2}),
+      FlatSheet({0.86, 0.32, 0}, {0.1, 0.1, 0}, {0, 0, 0.16}),
       Sphere({0.18, 0.2, 0.07}, 0.09),
       Cylinder({0.78, 0.18, -0.01}, {0, 0, 0.17}, 0.085),
       Without(Cylinder({0.78, 0.18, 0.02}, {0, 0, 0.2}, 0.07), kHoleAlbedo)};

@@ -185,8 +185,7 @@ Look Surfaces::At(const Ray& ray, const Hit& hit) const {
   Look look{primitive.albedo * Shade(hit.normal),
             Mix(spots.patch_id, face + 1)};
   if (const FacePattern* pattern = PatternOf(hit.primitive_idx, hit.face_idx)) {
-    const Rigid3& pose = primitive.world_from_own;
-    const Vector3d own = pose.rotation.conjugate() * (x - pose.translation);
+    const Vector3d own = OwnFromWorld(primitive, x);
     const auto painted = pattern->At(FaceFromOwn(primitive, hit.face_idx, own));
     look.grey *= painted.tone;
     look.id = Mix(look.id, painted.patch_id);

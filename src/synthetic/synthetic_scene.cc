@@ -28,13 +28,13 @@ std::string ViewName(std::size_t i) {
   return "view_" + number + ".png";
 }
 
-SyntheticImage WithNoise(const RenderedImage& rendered,
+SyntheticImage WithNoise(const GrayImage& rendered,
                          double sigma,
                          std::uint64_t seed) {
   SyntheticImage image{rendered.width, rendered.height, {}};
-  image.pixels.reserve(rendered.grey.size());
-  for (std::size_t i = 0; i < rendered.grey.size(); ++i) {
-    double grey = static_cast<double>(rendered.grey[i]);
+  image.pixels.reserve(rendered.pixels.size());
+  for (std::size_t i = 0; i < rendered.pixels.size(); ++i) {
+    double grey = static_cast<double>(rendered.pixels[i]);
     if (sigma > 0) grey += sigma * Gaussian(seed, i);
     image.pixels.push_back(
         static_cast<std::uint8_t>(std::lround(std::clamp(grey, 0.0, 255.0))));
@@ -172,7 +172,7 @@ Result<SyntheticScene> MakeSyntheticScene(
   scene.images.resize(poses.size());
   std::vector<std::vector<SampleInView>> looks(poses.size());
   const auto make_view = [&](std::size_t i) {
-    const RenderedImage image = Render(solid, surfaces, *camera, poses[i]);
+    const GrayImage image = Render(solid, surfaces, *camera, poses[i]);
     looks[i] = LookAtSamples(scene.truth, solid, *camera, poses[i], image);
     scene.images[i] =
         WithNoise(image, options.noise, Mix(Mix(options.seed, kNoise), i));

@@ -44,7 +44,7 @@ SampleInView LookAtSample(const TrueSample& sample,
                           const Solid& solid,
                           const Camera& camera,
                           const Rigid3& cam_from_world,
-                          const RenderedImage& image) {
+                          const GrayImage& image) {
   const auto pixel = Sight(sample.position, solid, camera, cam_from_world);
   if (!pixel) return {};
   const Vector3d in_cam = cam_from_world * sample.position;
@@ -55,7 +55,8 @@ SampleInView LookAtSample(const TrueSample& sample,
   if (tangent.norm() == 0) return {true, false};  // seen end on
   const Vector2d across =
       kSideDistancePx * Vector2d(-tangent.y(), tangent.x()).normalized();
-  const double contrast = image.At(*pixel + across) - image.At(*pixel - across);
+  const double contrast =
+      Bilinear(image, *pixel + across) - Bilinear(image, *pixel - across);
   return {true, std::abs(contrast) >= kMinContrast};
 }
 
@@ -101,7 +102,7 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
                                         const Solid& solid,
                                         const Camera& camera,
                                         const Rigid3& cam_from_world,
-                                        const RenderedImage& image) {
+                                        const GrayImage& image) {
   std::vector<SampleInView> looks;
   looks.reserve(samples.size());
   for (const TrueSample& sample : samples) {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "synthetic/render.h"
+#include "base/gray_image.h"
 #include "synthetic/solid.h"
 #include "synthetic/surfaces.h"
 #include "synthetic/synthetic_scene.h"
@@ -32,7 +32,7 @@ std::vector<SampleInView> LookAtSamples(const std::vector<TrueSample>& samples,
                                         const Solid& solid,
                                         const Camera& camera,
                                         const Rigid3& cam_from_world,
-                                        const RenderedImage& image);
+                                        const GrayImage& image);
 
 // Up to `num_per_view` points of the surface that each view finds, in random
 // places of its image (given by `seed`), with all views that see them: two at

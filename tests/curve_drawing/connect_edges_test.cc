@@ -28,7 +28,7 @@ NeighborhoodGraph Complete(std::size_t num_edges) {
       rows[i].push_back({static_cast<std::int32_t>(j), 1, 0});
     }
   }
-  return NeighborhoodGraph::FromRows(rows);
+  return NeighborhoodGraph::FromRows(rows, 1);
 }
 
 EndTies Connected(const std::vector<Edge3d>& edges) {
@@ -82,11 +82,12 @@ TEST(ConnectEdges, RespectsStepAngleAndLinks) {
   Edge3d turned = EdgeAtPx(1, 0);
   turned.tangent = Eigen::Vector3d::UnitY();
   EXPECT_FALSE(Connected({EdgeAtPx(0, 0), turned})[Head(0)].has_value());
-  const EndTies unlinked = ConnectEdges({EdgeAtPx(0, 0), EdgeAtPx(1, 0)},
-                                        NeighborhoodGraph::FromRows({{}, {}}),
-                                        RingOfViews(8),
-                                        {},
-                                        1);
+  const EndTies unlinked =
+      ConnectEdges({EdgeAtPx(0, 0), EdgeAtPx(1, 0)},
+                   NeighborhoodGraph::FromRows({{}, {}}, 1),
+                   RingOfViews(8),
+                   {},
+                   1);
   EXPECT_FALSE(unlinked[Head(0)].has_value());
 }
 
@@ -119,7 +120,7 @@ TEST(ThinEdges, MakesOneOfLinkedEdgesInOnePlace) {
 
 TEST(ThinEdges, LeavesUnlinkedAndCrossingEdgesAlone) {
   std::vector<Edge3d> edges = {EdgeAtPx(0, 0), EdgeAtPx(0, 0.1)};
-  const auto unlinked = NeighborhoodGraph::FromRows({{}, {}});
+  const auto unlinked = NeighborhoodGraph::FromRows({{}, {}}, 1);
   EXPECT_EQ(ThinEdges(edges, unlinked, RingOfViews(8), {}, 1).edges.size(), 2u);
   edges[1].tangent = Eigen::Vector3d::UnitY();
   EXPECT_EQ(ThinEdges(edges, Complete(2), RingOfViews(8), {}, 1).edges.size(),

@@ -198,7 +198,8 @@ TEST(GroupEdges, GivesNothingForDegenerateInput) {
   EXPECT_TRUE(GroupEdges({}, {}, views, {}, 2).empty());
   const std::vector<Edge3d> one(1);
   EXPECT_TRUE(
-      GroupEdges(one, NeighborhoodGraph::FromRows({{}}), views, {}, 2).empty());
+      GroupEdges(one, NeighborhoodGraph::FromRows({{}}, 1), views, {}, 2)
+          .empty());
   std::vector<Edge3d> heap(20);
   for (Edge3d& edge : heap) edge.support = {{0, 0}, {1, 0}};
   std::vector<EdgeMap> maps(3);

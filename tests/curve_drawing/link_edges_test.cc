@@ -92,7 +92,7 @@ TEST(SpreadLimits, AreMeanPlusLambdaSigmaOfEachDistance) {
   // Normal distances 1 and 3, tangential 0 and 4, no angles.
   const std::vector<Edge3d> edges = {
       EdgeAt(0, 0, {}), EdgeAt(0, 1, {}), EdgeAt(4, 4, {})};
-  const auto graph = NeighborhoodGraph::FromRows({{{1}}, {{2}}, {}});
+  const auto graph = NeighborhoodGraph::FromRows({{{1}}, {{2}}, {}}, 1);
   const EdgeDistances limits = SpreadLimits(edges, graph, 2, 1);
   EXPECT_DOUBLE_EQ(limits.normal, 2 + 2 * 1);
   EXPECT_DOUBLE_EQ(limits.tangential, 2 + 2 * 2);
@@ -110,7 +110,7 @@ std::pair<std::vector<Edge3d>, NeighborhoodGraph> OneOddLink(
   }
   edges.push_back(odd);
   rows[0].push_back({11, weight, 0});
-  return {edges, NeighborhoodGraph::FromRows(rows)};
+  return {edges, NeighborhoodGraph::FromRows(rows, 1)};
 }
 
 TEST(PruneBySpread, RemovesALightLinkThatIsFarOffInAnyWay) {
@@ -143,7 +143,7 @@ TEST(PruneByProjection, AsksOnlyTheViewsThatSeeBoth) {
   Edge3d a = EdgeAt(0, 0, {{1, 0}});
   Edge3d b = a;
   b.position = 0.08 * line_of_sight;
-  const auto graph = NeighborhoodGraph::FromRows({{{1, 1, 0}}, {}});
+  const auto graph = NeighborhoodGraph::FromRows({{{1, 1, 0}}, {}}, 1);
   const auto num_left = [&] {
     return PruneByProjection({a, b}, graph, views, options, 1).NumLinks();
   };

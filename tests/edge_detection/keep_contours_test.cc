@@ -37,13 +37,16 @@ class KeepContoursTest : public ::testing::Test {
       AppendChain(chain.length, chain.strength, edges_, neighbors_);
     }
   }
-  KeptEdges Keep(std::int64_t max_edges, const Thinning& thinning = {}) const {
+  KeptEdges Keep(std::int64_t max_edges,
+                 std::int64_t max_unthinned_edges = 0,
+                 double thinned_spacing_px = 0) const {
     EdgeDetectionOptions options;
     options.min_contour_edges = 4;
     ContourLimits limits;
     limits.min_gradient = 10;
     limits.max_edges = max_edges;
-    limits.thinning = thinning;
+    limits.max_unthinned_edges = max_unthinned_edges;
+    limits.thinned_spacing_px = thinned_spacing_px;
     return KeepContours(edges_, neighbors_, options, limits);
   }
 
@@ -145,7 +148,7 @@ TEST_F(KeepContoursTest, KeepsBordersBeforeTextureSomewhatStronger) {
 TEST_F(KeepContoursTest, LeavesNoLargerGapsThanItMust) {
   Build({{3, 15}, {10, 30}, {2, 40}});
   for (Edge2d& edge : edges_) edge.position *= 0.5;
-  const KeptEdges kept = Keep(100, {11, 1});
+  const KeptEdges kept = Keep(100, 11, 1);
   ASSERT_EQ(kept.edges.size(), 6u);
   EXPECT_EQ(kept.num_thinned_out, 6);
   EXPECT_EQ(kept.num_isolated, 3);
@@ -154,15 +157,15 @@ TEST_F(KeepContoursTest, LeavesNoLargerGapsThanItMust) {
     EXPECT_EQ(kept.edges[i].position.x(), 1.5 + static_cast<double>(i));
   }
   EXPECT_EQ(kept.edges[5].strength, 40) << "every contour is still there";
-  EXPECT_EQ(Keep(100, {11, 0.5}).num_thinned_out, 0);
-  EXPECT_EQ(Keep(100, {12, 1}).num_thinned_out, 0) << "these are few enough";
+  EXPECT_EQ(Keep(100, 11, 0.5).num_thinned_out, 0);
+  EXPECT_EQ(Keep(100, 12, 1).num_thinned_out, 0) << "these are few enough";
 }
 
 TEST_F(KeepContoursTest, ThinsClosedContours) {
   Build({{8, 30}});
   neighbors_.front().previous = 7;
   neighbors_.back().next = 0;
-  EXPECT_EQ(Keep(100, {0, 2}).edges.size(), 4u);
+  EXPECT_EQ(Keep(100, 0, 2).edges.size(), 4u);
 }
 
 TEST_F(KeepContoursTest, KeepsTheOrderAndAcceptsNoEdges) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <random>
 
-#include "edge_detection/gray_image.h"
+#include "base/gray_image.h"
 
 namespace curvix {
 

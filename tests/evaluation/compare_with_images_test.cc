@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "evaluation/holdout.h"
+#include "evaluation/image_agreement.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {

@@ -64,11 +64,10 @@ class EvaluateAgreement : public ::testing::Test {
   void ExpectAgreement(const CurveSet& curves, const fs::path& truth_path) {
     const fs::path path = folder_.path() / "curves.ply";
     ASSERT_TRUE(WriteCurves(path, curves, {}).ok());
-    std::ostringstream ours;
-    const Status status =
-        EvaluateFiles(path, truth_path, {}, EvaluationFormat::kJson, ours);
-    ASSERT_TRUE(status.ok()) << status.message();
-    const auto actual = nlohmann::json::parse(ours.str());
+    const Result<std::string> ours =
+        EvaluateFiles(path, truth_path, {}, /*json=*/true);
+    ASSERT_TRUE(ours.ok()) << ours.status().message();
+    const auto actual = nlohmann::json::parse(*ours);
     const auto expected = nlohmann::json::parse(
         RunCommand(python_ + " " + ScriptPath("evaluate.py").string() + " " +
                    path.string() + " " + truth_path.string() + " --json"));
@@ -176,12 +175,12 @@ TEST(HoldoutAgreement, AnIndependentScriptFindsTheSameFigures) {
   if (python.empty()) GTEST_SKIP() << "no python3 with numpy, scipy and cv2";
   RunSettings settings;
   settings.workspace_path = workspace;
-  std::ostringstream ours, words;
+  std::ostringstream words;
   ProgressPrinter progress(words, false);
-  const Status status =
-      RunHoldout(settings, lines, 4, EvaluationFormat::kJson, progress, ours);
-  ASSERT_TRUE(status.ok()) << status.message();
-  const auto actual = nlohmann::json::parse(ours.str());
+  const Result<std::string> ours =
+      RunHoldout(settings, lines, 4, /*json=*/true, progress);
+  ASSERT_TRUE(ours.ok()) << ours.status().message();
+  const auto actual = nlohmann::json::parse(*ours);
   const auto expected = nlohmann::json::parse(
       RunCommand(python + " " + script.string() + " " + workspace.string() +
                  " " + lines.string() + " --every 4 --json"));

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "evaluation/evaluate.h"
@@ -14,6 +13,7 @@ namespace curvix {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr CurveKind kUnknown = CurveKind::kUnknown;
 constexpr CurveKind kCrease = CurveKind::kCrease;
@@ -144,11 +144,11 @@ TEST(EvaluateKinds, WithoutKindsInTheTruthThereAreNone) {
   const auto evaluation =
       EvaluateCurves({{LineOfKind(0, 0, 1, kCrease)}}, truth, {});
   EXPECT_FALSE(evaluation->kinds.has_value());
-  std::ostringstream table, json;
-  PrintEvaluation(*evaluation, EvaluationFormat::kTable, table);
-  EXPECT_EQ(table.str().find("kind"), std::string::npos);
-  PrintEvaluation(*evaluation, EvaluationFormat::kJson, json);
-  EXPECT_TRUE(nlohmann::json::parse(json.str()).at("kinds").is_null());
+  EXPECT_THAT(EvaluationText(*evaluation, /*json=*/false),
+              Not(HasSubstr("kind")));
+  const auto json =
+      nlohmann::json::parse(EvaluationText(*evaluation, /*json=*/true));
+  EXPECT_TRUE(json.at("kinds").is_null());
 }
 
 TEST(EvaluateKinds, ArePrintedAsATableAndAsJson) {
@@ -156,22 +156,22 @@ TEST(EvaluateKinds, ArePrintedAsATableAndAsJson) {
       {{LineOfKind(0, 0, 0.75, kCrease), LineOfKind(0, 0.75, 1, kMarking)}},
       ThreeLines(),
       {});
-  std::ostringstream table, text;
-  PrintEvaluation(*evaluation, EvaluationFormat::kTable, table);
+  const std::string table = EvaluationText(*evaluation, /*json=*/false);
   EXPECT_THAT(
-      table.str(),
+      table,
       HasSubstr("true kind, mm              length   visible   recall\n"
                 "crease                        1000      1000  100.000 %\n"));
   EXPECT_THAT(
-      table.str(),
+      table,
       HasSubstr(
           "said to be, mm             unknown    crease  boundary   marking   "
           "contour    right\n"
           "crease                           0       750         0       250   "
           "      0   75.000 %\n"));
-  EXPECT_THAT(table.str(), HasSubstr("of the right kind          75.000 %\n"));
-  PrintEvaluation(*evaluation, EvaluationFormat::kJson, text);
-  const auto json = nlohmann::json::parse(text.str()).at("kinds");
+  EXPECT_THAT(table, HasSubstr("of the right kind          75.000 %\n"));
+  const auto json =
+      nlohmann::json::parse(EvaluationText(*evaluation, /*json=*/true))
+          .at("kinds");
   EXPECT_NEAR(json.at("right").get<double>(), 75, 1e-6);
   EXPECT_NEAR(
       json.at("crease").at("said").at("marking").get<double>(), 250, 1e-6);

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
+#include <string>
 
 namespace curvix {
 namespace {
@@ -196,35 +196,32 @@ TEST(EvaluateCurves, UnusableInputIsRefused) {
   }
 }
 
-TEST(PrintEvaluation, JsonHasNullForWhatIsAbsent) {
-  std::ostringstream text;
-  PrintEvaluation(Evaluate({}, OneLine()), EvaluationFormat::kJson, text);
-  const auto json = nlohmann::json::parse(text.str());
+TEST(EvaluationText, JsonHasNullForWhatIsAbsent) {
+  const auto json = nlohmann::json::parse(
+      EvaluationText(Evaluate({}, OneLine()), /*json=*/true));
   EXPECT_TRUE(json.at("acc").is_null());
   EXPECT_TRUE(json.at("gt_curves").is_null());
   EXPECT_EQ(json.at("F5"), 0);
   EXPECT_EQ(json.at("gt"), 500);
 }
 
-TEST(PrintEvaluation, TableIsAligned) {
-  std::ostringstream text;
-  PrintEvaluation(Evaluate({Polyline({{0, 0, 0}, {1, 0, 0}})}, OneLine()),
-                  EvaluationFormat::kTable,
-                  text);
-  EXPECT_THAT(text.str(),
+TEST(EvaluationText, TableIsAligned) {
+  const std::string text =
+      EvaluationText(Evaluate({Polyline({{0, 0, 0}, {1, 0, 0}})}, OneLine()),
+                     /*json=*/false);
+  EXPECT_THAT(text,
               HasSubstr("within                       5 mm    10 mm    20 mm\n"
                         "precision                 100.000  100.000  100.000 "
                         "%\n"));
-  EXPECT_THAT(text.str(), HasSubstr("accuracy                    0.000 mm\n"));
+  EXPECT_THAT(text, HasSubstr("accuracy                    0.000 mm\n"));
 }
 
 TEST(EvaluateFiles, MissingFilesAreNamed) {
-  std::ostringstream out;
-  const Status status = EvaluateFiles(
-      "no_curves.ply", "no_truth.txt", {}, EvaluationFormat::kTable, out);
+  const Status status =
+      EvaluateFiles("no_curves.ply", "no_truth.txt", {}, /*json=*/false)
+          .status();
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_THAT(status.message(), HasSubstr("no_curves.ply"));
-  EXPECT_TRUE(out.str().empty());
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ double SumOfSquares(const FittedCurves& fitted) {
 Vector3d Axis(const FittedCurves& fitted, const FitIndex& index) {
   const CurveFit& fit = fitted.curves[index.curve_idx].fits[index.fit_idx];
   return fit.kind == FitKind::kLine ? (fit.end - fit.start).normalized()
-                                    : fit.major.cross(fit.minor).normalized();
+                                    : NormalOf(fit);
 }
 
 void ExpectHeld(const FittedCurves& fitted) {

@@ -9,15 +9,12 @@ namespace curvix {
 
 std::vector<std::string> FuzzSeeds() {
   return {NpyOfMatrix(Eigen::Matrix4d::Identity()),
-          NpyFile("'>f4'", "True", "(2,)", "12345678", 2),
-          NpyFile("'<f8'", "False", "()", "12345678", 3)};
+          NpyFile("'>f4'", "True", "(4L, 4L)", std::string(64, '1'), 2),
+          NpyFile("'<f8'", "False", "(4, 4, )", std::string(128, '1'), 3)};
 }
 
 void FuzzReader(std::string_view bytes) {
-  const Result<NpyArray> array = ParseNpy(bytes, "array");
-  RequireSentence(array.status());
-  if (!array.ok()) return;
-  RequireSentence(MatrixFromNpy(*array, 4, 4, "array").status());
+  RequireSentence(ParseNpy(bytes, "array").status());
 }
 
 }  // namespace curvix

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/file_io.h"
+#include "io/stage_file.h"
 #include "io/stage_io.h"
 #include "model/check_input.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -24,7 +24,7 @@ NeighborhoodGraph LinksOf(const SyntheticEdges& made) {
 }
 
 NeighborhoodGraph Pair() {
-  return NeighborhoodGraph::FromRows({{{1, 1, 0}}, {}});
+  return NeighborhoodGraph::FromRows({{{1, 1, 0}}, {}}, 1);
 }
 
 TEST(PullOn, LeadsAcrossTheLineOfTheNeighborAndNotAlongIt) {
@@ -57,10 +57,10 @@ TEST(PullOn, FallsWithDistanceAndGrowsWithTheWeightOfTheLink) {
       {{0, 1, 0}, Eigen::Vector3d::UnitX()},
       {{4, -1, 0}, Eigen::Vector3d::UnitX()}};
   const auto equal =
-      NeighborhoodGraph::FromRows({{{1, 1, 0}, {2, 1, 0}}, {}, {}});
+      NeighborhoodGraph::FromRows({{{1, 1, 0}, {2, 1, 0}}, {}, {}}, 1);
   EXPECT_GT(PullOn(0, equal.Neighbors(0), points, {1, true}).force.y(), 0.1);
   const auto heavy =
-      NeighborhoodGraph::FromRows({{{1, 1, 0}, {2, 5, 4}}, {}, {}});
+      NeighborhoodGraph::FromRows({{{1, 1, 0}, {2, 5, 4}}, {}, {}}, 1);
   EXPECT_LT(PullOn(0, heavy.Neighbors(0), points, {1, true}).force.y(), -0.1);
 }
 

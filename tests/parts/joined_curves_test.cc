@@ -19,9 +19,9 @@ namespace {
 
 using Curves = std::vector<Curve>;
 
-const std::vector<PosedView>& Views() {
-  static const std::vector<PosedView> views = RingOfViews(8);
-  return views;
+const Scene& RingScene() {
+  static const Scene scene = SceneOf(RingOfViews(8));
+  return scene;
 }
 
 // Two parts, divided at x = 0.
@@ -100,7 +100,7 @@ PartsInMemory Parts(const Curves& below, const Curves& above) {
 Curves Join(const Curves& below, const Curves& above) {
   const ScenePartition partition = Halves();
   PartsInMemory parts = Parts(below, above);
-  const JoinedCurves joined(partition, parts, Views(), Options());
+  const JoinedCurves joined(partition, parts, RingScene(), Options());
   EXPECT_TRUE(joined.status().ok());
   Curves curves;
   joined.ForEach([&](std::size_t id, const Curve& curve) {
@@ -225,7 +225,7 @@ TEST(JoinedCurves, NameTheViewsOfTheSceneAndTheirOwnEdges) {
   const Curve above =
       CutCurves({Reversed(line)}, cores[1], partition.overlap).front();
   PartsInMemory parts({{Traced(below, 0)}, {Traced(above, 2)}});
-  const JoinedCurves joined(partition, parts, Views(), Options());
+  const JoinedCurves joined(partition, parts, RingScene(), Options());
   ASSERT_EQ(joined.size(), 1u);
   joined.ForEach([&](std::size_t, const Curve& curve) {
     EXPECT_NEAR(Length(curve), 120 * kPx, 2 * kPx);
@@ -245,7 +245,7 @@ TEST(JoinedCurves, RefuseViewsAndEdgesThatAreNotThere) {
     TracedCurve broken = Traced(Line({-100, 0, 0}, {-10, 0, 0}), 1);
     broken.curve.samples.back().support = {ref};
     PartsInMemory parts({{broken}, {}});
-    const JoinedCurves joined(partition, parts, Views(), Options());
+    const JoinedCurves joined(partition, parts, RingScene(), Options());
     EXPECT_EQ(joined.status().code(), StatusCode::kDataLoss);
     EXPECT_EQ(joined.size(), 0u);
   }
@@ -255,7 +255,7 @@ TEST(JoinedCurves, ShowNothingMoreAfterOneThatCannotBeRead) {
   const ScenePartition partition = Halves();
   PartsInMemory parts = Parts(
       {Line({-90, 0, 0}, {-40, 0, 0}), Line({-90, 9, 0}, {-40, 9, 0})}, {});
-  const JoinedCurves joined(partition, parts, Views(), Options());
+  const JoinedCurves joined(partition, parts, RingScene(), Options());
   ASSERT_EQ(joined.size(), 2u);
   parts.num_reads_left = 1;
   int num_shown = 0;

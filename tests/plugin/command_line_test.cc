@@ -268,14 +268,20 @@ TEST_F(CommandLine, FullHelpMentionsEveryOptionWithDefaultAndRange) {
   }
 }
 
-TEST(NearestName, PrefersTheNearestAndIsSilentWhenNoneIsNear) {
+TEST(Suggestion, PrefersTheNearestAndIsSilentWhenNoneIsNear) {
+  const auto suggestion = [](const std::string& name,
+                             const std::vector<std::string>& names) {
+    return Suggestion(name, names, "--", "none");
+  };
   const std::vector<std::string> names = {"A.min_length_px", "A.max_length_px"};
-  EXPECT_EQ(NearestName("max_lenght_px", names), "A.max_length_px");
-  EXPECT_EQ(NearestName("B.min_length_px", names), "A.min_length_px");
-  EXPECT_EQ(NearestName("min_length", names), "A.min_length_px");
-  EXPECT_EQ(NearestName("zzz", names), "");
-  EXPECT_EQ(NearestName("", names), "");
-  EXPECT_EQ(NearestName("x", {}), "");
+  const std::string min = "; did you mean '--A.min_length_px'?";
+  EXPECT_EQ(suggestion("max_lenght_px", names),
+            "; did you mean '--A.max_length_px'?");
+  EXPECT_EQ(suggestion("B.min_length_px", names), min);
+  EXPECT_EQ(suggestion("min_length", names), min);
+  EXPECT_EQ(suggestion("zzz", names), "; none");
+  EXPECT_EQ(suggestion("", names), "; none");
+  EXPECT_EQ(suggestion("x", {}), "; none");
 }
 
 }  // namespace

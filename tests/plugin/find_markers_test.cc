@@ -11,6 +11,7 @@
 
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "plugin/align/marker_detector.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_views.h"
 

@@ -98,12 +98,10 @@ TEST_F(HostileImport, DtuArchivesSayWhatIsWrong) {
       NpzFailure({{"world_mat_0", NpyFile("'<i8'", "False", "(4, 4)", "")}})
           .message(),
       HasSubstr("<i8"));
-  EXPECT_THAT(
-      NpzFailure(
-          {{"world_mat_0",
-            NpyFile("'<f8'", "False", "(1000000, 1000000)", "12345678")}})
-          .message(),
-      HasSubstr("cut short"));
+  EXPECT_THAT(NpzFailure({{"world_mat_0",
+                           NpyFile("'<f8'", "False", "(4, 4)", "12345678")}})
+                  .message(),
+              HasSubstr("cut short"));
   const std::string zero = NpyOfMatrix(Eigen::Matrix4d::Zero());
   EXPECT_THAT(
       NpzFailure({{"world_mat_0", zero}, {"world_mat_1", zero}}).message(),

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -13,15 +14,19 @@
 namespace curvix {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::initializer_list<int> kSixNumbers = {0, 1, 2, 10, 11, 12};
+// The numbers 0 to 15 row by row.
+Eigen::Matrix4d Counting() {
+  Eigen::Matrix4d matrix;
+  for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = i;
+  return matrix;
+}
 
 template <typename T>
 std::string Bytes(std::endian order) {
   std::string all;
-  for (const int number : kSixNumbers) {
+  for (int number = 0; number < 16; ++number) {
     std::string bytes;
     AppendLittleEndian(static_cast<T>(number), bytes);
     if (order == std::endian::big) std::reverse(bytes.begin(), bytes.end());
@@ -37,34 +42,29 @@ TEST(Npy, ReadsBothPrecisionsAndByteOrders) {
       {"'<f8'", Bytes<double>(std::endian::little)},
       {"'>f8'", Bytes<double>(std::endian::big)}};
   for (const auto& [descr, values] : kinds) {
-    const auto array = ParseNpy(NpyFile(descr, "False", "(2, 3)", values), "a");
-    ASSERT_TRUE(array.ok()) << array.status().message();
-    EXPECT_THAT(array->shape, ElementsAre(2, 3));
-    EXPECT_THAT(array->values, ElementsAre(0, 1, 2, 10, 11, 12)) << descr;
+    const auto matrix =
+        ParseNpy(NpyFile(descr, "False", "(4, 4)", values), "a");
+    ASSERT_TRUE(matrix.ok()) << matrix.status().message();
+    EXPECT_EQ(*matrix, Counting()) << descr;
   }
 }
 
-TEST(Npy, TurnsFortranOrderIntoCOrder) {
+TEST(Npy, ReadsFortranOrder) {
   const std::string values = Bytes<double>(std::endian::little);
-  const auto array = ParseNpy(NpyFile("'<f8'", "True", "(3, 2)", values), "a");
-  ASSERT_TRUE(array.ok()) << array.status().message();
-  EXPECT_THAT(array->values, ElementsAre(0, 10, 1, 11, 2, 12));
+  const auto matrix = ParseNpy(NpyFile("'<f8'", "True", "(4, 4)", values), "a");
+  ASSERT_TRUE(matrix.ok()) << matrix.status().message();
+  EXPECT_EQ(*matrix, Eigen::Matrix4d(Counting().transpose()));
 }
 
-TEST(Npy, ReadsVersionsShapesAndPython2) {
+TEST(Npy, ReadsVersionsAndPython2) {
   const std::string values = Bytes<float>(std::endian::little);
   for (const char version : {'\1', '\2', '\3'}) {
-    for (const char* shape : {"(6,)", "(3L, 2L)", "(1, 2, 3)"}) {
+    for (const char* shape : {"(4, 4)", "(4,4,)", "(4L, 4L)"}) {
       const std::string file =
           NpyFile("'<f4'", "False", shape, values, version);
       EXPECT_TRUE(ParseNpy(file, "a").ok()) << shape << int{version};
     }
   }
-  const std::string one = values.substr(0, 4);
-  EXPECT_TRUE(ParseNpy(NpyFile("'<f4'", "False", "()", one), "a").ok());
-  const auto none = ParseNpy(NpyFile("'<f4'", "False", "(0, 4)", ""), "a");
-  ASSERT_TRUE(none.ok());
-  EXPECT_TRUE(none->values.empty());
 }
 
 TEST(Npy, RefusesEveryTruncation) {
@@ -77,45 +77,41 @@ TEST(Npy, RefusesEveryTruncation) {
   }
 }
 
-TEST(Npy, RefusesShapesThatDoNotFitTheBytes) {
+TEST(Npy, RefusesOtherShapes) {
   for (const char* shape : {"(18446744073709551615,)",
                             "(4294967296, 4294967296, 2)",
-                            "(1000000000, 1000000000)",
-                            "(99999999999999999999999,)",
-                            "(-1, -6)",
-                            "(2, 2)",
-                            "(2, x)",
-                            "2, 3",
-                            "(2, 3"}) {
-    const auto array = ParseNpy(
+                            "(16,)",
+                            "(2, 8)",
+                            "(1, 4, 4)",
+                            "(4, 4, 1)",
+                            "()",
+                            "(-4, -4)",
+                            "(4, x)",
+                            "4, 4",
+                            "(4, 4"}) {
+    const auto matrix = ParseNpy(
         NpyFile("'<f8'", "False", shape, Bytes<double>(std::endian::little)),
         "world_mat_0");
-    EXPECT_EQ(array.status().code(), StatusCode::kDataLoss) << shape;
-    EXPECT_THAT(array.status().message(), HasSubstr("world_mat_0"));
+    EXPECT_EQ(matrix.status().code(), StatusCode::kDataLoss) << shape;
+    EXPECT_THAT(matrix.status().message(), HasSubstr("world_mat_0"));
   }
 }
 
 TEST(Npy, NamesTheTypeThatItDoesNotRead) {
   for (const char* descr : {"'<i8'", "'|O'", "'<c16'", "'f8'", "''"}) {
-    const auto array =
+    const auto matrix =
         ParseNpy(NpyFile(descr, "False", "(1,)", "12345678"), "a");
-    EXPECT_EQ(array.status().code(), StatusCode::kUnsupported) << descr;
+    EXPECT_EQ(matrix.status().code(), StatusCode::kUnsupported) << descr;
   }
   const auto records =
       ParseNpy(NpyFile("[('x', '<f8')]", "False", "(1,)", "12345678"), "a");
   EXPECT_THAT(records.status().message(), HasSubstr("records"));
 }
 
-TEST(Npy, GivesMatricesOfTheRightShapeOnly) {
-  const auto array = ParseNpy(NpyOfMatrix(Eigen::MatrixXd::Ones(4, 3)), "a");
-  ASSERT_TRUE(array.ok());
-  EXPECT_TRUE(MatrixFromNpy(*array, 4, 3, "a").ok());
-  EXPECT_FALSE(MatrixFromNpy(*array, 3, 4, "a").ok());
-  Eigen::MatrixXd hole = Eigen::MatrixXd::Ones(2, 2);
+TEST(Npy, RefusesNaN) {
+  Eigen::Matrix4d hole = Counting();
   hole(1, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(MatrixFromNpy(*ParseNpy(NpyOfMatrix(hole), "a"), 2, 2, "b")
-                  .status()
-                  .message(),
+  EXPECT_THAT(ParseNpy(NpyOfMatrix(hole), "a").status().message(),
               HasSubstr("NaN"));
 }
 
@@ -123,14 +119,14 @@ const auto kAll = [](const std::string&) { return true; };
 
 TEST(Npz, UnpacksWhatIsWanted) {
   const TemporaryFolder folder;
-  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(4, 4);
+  const Eigen::Matrix4d matrix = Eigen::Matrix4d::Random();
   const auto path = folder.path() / "a.npz";
   WriteNpz(path, {{"one", NpyOfMatrix(matrix)}, {"other", "no array"}});
-  const auto arrays =
+  const auto matrices =
       ReadNpz(path, [](const std::string& name) { return name == "one"; });
-  ASSERT_TRUE(arrays.ok()) << arrays.status().message();
-  ASSERT_EQ(arrays->size(), 1u);
-  EXPECT_EQ(*MatrixFromNpy(arrays->at("one"), 4, 4, "one"), matrix);
+  ASSERT_TRUE(matrices.ok()) << matrices.status().message();
+  ASSERT_EQ(matrices->size(), 1u);
+  EXPECT_EQ(matrices->at("one"), matrix);
   EXPECT_EQ(ReadNpz(path, kAll).status().code(), StatusCode::kDataLoss);
 }
 
@@ -147,10 +143,9 @@ TEST(Npz, RefusesEveryTruncationAndSurvivesEveryFlippedByte) {
     std::string flipped = file;
     flipped[i] = static_cast<char>(~flipped[i]);
     folder.Write("flipped.npz", flipped);
-    const auto arrays = ReadNpz(folder.path() / "flipped.npz", kAll);
-    if (!arrays.ok() || !arrays->contains("one")) continue;
-    EXPECT_EQ(*MatrixFromNpy(arrays->at("one"), 4, 4, "one"),
-              Eigen::MatrixXd(Eigen::Matrix4d::Identity()));
+    const auto matrices = ReadNpz(folder.path() / "flipped.npz", kAll);
+    if (!matrices.ok() || !matrices->contains("one")) continue;
+    EXPECT_EQ(matrices->at("one"), Eigen::Matrix4d::Identity());
   }
 }
 

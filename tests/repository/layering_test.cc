@@ -98,13 +98,8 @@ std::string FirstPart(const std::string& path) {
 
 // <vector>, and the headers of POSIX.
 bool IsSystemHeader(const std::string& path) {
-  static const Names posix = {"dlfcn.h",
-                              "fcntl.h",
-                              "poll.h",
-                              "signal.h",
-                              "spawn.h",
-                              "stdlib.h",
-                              "unistd.h"};
+  static const Names posix = {
+      "dlfcn.h", "fcntl.h", "signal.h", "stdlib.h", "unistd.h"};
   return path.find_first_of("/.") == std::string::npos ||
          posix.contains(path) || FirstPart(path) == "sys";
 }

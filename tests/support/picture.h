@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "edge_detection/gray_image.h"
+#include "base/gray_image.h"
 
 namespace curvix {
 

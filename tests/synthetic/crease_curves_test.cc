@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Solids,
                                            SyntheticSolid::kRoom));
 
 TEST(CreaseCurvesTest, OfASheetThatStandsAreOneCreaseAndThreeBoundaries) {
-  SolidPrimitive sheet = Sheet({-0.1, 0, 0.5}, {0.3, 0, 0}, {0, 0, 0.2});
+  SolidPrimitive sheet = FlatSheet({-0.1, 0, 0.5}, {0.3, 0, 0}, {0, 0, 0.2});
   const Solid solid({Cube(0.5, {0, 0, 0}), sheet});
   std::vector<TrueCurve> boundaries;
   std::vector<TrueCurve> creases;
@@ -146,8 +146,8 @@ TEST(CreaseCurvesTest, OfASheetThatStandsAreOneCreaseAndThreeBoundaries) {
 
 TEST(CreaseCurvesTest, OfAFoldedCardHaveOneCreaseAtTheFold) {
   const Solid solid({Cube(0.5, {0, 0, 0}),
-                     Sheet({-0.2, -0.1, 0.5}, {0.4, 0, 0}, {0, 0.1, 0.3}),
-                     Sheet({-0.2, 0.1, 0.5}, {0.4, 0, 0}, {0, -0.1, 0.3})});
+                     FlatSheet({-0.2, -0.1, 0.5}, {0.4, 0, 0}, {0, 0.1, 0.3}),
+                     FlatSheet({-0.2, 0.1, 0.5}, {0.4, 0, 0}, {0, -0.1, 0.3})});
   double boundaries = 0;
   std::vector<TrueCurve> level;  // creases above the cube
   for (const TrueCurve& curve : CreaseCurves(solid)) {
@@ -160,7 +160,7 @@ TEST(CreaseCurvesTest, OfAFoldedCardHaveOneCreaseAtTheFold) {
 }
 
 TEST(CreaseCurvesTest, OfASheetInABodyEndOnItsSurface) {
-  SolidPrimitive sheet = Sheet({-0.1, 0, 0.3}, {0.3, 0, 0}, {0, 0, 0.5});
+  SolidPrimitive sheet = FlatSheet({-0.1, 0, 0.3}, {0.3, 0, 0}, {0, 0, 0.5});
   double free_length = 0;
   for (const TrueCurve& curve :
        CreaseCurves(Solid({Cube(0.5, {0, 0, 0}), sheet}))) {

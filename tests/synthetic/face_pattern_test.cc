@@ -129,7 +129,7 @@ TEST(FaceFrameTest, CurvesLieWhereTheirCoordinatesSay) {
   box.world_from_own.rotation =
       Eigen::AngleAxisd(0.3, Vector3d(1, 2, 3).normalized());
   for (const SolidPrimitive& primitive :
-       {cone, box, Sheet({0, 0, 0}, {0.4, 0, 0}, {0, 0.1, 0.3})}) {
+       {cone, box, FlatSheet({0, 0, 0}, {0.4, 0, 0}, {0, 0.1, 0.3})}) {
     for (int face = 0; face < NumFaces(primitive.shape); ++face) {
       for (const Vector3d& to :
            {Vector3d(0.15, 0.1, 0), Vector3d(0.05, 0.2, 0)}) {

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 
 // Where the slope of the image across an edge at `pixel` is steepest, pixels
 // along the unit `across`: with a Gaussian of 0.7 px, within 1 px.
-double SteepestOffset(const RenderedImage& image,
+double SteepestOffset(const GrayImage& image,
                       const Vector2d& pixel,
                       const Vector2d& across) {
   constexpr double kSigma = 0.7;
@@ -32,7 +32,7 @@ double SteepestOffset(const RenderedImage& image,
     double slope = 0;
     for (double d = -2; d <= 2.01; d += 0.1) {
       slope += d * std::exp(-d * d / (2 * kSigma * kSigma)) *
-               image.At(pixel + (offset + d) * across);
+               Bilinear(image, pixel + (offset + d) * across);
     }
     if (std::abs(slope) > steepest) {
       steepest = std::abs(slope);
@@ -75,7 +75,7 @@ double ShareOnImageEdges(const Solid& solid,
   int num_edges = 0;
   int num_near = 0;
   for (const Rigid3& pose : poses) {
-    const RenderedImage image = Render(solid, surfaces, camera, pose);
+    const GrayImage image = Render(solid, surfaces, camera, pose);
     const auto looks = LookAtSamples(samples, solid, camera, pose, image);
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!looks[i].is_edge || IsEnd(samples, i)) continue;
@@ -176,7 +176,7 @@ TEST(SampleShadowEdgesTest, AreOnEdgesOfTheImages) {
                      Box({0.05, -0.2, -0.01}, {0.2, -0.1, 0.2}),
                      Sphere({-0.1, 0.1, 0.1}, 0.08),
                      Cylinder({0.3, 0.1, -0.01}, {0, 0, 0.2}, 0.04),
-                     Sheet({-0.3, -0.3, 0}, {0.15, 0.05, 0}, {0, 0, 0.2})});
+                     FlatSheet({-0.3, -0.3, 0}, {0.15, 0.05, 0}, {0, 0, 0.2})});
   const Surfaces surfaces(solid, {.shadows = true});
   const auto samples =
       SampleShadowEdges(solid, surfaces, CreaseCurves(solid), 0.01, 7);

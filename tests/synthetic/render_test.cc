@@ -26,18 +26,14 @@ Rigid3 FromTheFront() {
   return pose;
 }
 
-RenderedImage RenderPlain(const Solid& solid, const Rigid3& pose) {
+GrayImage RenderPlain(const Solid& solid, const Rigid3& pose) {
   return Render(solid, Surfaces(solid, {}), SmallCamera(), pose);
 }
 
-float GreyAt(const RenderedImage& image, int x, int y) {
-  return image.grey[static_cast<std::size_t>(y * image.width + x)];
-}
-
-double SumOfRow(const RenderedImage& image, int row) {
+double SumOfRow(const GrayImage& image, int row) {
   double sum = 0;
   for (int column = 0; column < image.width; ++column) {
-    sum += static_cast<double>(GreyAt(image, column, row));
+    sum += static_cast<double>(image.at(column, row));
   }
   return sum;
 }
@@ -61,10 +57,9 @@ TEST(RenderTest, PixelsOnAStraightEdgeAddUpToItsExactPosition) {
     for (const double degrees : {0.0, 1.0, 7.0, 30.0, -42.0}) {
       const double x = 0.6 + 0.0137 * shift;
       const double angle = DegToRad(degrees);
-      const RenderedImage image =
-          RenderPlain(WallUpTo(x, angle), FromTheFront());
-      const double face = static_cast<double>(GreyAt(image, 0, 16));
-      const double behind = static_cast<double>(GreyAt(image, 63, 16));
+      const GrayImage image = RenderPlain(WallUpTo(x, angle), FromTheFront());
+      const double face = static_cast<double>(image.at(0, 16));
+      const double behind = static_cast<double>(image.at(63, 16));
       for (int row = 8; row < 24; ++row) {
         const double covered =
             (SumOfRow(image, row) - image.width * behind) / (face - behind);
@@ -81,15 +76,15 @@ TEST(RenderTest, PixelsOfADiscAddUpToItsExactArea) {
   disc.shape = PrimitiveShape::kFrustum;
   disc.size = {1.2345, 0.1, 2};
   disc.world_from_own.translation = {0.031, -0.017, 0};
-  const RenderedImage image = RenderPlain(Solid({disc}), FromTheFront());
-  const double face = static_cast<double>(GreyAt(image, 32, 16));
-  const double behind = static_cast<double>(GreyAt(image, 0, 0));
+  const GrayImage image = RenderPlain(Solid({disc}), FromTheFront());
+  const double face = static_cast<double>(image.at(32, 16));
+  const double behind = static_cast<double>(image.at(0, 0));
   double area = 0;
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const double share =
-          (static_cast<double>(GreyAt(image, x, y)) - behind) / (face - behind);
+          (static_cast<double>(image.at(x, y)) - behind) / (face - behind);
       area += share;
       moment += share * Eigen::Vector2d(x + 0.5, y + 0.5);
     }
@@ -111,9 +106,9 @@ TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
     Rigid3 pose;
     pose.rotation = ShortestRotation(-eye, Eigen::Vector3d::UnitZ());
     pose.translation = -(pose.rotation * eye);
-    const RenderedImage image = RenderPlain(solid, pose);
-    greys.push_back(static_cast<double>(GreyAt(image, 32, 16)));
-    greys.push_back(static_cast<double>(GreyAt(image, 0, 0)));
+    const GrayImage image = RenderPlain(solid, pose);
+    greys.push_back(static_cast<double>(image.at(32, 16)));
+    greys.push_back(static_cast<double>(image.at(0, 0)));
   }
   for (std::size_t i = 0; i < greys.size(); i += 2) {
     EXPECT_GT(std::abs(greys[i] - greys[i + 1]), 20);  // from the background
@@ -125,17 +120,17 @@ TEST(RenderTest, NeighbouringFacesOfABoxDifferByTwentyGreyLevels) {
 
 TEST(RenderTest, TextureStaysWithinItsContrast) {
   const Solid wall = WallUpTo(15, 0);
-  const RenderedImage plain = RenderPlain(wall, FromTheFront());
-  const RenderedImage textured =
+  const GrayImage plain = RenderPlain(wall, FromTheFront());
+  const GrayImage textured =
       Render(wall,
              Surfaces(wall, {.texture = 40, .scale = 9, .seed = 7}),
              SmallCamera(),
              FromTheFront());
   float lowest = 0;
   float highest = 0;
-  for (std::size_t i = 0; i < plain.grey.size(); ++i) {
-    lowest = std::min(lowest, textured.grey[i] - plain.grey[i]);
-    highest = std::max(highest, textured.grey[i] - plain.grey[i]);
+  for (std::size_t i = 0; i < plain.pixels.size(); ++i) {
+    lowest = std::min(lowest, textured.pixels[i] - plain.pixels[i]);
+    highest = std::max(highest, textured.pixels[i] - plain.pixels[i]);
   }
   EXPECT_GE(lowest, -20.001F);
   EXPECT_LE(highest, 20.001F);
@@ -152,12 +147,12 @@ TEST(RenderTest, LampsOnlyBrightenAndMoveWithTheView) {
   const auto lamps = [&](double turn) {
     Rigid3 pose = FromTheFront();
     pose.rotation = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY());
-    const RenderedImage image = Render(solid, shiny, SmallCamera(), pose);
-    const RenderedImage plain = RenderPlain(solid, pose);
+    const GrayImage image = Render(solid, shiny, SmallCamera(), pose);
+    const GrayImage plain = RenderPlain(solid, pose);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
-        const float change = GreyAt(image, x, y) - GreyAt(plain, x, y);
+        const float change = image.at(x, y) - plain.at(x, y);
         EXPECT_GE(change, -2);  // areas are measured to 1/100
         if (change > 5) sum += Eigen::Vector3d(x, y, 1);
       }
