@@ -29,7 +29,7 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 3e-3;     // of a step, share of the cost
+constexpr double kMinGain = 1e-3;     // of a step, share of the cost
 constexpr double kMaxStiffening = 3;  // in weak directions
 // Under robust losses the fit can leave edges. Samples at twice the default of
 // Validation.max_distance_px or more are cut out.
