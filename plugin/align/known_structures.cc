@@ -32,7 +32,8 @@ CurveNode UsualPoint(const KnownStructures& structures) {
   return point;
 }
 
-// What "12" or "0,0,0" means; without `structures`, whether it means something.
+// The point that "12" or "0,0,0" names. Without `structures` only its syntax is
+// checked.
 Result<CurveNode> ReadPoint(std::string_view word,
                             const std::string& text,
                             const KnownStructures* structures) {

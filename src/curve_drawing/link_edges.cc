@@ -215,7 +215,7 @@ struct Projection {
   Eigen::Vector2d pixel;
 };
 
-// In all of these views, ascending.
+// Into all supporting views, ascending.
 std::vector<Projection> Project(const Edge3d& edge,
                                 const std::vector<PosedView>& views) {
   std::vector<Projection> projections;

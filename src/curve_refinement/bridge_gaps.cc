@@ -22,7 +22,7 @@ constexpr double kMaxBridgeMissPx = 1;
 constexpr double kMaxMissPerGap = 0.1;
 constexpr double kMaxBridgeAngleDeg = 15;
 constexpr double kRingTolerance = 3;
-// The ends of other curves are too far apart for a ring, even after cuts.
+// Curves whose ends are further apart do not close, even after cuts.
 constexpr double kMaxRingGapPx = 100;
 constexpr double kMaxOverlapPx = 6;
 constexpr double kMaxBentPx = 5;  // of an end

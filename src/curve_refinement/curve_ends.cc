@@ -262,8 +262,8 @@ EndFit FitLongEnd(const Curve& curve,
     } else if (fit.length > best.length && fit.rms <= max_rms) {
       best = fit;
     }
-    const bool has_all = long_px * fit.pixel > length;
-    if (has_all) break;
+    // Longer ends have the same samples.
+    if (long_px * fit.pixel > length) break;
   }
   return best;
 }

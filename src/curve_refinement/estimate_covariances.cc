@@ -111,7 +111,7 @@ class CurveInViews {
     }
   }
 
-  // Samples count by their distance from sample `i`.
+  // Around sample `i`, weighted by a Gaussian along the curve.
   Agreement About(std::size_t i, double bandwidth_px) const {
     const double bandwidth = bandwidth_px * pixels_[i];
     std::vector<MeanDistance> sums(centers_.size());
