@@ -97,9 +97,11 @@ NeighborhoodGraph LinkBySupport(const std::vector<Edge3d>& edges,
     std::vector<std::int32_t> others;
     for (const EdgeRef& support : edges[i].support) {
       for (const EdgeRef& ref : refs_of(support)) {
-        for (const Support& supported : std::ranges::equal_range(
-                 supports, ref, std::less<>(), &Support::ref)) {
-          others.push_back(supported.edge_idx);
+        for (auto it = std::ranges::lower_bound(
+                 supports, ref, std::less<>(), &Support::ref);
+             it != supports.end() && it->ref == ref;
+             ++it) {
+          others.push_back(it->edge_idx);
         }
       }
     }
