@@ -256,6 +256,7 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
 Status Aligner::Write(const AlignmentResult& result) {
   Json json = AlignmentJson(result.alignment);
   json["sources"] = sources_;
+  json["cameras"] = CentersJson(scene_);
   fs::create_directories(workspace_.output_path);
   return WriteFileAtomically(
       workspace_.output_path / kAlignmentName,
@@ -275,10 +276,18 @@ Result<std::string> Aligner::Run() {
         "--unit needs a scale, which nothing that is given tells: add "
         "--distance, --markers or --positions");
   }
+  if (!settings_.epsg.empty() && !alignment.has_scale) {
+    return Status::InvalidArgument(
+        "--epsg needs a scale, which a single position does not tell: add "
+        "--distance, --markers or more positions");
+  }
   if (settings_.unit != "none") alignment.unit = settings_.unit;
   if (!settings_.epsg.empty()) {
     alignment.crs = "EPSG:" + settings_.epsg;
-    if (alignment.has_scale) alignment.unit = "m";
+    alignment.unit = "m";
+  }
+  if (input_.axes && result->has_rotation_of_positions) {
+    Say("  The positions tell the axes; those of the lines are not used.");
   }
   if (alignment.has_scale) DescribeScale(*result);
   if (!input_.positions.empty()) DescribePositions(*result);
@@ -321,6 +330,10 @@ Status Check(const AlignSettings& s) {
   if (!s.markers.empty() && !(s.marker_size > 0)) {
     return Status::InvalidArgument(
         "--markers needs --marker_size, the side of the black square");
+  }
+  if (s.markers.empty() && s.marker_size > 0) {
+    return Status::InvalidArgument(
+        "--marker_size needs --markers, the dictionary that they are of");
   }
   if (!s.up.empty() && s.axes == "none") {
     return Status::InvalidArgument("--up needs --axes auto, which it corrects");

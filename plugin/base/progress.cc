@@ -110,7 +110,7 @@ void ProgressPrinter::Finish(const std::string& detail) {
 
 void ProgressPrinter::Note(const std::string& line) {
   if (!stage_.empty()) stream_ << (is_terminal_ ? kEraseLine : "\n");
-  stream_ << line << std::endl;
+  stream_ << ForTerminal(line) << std::endl;
   last_draw_ -= 1;
 }
 

@@ -33,12 +33,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool IsThere(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(path, error));
+}
+
 // The topmost folder of `path` that does not exist; empty if all do.
 fs::path FirstMissing(const fs::path& path) {
-  std::error_code ignored;
   fs::path missing;
-  for (fs::path at = path; !at.empty() && !fs::exists(at, ignored);
-       at = at.parent_path()) {
+  for (fs::path at = path; !at.empty() && !IsThere(at); at = at.parent_path()) {
     missing = at;
   }
   return missing;
@@ -73,11 +76,6 @@ std::vector<fs::path> EntryNames(const fs::path& folder) {
     if (name != kOlder && name != kObsolete) names.push_back(name);
   }
   return names;
-}
-
-bool IsThere(const fs::path& path) {
-  std::error_code error;
-  return fs::exists(fs::symlink_status(path, error));
 }
 
 // Moves the named files and folders that are there; those moved so far are

@@ -44,6 +44,14 @@ std::string ValidUtf8(const std::string& text) {
   return Json::parse(valid).get<std::string>();
 }
 
+std::string ForTerminal(std::string text) {
+  std::ranges::replace_if(
+      text,
+      [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; },
+      '?');
+  return text;
+}
+
 std::string DurationText(double seconds) {
   if (seconds < 59.95) {
     return FixedText(std::max(seconds, 0.0), 1) + " s";

@@ -22,6 +22,10 @@ std::string ShellWord(const std::string& text);
 // `text` with U+FFFD for what is not UTF-8, as names of files may be.
 std::string ValidUtf8(const std::string& text);
 
+// `text` without the control characters that names in files may have, and that
+// a terminal would obey.
+std::string ForTerminal(std::string text);
+
 // "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
 std::string DurationText(double seconds);
 

@@ -71,13 +71,21 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
   return sections;
 }
 
+// The curves with all digits, if they are there; curves.ply has 32-bit floats.
+std::filesystem::path CurvesIn(const std::filesystem::path& folder) {
+  for (const char* name : {"curves.txt", "curves.obj"}) {
+    if (std::filesystem::exists(folder / name)) return folder / name;
+  }
+  return folder / "curves.ply";
+}
+
 Result<std::string> EvaluateWithTruth(const EvaluateSettings& settings) {
   std::filesystem::path curves_path = settings.curves_path;
   if (curves_path.empty()) {
     const Result<Workspace> workspace =
         CatchFileErrors([&] { return FindWorkspace(settings.run); });
     if (!workspace.ok()) return workspace.status();
-    curves_path = workspace->output_path / "curves.ply";
+    curves_path = CurvesIn(workspace->output_path);
   }
   return EvaluateFiles(
       curves_path, settings.truth_path, settings.options, settings.json);

@@ -10,6 +10,7 @@
 #include "base/file_io.h"
 #include "colmap/files.h"
 #include "colmap/project_file.h"
+#include "plugin/base/text.h"
 #include "plugin/commands/help_text.h"
 #include "plugin/run/run_report.h"
 
@@ -204,12 +205,7 @@ ExitCode Fail(const Status& status, ExitCode code) {
   if (message.empty() || (message.back() != '.' && message.back() != '?')) {
     message += '.';
   }
-  // Names come from files, and a terminal obeys control characters.
-  std::ranges::replace_if(
-      message,
-      [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; },
-      '?');
-  std::cerr << "ERROR: " << message << std::endl;
+  std::cerr << "ERROR: " << ForTerminal(std::move(message)) << std::endl;
   return code;
 }
 

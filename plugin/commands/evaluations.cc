@@ -15,6 +15,7 @@
 #include "base/text_fields.h"
 #include "colmap/workspace.h"
 #include "measuring/moved_curves.h"
+#include "plugin/align/curves_file.h"
 #include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/export/write_results.h"
@@ -168,6 +169,16 @@ std::string JsonOf(const Evaluation& e) {
   return json.dump() + "\n";
 }
 
+// Of the frame of the curves in a folder of results. alignment.json may be
+// newer.
+Result<std::optional<WorldAlignment>> AlignmentOfCurves(
+    const fs::path& folder) {
+  if (!fs::exists(folder / "curves.json")) return ReadAlignment(folder);
+  Result<CurvesFile> curves = ReadCurvesFile(folder);
+  if (!curves.ok()) return curves.status();
+  return std::move(curves->alignment);
+}
+
 // What curves are compared with.
 struct HoldoutScene {
   Scene scene;
@@ -193,7 +204,7 @@ Result<HoldoutScene> ReadHoldoutScene(const RunSettings& settings,
   for (const std::string& note : input->notes) progress.Note(note);
   HoldoutScene result{std::move(input->scene), workspace->model_path, ""};
   if (!has_curves) return result;
-  const auto alignment = ReadAlignment(folder);
+  const auto alignment = AlignmentOfCurves(folder);
   if (!alignment.ok()) return alignment.status();
   if (!*alignment) return result;
   // The cameras of curves_model/ are in the frame of the curves.

@@ -3,6 +3,7 @@
 
 #include <curvix/fitting.h>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,7 +36,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Short(double value) { return ShortText(value, 4); }
+// Large coordinates with two digits behind the point.
+std::string DepthText(double depth) {
+  return std::abs(depth) < 1e4 ? ShortText(depth, 6) : FixedText(depth, 2);
+}
 
 // "front (xz)".
 std::string ViewName(const std::string& plane) {
@@ -135,10 +139,11 @@ Status Drafter::TakePlanes() {
   if (!planes.ok()) return planes.status();
   for (DrawingPlane& plane : *planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
-    if (curves_.alignment && AxisPlane(plane.name)) {
+    if (!AxisPlane(plane.name)) {
+      plane.depth_axis = plane.toward;
+    } else if (curves_.alignment) {
       // Sheets hold all digits of large coordinates.
-      const Eigen::Vector3d& offset = curves_.alignment->offset;
-      plane.origin -= offset - offset.dot(plane.toward) * plane.toward;
+      plane.origin -= curves_.alignment->offset;
     }
     views_.push_back({plane, window_});
   }
@@ -173,9 +178,9 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
     }
   }
   return Status::InvalidArgument(
-      "There is nothing to draw from " + Short(window_.depth.from) + " to " +
-      Short(window_.depth.to) + "; " + plane.depth_name +
-      " of the curves is from " + Short(low) + " to " + Short(high));
+      "There is nothing to draw from " + DepthText(window_.depth.from) +
+      " to " + DepthText(window_.depth.to) + "; " + plane.depth_name +
+      " of the curves is from " + DepthText(low) + " to " + DepthText(high));
 }
 
 Status Drafter::TakePhotograph() {
@@ -219,19 +224,20 @@ Status Drafter::TakePhotograph() {
   picture_ = std::move(photograph->place);
   picture_->file = name_ + ".jpg";
   text_ += "Photograph: " + photograph_ + ", right where " +
-           view.plane.depth_name + " is " + Short(area.depth) + "\n";
+           view.plane.depth_name + " is " + DepthText(area.depth) + "\n";
   return {};
 }
 
 std::string Drafter::Subtitle() const {
   std::string text;
   for (const DrawnView& view : views_) {
-    text += (text.empty() ? "" : ", ") + ViewName(view.plane.name);
+    text += (text.empty() ? "" : ", ") + ViewName(view.plane.name) +
+            (view.plane.is_from_behind ? " from behind" : "");
   }
-  if (settings_.from_behind) text += ", from behind";
   if (!settings_.slice.empty()) {
     text += ", " + views_.front().plane.depth_name + " from " +
-            Short(window_.depth.from) + " to " + Short(window_.depth.to);
+            DepthText(window_.depth.from) + " to " +
+            DepthText(window_.depth.to);
   }
   if (!photograph_.empty()) text += ", photograph " + photograph_;
   if (curves_.alignment && curves_.alignment->has_scale) {
@@ -295,13 +301,16 @@ Status Drafter::Write() {
     if (!written.ok()) return written;
     text_ += " " + file;
   }
-  const bool is_plan = settings_.plane == "xy" && curves_.alignment;
+  const DrawingPlane& plane = views_.front().plane;
+  const bool is_map = views_.size() == 1 && curves_.alignment &&
+                      plane.right == Eigen::Vector3d::UnitX() &&
+                      plane.up == Eigen::Vector3d::UnitY();
   for (const auto& [is_wanted, ending] :
        {std::pair(settings_.geopackage, ".gpkg"),
         {settings_.geojson, ".geojson"}}) {
     if (!is_wanted) continue;
     Status written = WriteMapFile(output->folder() / files.front().first,
-                                  is_plan ? curves_.alignment->crs : "",
+                                  is_map ? curves_.alignment->crs : "",
                                   output->folder() / (name_ + ending));
     if (!written.ok()) return written;
     text_ += " " + name_ + ending;

@@ -98,11 +98,19 @@ void PlaceViews(const DrawnContent& content, std::vector<DrawnView>& views) {
     DrawnView& view = views[i];
     const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
     if (bounds.isEmpty() || around.isEmpty()) continue;
-    const bool is_above = view.plane.right == first.plane.right;
-    const bool is_level = view.plane.up == first.plane.up;
-    Eigen::Vector2d shift(all.max().x() + gap - bounds.min().x(),
-                          is_level ? 0 : around.min().y() - bounds.min().y());
-    if (is_above) shift = {0, all.max().y() + gap - bounds.min().y()};
+    Eigen::Vector2d shift;
+    if (view.plane.right == first.plane.right) {
+      const bool is_above = view.plane.toward == first.plane.up;
+      shift = {0,
+               is_above ? all.max().y() + gap - bounds.min().y()
+                        : all.min().y() - gap - bounds.max().y()};
+    } else {
+      const bool is_left = view.plane.toward == -first.plane.right;
+      const bool is_level = view.plane.up == first.plane.up;
+      shift = {is_left ? all.min().x() - gap - bounds.max().x()
+                       : all.max().x() + gap - bounds.min().x(),
+               is_level ? 0 : around.min().y() - bounds.min().y()};
+    }
     view.plane.origin -=
         shift.x() * view.plane.right + shift.y() * view.plane.up;
     view.window.across = Shifted(view.window.across, shift.x());

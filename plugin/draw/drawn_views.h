@@ -34,8 +34,8 @@ struct DrawnContent {
 };
 
 // Fills views that have a plane and a window. Others are put beside the first
-// one by moving their origins: above it if they share its horizontal, else to
-// the right, as in third-angle projection.
+// one by moving their origins, as in third-angle projection: above or below it
+// if they share its horizontal, else to the side from which they are seen.
 void FillViews(const DrawnContent& content, std::vector<DrawnView>* views);
 
 }  // namespace curvix

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/file_io.h"
+#include "plugin/base/text.h"
 
 namespace curvix {
 namespace {
@@ -50,7 +51,43 @@ bool TakeSimilarity(const Json& json, Similarity3& similarity) {
          similarity.scale > 0;
 }
 
+// What poses move by when COLMAP adds images or adjusts them again, as a share
+// of the distance of cameras from their middle, is less.
+constexpr double kMaxShareMoved = 0.1;
+constexpr int kMinNumCameras = 3;
+
+// Whether the cameras of the model are where `centers` has them.
+bool AreThere(const Json& centers, const Scene& model) {
+  std::vector<Eigen::Vector3d> before, after;
+  for (const View& view : model.views) {
+    const auto found = centers.find(ValidUtf8(view.name));
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    if (found == centers.end() || !TakeNumbers(*found, center)) continue;
+    before.push_back(center);
+    after.push_back(view.cam_from_world.Inverse().translation);
+  }
+  if (before.size() < kMinNumCameras) return false;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x : before) mean += x;
+  mean /= static_cast<double>(before.size());
+  double moved = 0, spread = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    moved += (after[i] - before[i]).squaredNorm();
+    spread += (before[i] - mean).squaredNorm();
+  }
+  return moved <= kMaxShareMoved * kMaxShareMoved * spread;
+}
+
 }  // namespace
+
+Json CentersJson(const Scene& scene) {
+  Json centers = Json::object();
+  for (const View& view : scene.views) {
+    centers[ValidUtf8(view.name)] =
+        NumbersJson(view.cam_from_world.Inverse().translation);
+  }
+  return centers;
+}
 
 Json AlignmentJson(const WorldAlignment& alignment) {
   const Similarity3& s = alignment.world_from_model;
@@ -106,7 +143,7 @@ Result<WorldAlignment> AlignmentFromJson(const Json& json) {
 }
 
 Result<std::optional<WorldAlignment>> ReadAlignment(
-    const std::filesystem::path& folder) {
+    const std::filesystem::path& folder, const Scene* model) {
   const std::filesystem::path path = folder / kAlignmentName;
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
@@ -119,6 +156,13 @@ Result<std::optional<WorldAlignment>> ReadAlignment(
       json.is_discarded()
           ? Result<WorldAlignment>(Status::DataLoss("it is not JSON"))
           : AlignmentFromJson(json);
+  if (alignment.ok() && model != nullptr && json.contains("cameras") &&
+      !AreThere(json["cameras"], *model)) {
+    return Status::DataLoss(
+        path.string() +
+        " is of another model, whose cameras are elsewhere. Remove it, run "
+        "again, and align the new curves");
+  }
   if (alignment.ok()) {
     return std::optional<WorldAlignment>(*std::move(alignment));
   }

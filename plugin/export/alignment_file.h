@@ -2,6 +2,7 @@
 // alignment.json: scale and axes that `colmap_curvix align` has found.
 #pragma once
 
+#include <curvix/scene.h>
 #include <curvix/status.h>
 #include <filesystem>
 #include <optional>
@@ -20,9 +21,13 @@ Json AlignmentJson(const WorldAlignment& alignment);
 // The same, back. kDataLoss, with the member that is missing or wrong.
 Result<WorldAlignment> AlignmentFromJson(const Json& json);
 
-// alignment.json in a folder of results. nullopt: there is none. kDataLoss: it
-// is broken, with its path and what to do.
+// The member `cameras`: by image, the centre of its camera in the model.
+Json CentersJson(const Scene& scene);
+
+// alignment.json in a folder of results. nullopt: there is none. kDataLoss,
+// with its path and what to do: it is broken, or the cameras of `model`, if it
+// is given, are elsewhere than `cameras` says.
 Result<std::optional<WorldAlignment>> ReadAlignment(
-    const std::filesystem::path& folder);
+    const std::filesystem::path& folder, const Scene* model = nullptr);
 
 }  // namespace curvix

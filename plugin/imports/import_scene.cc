@@ -152,7 +152,9 @@ std::vector<std::string> ImageNames(const fs::path& folder,
                                     const std::string& filter) {
   std::vector<std::string> names = FileNames(folder);
   std::erase_if(names, [&](const std::string& name) {
-    return !IsImageName(name) || name.find(filter) == std::string::npos;
+    // "._a.png" is what macOS keeps about "a.png".
+    return !IsImageName(name) || name.starts_with('.') ||
+           name.find(filter) == std::string::npos;
   });
   return names;
 }

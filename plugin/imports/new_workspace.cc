@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/imports/new_workspace.h"
 
+#include <algorithm>
 #include <string>
 #include <system_error>
 
@@ -58,6 +59,19 @@ Status PlaceImage(const fs::path& from, const fs::path& to, CopyPolicy policy) {
   return error ? CannotWrite(to, error) : Status();
 }
 
+Status CheckImageFolder(const fs::path& folder,
+                        const std::vector<fs::path>& image_files) {
+  const auto lies_in = [&](const fs::path& file) {
+    return LiesIn(file, {folder});
+  };
+  if (std::ranges::none_of(image_files, lies_in)) return CheckUnused(folder);
+  return Status::InvalidArgument(
+      folder.string() +
+      " holds the images themselves; leave them there with "
+      "--image_path " +
+      folder.string() + ", or name another --workspace_path");
+}
+
 }  // namespace
 
 Status CheckUnused(const fs::path& path) {
@@ -95,7 +109,7 @@ Status WriteNewWorkspace(const ColmapModel& model,
   Status status = CheckUnused(workspace / "sparse");
   if (!status.ok()) return status;
   const bool in_place = AreInPlace(model, image_files, workspace / "images");
-  if (!in_place) status = CheckUnused(workspace / "images");
+  if (!in_place) status = CheckImageFolder(workspace / "images", image_files);
   if (!status.ok()) return status;
   const Result<StagedOutput> staged =
       StagedOutput::Create(workspace, "--workspace_path");

@@ -2,7 +2,9 @@
 #include "plugin/run/run_steps.h"
 
 #include <curvix/scene.h>
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,6 +92,18 @@ Result<std::vector<std::string>> WriteInFrame(const CurveRecord& curves,
                       folder);
 }
 
+// Of cameras in the frame of the results, in 32 bits.
+bool LosesDigits(const Scene& scene,
+                 const std::optional<WorldAlignment>& alignment) {
+  constexpr double kLargeCoordinate = 1e5;
+  return std::ranges::any_of(scene.views, [&](const View& view) {
+    const Eigen::Vector3d center = view.cam_from_world.Inverse().translation;
+    const Eigen::Vector3d world =
+        alignment ? alignment->world_from_model * center : center;
+    return world.cwiseAbs().maxCoeff() > kLargeCoordinate;
+  });
+}
+
 Status WriteCurveFiles(const CurveRecord& curves,
                        bool is_repeatable,
                        const fs::path& folder,
@@ -144,7 +158,7 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   if (!usable.ok()) return usable;
 
   Result<std::optional<WorldAlignment>> alignment =
-      ReadAlignment(workspace.output_path);
+      ReadAlignment(workspace.output_path, &input->scene);
   if (!alignment.ok()) return alignment.status();
   record.alignment = *std::move(alignment);
 
@@ -165,6 +179,11 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   progress.Finish(Plural(record.input.num_views, "view") + ", " +
                   Plural(record.input.num_points, "point"));
   for (const std::string& note : record.input.notes) progress.Note(note);
+  if (LosesDigits(input->scene, record.alignment)) {
+    progress.Note(
+        "Coordinates are large: the 32-bit floats of curves.ply and curves.pcd "
+        "lose digits, curves.obj and curves.txt do not");
+  }
   if (record.alignment) {
     progress.Note("The results are in the frame of " +
                   (workspace.output_path / kAlignmentName).string());

@@ -77,8 +77,8 @@ Result<ColmapFormat> FindColmapFormat(const std::filesystem::path& folder);
 // or its images cannot be read.
 std::size_t CountColmapImages(const std::filesystem::path& folder);
 
-// Reads the model in `folder`. A missing or empty points3D file means no
-// points. Quaternions are normalised. The result satisfies
+// Reads the model in `folder`. A missing points3D file, or an empty
+// points3D.txt, means no points. Quaternions are normalised. The result satisfies
 // ValidateColmapModel. Errors name the file: kNotFound (no model), kDataLoss
 // (truncated, malformed, inconsistent), kUnsupported (camera model).
 Result<ColmapModel> ReadColmapModel(const std::filesystem::path& folder);

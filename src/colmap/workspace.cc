@@ -109,6 +109,7 @@ std::vector<fs::path> ModelCandidates(const fs::path& workspace) {
   places.push_back(workspace / "sparse");
   std::vector<fs::path> dense = NumberedFolders(workspace / "dense");
   if (dense.empty()) dense.push_back(workspace / "dense" / "0");
+  dense.push_back(workspace / "dense");
   for (const fs::path& folder : dense) places.push_back(folder / "sparse");
   places.push_back(workspace);
   return places;
@@ -165,7 +166,7 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
   found->model_path = *place;
   Status status = CheckModelFiles(paths.workspace_path, *place);
   if (!status.ok()) return status;
-  if (IsNumber(place->filename().string())) {
+  if (*place != paths.workspace_path && IsNumber(place->filename().string())) {
     const std::string note = OtherModelsNote(*place);
     if (!note.empty()) found->notes.push_back(note);
   }

@@ -129,7 +129,8 @@ KindProbability Judge(const SurfaceEvidence& evidence) {
 
 // Where strips are compared, on all curves.
 struct Places {
-  std::vector<double> pixels;                     // per curve, world units
+  // Per curve, of images of reduced size; world units.
+  std::vector<double> pixels;
   std::vector<std::vector<std::size_t>> samples;  // per curve
   // Of all curves, one after the other: curve and position.
   std::vector<std::size_t> curves;
@@ -166,12 +167,22 @@ std::vector<std::size_t> SeenNear(const PointTree& points,
   return seen;
 }
 
+// All images that are read have the same.
+double LeastScale(const std::vector<BlurredImage>& images) {
+  double least = 1;
+  for (const BlurredImage& image : images) {
+    least = std::min(least, image.scale);
+  }
+  return least;
+}
+
+// `scale`: that of the images.
 Places ChoosePlaces(const std::vector<Curve>& curves,
-                    const std::vector<PosedView>& views) {
+                    const std::vector<PosedView>& views,
+                    double scale) {
   Places places;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const CurveSample& first = curves[i].samples.front();
-    places.pixels.push_back(PixelSize(first, views));
+    places.pixels.push_back(PixelSize(curves[i], views) / scale);
     places.samples.emplace_back();
     if (!(places.pixels.back() > 0)) continue;
     places.samples.back() =
@@ -194,7 +205,7 @@ class Classifier {
       : scene_(scene),
         views_(views),
         images_(images),
-        places_(ChoosePlaces(curves, views)),
+        places_(ChoosePlaces(curves, views, LeastScale(images))),
         places_tree_(places_.positions),
         points_tree_(scene.points, &ScenePoint::position) {}
 

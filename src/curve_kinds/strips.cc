@@ -263,7 +263,12 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
   }
   seen = ChooseViews(std::move(seen));
   SurfaceEvidence evidence;
-  if (seen.size() < kMinViews) return evidence;
+  if (seen.size() < kMinViews) {
+    for (auto& side : evidence.log_bayes) {
+      side.fill(-std::numeric_limits<float>::infinity());
+    }
+    return evidence;
+  }
   std::vector<double> sizes;
   for (const LocalView& view : seen) sizes.push_back(view.pixel_size);
   const double step = Median(std::move(sizes)) / seen.front().image->scale;

@@ -39,8 +39,7 @@ struct StripPlace {
 // views show different things there". A direction shows on side 0 of a view if
 // it lies less than half a turn from the direction of the camera, turning from
 // `normal` towards tangent x normal; else on side 1. Minus infinity where fewer
-// than three views face the surface; 0 for all if fewer than three views see
-// the place.
+// than three views face the surface.
 struct SurfaceEvidence {
   std::array<std::array<float, kNumDirections>, 2> log_bayes = {};
 };

@@ -66,23 +66,25 @@ Curve BranchTo(const Curve& curve,
 double DistanceFromParabola(const Curve& from, const Curve& to) {
   const Eigen::Vector3d origin = from.samples.back().position;
   const Eigen::Vector3d way = to.samples.back().position - origin;
-  const auto num_samples =
-      static_cast<Eigen::Index>(from.samples.size() + to.samples.size());
-  Eigen::MatrixX3d powers(num_samples, 3);
-  Eigen::MatrixX3d positions(num_samples, 3);
-  Eigen::Index row = 0;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rows;
   for (const Curve* branch : {&from, &to}) {
     for (const CurveSample& sample : branch->samples) {
       const Eigen::Vector3d offset = sample.position - origin;
       const double t = offset.dot(way) / way.squaredNorm();
-      powers.row(row) << 1, t, t * t;
-      positions.row(row++) = offset;
+      const auto& [powers, position] =
+          rows.emplace_back(Eigen::Vector3d(1, t, t * t), offset);
+      normal += powers * powers.transpose();
+      right += powers * position.transpose();
     }
   }
-  const Eigen::Matrix3d parabola =
-      powers.colPivHouseholderQr().solve(positions);
-  return std::sqrt((powers * parabola - positions).squaredNorm() /
-                   static_cast<double>(num_samples));
+  const Eigen::Matrix3d parabola = normal.ldlt().solve(right);
+  double sum = 0;
+  for (const auto& [powers, position] : rows) {
+    sum += (parabola.transpose() * powers - position).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(rows.size()));
 }
 
 namespace {

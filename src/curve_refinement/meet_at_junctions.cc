@@ -213,6 +213,7 @@ void CarryOn(const CurveEnd& end,
   const EndFit& fit = end.fit;
   const bool at_head = IsHead(end.idx);
   CurveSample last = SampleFromEnd(curve, at_head);
+  last.support.clear();  // what it shows is the bend
   const double arrival = fit.ArcLengthTo(junction);
   const double limit = std::min(arrival, 0.0) - kRoundedPx * fit.pixel;
   CutEnd(curve, at_head, [&](const CurveSample& sample) {
@@ -233,7 +234,6 @@ void CarryOn(const CurveEnd& end,
             : Eigen::Vector3d(fit.PointAt(arc_length) + share * miss);
     last.tangent = sign * fit.DirectionAt(arc_length);
     added.push_back(last);
-    last.support.clear();
   }
   if (!at_head) std::ranges::reverse(added);
   curve.samples.insert(at_head ? curve.samples.end() : curve.samples.begin(),

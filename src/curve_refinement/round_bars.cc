@@ -106,21 +106,13 @@ BarPlace Look(const CurveSample& sample,
   return place;
 }
 
-double PixelOf(const Curve& curve, const std::vector<PosedView>& views) {
-  std::vector<double> pixels;
-  for (const CurveSample& sample : curve.samples) {
-    pixels.push_back(PixelSize(sample, views));
-  }
-  return MedianOr(0, std::move(pixels));
-}
-
 // Places along the curve, whose outward sides follow each other. None if too
 // few views see it.
 std::vector<BarPlace> LookAlong(const Curve& curve,
                                 const std::vector<PosedView>& views,
                                 const ImageSupport& images) {
   std::vector<BarPlace> places;
-  const double pixel = PixelOf(curve, views);
+  const double pixel = PixelSize(curve, views);
   if (!(pixel > 0)) return places;
   Vector3d outward = Vector3d::Zero();
   for (const std::size_t i :

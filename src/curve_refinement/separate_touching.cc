@@ -277,8 +277,8 @@ void CutBentEnd(EndIdx end,
   });
 }
 
-// Which ends the meetings tie, and the curves cut for it. A curve takes part in
-// one of them; the others wait.
+// Which ends the meetings tie, and the curves cut for it. A curve that is
+// changed takes part in no other of them; these wait.
 EndTies TieMeetings(const std::vector<Meeting>& meetings,
                     const std::vector<PosedView>& views,
                     std::vector<Curve>& curves) {
@@ -291,8 +291,9 @@ EndTies TieMeetings(const std::vector<Meeting>& meetings,
                             [&](std::size_t c) { return is_busy[c]; })) {
       continue;
     }
-    for (const std::size_t c : members) is_busy[c] = true;
+    is_busy[ItemOf(meeting.a)] = is_busy[ItemOf(meeting.b)] = true;
     if (meeting.exchange) {
+      is_busy[meeting.passing_idx] = true;
       const auto [before, after] = CutOut(meeting, curves);
       pairs.emplace_back(meeting.a, after);
       pairs.emplace_back(before, meeting.b);

@@ -61,6 +61,7 @@ std::optional<DrawingPlane> AxisPlane(std::string_view name) {
 DrawingPlane FromBehind(DrawingPlane plane) {
   plane.right = -plane.right;
   plane.toward = -plane.toward;
+  plane.is_from_behind = !plane.is_from_behind;
   return plane;
 }
 

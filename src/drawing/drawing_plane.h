@@ -24,6 +24,7 @@ struct DrawingPlane {
   // The normal along which depths grow: `toward` or its opposite.
   Eigen::Vector3d depth_axis = Eigen::Vector3d::UnitZ();
   std::string depth_name = "depth";  // "y" in the xz plane
+  bool is_from_behind = false;  // seen from the other side than AxisPlane()
 
   // x on the paper: (right, up, 0).
   Eigen::Vector3d Flat(const Eigen::Vector3d& x) const {

@@ -21,16 +21,20 @@ double TurnOf(double angle_rad) {
 
 }  // namespace
 
-EdgeDensity::EdgeDensity(const EdgeMap& map, int width, int height)
-    : columns_(static_cast<int>(width / kCellPx) + 1),
-      rows_(static_cast<int>(height / kCellPx) + 1),
+EdgeDensity::EdgeDensity(const EdgeMap& map,
+                         int width,
+                         int height,
+                         double margin_px)
+    : columns_(static_cast<int>((width + 2 * margin_px) / kCellPx) + 1),
+      rows_(static_cast<int>((height + 2 * margin_px) / kCellPx) + 1),
+      margin_px_(margin_px),
       spacing_px_(map.spacing_px) {
   counts_.assign(static_cast<std::size_t>(columns_) *
                      static_cast<std::size_t>(rows_) * kNumBins,
                  0);
   for (const Edge2d& edge : map.edges) {
-    const int column = ClampedCell(edge.position.x() / kCellPx, columns_);
-    const int row = ClampedCell(edge.position.y() / kCellPx, rows_);
+    const int column = Cell(edge.position.x(), columns_);
+    const int row = Cell(edge.position.y(), rows_);
     std::uint16_t& count = counts_[static_cast<std::size_t>(
         (row * columns_ + column) * kNumBins +
         ClampedCell(TurnOf(static_cast<double>(edge.angle)), kNumBins))];
@@ -38,10 +42,14 @@ EdgeDensity::EdgeDensity(const EdgeMap& map, int width, int height)
   }
 }
 
+int EdgeDensity::Cell(double place, int count) const {
+  return ClampedCell((place + margin_px_) / kCellPx, count);
+}
+
 double EdgeDensity::Density(const Eigen::Vector2d& pixel,
                             double angle_rad) const {
-  const int column = ClampedCell(pixel.x() / kCellPx, columns_);
-  const int row = ClampedCell(pixel.y() / kCellPx, rows_);
+  const int column = Cell(pixel.x(), columns_);
+  const int row = Cell(pixel.y(), rows_);
   // One bin to either side of the angle: the own bin, and of the bins next to
   // it what is left of either side.
   const double turn = TurnOf(angle_rad);

@@ -17,7 +17,8 @@ namespace curvix {
 class EdgeDensity {
  public:
   EdgeDensity() = default;
-  EdgeDensity(const EdgeMap& map, int width, int height);
+  // The image reaches `margin_px` beyond its size (PosedView::margin_px).
+  EdgeDensity(const EdgeMap& map, int width, int height, double margin_px = 0);
 
   // Edges of like direction (within 15 degrees of `angle_rad`) per pixel across
   // them, around `pixel`: the length of their contours in the surroundings
@@ -26,8 +27,11 @@ class EdgeDensity {
   double Density(const Eigen::Vector2d& pixel, double angle_rad) const;
 
  private:
+  int Cell(double place, int count) const;
+
   int columns_ = 0;
   int rows_ = 0;
+  double margin_px_ = 0;
   double spacing_px_ = 0.5;            // of edges along a contour
   std::vector<std::uint16_t> counts_;  // [row][column][bin], saturating
 };

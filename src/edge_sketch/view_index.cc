@@ -85,7 +85,7 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
     indices[i] = {&view,
                   &map,
                   GridIndex(map.edges, kGridCellPx),
-                  EdgeDensity(map, view.width, view.height)};
+                  EdgeDensity(map, view.width, view.height, view.margin_px)};
   });
   return indices;
 }

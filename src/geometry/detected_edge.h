@@ -12,9 +12,10 @@
 
 namespace curvix {
 
-// The tangent of an Edge2d with this angle, as exact as the angle is.
+// The tangent of an Edge2d with this angle.
 inline Eigen::Vector2d TangentAt(float angle) {
-  return Eigen::Vector2f(std::cos(angle), std::sin(angle)).cast<double>();
+  const double radians = static_cast<double>(angle);
+  return {std::cos(radians), std::sin(radians)};
 }
 
 inline ImageEdge ToImageEdge(const Edge2d& edge) {

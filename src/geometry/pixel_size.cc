@@ -8,6 +8,7 @@
 
 #include "base/check.h"
 #include "base/infinity.h"
+#include "base/median.h"
 #include "model/curve_chains.h"
 
 namespace curvix {
@@ -29,10 +30,16 @@ double PixelSize(const Eigen::Vector3d& position,
     smallest = std::min(smallest, PixelSizeIn(views[view_idx], position));
   }
   if (smallest < kInfinity) return smallest;
+  double smallest_outside = kInfinity;
   for (const PosedView& view : views) {
-    smallest = std::min(smallest, PixelSizeIn(view, position));
+    const Eigen::Vector3d in_camera = view.InCamera(position);
+    if (!(in_camera.z() > 0)) continue;
+    double& least =
+        view.Contains(view.Pixel(in_camera)) ? smallest : smallest_outside;
+    least = std::min(least, PixelSizeIn(view, position));
   }
-  return smallest < kInfinity ? smallest : 0;
+  if (smallest < kInfinity) return smallest;
+  return smallest_outside < kInfinity ? smallest_outside : 0;
 }
 
 double PixelSizeAlong(const SpaceEdge& edge,
@@ -61,6 +68,14 @@ std::vector<double> PixelSizes(const std::vector<Edge3d>& edges,
     sizes.push_back(PixelSize(edge, views));
   }
   return sizes;
+}
+
+double PixelSize(const Curve& curve, const std::vector<PosedView>& views) {
+  std::vector<double> sizes;
+  for (const CurveSample& sample : curve.samples) {
+    sizes.push_back(PixelSize(sample, views));
+  }
+  return MedianOr(0, std::move(sizes));
 }
 
 double LengthInPixels(const Curve& curve, const std::vector<PosedView>& views) {

@@ -19,14 +19,18 @@ double PixelSizeIn(const PosedView& view, const Eigen::Vector3d& position);
 
 // The length in space, world units, that fills one pixel at `position` in the
 // view that sees it largest, if it lies parallel to the image: the smallest
-// depth / focal length over the views of `support`, or over all views if none
-// of these has it in front. 0 if no view has it in front.
+// depth / focal length over the views of `support`; if none of these has it in
+// front, over those that have it in their image; if there are none, over all
+// that have it in front. 0 if no view has.
 //
 // Limits in multiples of it do not depend on the scale of the scene, and suit
 // near and far places alike.
 double PixelSize(const Eigen::Vector3d& position,
                  const std::vector<EdgeRef>& support,
                  const std::vector<PosedView>& views);
+
+// At the median sample of a curve; 0 without samples.
+double PixelSize(const Curve& curve, const std::vector<PosedView>& views);
 
 // At an edge or a sample of a curve: what has a position and support.
 template <typename Supported>

@@ -145,6 +145,7 @@ class Estimator {
     if (SpanAPlane(model)) {
       start = AlignPoints(model, world);
       a.has_rotation = a.has_scale = true;
+      result_.has_rotation_of_positions = true;
     } else if (!a.has_rotation) {
       return Status::InvalidArgument(
           "The positions do not fix the axes: give three or more that are not "
@@ -193,7 +194,7 @@ class Estimator {
     for (const KnownScale& s : input_.scales) {
       add_scale(std::log(s.scale / now.scale), s.sigma);
     }
-    if (input_.axes) {
+    if (input_.axes && !result_.has_rotation_of_positions) {
       const Eigen::AngleAxisd turn(input_.axes->world_from_model *
                                    now.rotation.conjugate());
       const Eigen::Matrix3d weight =

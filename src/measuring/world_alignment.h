@@ -83,6 +83,8 @@ struct AlignmentInput {
 
 struct AlignmentResult {
   WorldAlignment alignment;
+  // Whether the rotation is that of the positions; then axes have no part.
+  bool has_rotation_of_positions = false;
   // Of each position, the estimated one minus the known one; world units.
   std::vector<Eigen::Vector3d> position_residuals;
   // The standard deviation of the positions that had none.
@@ -93,8 +95,8 @@ struct AlignmentResult {
 };
 
 // The least squares estimate from all of `input`: the scale from distances,
-// scales and two positions or more; the rotation from axes and from three
-// positions or more that are not on a line; the translation from positions.
+// scales and two positions or more; the rotation from three positions or more
+// that are not on a line, else from axes; the translation from positions.
 // Unobserved parameters stay as in the model. The covariance is multiplied by
 // the square of `misfit` where this is above 1; without positions, that of the
 // scale, which nothing else depends on. Positions without a sigma all have the

@@ -316,7 +316,8 @@ void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
       seen.push_back({i, x, *pixel});
     }
   });
-  const Rigid3 new_from_old = FixGauge(edges_.input_views(), seen).Inverse();
+  const Rigid3 old_from_new = FixGauge(edges_.input_views(), seen);
+  const Rigid3 new_from_old = old_from_new.Inverse();
   MovedCameras moved = edges_.moved();
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     const Rigid3& pose = scene_.views[i].cam_from_world;
@@ -324,6 +325,15 @@ void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
         moved.new_cam_from_cam[i] * pose * new_from_old * pose.Inverse();
   }
   edges_.Move(moved);
+  for (CurvePlace& place : observations->places) {
+    OccludingContour& contour = place.contour;
+    contour.axis.position = old_from_new * contour.axis.position;
+    contour.axis.tangent = old_from_new.rotation * contour.axis.tangent;
+    contour.outward = old_from_new.rotation * contour.outward;
+  }
+  for (PointSample& point : observations->points) {
+    point.position = old_from_new * point.position;
+  }
 }
 
 }  // namespace curvix

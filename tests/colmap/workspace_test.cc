@@ -93,6 +93,12 @@ TEST_F(WorkspaceTest, FindsADenseWorkspaceWithItsOwnImages) {
          "proj/dense/0/curvix");
 }
 
+TEST_F(WorkspaceTest, FindsADenseWorkspaceWithoutANumber) {
+  MakeModel("proj/dense/sparse");
+  MakeImages("proj/dense/images");
+  Expect(Root(), "proj/dense/sparse", "proj/dense/images", "proj/dense/curvix");
+}
+
 TEST_F(WorkspaceTest, DoesNotTakeDistortedImagesForADenseModel) {
   MakeModel("proj/dense/0/sparse");
   MakeImages("proj/images");
@@ -120,6 +126,17 @@ TEST_F(WorkspaceTest, TakesTheModelWithMostImagesAndSaysSo) {
   ASSERT_EQ(found->notes.size(), 1u);
   EXPECT_THAT(found->notes[0], HasSubstr("the most images (4)"));
   EXPECT_THAT(found->notes[0], HasSubstr("(0, 2), which --input_path"));
+}
+
+TEST_F(WorkspaceTest, SaysNothingOfTheModelThatIsNamed) {
+  MakeModel("proj/sparse/0", 3);
+  MakeModel("proj/sparse/1", 4);
+  MakeImages("proj/images");
+  WorkspacePaths paths;
+  paths.workspace_path = At("proj/sparse/0");
+  const Result<Workspace> found = FindWorkspace(paths);
+  ASSERT_TRUE(found.ok()) << found.status().message();
+  EXPECT_THAT(found->notes, testing::IsEmpty());
 }
 
 TEST_F(WorkspaceTest, TakesTheFirstOfModelsThatHaveAsManyImages) {

@@ -80,6 +80,13 @@ TEST(EdgeDensity, ThinnedContoursCountAsWhole) {
               0.01);
 }
 
+// Of an image that reaches beyond its size, as distorted ones do.
+TEST(EdgeDensity, IsTheSameInTheMargin) {
+  const EdgeDensity density({Stripes(4), {}}, 400, 400, 160);
+  EXPECT_NEAR(density.Density({520, 200}, 0) * 4, 1, 0.15);
+  EXPECT_NEAR(density.Density({200, 200}, 0) * 4, 1, 0.15);
+}
+
 TEST(EdgeDensity, IsLocal) {
   std::vector<Edge2d> edges;
   for (int y = 100; y < 200; y += 4) {

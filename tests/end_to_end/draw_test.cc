@@ -169,8 +169,15 @@ TEST_F(Draw, CoordinatesAreThoseOfTheSurvey) {
   ASSERT_EQ(Run("draw --plane xy --geojson 1").exit_code, 0);
   const json map = json::parse(Read(results_ / "drawing_xy.geojson"));
   EXPECT_THAT(map["crs"].dump(), HasSubstr("EPSG::25832"));
+  // Mirrored, it is no map.
+  ASSERT_EQ(Run("draw --plane xy --from_behind 1 --geojson 1").exit_code, 0);
+  EXPECT_FALSE(
+      json::parse(Read(results_ / "drawing_xy_from_behind.geojson"))
+          .contains("crs"));
 #endif
-  ASSERT_EQ(Run("draw --plane xy --slice=-9,9").exit_code, 0);
+  EXPECT_THAT(Run("draw --plane xy --slice=-9,9").output,
+              HasSubstr("z of the curves is from "));
+  ASSERT_EQ(Run("draw --plane xy --slice 91,109").exit_code, 0);
   const std::string dxf = Read(results_ / "drawing_xy_section.dxf");
   const auto after = LineLengths(dxf);
   ASSERT_EQ(after.size(), before.size());

@@ -78,7 +78,7 @@ TEST_F(Evaluate, AWorkspaceHasTheCurvesToCompareWithKnownOnes) {
   const std::string known =
       "evaluate --json --truth_path " + Quoted(workspace_ / "gt.txt");
   const std::string given =
-      known + " --curves_path " + Quoted(results_ / "curves.ply");
+      known + " --curves_path " + Quoted(results_ / "curves.txt");
   const Outcome of_file = RunProgram(given);
   ASSERT_EQ(of_file.exit_code, 0) << of_file.output;
   EXPECT_EQ(Run(known).output, of_file.output);
@@ -87,11 +87,13 @@ TEST_F(Evaluate, AWorkspaceHasTheCurvesToCompareWithKnownOnes) {
           .output,
       of_file.output);
   // Curves that are given come before those of the workspace.
-  fs::rename(results_ / "curves.ply", folder_.path() / "curves.ply");
+  fs::rename(results_ / "curves.txt", folder_.path() / "curves.txt");
   EXPECT_EQ(
-      Run(known + " --curves_path " + Quoted(folder_.path() / "curves.ply"))
+      Run(known + " --curves_path " + Quoted(folder_.path() / "curves.txt"))
           .output,
       of_file.output);
+  fs::remove(results_ / "curves.obj");
+  fs::remove(results_ / "curves.ply");
   ExpectError(known, (results_ / "curves.ply").string());
 }
 

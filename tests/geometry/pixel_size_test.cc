@@ -44,6 +44,13 @@ TEST(PixelSize, IsZeroWhereNoViewLooks) {
   EXPECT_EQ(PixelSize({0, 0, 0}, {}, {}), 0);
 }
 
+TEST(PixelSize, PrefersViewsThatHaveThePlaceInTheirImage) {
+  // 2 before the second view, but far beside what it shows.
+  const std::vector<PosedView> views = {LookAt({8, 0, 0}, {0, 0, 0}),
+                                        LookAt({0, 4, 9}, {0, 0, 9})};
+  EXPECT_NEAR(PixelSize({0, 2, 0}, {}, views), 8.0 / 800, 1e-15);
+}
+
 TEST(PixelSize, RefusesViewsThatAreNotThere) {
   EXPECT_THROW(PixelSize({0, 0, 0}, {{2, 0}}, FarAndNear()), std::logic_error);
 }

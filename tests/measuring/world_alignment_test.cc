@@ -57,6 +57,29 @@ TEST(EstimateAlignment, ExactPositionsGiveTheSimilarity) {
   EXPECT_TRUE(result->alignment.has_translation);
 }
 
+// The axes of most lines need not be east and north.
+TEST(EstimateAlignment, PositionsThatFixTheRotationDecideIt) {
+  Random random(7);
+  const Similarity3 truth = RandomSimilarity(random);
+  AlignmentInput input;
+  for (int i = 0; i < 5; ++i) {
+    const Vector3d x = random.NormalVector();
+    input.positions.push_back(
+        {"", x, truth * x + 0.1 * random.NormalVector(), 0});
+  }
+  const auto without = EstimateAlignment(input);
+  input.axes.emplace();
+  input.axes->world_from_model = Quaterniond(random.Rotation());
+  input.axes->covariance = 1e-6 * Matrix3d::Identity();
+  const auto with = EstimateAlignment(input);
+  ASSERT_TRUE(without.ok() && with.ok());
+  EXPECT_TRUE(with->has_rotation_of_positions);
+  EXPECT_EQ(ErrorOf(with->alignment.world_from_model,
+                    without->alignment.world_from_model)
+                .norm(),
+            0);
+}
+
 // Errors in their own standard deviations: the mean square over many seeds of a
 // normal vector of seven is seven.
 TEST(EstimateAlignment, PositionErrorsAreAsLargeAsStated) {

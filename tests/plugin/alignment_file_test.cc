@@ -64,6 +64,28 @@ TEST(AlignmentFile, IsNotNeeded) {
   EXPECT_FALSE(read->has_value());
 }
 
+TEST(AlignmentFile, IsOfOneModel) {
+  const TemporaryFolder folder;
+  Scene scene;
+  for (int i = 0; i < 4; ++i) {
+    View& view = scene.views.emplace_back();
+    view.name = "image " + std::to_string(i) + "\xff.png";
+    view.cam_from_world.translation = Vector3d(i, i * i, 1);
+  }
+  Json json = AlignmentJson(SomeAlignment());
+  json["cameras"] = CentersJson(scene);
+  ASSERT_TRUE(
+      WriteFileAtomically(folder.path() / kAlignmentName, json.dump()).ok());
+  Scene refined = scene;
+  refined.views[2].cam_from_world.translation.x() += 0.01;
+  EXPECT_TRUE(ReadAlignment(folder.path(), &refined).ok());
+  Scene other = scene;
+  for (View& view : other.views) view.cam_from_world.translation *= 2;
+  EXPECT_THAT(ReadAlignment(folder.path(), &other).status().message(),
+              HasSubstr("another model"));
+  EXPECT_TRUE(ReadAlignment(folder.path()).ok());
+}
+
 TEST(AlignmentFile, SaysWhatIsWrongWithIt) {
   const TemporaryFolder folder;
   std::vector<std::string> texts = {"", "{", "[]", "{\"format\":1}"};

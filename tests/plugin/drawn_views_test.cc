@@ -2,6 +2,7 @@
 #include "plugin/draw/drawn_views.h"
 
 #include <gtest/gtest.h>
+#include <utility>
 #include <vector>
 
 #include "base/angles.h"
@@ -47,6 +48,28 @@ TEST(DrawnViews, LeaveOutWhatIsFarAndKeepTheRestWhole) {
   // The plan is above the front, with room for dimensions between.
   EXPECT_GT(BoundsOf(views[1].curves).min().y(),
             BoundsOf(views[0].curves).max().y() + 0.3 * 2);
+}
+
+// Third-angle projection: a view lies on the side from which it is seen.
+TEST(DrawnViews, LieOnTheSideFromWhichTheyAreSeen) {
+  const CurvesFile curves = WheelAndLineFarAway();
+  const Scene scene;
+  const auto bounds_of = [&](std::vector<DrawnView> views) {
+    FillViews({curves, scene, "solid", false, true}, &views);
+    return std::pair(BoundsOf(views[0].curves), BoundsOf(views[1].curves));
+  };
+  const DrawingPlane xz = *AxisPlane("xz");
+  const DrawingPlane xy = *AxisPlane("xy");
+  const DrawingPlane yz = *AxisPlane("yz");
+  const auto [plan, front] = bounds_of({{xy}, {xz}});
+  EXPECT_LT(front.max().y(), plan.min().y());
+  const auto [back, from_below] =
+      bounds_of({{FromBehind(xz)}, {FromBehind(xy)}});
+  EXPECT_LT(from_below.max().y(), back.min().y());
+  const auto [first, side] = bounds_of({{xz}, {yz}});
+  EXPECT_GT(side.min().x(), first.max().x());
+  const auto [second, its_front] = bounds_of({{yz}, {xz}});
+  EXPECT_LT(its_front.max().x(), second.min().x());
 }
 
 TEST(DrawnViews, HaveEverythingOnRequest) {

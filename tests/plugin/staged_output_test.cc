@@ -140,6 +140,16 @@ TEST(StagedOutput, ReplacesAndRemovesObsoleteOnes) {
   EXPECT_FALSE(fs::exists(folder.path() / "out/log"));
 }
 
+TEST(StagedOutput, LeavesLinksToWhatIsNotThere) {
+  const TemporaryFolder folder;
+  const fs::path link = folder.path() / "link";
+  fs::create_symlink(folder.path() / "not_there", link);
+  for (const fs::path& output : {link, link / "sub"}) {
+    EXPECT_FALSE(StagedOutput::Create(output).ok());
+    EXPECT_TRUE(fs::is_symlink(link));
+  }
+}
+
 TEST(StagedOutput, SaysWhereItCannotWrite) {
   const TemporaryFolder folder;
   const fs::path file = folder.Write("file", "text");

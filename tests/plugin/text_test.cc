@@ -54,5 +54,9 @@ TEST(DurationText, ChoosesTheUnitsThatMatter) {
   EXPECT_EQ(DurationText(3720), "1 h 02 min");
 }
 
+TEST(ForTerminal, TakesControlCharactersOut) {
+  EXPECT_EQ(ForTerminal("a\x1b[2Jb\n\xc3\xa4"), "a?[2Jb?\xc3\xa4");
+}
+
 }  // namespace
 }  // namespace curvix
