@@ -56,13 +56,15 @@ bool TakeSimilarity(const Json& json, Similarity3& similarity) {
 constexpr double kMaxShareMoved = 0.1;
 constexpr int kMinNumCameras = 3;
 
-// Whether the cameras of the model are where `centers` has them.
+// Whether the cameras of the model are where `centers` has them. Throws if
+// these are no vectors.
 bool AreThere(const Json& centers, const Scene& model) {
   std::vector<Eigen::Vector3d> before, after;
   for (const View& view : model.views) {
-    const auto found = centers.find(ValidUtf8(view.name));
+    const std::string name = ValidUtf8(view.name);
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
-    if (found == centers.end() || !TakeNumbers(*found, center)) continue;
+    if (!centers.contains(name)) continue;
+    if (!TakeNumbers(centers.at(name), center)) return false;
     before.push_back(center);
     after.push_back(view.cam_from_world.Inverse().translation);
   }
@@ -76,6 +78,15 @@ bool AreThere(const Json& centers, const Scene& model) {
     spread += (before[i] - mean).squaredNorm();
   }
   return moved <= kMaxShareMoved * kMaxShareMoved * spread;
+}
+
+bool IsOfAnother(const Json& alignment, const Scene& model) {
+  if (!alignment.contains("cameras")) return false;
+  try {
+    return !AreThere(alignment["cameras"], model);
+  } catch (const nlohmann::json::exception&) {
+    return true;
+  }
 }
 
 }  // namespace
@@ -156,8 +167,7 @@ Result<std::optional<WorldAlignment>> ReadAlignment(
       json.is_discarded()
           ? Result<WorldAlignment>(Status::DataLoss("it is not JSON"))
           : AlignmentFromJson(json);
-  if (alignment.ok() && model != nullptr && json.contains("cameras") &&
-      !AreThere(json["cameras"], *model)) {
+  if (alignment.ok() && model != nullptr && IsOfAnother(json, *model)) {
     return Status::DataLoss(
         path.string() +
         " is of another model, whose cameras are elsewhere. Remove it, run "

@@ -84,6 +84,14 @@ TEST(AlignmentFile, IsOfOneModel) {
   EXPECT_THAT(ReadAlignment(folder.path(), &other).status().message(),
               HasSubstr("another model"));
   EXPECT_TRUE(ReadAlignment(folder.path()).ok());
+  Json words = CentersJson(scene);
+  words.front() = {"one", "two", "three"};
+  for (const Json& wrong : {Json(3), Json::array(), words}) {
+    json["cameras"] = wrong;
+    ASSERT_TRUE(
+        WriteFileAtomically(folder.path() / kAlignmentName, json.dump()).ok());
+    EXPECT_FALSE(ReadAlignment(folder.path(), &scene).ok());
+  }
 }
 
 TEST(AlignmentFile, SaysWhatIsWrongWithIt) {
