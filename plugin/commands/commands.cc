@@ -2,10 +2,9 @@
 #include "plugin/commands/commands.h"
 
 #include <glog/logging.h>
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <iostream>
+#include <utility>
 
 #include "base/file_io.h"
 #include "colmap/files.h"

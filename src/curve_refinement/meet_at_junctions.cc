@@ -213,7 +213,7 @@ void CarryOn(const CurveEnd& end,
   const EndFit& fit = end.fit;
   const bool at_head = IsHead(end.idx);
   CurveSample last = SampleFromEnd(curve, at_head);
-  last.support.clear();  // what it shows is the bend
+  last.support.clear();  // its edges are those of the bend
   const double arrival = fit.ArcLengthTo(junction);
   const double limit = std::min(arrival, 0.0) - kRoundedPx * fit.pixel;
   CutEnd(curve, at_head, [&](const CurveSample& sample) {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/infinity.h"
-#include "base/median.h"
 #include "base/parallel.h"
 #include "curve_refinement/image_support.h"
 #include "curve_refinement/nearest_contour.h"
