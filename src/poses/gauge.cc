@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "base/median.h"
 #include "geometry/directions.h"
@@ -15,13 +16,13 @@ namespace {
 constexpr int kNumGaugeIterations = 10;
 constexpr double kMinLossScalePx = 0.05;
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix7d = Eigen::Matrix<double, 7, 7>;
+using Vector7d = Eigen::Matrix<double, 7, 1>;
 
 // Scale of the weights, from the distances: outliers have little weight.
 double LossScale(const std::vector<PosedView>& views,
                  const std::vector<SeenPlace>& places,
-                 const Rigid3& transform) {
+                 const Similarity3& transform) {
   std::vector<double> distances;
   for (const SeenPlace& place : places) {
     const PosedView& view = views[place.view_idx];
@@ -33,9 +34,9 @@ double LossScale(const std::vector<PosedView>& views,
 
 }  // namespace
 
-Rigid3 FixGauge(const std::vector<PosedView>& views,
-                const std::vector<SeenPlace>& places) {
-  Rigid3 transform;
+Similarity3 FixGauge(const std::vector<PosedView>& views,
+                     const std::vector<SeenPlace>& places) {
+  Similarity3 transform;
   std::vector<Eigen::Vector3d> positions;
   for (const SeenPlace& place : places) positions.push_back(place.position);
   // Not the mean: rays that are nearly parallel meet anywhere.
@@ -43,9 +44,10 @@ Rigid3 FixGauge(const std::vector<PosedView>& views,
   for (int i = 0; i < kNumGaugeIterations; ++i) {
     const Eigen::Vector3d center = transform * middle;
     const double loss_scale_px = LossScale(views, places, transform);
-    // Unknowns: a turn about the center, then a shift, both small.
-    Matrix6d matrix = Matrix6d::Zero();
-    Vector6d vector = Vector6d::Zero();
+    // Unknowns: a turn about the center, a shift and the change of the
+    // logarithm of the scale, all small.
+    Matrix7d matrix = Matrix7d::Zero();
+    Vector7d vector = Vector7d::Zero();
     for (const SeenPlace& place : places) {
       const PosedView& view = views[place.view_idx];
       const Eigen::Vector3d position = transform * place.position;
@@ -55,19 +57,23 @@ Rigid3 FixGauge(const std::vector<PosedView>& views,
       const Eigen::Matrix<double, 2, 3> by_position =
           PixelJacobian(view.calibration.topLeftCorner<2, 2>(), x) *
           view.rotation;
-      Eigen::Matrix<double, 2, 6> by_pose;
-      by_pose << -by_position * CrossMatrix(position - center), by_position;
+      const Eigen::Vector3d arm = position - center;
+      Eigen::Matrix<double, 2, 7> jacobian;
+      jacobian << -by_position * CrossMatrix(arm), by_position,
+          by_position * arm;
       const double weight =
           1 / (1 + residual.squaredNorm() / (loss_scale_px * loss_scale_px));
-      matrix += weight * by_pose.transpose() * by_pose;
-      vector += weight * by_pose.transpose() * residual;
+      matrix += weight * jacobian.transpose() * jacobian;
+      vector += weight * jacobian.transpose() * residual;
     }
-    const Vector6d step = -matrix.ldlt().solve(vector);
+    const Vector7d step = -matrix.ldlt().solve(vector);
     if (!step.allFinite()) return transform;
-    Rigid3 update;
-    update.rotation = RotationBy(step.head<3>());
-    update.translation = center + step.tail<3>() - update.rotation * center;
-    transform = update * transform;
+    const Eigen::Quaterniond turn = RotationBy(step.head<3>());
+    const double growth = std::exp(step(6));
+    transform.translation = center + step.segment<3>(3) +
+                            growth * (turn * (transform.translation - center));
+    transform.rotation = turn * transform.rotation;
+    transform.scale *= growth;
   }
   return transform;
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/similarity.h"
 #include "model/posed_view.h"
 
 namespace curvix {
@@ -19,12 +20,13 @@ struct SeenPlace {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
 };
 
-// old_world_from_new_world: the rigid transform after which `views`, with their
-// old poses, project the places nearest to their pixels by the new poses.
-// Camera centres would determine it poorly, since rotations and translations
-// of a camera can compensate each other in its image. Gauss-Newton with
-// Cauchy's weights, scaled by the median distance; the identity without places.
-Rigid3 FixGauge(const std::vector<PosedView>& views,
-                const std::vector<SeenPlace>& places);
+// old_world_from_new_world: the similarity after which `views`, with their old
+// poses, project the places nearest to their pixels by the new poses. Camera
+// centres would determine it poorly: they depend on the focal length, and
+// rotations and translations of a camera can compensate each other in its
+// image. Gauss-Newton with Cauchy's weights, scaled by the median distance; the
+// identity without places.
+Similarity3 FixGauge(const std::vector<PosedView>& views,
+                     const std::vector<SeenPlace>& places);
 
 }  // namespace curvix

@@ -37,21 +37,6 @@ constexpr double kMinPriorPx = 0.02;
 // views compensate each other.
 constexpr double kPriorOfFreeLensesPx = 50;
 
-// The median ratio of distances between positions to those between the same
-// ones elsewhere; 1 of too few.
-double MedianRatio(const std::vector<Eigen::Vector3d>& positions,
-                   const std::vector<Eigen::Vector3d>& elsewhere) {
-  std::vector<double> ratios;
-  const std::size_t step = positions.size() / 2;
-  for (std::size_t i = 0; i + step < positions.size(); ++i) {
-    const double from = (elsewhere[i] - elsewhere[i + step]).norm();
-    if (from > 0) {
-      ratios.push_back((positions[i] - positions[i + step]).norm() / from);
-    }
-  }
-  return MedianOr(1, std::move(ratios));
-}
-
 // The standard deviation of a pixel of a point, in x and in y.
 double PointSigma(const Scene& scene) {
   std::vector<double> residuals;
@@ -275,54 +260,18 @@ double PoseSearch::MedianShift(const PoseObservationSet& observations,
   return MedianOr(0, std::move(medians));
 }
 
-std::vector<Eigen::Vector3d> PoseSearch::PositionsByInput(
-    PoseObservationSet observations) {
-  const MovedCameras moved = edges_.moved();
-  edges_.Move(edges_.Unmoved());
-  Fit(&observations);
-  edges_.Move(moved);
-  return PositionsOf(observations);
-}
-
-// Not from camera centres, which depend on the focal length. About the middle
-// of what is seen, since the origin can be far away.
-void PoseSearch::RestoreScale(PoseObservationSet* observations) {
-  const std::vector<Eigen::Vector3d> positions = PositionsOf(*observations);
-  const double unit = MedianRatio(PositionsByInput(*observations), positions);
-  const Eigen::Vector3d center = MedianPosition(positions);
-  const auto scale = [&](Eigen::Vector3d& position) {
-    position = center + unit * (position - center);
-  };
-  MovedCameras moved = edges_.moved();
-  for (std::size_t i = 0; i < scene_.views.size(); ++i) {
-    Rigid3 pose = edges_.PoseOf(i);
-    pose.translation =
-        unit * pose.translation - (1 - unit) * (pose.rotation * center);
-    moved.new_cam_from_cam[i] = pose * scene_.views[i].cam_from_world.Inverse();
-  }
-  edges_.Move(moved);
-  for (CurvePlace& place : observations->places) {
-    scale(place.contour.axis.position);
-    place.contour.radius *= unit;
-  }
-  for (PointSample& point : observations->points) scale(point.position);
-}
-
 void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
-  RestoreScale(observations);
   std::vector<SeenPlace> seen;
   VisitSeen(*observations, [&](std::size_t i, const Eigen::Vector3d& x) {
     if (const auto pixel = edges_.PixelByInputCamera(i, x)) {
       seen.push_back({i, x, *pixel});
     }
   });
-  const Rigid3 old_from_new = FixGauge(edges_.input_views(), seen);
-  const Rigid3 new_from_old = old_from_new.Inverse();
+  const Similarity3 old_from_new = FixGauge(edges_.input_views(), seen);
   MovedCameras moved = edges_.moved();
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
-    const Rigid3& pose = scene_.views[i].cam_from_world;
-    moved.new_cam_from_cam[i] =
-        moved.new_cam_from_cam[i] * pose * new_from_old * pose.Inverse();
+    moved.new_cam_from_cam[i] = MovePose(old_from_new, edges_.PoseOf(i)) *
+                                scene_.views[i].cam_from_world.Inverse();
   }
   edges_.Move(moved);
   for (CurvePlace& place : observations->places) {
@@ -330,6 +279,7 @@ void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
     contour.axis.position = old_from_new * contour.axis.position;
     contour.axis.tangent = old_from_new.rotation * contour.axis.tangent;
     contour.outward = old_from_new.rotation * contour.outward;
+    contour.radius *= old_from_new.scale;
   }
   for (PointSample& point : observations->points) {
     point.position = old_from_new * point.position;

@@ -90,10 +90,6 @@ class PoseSearch {
   AdjustedPoses Solve(const PoseObservationSet& observations,
                       double prior_px,
                       const std::vector<bool>& free_lenses);
-  // Fitted to the poses and cameras of the scene.
-  std::vector<Eigen::Vector3d> PositionsByInput(
-      PoseObservationSet observations);
-  void RestoreScale(PoseObservationSet* observations);
 
   const Scene& scene_;
   const double edge_sigma_px_;

@@ -210,6 +210,14 @@ TEST_F(ClassifyCurvesTest, StopsAfterAnyCurve) {
   }
 }
 
+TEST_F(ClassifyCurvesTest, WhatFewerThanThreeImagesShowIsUnknown) {
+  const std::vector<Surface> surfaces = {{0, 1}, {180, 2}};
+  first_view_ = 5;
+  EXPECT_EQ(Classified(surfaces).kind, CurveKind::kMarking);
+  first_view_ = 6;
+  EXPECT_EQ(Classified(surfaces).kind, CurveKind::kUnknown);
+}
+
 TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {
   const CurveSample sample =
       MiddleOf(ToScene({LookAt({0, -2, 0}, Vector3d::Zero()),

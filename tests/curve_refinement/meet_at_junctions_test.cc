@@ -74,6 +74,22 @@ TEST(MeetAtJunctions, CutsOffWhatTheCornerHasBent) {
   EXPECT_EQ(met[1].samples.front().position, met[0].samples.front().position);
 }
 
+TEST(MeetAtJunctions, NoEdgeSupportsWhatIsAdded) {
+  std::vector<Curve> curves = Corner(90, 4);
+  for (Curve& curve : curves) {
+    for (std::size_t k = 0; k < curve.samples.size(); ++k) {
+      curve.samples[k].support = {{0, static_cast<std::int32_t>(k)}};
+    }
+  }
+  for (const Curve& curve : Meet(curves)) {
+    for (const CurveSample& sample : curve.samples) {
+      const double from_corner_px = sample.position.norm() / kPixel;
+      if (from_corner_px > 3 && from_corner_px < 10) continue;
+      EXPECT_EQ(sample.support.empty(), from_corner_px < 5);
+    }
+  }
+}
+
 TEST(MeetAtJunctions, EndsOutOfReachStay) {
   EXPECT_GT(LargestDistance(Meet(Corner(90, 9)), Corner(90, 9)), 0);
   EXPECT_EQ(LargestDistance(Meet(Corner(90, 11)), Corner(90, 11)), 0);

@@ -244,6 +244,15 @@ TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
               HasSubstr("less " + std::to_string(offset[0].get<int>()) + " "));
 }
 
+TEST_F(Align, ASinglePositionMakesNoMap) {
+  const fs::path path = PositionsFrom(1000);
+  const std::string all = Read(path);
+  std::ofstream(path) << all.substr(0, all.find('\n')) << " 0.1\n";
+  const std::string position = "align --positions " + Quoted(path);
+  ExpectError(position + " --axes auto --epsg 25832", "--epsg needs a scale");
+  EXPECT_FALSE(fs::exists(results_ / "alignment.json"));
+}
+
 #ifdef CURVIX_HAS_GDAL
 TEST_F(Align, CodesOfOtherUnitsAndOfNothingAreRefused) {
   ExpectError("align --positions x --epsg 2263", "in the unit US survey foot");
@@ -297,6 +306,7 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
         std::pair("--distance 0 1", "three words"),
         std::pair("--distance 0 100000 3", "no node 100000"),
         std::pair("--markers 4x4_50", "--marker_size"),
+        std::pair("--axes auto --marker_size 5", "needs --markers"),
         std::pair("--positions none.txt", "none.txt"),
         std::pair("--axes auto --unit mm", "--unit needs a scale"),
         std::pair("--up 0,0,1", "--axes auto"),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From curves to drawings to scale, as a person does it.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -171,9 +172,8 @@ TEST_F(Draw, CoordinatesAreThoseOfTheSurvey) {
   EXPECT_THAT(map["crs"].dump(), HasSubstr("EPSG::25832"));
   // Mirrored, it is no map.
   ASSERT_EQ(Run("draw --plane xy --from_behind 1 --geojson 1").exit_code, 0);
-  EXPECT_FALSE(
-      json::parse(Read(results_ / "drawing_xy_from_behind.geojson"))
-          .contains("crs"));
+  EXPECT_FALSE(json::parse(Read(results_ / "drawing_xy_from_behind.geojson"))
+                   .contains("crs"));
 #endif
   EXPECT_THAT(Run("draw --plane xy --slice=-9,9").output,
               HasSubstr("z of the curves is from "));
@@ -331,6 +331,39 @@ TEST_F(Draw, SectionsAndBacksReplaceNoOtherDrawing) {
   EXPECT_EQ(Read(results_ / "drawing_xz.dxf"), front);
   EXPECT_NE(Read(results_ / "drawing_xz_from_behind.dxf"), front);
   EXPECT_TRUE(fs::exists(results_ / "drawing_xz_section_from_behind.svg"));
+}
+
+TEST_F(Draw, TitlesTellWhetherAViewIsFromBehind) {
+  int num_from_behind = 0;
+  for (const char* behind : {"0", "1"}) {
+    ASSERT_EQ(
+        Run("draw --name one --from_behind " + std::string(behind)).exit_code,
+        0);
+    num_from_behind +=
+        Read(results_ / "one.svg").find(" from behind") != std::string::npos;
+  }
+  EXPECT_EQ(num_from_behind, 1);
+}
+
+// Depths behind a plane through nodes are those in front of it from behind.
+TEST_F(Draw, SlicesOfNodesLieOnTheSideOfTheViewer) {
+  const auto lines_of = [&](const std::string& words) {
+    const Outcome outcome =
+        Run("draw --name one --hidden solid --plane 'nodes 0 1 2' " + words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    std::vector<double> lengths = LineLengths(Read(results_ / "one.dxf"));
+    std::ranges::sort(lengths);
+    return lengths;
+  };
+  const std::vector<double> in_front = lines_of("--slice=-0.1,9");
+  const std::vector<double> behind = lines_of("--slice=-9,0.1");
+  ASSERT_NE(in_front.size(), behind.size());
+  const std::vector<double> seen_from_there =
+      lines_of("--slice=-0.1,9 --from_behind 1");
+  ASSERT_EQ(seen_from_there.size(), behind.size());
+  for (std::size_t i = 0; i < behind.size(); ++i) {
+    EXPECT_NEAR(seen_from_there[i], behind[i], 1e-9);
+  }
 }
 
 TEST_F(Draw, AFolderThatCannotBeWrittenToMayBeCopied) {

@@ -74,6 +74,40 @@ TEST_F(Evaluate, ResultsAreComparedInTheirFrame) {
   EXPECT_NEAR(same["precision"], before["precision"], 1);
 }
 
+// A newer alignment.json is not theirs yet.
+TEST_F(Evaluate, CurvesKeepTheFrameInWhichTheyWereWritten) {
+  WorldAlignment alignment;
+  alignment.has_scale = true;
+  const auto write = [&](double scale) {
+    alignment.world_from_model.scale = scale;
+    folder_.Write("proj/curvix/0/alignment.json",
+                  AlignmentJson(alignment).dump());
+  };
+  write(1000);
+  ASSERT_EQ(Run("").exit_code, 0);
+  const json before = Holdout("curves.ply");
+  write(7);
+  const json after = Holdout("curves.ply");
+  EXPECT_EQ(after["precision"], before["precision"]);
+  EXPECT_EQ(after["length"], before["length"]);
+}
+
+TEST_F(Evaluate, RunsTellWhichFilesLoseDigitsOfLargeCoordinates) {
+  constexpr char kNote[] = "Coordinates are large";
+  EXPECT_THAT(Run("--refiner none").output, testing::Not(HasSubstr(kNote)));
+  const fs::path given = workspace_ / "sparse/0";
+  ColmapModel model = *ReadColmapModel(given);
+  const Eigen::Vector3d shift(500000, 5600000, 0);
+  for (ColmapImage& image : model.images) {
+    Rigid3& pose = image.cam_from_world;
+    pose.translation -= pose.rotation * shift;
+  }
+  for (ColmapPoint3D& point : model.points) point.position += shift;
+  fs::remove_all(given);
+  ASSERT_TRUE(WriteColmapModel(model, given).ok());
+  EXPECT_THAT(Run("--refiner none").output, HasSubstr(kNote));
+}
+
 TEST_F(Evaluate, AWorkspaceHasTheCurvesToCompareWithKnownOnes) {
   const std::string known =
       "evaluate --json --truth_path " + Quoted(workspace_ / "gt.txt");

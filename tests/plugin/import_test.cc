@@ -172,6 +172,7 @@ TEST_F(Import, DtuPositionsFindTheirImagesByNumber) {
     const std::string number = "00" + std::to_string(i + 1);
     Photo("scan/rect_" + number + "_3_r5000.png");
     Photo("scan/rect_" + number + "_max.png");
+    folder_.Write("scan/._rect_" + number + "_max.png", "of macOS");
     const Rigid3& pose = poses_[static_cast<std::size_t>(i)];
     folder_.Write("cal/pos_" + number + ".txt",
                   MatrixText(1e3 * TestCalibration() * Matrix34(pose)));

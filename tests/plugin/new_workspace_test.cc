@@ -84,6 +84,17 @@ TEST(NewWorkspace, RefusesToOverwrite) {
   }
 }
 
+TEST(NewWorkspace, SaysThatTheImagesThemselvesAreInTheWay) {
+  Source source;
+  const fs::path workspace = source.folder.path();
+  source.files = {source.folder.Write("images/1.png", "1"),
+                  source.folder.Write("images/2.png", "2")};
+  const Status status = WriteNewWorkspace(
+      source.model, source.files, CopyPolicy::kCopy, workspace);
+  EXPECT_THAT(status.message(), HasSubstr("holds the images themselves"));
+  EXPECT_FALSE(fs::exists(workspace / "sparse"));
+}
+
 TEST(NewWorkspace, TakesEmptyFolders) {
   const Source source;
   const fs::path workspace = source.folder.path() / "w";
