@@ -58,7 +58,7 @@ for positions, closed in zip(curves, curves.closed):
     space.plot(*shown.T, color='0.7', linewidth=0.8)
 for line in lines:
     space.plot(*np.stack((line['start'], line['end'])).T, linewidth=1.6)
-space.set_aspect('equal')
+space.set_box_aspect(np.ptp(curves.positions, axis=0))
 space.set_title(f'{len(curves)} curves; in colour: {len(lines)} lines longer than {min_length}')
 
 scene = curves.scene

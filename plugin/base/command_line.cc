@@ -153,6 +153,21 @@ Result<Values> ReadProjectFile(const fs::path& path,
                                  path.string() + ")");
 }
 
+// The options of a project file win over a preset, so another one would do
+// nothing.
+Status CheckPreset(const Values& given, const Values& project) {
+  const auto preset = given.find("preset");
+  const auto of_project = project.find("preset");
+  if (preset == given.end() || of_project == project.end() ||
+      preset->second == of_project->second) {
+    return {};
+  }
+  return Status::InvalidArgument(
+      "--preset " + preset->second + " would not change the options of " +
+      given.at("project_path") + ", which are those of --preset " +
+      of_project->second + "; leave one of the two out");
+}
+
 // A workspace that is given wins over that of a project file, whose paths in
 // its own workspace are then the same places in the given one: results move
 // with their workspace.
@@ -350,6 +365,8 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
     Result<Values> more =
         ReadProjectFile(project->second, flags, AllFlags(of_others));
     if (!more.ok()) return more.status();
+    const Status usable = CheckPreset(*values, *more);
+    if (!usable.ok()) return usable;
     const auto workspace = values->find("workspace_path");
     if (workspace != values->end()) {
       MoveIntoWorkspace(workspace->second, &*more);

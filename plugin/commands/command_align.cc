@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -22,21 +24,24 @@ namespace fs = std::filesystem;
 // "--distance 3 7 1.25 --distance 4 9 2" as one flag with one value, "3 7
 // 1.25;4 9 2": the words that follow it up to the next flag.
 Arguments WithDistancesJoined(const Arguments& arguments) {
+  constexpr char kWithValue[] = "--distance=";
   Arguments joined;
   std::string distances;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] != "--distance") {
-      joined.push_back(arguments[i]);
+    const std::string& flag = arguments[i];
+    if (flag != "--distance" && !flag.starts_with(kWithValue)) {
+      joined.push_back(flag);
       continue;
     }
-    std::string words;
+    std::string words =
+        flag.substr(std::min(flag.size(), std::size(kWithValue) - 1));
     while (i + 1 < arguments.size() && !arguments[i + 1].starts_with("--")) {
       words += (words.empty() ? "" : " ") + arguments[++i];
     }
     if (words.empty()) words = "\"\"";
     distances += (distances.empty() ? "" : ";") + words;
   }
-  if (!distances.empty()) joined.push_back("--distance=" + distances);
+  if (!distances.empty()) joined.push_back(kWithValue + distances);
   return joined;
 }
 

@@ -8,6 +8,7 @@
 #include "plugin/base/file_errors.h"
 #include "plugin/commands/commands.h"
 #include "plugin/commands/evaluations.h"
+#include "plugin/export/alignment_file.h"
 
 namespace curvix {
 namespace {
@@ -28,8 +29,8 @@ FlagSection TruthSection(EvaluateSettings* settings) {
       "Against known curves",
       {PathFlag("curves_path",
                 &settings->curves_path,
-                "curves.ply, curves.obj or curves.txt; default: curves.ply "
-                "that a run has left in the workspace"),
+                "curves.txt, curves.obj or curves.ply; default: the first "
+                "of them that a run has left in the workspace"),
        PathFlag("truth_path",
                 &settings->truth_path,
                 "the exact curves: gt.txt of synthesize, say"),
@@ -86,6 +87,10 @@ Result<std::string> EvaluateWithTruth(const EvaluateSettings& settings) {
         CatchFileErrors([&] { return FindWorkspace(settings.run); });
     if (!workspace.ok()) return workspace.status();
     curves_path = CurvesIn(workspace->output_path);
+  }
+  if (std::filesystem::exists(curves_path.parent_path() / kAlignmentName)) {
+    std::cerr << "The curves are in the frame of " << kAlignmentName
+              << " beside them; so must be the known ones." << std::endl;
   }
   return EvaluateFiles(
       curves_path, settings.truth_path, settings.options, settings.json);

@@ -4,9 +4,11 @@
 #include <iostream>
 #include <iterator>
 #include <string>
+#include <utility>
 
 #include "base/count_text.h"
 #include "base/text_fields.h"
+#include "colmap/workspace.h"
 #include "plugin/base/progress.h"
 #include "plugin/base/text.h"
 #include "plugin/commands/commands.h"
@@ -111,11 +113,31 @@ Status CheckInput(const ImportSettings& settings) {
       " does not exist; name the cameras of the data set, or the lines");
 }
 
+// Options that the format does not know.
+Status CheckOptions(const ImportSettings& settings) {
+  const ImportOptions& options = settings.options;
+  if (settings.format == "colmap_images" && options.image_path.empty()) {
+    return Status::InvalidArgument(
+        "The option '--image_path' is required with --format colmap_images");
+  }
+  if (settings.format == "dtu") return {};
+  for (const auto& [is_given, name] :
+       {std::pair(options.normalize, "--normalize"),
+        {!options.image_filter.empty(), "--image_filter"}}) {
+    if (!is_given) continue;
+    return Status::InvalidArgument(std::string(name) +
+                                   " is only for --format dtu");
+  }
+  return {};
+}
+
 ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
   RunSettings run = settings.run;
   run.image_path = settings.options.image_path;
   if (run.output_path.empty()) {
     run.output_path = run.workspace_path / format.name;
+    const Status usable = CheckNoLink(run.output_path);
+    if (!usable.ok()) return Fail(usable);
   }
   run.poses.refiner = "none";
   return RunAndSummarize(run, [&](RunProgress& progress) {
@@ -164,13 +186,9 @@ ExitCode RunImport(const Arguments& arguments) {
                                                      WorkspaceFlags(&settings),
                                                      ResultFlags(&settings)});
   if (code) return *code;
-  if (settings.format == "colmap_images" &&
-      settings.options.image_path.empty()) {
-    return Fail(Status::InvalidArgument("The option '--image_path' is required "
-                                        "with --format colmap_images"),
-                kExitCommandLine);
-  }
-  const Status status = CheckInput(settings);
+  Status status = CheckOptions(settings);
+  if (!status.ok()) return Fail(status, kExitCommandLine);
+  status = CheckInput(settings);
   if (!status.ok()) return Fail(status);
   for (const LineFormat& format : kLineFormats) {
     if (settings.format == format.name) return ImportLines(settings, format);

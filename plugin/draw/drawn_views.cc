@@ -19,18 +19,13 @@ DrawRange Shifted(const DrawRange& range, double by) {
   return {range.from + by, range.to + by};
 }
 
-// Whether to dash a primitive; nullopt: it is left out.
-std::optional<bool> IsHidden(const DrawnContent& content,
-                             std::size_t curve_idx,
-                             const CurveFit& fit,
-                             DrawnView& view) {
-  if (content.hidden == "solid") return false;
-  const SeenFrom seen = SeenFromSide(
+SeenFrom SeenInView(const DrawnContent& content,
+                    std::size_t curve_idx,
+                    const CurveFit& fit,
+                    const DrawnView& view) {
+  if (content.hidden == "solid") return SeenFrom::kSeen;
+  return SeenFromSide(
       fit, content.curves.samples[curve_idx], view.plane.toward, content.scene);
-  view.num_unknown += seen == SeenFrom::kUnknown ? 1 : 0;
-  if (seen != SeenFrom::kHidden) return false;
-  if (content.hidden == "omitted") return std::nullopt;
-  return true;
 }
 
 double ScaleSigma(const DrawnContent& content) {
@@ -48,8 +43,9 @@ void Fill(const DrawnContent& content, DrawnView& view) {
       const std::vector<CurveFit> parts =
           PartsInWindow(fit, plane, view.window);
       if (parts.empty()) continue;
-      const std::optional<bool> is_hidden = IsHidden(content, c, fit, view);
-      if (!is_hidden) continue;
+      const SeenFrom seen = SeenInView(content, c, fit, view);
+      const bool is_hidden = seen == SeenFrom::kHidden;
+      if (is_hidden && content.hidden == "omitted") continue;
       for (const CurveFit& part : parts) {
         std::optional<CurveFit> flat = FlatFit(part, plane);
         if (!flat) continue;
@@ -58,11 +54,12 @@ void Fill(const DrawnContent& content, DrawnView& view) {
             (fit.kind == FitKind::kLine ||
              (content.curves.fitted.curves[c].fits.size() == 1 &&
               part.closed == fit.closed));
-        if (content.has_dimensions && is_whole && !*is_hidden) {
+        if (content.has_dimensions && is_whole && !is_hidden) {
           const auto measured = DimensionOf(fit, *flat, ScaleSigma(content));
           if (measured) view.measured.push_back(*measured);
         }
-        view.curves.push_back({*std::move(flat), *is_hidden});
+        view.num_unknown += seen == SeenFrom::kUnknown ? 1 : 0;
+        view.curves.push_back({*std::move(flat), is_hidden});
       }
     }
   }

@@ -25,7 +25,9 @@ std::vector<fs::path> FilesOfDrawing(const fs::path& folder,
                                      const std::string& name) {
   const Result<std::string> svg = ReadFile(folder / (name + ".svg"));
   if (!svg.ok() || !IsSvgSheet(*svg)) return {};
-  std::vector<fs::path> files = {name + ".dxf", name + ".svg"};
+  std::vector<fs::path> files;
+  if (fs::exists(folder / (name + ".dxf"))) files.emplace_back(name + ".dxf");
+  files.emplace_back(name + ".svg");
   if (svg->find("<image ") != std::string::npos) {
     files.emplace_back(name + ".jpg");
   }

@@ -228,9 +228,9 @@ Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
   }
   if (settings.num_overlays > 0) {
     Status status =
-        WriteOverlays(record, settings.num_overlays, folder / "overlays");
+        WriteOverlays(record, settings.num_overlays, folder / kOverlaysFolder);
     if (!status.ok()) return status;
-    files.emplace_back("overlays/");
+    files.emplace_back(kOverlaysFolder);
   }
   return files;
 }

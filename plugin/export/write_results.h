@@ -12,7 +12,10 @@
 
 namespace curvix {
 
+// Folders of results.
+inline constexpr const char* kModelFolder = "sparse/";  // of refined poses
 inline constexpr const char* kCurvesModelFolder = "curves_model/";
+inline constexpr const char* kOverlaysFolder = "overlays/";
 
 struct OutputSettings {
   std::vector<std::string> formats = {

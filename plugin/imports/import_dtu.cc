@@ -218,6 +218,11 @@ Result<ImportedScene> ImportDtu(const ImportOptions& options) {
     projections = std::move(positions).value();
   }
   const bool is_npz = projections.empty();
+  if (!is_npz && options.normalize) {
+    return Status::InvalidArgument(
+        "--normalize needs scale_mat of an archive cameras*.npz; " +
+        source.string() + " has positions");
+  }
   if (is_npz) {
     const Result<fs::path> file = IsFolder(source)
                                       ? OnlyFile(source, "cameras", ".npz")

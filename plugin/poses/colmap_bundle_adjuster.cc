@@ -43,7 +43,8 @@ class ScratchFolder {
  public:
   static Result<fs::path> Make() {
     std::error_code error;
-    const fs::path parent = fs::temp_directory_path(error);
+    // COLMAP runs in it, so not relative to where this program runs.
+    const fs::path parent = fs::absolute(fs::temp_directory_path(error));
     std::string name = (parent / "colmap_curvix-XXXXXX").string();
     if (!error && mkdtemp(name.data()) != nullptr) return fs::path(name);
     return Status::InvalidArgument(
@@ -65,23 +66,43 @@ class ScratchFolder {
 };
 
 // COLMAP squares the errors: observations that are this many times the median
-// off would pull at the poses.
+// off, of all views or of their own if that is larger, would pull at the poses.
 constexpr double kOutlier = 5;
+
+// By view, for `scene` with fitted points.
+std::vector<double> LargestErrors(const Scene& scene) {
+  std::vector<double> all;
+  std::vector<std::vector<double>> by_view(scene.views.size());
+  for (const ScenePoint& point : scene.points) {
+    const std::vector<double> errors = ReprojectionErrors(scene, point);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      all.push_back(errors[i]);
+      by_view[static_cast<std::size_t>(point.view_idxs[i])].push_back(
+          errors[i]);
+    }
+  }
+  const double median = MedianOrNan(std::move(all));
+  std::vector<double> largest;
+  for (std::vector<double>& errors : by_view) {
+    largest.push_back(kOutlier *
+                      std::max(median, MedianOr(median, std::move(errors))));
+  }
+  return largest;
+}
 
 // The points of `scene` fitted to its poses, without outliers; those that two
 // views no longer see have no observation.
 std::vector<ScenePoint> WithoutOutliers(Scene scene) {
   FitPoints(&scene);
-  std::vector<double> errors;
-  for (const ScenePoint& point : scene.points) {
-    for (const double e : ReprojectionErrors(scene, point)) {
-      errors.push_back(e);
-    }
-  }
-  const double limit = kOutlier * MedianOrNan(errors);
-  auto error = errors.cbegin();
+  const std::vector<double> largest = LargestErrors(scene);
   for (ScenePoint& point : scene.points) {
-    KeepObservations([&](std::size_t) { return *error++ <= limit; }, &point);
+    const std::vector<double> errors = ReprojectionErrors(scene, point);
+    KeepObservations(
+        [&](std::size_t i) {
+          const auto view_idx = static_cast<std::size_t>(point.view_idxs[i]);
+          return errors[i] <= largest[view_idx];
+        },
+        &point);
     if (point.pixels.size() < 2) {
       KeepObservations([](std::size_t) { return false; }, &point);
     }
@@ -102,8 +123,10 @@ ColmapModel ModelForColmap(Scene scene) {
   return model;
 }
 
-// `scene` with what COLMAP made of it; points that it dropped stay.
-Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
+// What COLMAP made of `scene`.
+Result<BundleAdjustment> AdjustmentIn(const fs::path& folder,
+                                      const Scene& scene,
+                                      const std::string& version) {
   if (!FindColmapFormat(folder).ok())
     return Status::ExternalTool("it wrote no model");
   const Result<ColmapModel> model = ReadColmapModel(folder);
@@ -117,34 +140,38 @@ Result<Scene> SceneFromColmap(Scene scene, const fs::path& folder) {
     return Status::ExternalTool("it wrote a model that cannot be read: " +
                                 reason);
   }
+  BundleAdjustment adjustment;
+  adjustment.program_version = version;
   bool same = model->images.size() == scene.views.size() &&
               model->cameras.size() == scene.cameras.size();
   for (std::size_t i = 0; same && i < scene.views.size(); ++i) {
     const ColmapImage& image = model->images[i];
-    View& view = scene.views[i];
+    const int camera_id = scene.views[i].camera_idx + 1;
     same = image.image_id == i + 1 && image.name == std::to_string(i + 1) &&
-           static_cast<int>(image.camera_id) == view.camera_idx + 1;
-    view.cam_from_world = image.cam_from_world;
+           static_cast<int>(image.camera_id) == camera_id;
+    adjustment.cam_from_world.push_back(image.cam_from_world);
   }
   for (std::size_t i = 0; same && i < scene.cameras.size(); ++i) {
     const ColmapCamera& item = model->cameras[i];
-    Camera& camera = scene.cameras[i];
+    const Camera& camera = scene.cameras[i];
     same = item.camera_id == i + 1 && item.camera.model == camera.model &&
            item.camera.width == camera.width &&
            item.camera.height == camera.height;
-    camera.params = item.camera.params;
   }
   if (!same) {
     return Status::ExternalTool(
         "its model has other images or cameras than it got");
   }
+  for (const ScenePoint& point : scene.points) {
+    adjustment.positions.push_back(point.position);
+  }
   for (const ColmapPoint3D& point : model->points) {
     if (point.point3D_id == 0 || point.point3D_id > scene.points.size()) {
       continue;
     }
-    scene.points[point.point3D_id - 1].position = point.position;
+    adjustment.positions[point.point3D_id - 1] = point.position;
   }
-  return scene;
+  return adjustment;
 }
 
 // At most its first `num_bytes`.
@@ -279,10 +306,10 @@ Result<fs::path> FindColmap(const fs::path& given) {
                           kHowToInstall);
 }
 
-Result<Scene> RefineWithColmap(const Scene& scene,
-                               const ColmapRun& run,
-                               const KeepGoing& keep_going,
-                               std::string* version) {
+Result<BundleAdjustment> RefineWithColmap(const Scene& scene,
+                                          const ColmapRun& run,
+                                          const KeepGoing& keep_going,
+                                          std::string* version) {
   const Result<fs::path> made = ScratchFolder::Make();
   if (!made.ok()) return made.status();
   const ScratchFolder scratch(*made);
@@ -321,7 +348,7 @@ Result<Scene> RefineWithColmap(const Scene& scene,
     }
   }
   if (!ended.ok()) return ended;
-  return SceneFromColmap(scene, output);
+  return AdjustmentIn(output, scene, *version);
 }
 
 }  // namespace curvix

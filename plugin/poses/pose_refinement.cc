@@ -24,15 +24,30 @@ std::vector<Rigid3> Poses(const Scene& scene) {
   return poses;
 }
 
-Result<Scene> RunColmap(const Scene& scene,
+// `scene` adjusted by COLMAP.
+Result<Scene> RunColmap(Scene scene,
                         const ColmapRun& run,
                         const Progress& progress,
+                        const AdjustmentCache& cache,
                         PoseRefinementRecord* record) {
   const KeepGoing keep_going = [&] { return progress(kStage, 0, 0); };
   record->refiner = "colmap";
   record->colmap_path = run.program.string();
   record->colmap_version = "unknown";
-  return RefineWithColmap(scene, run, keep_going, &record->colmap_version);
+  const auto adjust = [&] {
+    return RefineWithColmap(scene, run, keep_going, &record->colmap_version);
+  };
+  const Result<BundleAdjustment> adjusted =
+      cache ? cache(scene, run.program, adjust) : adjust();
+  if (!adjusted.ok()) return adjusted.status();
+  record->colmap_version = adjusted->program_version;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].cam_from_world = adjusted->cam_from_world[i];
+  }
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    scene.points[i].position = adjusted->positions[i];
+  }
+  return scene;
 }
 
 // Moves the world of `refined` back to that of `input`; false if there is no
@@ -148,7 +163,8 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings) {
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,
                                    const PoseRefinementSettings& settings,
                                    const std::filesystem::path& log_path,
-                                   const Progress& progress) {
+                                   const Progress& progress,
+                                   const AdjustmentCache& cache) {
   PoseRefinement result;
   PoseRefinementRecord& record = result.record;
   if (settings.refiner == "none") {
@@ -179,6 +195,7 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
       RunColmap(input,
                 {*program, settings.refiner_timeout_s, log_path},
                 progress,
+                cache,
                 &record);
   if (!refined.ok()) {
     if (refined.status().code() == StatusCode::kCancelled) {

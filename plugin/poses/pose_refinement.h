@@ -8,11 +8,13 @@
 #include <curvix/status.h>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "colmap/colmap_model.h"
+#include "io/stage_io.h"
 #include "plugin/base/command_line.h"
 #include "plugin/poses/pose_judgement.h"
 
@@ -51,6 +53,13 @@ struct PoseRefinement {
   std::vector<std::string> notes;  // sentences worth telling the user
 };
 
+// Gives the adjustment of `scene` by `program`: that of `adjust`, or one that
+// an earlier run has kept of it.
+using AdjustmentCache = std::function<Result<BundleAdjustment>(
+    const Scene& scene,
+    const std::filesystem::path& program,
+    const std::function<Result<BundleAdjustment>()>& adjust)>;
+
 // "COLMAP 3.8, 24 views, 1.08 to 0.42 px, shifts up to 2.3 px": what was done,
 // in a few words. The errors are mean ones, of the points that were held out.
 std::string PoseRefinementText(const PoseRefinementRecord& record);
@@ -61,10 +70,11 @@ FlagSection PoseRefinementFlags(PoseRefinementSettings* settings);
 // Refines the poses of `model`. A COLMAP that is missing or that fails in any
 // way, and a model without points, are told in `notes` and leave the poses as
 // they were. COLMAP's output goes to `log_path`. `progress` is called as stage
-// "refine_poses". kCancelled when it returns false.
+// "refine_poses". kCancelled when it returns false. `cache`: may be empty.
 Result<PoseRefinement> RefinePoses(const ColmapModel& model,
                                    const PoseRefinementSettings& settings,
                                    const std::filesystem::path& log_path,
-                                   const Progress& progress);
+                                   const Progress& progress,
+                                   const AdjustmentCache& cache = {});
 
 }  // namespace curvix

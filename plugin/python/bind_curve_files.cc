@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/file_io.h"
 #include "evaluation/evaluate.h"
 #include "plugin/commands/evaluations.h"
 #include "plugin/export/write_results.h"
@@ -41,6 +42,13 @@ void Write(const PythonCurves& curves,
     Raise(Status::InvalidArgument("format '" + format +
                                   "' shows the curves with their views; read "
                                   "them with pycurvix.read(path, scene)"));
+  }
+  // The others are written as what the path says.
+  const bool has_any_ending =
+      format == "csv" || format == "colmap" || needs_scene;
+  if (!has_any_ending && ExtensionOf(path) != "." + format) {
+    Raise(Status::InvalidArgument("format '" + format +
+                                  "' needs a path that ends in ." + format));
   }
   Check(WithoutLock([&] {
     const Scene none;

@@ -118,7 +118,7 @@ void PythonProgress::Call(const std::string& stage, int done, int total) {
   Guard([&] {
     if (callback_.is_none()) return;
     const py::object answer = callback_(stage, done, total);
-    is_cancelled_ = answer.is(py::bool_(false));
+    is_cancelled_ = !answer.is_none() && !py::bool_(answer);
   });
 }
 

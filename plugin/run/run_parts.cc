@@ -66,6 +66,25 @@ bool HasResults(const fs::path& folder) {
   });
 }
 
+// Whether a new plan may take the place of `parts`, in which none is done.
+Status CheckReplaceable(const fs::path& parts, bool is_plan) {
+  const std::vector<fs::path> entries = EntriesOf(parts);
+  if (!is_plan && !entries.empty()) {
+    return Status::InvalidArgument(
+        "the plan would replace " + parts.string() +
+        ", which is no plan; remove it, or choose another folder with "
+        "--output_path");
+  }
+  for (const fs::path& part : entries) {
+    if (fs::is_directory(part) && !FolderLock::Take(part)) {
+      return Status::InvalidArgument(part.string() +
+                                     " is being reconstructed by the plan that "
+                                     "is there; wait for its end");
+    }
+  }
+  return {};
+}
+
 // Those of a model that 'partition' has written.
 Status CheckImagesAreThere(const WorkspaceScene& input) {
   if (input.missing_images.empty()) return {};
@@ -157,6 +176,10 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
   if (is_same) progress.Note("The plan is there already, and stays");
   // Beside finished parts; a merge finds those of another plan or model.
   const bool in_place = is_same || has_results;
+  if (!in_place) {
+    const Status replaceable = CheckReplaceable(folder, present.ok());
+    if (!replaceable.ok()) return replaceable;
+  }
   const fs::path written = in_place ? folder : output->folder() / kPartsName;
   Status status = WritePlan(*partition, input->scene, input->model, written);
   if (status.ok()) {
@@ -245,7 +268,7 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   if (!status.ok()) return status;
   record.settings.input_path = fs::absolute(model_path);
   record.settings.command = "merge";
-  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  Result<StagedOutput> output = CreateOutput(*workspace);
   if (!output.ok()) return output.status();
   const auto image_hashes =
       HashImages(input->scene, settings.options.runtime.num_threads, progress);

@@ -206,9 +206,9 @@ const char* OpenedBy(const std::string& file) {
   for (const OutputFormat& format : OutputFormats()) {
     if (file == format.file) return format.opened_by;
   }
-  if (file == "overlays/") return "images with the curves drawn over them";
+  if (file == kOverlaysFolder) return "images with the curves drawn over them";
   if (file == "edges.ply") return "3D edges before grouping, as points";
-  if (file == "sparse/") return "model as it was used: COLMAP";
+  if (file == kModelFolder) return "model as it was used: COLMAP";
   if (file == "bundle_adjuster.log") return "what COLMAP said";
   if (file == "report.json") return "counts, seconds and memory by stage";
   if (file == "project.ini") return "the options: --project_path repeats them";

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -67,6 +68,50 @@ RunStages::RunStages(std::filesystem::path folder,
   if (record.settings.clean) store_.Clean();
 }
 
+// The result of a stage as an earlier run left it, which the record tells, or
+// else what `make` gives, which is kept.
+template <typename T, typename Make>
+Result<T> RunStages::LoadOrMake(const StoredStage<T>& stage,
+                                std::uint64_t key,
+                                const Make& make) {
+  progress_.Update(stage.name, 0, 0);
+  if (std::optional<T> saved = store_.Load(stage, key)) {
+    record_.resumed_stages.push_back(stage.name);
+    return *std::move(saved);
+  }
+  Result<T> made = make();
+  if (!made.ok() || record_.settings.clean) return made;
+  const std::string problem = store_.Save(stage, key, *made);
+  if (!problem.empty()) {
+    progress_.Note("A later run cannot resume from here: " + problem);
+  }
+  return made;
+}
+
+Result<PoseRefinement> RunStages::AdjustPoses(
+    const ColmapModel& model, const std::filesystem::path& log_path) {
+  const Stopwatch stopwatch;
+  const PoseRefinementSettings& settings = record_.settings.poses;
+  Result<PoseRefinement> refined = curvix::RefinePoses(
+      model,
+      settings,
+      log_path,
+      progress_.Callback(),
+      [&](const Scene& scene,
+          const std::filesystem::path& program,
+          const std::function<Result<BundleAdjustment>()>& adjust) {
+        return LoadOrMake(kRefinePoses, AdjustmentKey(scene, program), adjust);
+      });
+  if (!refined.ok()) return KeptStages(refined.status());
+  record_.poses = refined->record;
+  if (settings.refiner != "none") {
+    FinishStage(stopwatch.Read(kRefinePoses.name),
+                PoseRefinementText(record_.poses));
+  }
+  for (const std::string& note : refined->notes) progress_.Note(note);
+  return refined;
+}
+
 Result<SceneStages> RunStages::Run(const ColmapModel& model,
                                    Scene scene,
                                    const std::vector<EdgeMap>* edges) {
@@ -89,26 +134,6 @@ Result<SceneStages> RunStages::Run(const ColmapModel& model,
   if (!found.ok()) return KeptStages(found.status());
   stages.reconstruction = *std::move(found);
   return stages;
-}
-
-// The result of a stage as an earlier run left it, which the record tells, or
-// else what `make` gives, which is kept.
-template <typename T, typename Make>
-Result<T> RunStages::LoadOrMake(const StoredStage<T>& stage,
-                                std::uint64_t key,
-                                const Make& make) {
-  progress_.Update(stage.name, 0, 0);
-  if (std::optional<T> saved = store_.Load(stage, key)) {
-    record_.resumed_stages.push_back(stage.name);
-    return *std::move(saved);
-  }
-  Result<T> made = make();
-  if (!made.ok() || record_.settings.clean) return made;
-  const std::string problem = store_.Save(stage, key, *made);
-  if (!problem.empty()) {
-    progress_.Note("A later run cannot resume from here: " + problem);
-  }
-  return made;
 }
 
 Result<std::vector<EdgeMap>> RunStages::Detect(const Scene& scene) {

@@ -17,6 +17,7 @@
 #include "colmap/colmap_model.h"
 #include "plugin/base/progress.h"
 #include "plugin/poses/curve_poses.h"
+#include "plugin/poses/pose_refinement.h"
 #include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"
 
@@ -40,6 +41,10 @@ class RunStages {
             RunProgress& progress,
             RunRecord& record,
             std::uint64_t images_key = 0);
+
+  // Poses by bundle adjustment, if they are better; see RefinePoses().
+  Result<PoseRefinement> AdjustPoses(const ColmapModel& model,
+                                     const std::filesystem::path& log_path);
 
   // Edges, unless `edges` has them, one map per view, whose neighbours are
   // looked for as among detected ones; poses refined with curves, if

@@ -105,7 +105,6 @@ bool LosesDigits(const Scene& scene,
 }
 
 Status WriteCurveFiles(const CurveRecord& curves,
-                       bool is_repeatable,
                        const fs::path& folder,
                        RunRecord& record) {
   Result<std::vector<std::string>> written =
@@ -113,10 +112,7 @@ Status WriteCurveFiles(const CurveRecord& curves,
   if (!written.ok()) return written.status();
   std::vector<std::string>& files = record.result.files;
   files.insert(files.end(), written->begin(), written->end());
-  if (!is_repeatable) return {};
-  files.push_back("project.ini");
-  return WriteFileAtomically(folder / "project.ini",
-                             ProjectFile(record.settings));
+  return {};
 }
 
 void NoteRemoved(const std::vector<fs::path>& drawings, RunProgress& progress) {
@@ -202,6 +198,26 @@ FittedCurves FitCurvesOf(const Scene& scene,
   return fitted;
 }
 
+Result<StagedOutput> CreateOutput(const Workspace& workspace) {
+  Result<StagedOutput> output = StagedOutput::Create(workspace.output_path);
+  if (!output.ok()) return output;
+  const std::vector<fs::path> replaced =
+      FilesOfEarlierRun(output->output_path());
+  for (const char* name : {kModelFolder, kCurvesModelFolder, kOverlaysFolder}) {
+    const fs::path folder = (output->output_path() / name).parent_path();
+    std::error_code ignored;
+    if (EntriesOf(folder).empty() || fs::is_symlink(folder, ignored) ||
+        std::ranges::find(replaced, name) != replaced.end()) {
+      continue;
+    }
+    return Status::InvalidArgument(
+        "results would replace " + folder.string() +
+        ", which no earlier run wrote; remove it, or choose another folder "
+        "with --output_path");
+  }
+  return output;
+}
+
 Result<FittedCurves> WriteFindings(const Scene& scene,
                                    const Findings& findings,
                                    const fs::path& folder,
@@ -221,10 +237,12 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
   Status status = findings.curves.status();
   const Stopwatch stopwatch;
   if (status.ok() && result.num_curves > 0) {
-    status = WriteCurveFiles({scene, findings.curves, fitted},
-                             findings.is_repeatable,
-                             folder,
-                             record);
+    status = WriteCurveFiles({scene, findings.curves, fitted}, folder, record);
+  }
+  if (status.ok() && findings.is_repeatable) {
+    result.files.push_back("project.ini");
+    status = WriteFileAtomically(folder / "project.ini",
+                                 ProjectFile(record.settings));
   }
   if (status.ok() && result.num_edges_3d > 0) {
     result.files.push_back("edges.ply");

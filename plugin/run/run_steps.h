@@ -36,6 +36,10 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunProgress& progress,
                                  RunRecord& record);
 
+// The output of a run. StagedOutput::Create(), and kInvalidArgument if it would
+// replace a folder that no earlier run wrote.
+Result<StagedOutput> CreateOutput(const Workspace& workspace);
+
 // Fits the curves: the stage "fit_curves" of `record`.
 FittedCurves FitCurvesOf(const Scene& scene,
                          const CurveSource& curves,

@@ -34,20 +34,12 @@ Status CheckImages(const Scene& scene) {
 // Whether it does.
 Result<bool> RunBundleAdjustment(const Workspace& workspace,
                                  const fs::path& staging,
-                                 RunProgress& progress,
+                                 RunStages& stages,
                                  RunRecord& record,
                                  WorkspaceScene& input) {
-  const Stopwatch stopwatch;
   const fs::path log_path = staging / "bundle_adjuster.log";
-  Result<PoseRefinement> refined = RefinePoses(
-      input.model, record.settings.poses, log_path, progress.Callback());
+  Result<PoseRefinement> refined = stages.AdjustPoses(input.model, log_path);
   if (!refined.ok()) return refined.status();
-  record.poses = refined->record;
-  if (record.settings.poses.refiner != "none") {
-    record.stages.push_back(stopwatch.Read("refine_poses"));
-    progress.Finish(PoseRefinementText(record.poses));
-  }
-  for (const std::string& note : refined->notes) progress.Note(note);
   if (fs::exists(log_path)) {
     record.result.files.push_back(log_path.filename().string());
   }
@@ -102,13 +94,13 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   // much work.
   const Status usable = CheckImages(input->scene);
   if (!usable.ok()) return usable;
-  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  Result<StagedOutput> output = CreateOutput(*workspace);
   if (!output.ok()) return output.status();
   const fs::path& staging = output->folder();
   RunStages stages(workspace->output_path / "stages", progress, record);
 
   const Result<bool> is_adjusted =
-      RunBundleAdjustment(*workspace, staging, progress, record, *input);
+      RunBundleAdjustment(*workspace, staging, stages, record, *input);
   if (!is_adjusted.ok()) return is_adjusted.status();
   Result<SceneStages> found =
       stages.Run(input->model, std::move(input->scene), nullptr);
@@ -117,7 +109,7 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
 
   const std::optional<ColmapModel>& refined = run.stages.refined_model;
   if (*is_adjusted || refined || input->is_scaled) {
-    record.result.files.push_back("sparse/");
+    record.result.files.push_back(kModelFolder);
     Status written =
         WriteColmapModel(refined ? *refined : input->model, staging / "sparse");
     if (!written.ok()) return written;
@@ -151,7 +143,7 @@ Result<RunRecord> RunLines(const RunSettings& settings,
   if (!workspace.ok()) return workspace.status();
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
-  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
+  Result<StagedOutput> output = CreateOutput(*workspace);
   if (!output.ok()) return output.status();
   const Result<LineCurves> lines =
       ReadCurvesOfLines(read, input->scene, progress, record);

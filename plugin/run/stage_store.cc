@@ -7,6 +7,7 @@
 #include <system_error>
 #include <type_traits>
 
+#include "base/file_io.h"
 #include "base/option_table.h"
 #include "io/stage_file.h"
 #include "io/stage_io.h"
@@ -90,6 +91,15 @@ void AddGeometry(const Scene& scene, KeyMaker& key) {
   }
 }
 
+void AddPixels(const Scene& scene, KeyMaker& key) {
+  for (const ScenePoint& point : scene.points) {
+    for (const Eigen::Vector2d& pixel : point.pixels) {
+      key.Add(pixel.x());
+      key.Add(pixel.y());
+    }
+  }
+}
+
 }  // namespace
 
 std::uint64_t SceneKey(const Scene& scene) {
@@ -100,6 +110,15 @@ std::uint64_t SceneKey(const Scene& scene) {
     key.Add(view.camera_idx);
   }
   AddGeometry(scene, key);
+  return key.key();
+}
+
+std::uint64_t AdjustmentKey(const Scene& scene, const fs::path& program) {
+  KeyMaker key;
+  AddProgram(key);
+  key.AddFile(program);
+  key.Add(SceneKey(scene));
+  AddPixels(scene, key);
   return key.key();
 }
 
@@ -134,12 +153,7 @@ std::uint64_t CurvePosesKey(const Scene& scene,
   KeyMaker key;
   key.Add(SketchKey(scene, options));
   key.Add(static_cast<int>(refine_intrinsics));
-  for (const ScenePoint& point : scene.points) {
-    for (const Eigen::Vector2d& pixel : point.pixels) {
-      key.Add(pixel.x());
-      key.Add(pixel.y());
-    }
-  }
+  AddPixels(scene, key);
   return key.key();
 }
 
@@ -158,9 +172,12 @@ std::string StageStore::MakeFolder() const {
 void StageStore::Clean() {
   if (folder_.empty() || IsLink()) return;
   std::error_code ignored;
-  for (const char* file :
-       {kDetectEdges.file, kSketchEdges.file, kRefinePosesWithCurves.file}) {
+  for (const char* file : {kRefinePoses.file,
+                           kDetectEdges.file,
+                           kSketchEdges.file,
+                           kRefinePosesWithCurves.file}) {
     fs::remove(folder_ / file, ignored);
+    fs::remove(FileWriter::TemporaryPath(folder_ / file), ignored);
   }
   fs::remove(folder_, ignored);
 }

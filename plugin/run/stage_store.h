@@ -22,6 +22,11 @@ namespace curvix {
 // Stands for cameras, views and points, not for images.
 std::uint64_t SceneKey(const Scene& scene);
 
+// What bundle adjustment of a scene depends on: its cameras, poses and points,
+// and the program.
+std::uint64_t AdjustmentKey(const Scene& scene,
+                            const std::filesystem::path& program);
+
 // What the edges of a scene depend on: the program, the images and masks (by
 // path, size and time of last change), the cameras and
 // Options::edge_detection. Not the poses.
@@ -46,6 +51,11 @@ struct StoredStage {
                   std::uint64_t key,
                   const T& result);
 };
+inline constexpr StoredStage<BundleAdjustment> kRefinePoses = {
+    "refine_poses",
+    "adjustment.bin",
+    ReadBundleAdjustment,
+    WriteBundleAdjustment};
 inline constexpr StoredStage<std::vector<EdgeMap>> kDetectEdges = {
     "detect_edges", "edges.bin", ReadEdgeMaps, WriteEdgeMaps};
 inline constexpr StoredStage<EdgeSketch> kSketchEdges = {

@@ -25,9 +25,10 @@ Status CannotWrite(const fs::path& path, int error) {
 
 }  // namespace
 
+fs::path FileWriter::TemporaryPath(fs::path path) { return path += ".tmp"; }
+
 FileWriter::FileWriter(fs::path path)
-    : path_(std::move(path)), temporary_(path_) {
-  temporary_ += ".tmp";
+    : path_(std::move(path)), temporary_(TemporaryPath(path_)) {
   std::error_code error;
   fs::remove(temporary_, error);  // of a program that was killed
   errno = 0;

@@ -26,6 +26,8 @@ using ByteSink = std::function<void(std::string_view bytes)>;
 class FileWriter {
  public:
   explicit FileWriter(std::filesystem::path path);
+  // Where the file is until it is whole; a killed program leaves it there.
+  static std::filesystem::path TemporaryPath(std::filesystem::path path);
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
   ~FileWriter();

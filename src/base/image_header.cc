@@ -197,11 +197,14 @@ std::optional<ImageHeader> HeaderOfPnm(const Bytes& bytes) {
     return number;
   };
   const std::uint32_t width = next();
-  return Checked(width, next(), 8);
+  std::optional<ImageHeader> header = Checked(width, next(), 8);
+  const bool is_bitmap = bytes[1] == '1' || bytes[1] == '4';
+  if (header && !is_bitmap) header->max_value = static_cast<int>(next());
+  return header;
 }
 
 template <typename Bytes>
-std::optional<ImageHeader> HeaderOf(const Bytes& bytes) {
+std::optional<ImageHeader> Header(const Bytes& bytes) {
   if (StartsWith(bytes, "\x89PNG\r\n\x1a\n"sv)) {
     return Checked(
         NumberAt(bytes, 16, 4), NumberAt(bytes, 20, 4), NumberAt(bytes, 24, 1));
@@ -225,13 +228,12 @@ bool HaveSameShape(const ImageSize& a, const ImageSize& b) {
   return std::abs(x * b.height - a.height) <= std::max({1.0, x, y});
 }
 
-std::optional<ImageSize> SizeInHeader(std::string_view bytes) {
-  const std::optional<ImageHeader> header = HeaderOf(bytes);
-  return header ? std::optional(header->size) : std::nullopt;
+std::optional<ImageHeader> HeaderOf(std::string_view bytes) {
+  return Header(bytes);
 }
 
 std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path) {
-  return HeaderOf(FileBytes(path));
+  return Header(FileBytes(path));
 }
 
 void IgnoreTiffOrientation(std::vector<std::uint8_t>* bytes) {

@@ -28,17 +28,18 @@ inline std::string SizeText(const ImageSize& size) {
 // the smaller one.
 bool HaveSameShape(const ImageSize& a, const ImageSize& b);
 
-// The size that a PNG, JPEG, TIFF, BMP, PBM, PGM or PPM file announces, each
-// side at most a million pixels. nullopt: another format, or no sound header.
-std::optional<ImageSize> SizeInHeader(std::string_view bytes);
-
 struct ImageHeader {
-  ImageSize size;
+  ImageSize size;            // each side at most a million pixels
   int bits_per_channel = 8;  // not read from BMP, PBM, PGM and PPM
+  int max_value = 0;         // of PGM and PPM; 0: the largest of these bits
 };
 
-// What the header of a file says, as above; a few kilobytes of the file are
-// read. nullopt, too, if it cannot be opened.
+// What a PNG, JPEG, TIFF, BMP, PBM, PGM or PPM file announces. nullopt: another
+// format, or no sound header.
+std::optional<ImageHeader> HeaderOf(std::string_view bytes);
+
+// The same of a file, of which a few kilobytes are read. nullopt, too, if it
+// cannot be opened.
 std::optional<ImageHeader> ReadImageHeader(const std::filesystem::path& path);
 
 // Sets the orientation of a TIFF to that of its rows: OpenCV turns and mirrors

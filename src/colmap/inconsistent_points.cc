@@ -52,7 +52,8 @@ std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
           ? "project " + FixedText(median_px, 0) + " px from their pixels"
           : "are behind the cameras";
   return "The points of " + model_path.string() + " " + place +
-         " (median), so they do not belong to its poses and are not used. Were "
+         " (median), so they do not belong to its poses; their positions are "
+         "not used. Were "
          "they moved or scaled without these, or is a focal length wrong?";
 }
 

@@ -332,15 +332,20 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   return found;
 }
 
+Status CheckNoLink(const fs::path& output_path) {
+  std::error_code error;
+  if (!fs::is_symlink(output_path, error)) return {};
+  return Status::InvalidArgument(
+      output_path.string() +
+      " is a link, and the results would go where it leads; name that "
+      "folder with --output_path if it is meant.");
+}
+
 Status CheckOutputLinks(const WorkspacePaths& paths, const Workspace& found) {
   if (!paths.output_path.empty()) return {};
   for (const fs::path& folder : ResultFolders(paths, found.model_path)) {
-    std::error_code error;
-    if (!fs::is_symlink(folder, error)) continue;
-    return Status::InvalidArgument(
-        folder.string() +
-        " is a link, and the results would go where it leads; name that "
-        "folder with --output_path if it is meant.");
+    Status status = CheckNoLink(folder);
+    if (!status.ok()) return status;
   }
   return {};
 }

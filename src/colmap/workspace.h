@@ -61,6 +61,9 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
 // curvix/ that it is in, is a link.
 Status CheckOutputLinks(const WorkspacePaths& paths, const Workspace& found);
 
+// The same of a folder of results that was not given.
+Status CheckNoLink(const std::filesystem::path& output_path);
+
 struct WorkspaceScene {
   ColmapModel model;                        // all of it
   Scene scene;                              // the views whose images are there

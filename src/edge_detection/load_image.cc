@@ -40,17 +40,17 @@ Result<std::string> ReadImageFile(const std::filesystem::path& path,
 }
 
 // Grey of values without gaps: grey ones; or three colours, of which number
-// `red` is red and 2 - `red` blue, and perhaps alpha. nullopt: another number
-// of channels.
+// `red` is red and 2 - `red` blue, and perhaps alpha; up to max_value. nullopt:
+// another number of channels.
 template <typename T>
 std::optional<GrayImage> ToGrey(const T* values,
                                 const ImageSize& size,
                                 int num_channels,
-                                int red) {
+                                int red,
+                                double max_value) {
   if (num_channels != 1 && num_channels != 3 && num_channels != 4) {
     return std::nullopt;
   }
-  constexpr double kMax = std::numeric_limits<T>::max();
   const std::size_t num_pixels = static_cast<std::size_t>(size.width) *
                                  static_cast<std::size_t>(size.height);
   GrayImage gray{size.width, size.height, std::vector<float>(num_pixels)};
@@ -59,22 +59,29 @@ std::optional<GrayImage> ToGrey(const T* values,
     if (num_channels > 1) {
       grey = 0.114 * values[2 - red] + 0.587 * values[1] + 0.299 * values[red];
     }
-    if (num_channels == 4) grey *= values[3] / kMax;
-    pixel = static_cast<float>(grey * (255 / kMax));
+    if (num_channels == 4) grey *= values[3] / max_value;
+    pixel = static_cast<float>(grey * (255 / max_value));
     values += num_channels;
   }
   return gray;
 }
 
-// Of what OpenCV decoded; nullopt: another kind of pixels.
-std::optional<GrayImage> ToGrey(const cv::Mat& image) {
+// Of what OpenCV decoded of a file with this header; nullopt: another kind of
+// pixels.
+std::optional<GrayImage> ToGrey(const cv::Mat& image,
+                                const std::optional<ImageHeader>& header) {
   constexpr int kRed = 2;
   const ImageSize size = {image.cols, image.rows};
   if (image.depth() == CV_8U) {
-    return ToGrey(image.ptr<std::uint8_t>(), size, image.channels(), kRed);
+    return ToGrey(image.ptr<std::uint8_t>(), size, image.channels(), kRed, 255);
   }
   if (image.depth() == CV_16U) {
-    return ToGrey(image.ptr<std::uint16_t>(), size, image.channels(), kRed);
+    const int max_value = header ? header->max_value : 0;
+    return ToGrey(image.ptr<std::uint16_t>(),
+                  size,
+                  image.channels(),
+                  kRed,
+                  max_value > 0 ? max_value : 65535);
   }
   return std::nullopt;
 }
@@ -152,15 +159,17 @@ Result<GrayImage> LoadFile(const std::filesystem::path& path,
                            const CheckSize& check) {
   const Result<std::string> bytes = ReadImageFile(path, name);
   if (!bytes.ok()) return bytes.status();
-  if (const auto announced = SizeInHeader(*bytes)) {
-    Status status = check(*announced);
+  const std::optional<ImageHeader> header = HeaderOf(*bytes);
+  if (header) {
+    Status status = check(header->size);
     if (!status.ok()) return status;
   }
   const cv::Mat image = Decode(*bytes);
   if (image.empty() || IsTruncatedJpeg(*bytes)) return Broken(name, *bytes);
   Status status = check(ImageSize{image.cols, image.rows});
   if (!status.ok()) return status;
-  if (std::optional<GrayImage> gray = ToGrey(image)) return *std::move(gray);
+  if (std::optional<GrayImage> gray = ToGrey(image, header))
+    return *std::move(gray);
   return WrongPixels(name);
 }
 
@@ -221,7 +230,7 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
   const std::string name = ImageNamed(path);
   const Result<std::string> bytes = ReadImageFile(path, name);
   if (!bytes.ok()) return bytes.status();
-  if (const auto size = SizeInHeader(*bytes)) return *size;
+  if (const auto header = HeaderOf(*bytes)) return header->size;
   const cv::Mat image = Decode(*bytes);
   if (image.empty()) return Broken(name, *bytes);
   return ImageSize{image.cols, image.rows};
@@ -252,7 +261,9 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   std::optional<GrayImage> gray = std::visit(
       [&](const auto& values) -> std::optional<GrayImage> {
         if (values == nullptr) return std::nullopt;
-        return ToGrey(values.get(), size, image.num_channels, kRed);
+        const auto max_value =
+            std::numeric_limits<std::decay_t<decltype(values[0])>>::max();
+        return ToGrey(values.get(), size, image.num_channels, kRed, max_value);
       },
       image.values);
   if (gray) return *std::move(gray);

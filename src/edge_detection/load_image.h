@@ -13,7 +13,7 @@
 namespace curvix {
 
 // The size of the image as stored (an EXIF rotation is ignored, as COLMAP
-// does): from the header (SizeInHeader), by decoding files of other formats.
+// does): from the header (HeaderOf), by decoding files of other formats.
 // kNotFound: no such file. kDataLoss: not an image.
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 

@@ -16,11 +16,23 @@
 namespace curvix {
 namespace {
 
-// `edge` at another place.
-Edge2d Moved(Edge2d edge, const ImageEdge& to) {
-  edge.position = to.position;
-  edge.angle = static_cast<float>(std::atan2(to.tangent.y(), to.tangent.x()));
-  return edge;
+// `edge` in another image, into which `carry` carries what it can.
+template <typename Carry>
+std::optional<Edge2d> Carried(const Edge2d& edge, const Carry& carry) {
+  ImageEdge place = ToImageEdge(edge);
+  const std::optional<ImageEdge> to = carry(place);
+  if (!to) return std::nullopt;
+  Edge2d carried = edge;
+  carried.position = to->position;
+  carried.angle =
+      static_cast<float>(std::atan2(to->tangent.y(), to->tangent.x()));
+  if (edge.fine_px == Eigen::half(0)) return carried;
+  place.position += static_cast<double>(edge.fine_px) * ToBrightSide(edge);
+  if (const auto fine = carry(place)) {
+    carried.fine_px = Eigen::half(static_cast<float>(
+        (fine->position - to->position).dot(ToBrightSide(carried))));
+  }
+  return carried;
 }
 
 using NewIndices = std::vector<std::optional<std::int32_t>>;
@@ -43,10 +55,12 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
       std::exchange(ideal.neighbors, {});
   NewIndices new_idx(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto edge = EdgeInIdealImage(ToImageEdge(edges[i]), camera);
+    const auto edge = Carried(edges[i], [&](const ImageEdge& in_image) {
+      return EdgeInIdealImage(in_image, camera);
+    });
     if (!edge) continue;
     new_idx[i] = static_cast<std::int32_t>(ideal.edges.size());
-    ideal.edges.push_back(Moved(edges[i], *edge));
+    ideal.edges.push_back(*edge);
   }
   ideal.neighbors.reserve(ideal.edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -63,9 +77,11 @@ std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
   if (from == to) return edges;
   EdgeMap carried = edges;
   for (Edge2d& edge : carried.edges) {
-    const auto moved = CarryEdge(ToImageEdge(edge), from, to);
+    const auto moved = Carried(edge, [&](const ImageEdge& in_image) {
+      return CarryEdge(in_image, from, to);
+    });
     if (!moved) return std::nullopt;
-    edge = Moved(edge, *moved);
+    edge = *moved;
   }
   return carried;
 }

@@ -271,11 +271,14 @@ KindAgreement MeasureKinds(const Comparison& c, double step, double spacing) {
                                  : result.elsewhere_mm;
     lengths[Index(c.predicted[i].kind)] += step_mm;
   }
+  const bool has_kinds = std::ranges::any_of(
+      c.predicted,
+      [](const auto& sample) { return sample.kind != CurveKind::kUnknown; });
   double all_mm = 0;
   double right_mm = 0;
   for (TrueKind& kind : kinds) {
     if (kind.length_mm == 0) continue;
-    if (kind.kind != CurveKind::kUnknown) {
+    if (has_kinds && kind.kind != CurveKind::kUnknown) {
       const double near_mm = std::accumulate(
           kind.predicted_mm.begin(), kind.predicted_mm.end(), 0.0);
       const double same_mm = kind.predicted_mm[Index(kind.kind)];

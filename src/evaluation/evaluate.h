@@ -50,7 +50,7 @@ struct KindAgreement {
   // Predicted length further than 5 mm from the truth.
   LengthPerKind elsewhere_mm = {};
   // Percent of the predicted length near truth of a known kind that is said to
-  // be of that kind; unknown is wrong.
+  // be of that kind; unknown is wrong. Absent, too, if no kind is said at all.
   std::optional<double> right;
 };
 

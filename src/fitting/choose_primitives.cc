@@ -288,6 +288,39 @@ std::optional<Primitive> SingleEllipse(const FitSamples& curve, bool closed) {
   return OnCurve(ellipse, curve, closed);
 }
 
+// Whether there are samples only at corners: most turn by more than 30 degrees,
+// which their errors do not explain.
+bool IsPolygon(const FitSamples& curve, bool closed) {
+  constexpr double kMinCosine = 0.866;
+  constexpr double kMinSigmas = 10;  // between samples
+  const std::size_t n = curve.size();
+  std::size_t num_places = 0, num_turns = 0;
+  for (std::size_t i = closed ? 0 : 1; i + (closed ? 0 : 1) < n; ++i) {
+    const Eigen::Vector3d& here = curve[i].position;
+    const Eigen::Vector3d before = here - curve[(i + n - 1) % n].position;
+    const Eigen::Vector3d after = curve[(i + 1) % n].position - here;
+    const double a = before.norm();
+    const double b = after.norm();
+    ++num_places;
+    num_turns += std::min(a, b) > kMinSigmas * curve[i].sigma &&
+                         before.dot(after) < kMinCosine * a * b
+                     ? 1
+                     : 0;
+  }
+  return 2 * num_turns > num_places;
+}
+
+std::vector<Primitive> LinesBetween(const FitSamples& curve, bool closed) {
+  const FitSamples samples = closed ? Unrolled(curve, 0) : curve;
+  std::vector<Primitive> lines;
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    if (const auto line = FitLine(Part(samples, i, i + 1))) {
+      lines.push_back({*line, i, 2, false});
+    }
+  }
+  return lines;
+}
+
 struct Single {
   SingleFit fit;
   std::size_t num_parameters;  // of the shape, without its ends
@@ -299,6 +332,9 @@ constexpr Single kSingles[] = {
 }  // namespace
 
 std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
+  if (curve.size() > 2 && IsPolygon(curve, closed)) {
+    return LinesBetween(curve, closed);
+  }
   const double parameter_cost =
       kSamplesPerError * std::log(static_cast<double>(curve.size()));
   Choice choice{parameter_cost};

@@ -59,6 +59,12 @@ std::optional<Matrix3d> InverseOf(const Matrix3d& information) {
   return sigmas.asDiagonal() * lu.inverse() * sigmas.asDiagonal();
 }
 
+bool AreAmong(const Indices& many, const Indices& few) {
+  return std::ranges::all_of(few, [&](std::size_t i) {
+    return std::ranges::find(many, i) != many.end();
+  });
+}
+
 class PlaneFinder {
  public:
   PlaneFinder(const std::vector<LineOrArc>& features,
@@ -75,7 +81,11 @@ class PlaneFinder {
       if (std::ranges::find_first_of(first, last) != first.end()) continue;
       Indices members = seed;
       const std::optional<Plane> plane = Grown(members);
-      if (!plane || !IsSignificant(*plane, members, seeds.size())) continue;
+      // Without its seed, it is a plane that another seed finds.
+      if (!plane || !AreAmong(members, seed) ||
+          !IsSignificant(*plane, members, seeds.size())) {
+        continue;
+      }
       for (const std::size_t i : members) planes_of[i].push_back(groups.size());
       groups.push_back(GroupOf(*plane, members));
     }

@@ -152,6 +152,7 @@ std::vector<PerpendicularGroups> FindPerpendicular(
     const std::vector<Direction>& directions) {
   std::vector<PerpendicularGroups> found, kept;
   std::vector<Test> tests;
+  Test failed = {1, 0};         // together, of pairs that are many
   std::vector<double> chances;  // of those found
   for (std::size_t a = 0; a < directions.size(); ++a) {
     for (std::size_t b = a + 1; b < directions.size(); ++b) {
@@ -161,14 +162,18 @@ std::vector<PerpendicularGroups> FindPerpendicular(
       const double variance = first.dot(directions[b].covariance * first) +
                               second.dot(directions[a].covariance * second);
       const double squared = cosine * cosine / variance;
-      tests.push_back({1, NumFits(directions[a]) * NumFits(directions[b])});
-      if (cosine > kNearAngle || squared > ChiSquaredLimit(1)) continue;
+      const double weight = NumFits(directions[a]) * NumFits(directions[b]);
+      if (cosine > kNearAngle || squared > ChiSquaredLimit(1)) {
+        failed.weight += weight;
+        continue;
+      }
       // The share of directions that are so near to a plane.
-      tests.back().chance = cosine;
+      tests.push_back({cosine, weight});
       chances.push_back(cosine);
       found.push_back({a, b, squared});
     }
   }
+  tests.push_back(failed);
   const double limit = LargestChance(std::move(tests));
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (chances[k] <= limit) kept.push_back(found[k]);

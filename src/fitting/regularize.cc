@@ -134,6 +134,8 @@ class Adjustment {
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.num_threads = 1;
     options.function_tolerance = 1e-12;
+    // Relative to coordinates, which are large in a survey.
+    options.parameter_tolerance = 0;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
@@ -180,6 +182,9 @@ class Adjustment {
     }
     for (const auto& [index, arc] : arcs_) {
       WriteArc(arc, fitted.curves[index.curve_idx].fits[index.fit_idx]);
+    }
+    for (std::size_t g = 0; g < shared_.size(); ++g) {
+      WriteGroup(shared_[g], fitted.structure.groups[g]);
     }
   }
 
@@ -243,7 +248,7 @@ class Adjustment {
         AddPlace<OnAxisCost, 2, 2>(group, weight, is_arc, position, shared);
       }
     }
-    if (is_arc && (is_plane || is_parallel)) {
+    if (is_arc) {
       Add(Auto<ArcAlongCost, 2, 6, 2>(
               {arcs_.at(index).normal, direction, turn_weight}),
           arc,
@@ -286,6 +291,22 @@ class Adjustment {
     if (fit.end_node < 0) fit.end = conic.At(NearestParameter(conic, fit.end));
     if (fit.closed) fit.end = fit.start;
     SetConic(conic, fit);
+  }
+
+  static void WriteGroup(const Shared& shared, FitGroup& group) {
+    const Chart direction(group.direction);
+    const Vector3d moved = direction.At(shared.turn.data());
+    if (group.kind == GroupKind::kEqualRadius) {
+      group.radius = shared.radius;
+      return;
+    }
+    if (group.kind == GroupKind::kCoplanar) {
+      group.point += shared.offset[0] / moved.squaredNorm() * moved;
+    } else if (group.kind != GroupKind::kParallel) {
+      group.point += direction.across *
+                     Eigen::Vector2d(shared.offset[0], shared.offset[1]);
+    }
+    group.direction = moved.normalized();
   }
 
   const FittedCurves& fitted_;

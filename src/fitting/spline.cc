@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace curvix {
 namespace {
@@ -83,18 +84,19 @@ bool Solve(FitSpan samples,
     right.middleRows<4>(first) +=
         weights[i] * row * samples[i].position.transpose();
   }
+  const double mean = normal.diagonal().mean();
+  const auto fixed = spline.control_points;
   if (ends_are_fixed) {
-    for (const Eigen::Index k : {Eigen::Index(0), n - 1}) {
-      const Eigen::RowVector3d fixed =
-          spline.control_points[static_cast<std::size_t>(k)].transpose();
-      right -= normal.col(k) * fixed;
+    for (const auto& [k, end] :
+         {std::pair(Eigen::Index(0), fixed.front()), {n - 1, fixed.back()}}) {
+      right -= normal.col(k) * end.transpose();
       normal.row(k).setZero();
       normal.col(k).setZero();
-      normal(k, k) = 1;
-      right.row(k) = fixed;
+      normal(k, k) = mean;
+      right.row(k) = mean * end.transpose();
     }
   }
-  const double ridge = 1e-9 * normal.diagonal().mean();
+  const double ridge = 1e-9 * mean;
   for (Eigen::Index k = 0; k < n; ++k) {
     if (!(normal(k, k) > ridge)) return false;
   }
@@ -102,6 +104,10 @@ bool Solve(FitSpan samples,
   if (!solution.allFinite()) return false;
   for (Eigen::Index k = 0; k < n; ++k) {
     spline.control_points[static_cast<std::size_t>(k)] = solution.row(k);
+  }
+  if (ends_are_fixed) {  // to the last bit
+    spline.control_points.front() = fixed.front();
+    spline.control_points.back() = fixed.back();
   }
   return true;
 }

@@ -80,7 +80,9 @@ void PutSpline(const CurveFit& fit, bool dashed, DxfWriter& w) {
   w.BeginEntity("SPLINE", LayerOf(fit.curve_kind).name, dashed);
   w.Put(100, "AcDbSpline");
   w.Put(210, Eigen::Vector3d(0, 0, 1));
-  w.Put(70, fit.closed ? 1 : 0);
+  // Open also where it ends where it begins: for closed ones LibreCAD does not
+  // use the knots.
+  w.Put(70, 0);
   w.Put(71, kDegree);
   w.Put(72, static_cast<int>(fit.knots.size()));
   w.Put(73, static_cast<int>(fit.control_points.size()));

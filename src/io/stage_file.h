@@ -27,7 +27,8 @@ enum class StageKind : std::uint32_t {
   kEdgeMaps = 1,
   kEdgeSketch = 2,
   kPartResult = 3,
-  kCurvePoses = 4
+  kCurvePoses = 4,
+  kBundleAdjustment = 5
 };
 
 constexpr std::size_t kStageHeadBytes = 40;

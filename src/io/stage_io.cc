@@ -6,13 +6,16 @@
 //     isolated, over the limit (int32 each); per edge: x, y (doubles), angle,
 //     strength, sharpness (floats), level, crowding, fine_px (halves), indices
 //     of the previous and the next edge (int32, -1: none)
+//   adjustment.bin: number of views; per view: rotation x, y, z, w and
+//     translation (7 doubles); number of points; per point: position (3
+//     doubles); length of the program's version, its text
 //   sketch.bin: view pairs, edges asked, hypotheses, without support,
 //     weaker alternatives, 2D edges used, repeated views (int64 each); edge
 //     sigma in pixels (double); number of 3D edges; per edge: position, tangent
 //     (3 doubles each), sigma, evidence (doubles), number of supports, per
 //     support view and edge (int32 each)
-//   curve_poses.bin: number of views; per view: rotation x, y, z, w and
-//     translation (7 doubles); number of cameras; per camera: model, width,
+//   curve_poses.bin: number of views; per view: as in adjustment.bin; number of
+//   cameras; per camera: model, width,
 //     height (int32 each), number of parameters, these (doubles); accepted (1
 //     byte); length of the reason, its text; counts and doubles in the order of
 //     Fields()
@@ -33,6 +36,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
 constexpr std::size_t kEdgeMapBytes = 44;  // without edges
 constexpr std::size_t kPoseBytes = 56;
+constexpr std::size_t kVector3dBytes = 24;
 constexpr std::size_t kMinCameraBytes = 20;
 
 }  // namespace
@@ -107,17 +111,27 @@ void Fields(Archive& archive, ErrorsOfViews& errors) {
 }
 
 template <typename Archive>
+void Fields(Archive& archive, std::string& text) {
+  std::vector<char> chars(text.begin(), text.end());
+  List(archive, chars, 1);
+  if constexpr (Archive::kReads) text.assign(chars.begin(), chars.end());
+}
+
+template <typename Archive>
+void Fields(Archive& archive, BundleAdjustment& adjustment) {
+  List(archive, adjustment.cam_from_world, kPoseBytes);
+  List(archive, adjustment.positions, kVector3dBytes);
+  Fields(archive, adjustment.program_version);
+}
+
+template <typename Archive>
 void Fields(Archive& archive, CurvePoses& poses) {
   List(archive, poses.cam_from_world, kPoseBytes);
   List(archive, poses.cameras, kMinCameraBytes);
   auto accepted = static_cast<std::uint8_t>(poses.accepted);
-  std::vector<char> reason(poses.reason.begin(), poses.reason.end());
   archive(accepted);
-  List(archive, reason, 1);
-  if constexpr (Archive::kReads) {
-    poses.accepted = accepted != 0;
-    poses.reason.assign(reason.begin(), reason.end());
-  }
+  if constexpr (Archive::kReads) poses.accepted = accepted != 0;
+  Fields(archive, poses.reason);
   archive(poses.num_samples,
           poses.num_check_samples,
           poses.num_check_observations,
@@ -174,6 +188,17 @@ Status WriteEdgeMaps(const fs::path& path,
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const fs::path& path,
                                           std::uint64_t key) {
   return Read<std::vector<EdgeMap>>(path, StageKind::kEdgeMaps, key);
+}
+
+Status WriteBundleAdjustment(const fs::path& path,
+                             std::uint64_t key,
+                             const BundleAdjustment& adjustment) {
+  return Write(path, StageKind::kBundleAdjustment, key, adjustment);
+}
+
+Result<BundleAdjustment> ReadBundleAdjustment(const fs::path& path,
+                                              std::uint64_t key) {
+  return Read<BundleAdjustment>(path, StageKind::kBundleAdjustment, key);
 }
 
 Status WriteEdgeSketch(const fs::path& path,

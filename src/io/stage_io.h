@@ -7,11 +7,14 @@
 
 #include <curvix/edges.h>
 #include <curvix/refine_poses.h>
+#include <curvix/scene.h>
 #include <curvix/status.h>
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,11 +22,21 @@
 
 namespace curvix {
 
+// What bundle adjustment by points gave for a scene.
+struct BundleAdjustment {
+  std::vector<Rigid3> cam_from_world;      // by view
+  std::vector<Eigen::Vector3d> positions;  // by point
+  std::string program_version;             // "3.8"; "unknown"
+};
+
 // `key` stands for all that the result depends on; the caller chooses it. The
 // file appears whole or not at all; errors of FileWriter.
 Status WriteEdgeMaps(const std::filesystem::path& path,
                      std::uint64_t key,
                      const std::vector<EdgeMap>& edge_maps);
+Status WriteBundleAdjustment(const std::filesystem::path& path,
+                             std::uint64_t key,
+                             const BundleAdjustment& adjustment);
 Status WriteEdgeSketch(const std::filesystem::path& path,
                        std::uint64_t key,
                        const EdgeSketch& sketch);
@@ -40,6 +53,8 @@ Status WritePartResult(const std::filesystem::path& path,
 // mean something together with a scene only.
 Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
                                           std::uint64_t key);
+Result<BundleAdjustment> ReadBundleAdjustment(const std::filesystem::path& path,
+                                              std::uint64_t key);
 Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,
                                   std::uint64_t key);
 Result<CurvePoses> ReadCurvePoses(const std::filesystem::path& path,

@@ -126,8 +126,9 @@ class Estimator {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const KnownPosition& p : input_.positions) mean += p.world;
     mean /= static_cast<double>(input_.positions.size());
-    if (mean.cwiseAbs().maxCoeff() > kLargeCoordinate) {
-      a.offset = kOffsetStep * (mean / kOffsetStep).array().round();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(mean[axis]) <= kLargeCoordinate) continue;
+      a.offset[axis] = kOffsetStep * std::round(mean[axis] / kOffsetStep);
     }
     return StartAtPositions();
   }

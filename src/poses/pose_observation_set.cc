@@ -53,17 +53,31 @@ void MoveSets(const SpaceCells& cells,
 
 }  // namespace
 
-std::vector<bool> ObservedLenses(const PoseObservationSet& observations,
-                                 const Scene& scene) {
+std::vector<bool> LensesToFree(
+    const PoseObservationSet& training,
+    const std::vector<const PoseObservationSet*>& all,
+    const Scene& scene) {
+  const auto camera_of = [&](std::size_t view_idx) {
+    return static_cast<std::size_t>(scene.views[view_idx].camera_idx);
+  };
   std::vector<int> counts(scene.cameras.size(), 0);
-  VisitSeen(observations, [&](std::size_t i, const Eigen::Vector3d&) {
-    ++counts[static_cast<std::size_t>(scene.views[i].camera_idx)];
+  VisitSeen(training, [&](std::size_t i, const Eigen::Vector3d&) {
+    ++counts[camera_of(i)];
   });
-  std::vector<bool> observed;
-  for (const int count : counts) {
-    observed.push_back(count >= kMinObservationsPerLens);
+  std::vector<bool> is_observed(scene.views.size());
+  for (const PoseObservationSet* set : all) {
+    VisitSeen(*set, [&](std::size_t i, const Eigen::Vector3d&) {
+      is_observed[i] = true;
+    });
   }
-  return observed;
+  std::vector<bool> is_free;
+  for (const int count : counts) {
+    is_free.push_back(count >= kMinObservationsPerLens);
+  }
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    if (!is_observed[i]) is_free[camera_of(i)] = false;
+  }
+  return is_free;
 }
 
 std::vector<Eigen::Vector3d> PositionsOf(

@@ -48,9 +48,13 @@ void VisitSeen(const PoseObservationSet& observations, const F& f) {
   }
 }
 
-// By camera: whether it has enough observations to be refined.
-std::vector<bool> ObservedLenses(const PoseObservationSet& observations,
-                                 const Scene& scene);
+// By camera: whether it has enough observations in `training` to be refined.
+// Not if one of its views has none in `all`: its pose would not fit another
+// camera.
+std::vector<bool> LensesToFree(
+    const PoseObservationSet& training,
+    const std::vector<const PoseObservationSet*>& all,
+    const Scene& scene);
 
 // The points of the scene with known pixels in two views or more; none if they
 // are fewer than a hundred.

@@ -262,7 +262,9 @@ double PoseSearch::MedianShift(const PoseObservationSet& observations,
 
 void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
   std::vector<SeenPlace> seen;
+  std::vector<bool> is_observed(scene_.views.size());
   VisitSeen(*observations, [&](std::size_t i, const Eigen::Vector3d& x) {
+    is_observed[i] = true;
     if (const auto pixel = edges_.PixelByInputCamera(i, x)) {
       seen.push_back({i, x, *pixel});
     }
@@ -270,6 +272,7 @@ void PoseSearch::RestoreGauge(PoseObservationSet* observations) {
   const Similarity3 old_from_new = FixGauge(edges_.input_views(), seen);
   MovedCameras moved = edges_.moved();
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
+    if (!is_observed[i]) continue;  // has not moved
     moved.new_cam_from_cam[i] = MovePose(old_from_new, edges_.PoseOf(i)) *
                                 scene_.views[i].cam_from_world.Inverse();
   }

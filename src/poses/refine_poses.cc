@@ -72,8 +72,10 @@ class Refiner {
       Improve();
     }
     after_ = Measure();
-    if (RestoreWorseViews()) after_ = Measure();
+    // Before views are restored, which are chosen by the same errors.
     gains_ = CompareErrors(held_out_, cells_, before_, after_);
+    FindWorseViews();
+    if (RestoreWorseViews()) after_ = Measure();
   }
 
   const SpaceCells& cells() const { return cells_; }
@@ -166,7 +168,8 @@ class Refiner {
     std::vector<double> best_losses = search_.LossesOf(test);
     MovedCameras best = before;
     std::vector<Camera> cameras = before.cameras;
-    const std::vector<bool> free_lenses = ObservedLenses(training, scene_);
+    const std::vector<bool> free_lenses =
+        LensesToFree(training, {&observations_, &held_out_}, scene_);
     search_.FreeLenses(free_lenses);
     while (!search_.is_stopped()) {
       PoseObservationSet adjusted = training;
@@ -216,15 +219,20 @@ class Refiner {
   }
 
   // Views in which errors grow keep their poses, unless lenses have changed,
-  // for which the old poses do not hold. Whether there are such views.
+  // for which the old poses do not hold.
+  void FindWorseViews() {
+    if (!search_.free_lenses().empty()) return;
+    worse_views_ = WorseViews(PairErrors(before_, after_), scene_.views.size());
+  }
+
+  // Whether there are such views.
   bool RestoreWorseViews() {
-    if (!search_.free_lenses().empty()) return false;
-    const std::vector<bool> worse =
-        WorseViews(PairErrors(before_, after_), scene_.views.size());
-    if (std::ranges::find(worse, true) == worse.end()) return false;
+    if (std::ranges::find(worse_views_, true) == worse_views_.end()) {
+      return false;
+    }
     MovedCameras moved = search_.edges().moved();
-    for (std::size_t i = 0; i < worse.size(); ++i) {
-      if (worse[i]) moved.new_cam_from_cam[i] = Rigid3();
+    for (std::size_t i = 0; i < worse_views_.size(); ++i) {
+      if (worse_views_[i]) moved.new_cam_from_cam[i] = Rigid3();
     }
     search_.Move(moved);
     return true;
@@ -289,6 +297,7 @@ class Refiner {
       search_.Adjust(&observations_);
     }
     search_.RestoreGauge(&observations_);
+    RestoreWorseViews();
     PutPoses(observations_, result);
   }
 
@@ -325,6 +334,7 @@ class Refiner {
   SpaceCells cells_{{}};
   HeldOutErrors before_, after_;
   std::optional<HeldOutGains> gains_;
+  std::vector<bool> worse_views_;  // empty: none
   std::string reason_to_stay_;
   std::string reason_of_cameras_;  // to stay, although others fit better
 };

@@ -74,6 +74,26 @@ TEST(UndistortEdges, UndoesTheDistortionOfPlaceAndDirectedTangent) {
   }
 }
 
+// The finer scale's place goes through the lens, too.
+TEST(UndistortEdges, OffsetsOfTheFinerScaleGrowWithTheImage) {
+  const Camera fisheye{
+      CameraModel::kOpenCVFisheye, 640, 480, {300, 300, 320, 240, 0, 0, 0, 0}};
+  Edge2d edge;
+  edge.position = {560, 240};  // 0.8 from the axis
+  edge.fine_px = Eigen::half(0.5F);
+  EdgeMap map;
+  map.neighbors.resize(1);
+  // Across the radius, tan(0.8) / 0.8 as large; along it, 1 / cos^2(0.8).
+  for (const auto& [angle, growth] :
+       {std::pair(0.0, std::tan(0.8) / 0.8),
+        {-kPi / 2, 1 / (std::cos(0.8) * std::cos(0.8))}}) {
+    edge.angle = static_cast<float>(angle);
+    map.edges = {edge};
+    const Edge2d ideal = UndistortEdges(map, fisheye).edges.at(0);
+    EXPECT_NEAR(static_cast<double>(ideal.fine_px), 0.5 * growth, 0.01);
+  }
+}
+
 TEST(UndistortEdges, LeavesPinholesAlone) {
   const Camera pinhole{CameraModel::kPinhole, 640, 480, {600, 610, 320, 240}};
   EdgeMap map;

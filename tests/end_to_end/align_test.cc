@@ -176,6 +176,16 @@ TEST_F(Align, TellsLargeUncertaintiesWithoutExponents) {
   EXPECT_THAT(outcome.output, HasSubstr(", to 200 %"));
 }
 
+TEST_F(Align, DistancesMayBeJoinedToTheirOption) {
+  const json line = FirstLine(before_);
+  const std::string nodes =
+      line["start_node"].dump() + " " + line["end_node"].dump() + " ";
+  const Outcome outcome = RunAlign("--distance='" + nodes + "2 0.01' " +
+                                   "--distance='" + nodes + "3 0.01'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("What is given contradicts itself"));
+}
+
 TEST_F(Align, SaysThatDistancesContradictEachOther) {
   const json line = FirstLine(before_);
   const std::string known = "--distance " + line["start_node"].dump() + " " +

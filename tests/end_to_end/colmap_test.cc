@@ -191,6 +191,15 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   EXPECT_NEAR(left->scale, 1, 1e-6);
   EXPECT_LT(MedianShift(*refined, truth_), 0.3 * MedianShift(model, truth_));
 
+  // Once is enough.
+  const std::string poses = Read(output / "sparse/images.bin");
+  ASSERT_EQ(Curvix(by_points, &said), 0) << said;
+  EXPECT_THAT(said, HasSubstr("Refine poses ... COLMAP "));
+  std::ifstream again(output / "report.json");
+  EXPECT_THAT(nlohmann::json::parse(again)["run"]["resumed_stages"].dump(),
+              HasSubstr("\"refine_poses\""));
+  EXPECT_EQ(Read(output / "sparse/images.bin"), poses);
+
   const fs::path broken =
       folder_.Write("broken/colmap", "#!/bin/sh\necho Aborted\nexit 134\n");
   fs::permissions(broken, fs::perms::owner_all);

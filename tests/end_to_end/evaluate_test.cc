@@ -92,6 +92,18 @@ TEST_F(Evaluate, CurvesKeepTheFrameInWhichTheyWereWritten) {
   EXPECT_EQ(after["length"], before["length"]);
 }
 
+TEST_F(Evaluate, KnownCurvesHaveToBeInTheFrameOfTheCurves) {
+  const std::string known = "evaluate --truth_path " +
+                            Quoted(workspace_ / "gt.txt") + " --curves_path " +
+                            Quoted(results_ / "curves.obj");
+  constexpr char kNote[] = "so must be the known ones";
+  const Outcome before = RunProgram(known);
+  EXPECT_THAT(before.output, testing::Not(HasSubstr(kNote)));
+  EXPECT_THAT(before.output, testing::ContainsRegex("right kind +-"));
+  ASSERT_EQ(Run("align --axes auto").exit_code, 0);
+  EXPECT_THAT(RunProgram(known).output, HasSubstr(kNote));
+}
+
 TEST_F(Evaluate, RunsTellWhichFilesLoseDigitsOfLargeCoordinates) {
   constexpr char kNote[] = "Coordinates are large";
   EXPECT_THAT(Run("--refiner none").output, testing::Not(HasSubstr(kNote)));

@@ -114,6 +114,17 @@ TEST_F(ImportLines, SayWhichFolderCannotBeUsed) {
   EXPECT_THAT(outcome.output, HasSubstr(loop.string()));
 }
 
+TEST_F(ImportLines, AreNotWrittenThroughALinkThatWasNotNamed) {
+  fs::create_directories(folder_.path() / "else");
+  fs::create_directory_symlink(folder_.path() / "else", workspace_ / "limap");
+  const std::string words = "import --format limap --input_path " +
+                            Quoted(Tracks()) + " --workspace_path " +
+                            Quoted(workspace_);
+  EXPECT_THAT(RunProgram(words).output, HasSubstr("is a link"));
+  EXPECT_TRUE(fs::is_empty(folder_.path() / "else"));
+  EXPECT_EQ(RunProgram(words + " --normalize 1").exit_code, 2);
+}
+
 TEST_F(ImportLines, OfAnotherWorldLeaveNothing) {
   const fs::path obj =
       folder_.Write("far.obj", "v 0 0 900\nv 0 1 900\nl 1 2\n");

@@ -199,7 +199,8 @@ TEST_F(ProgramRun, ExplainsWhyBlankImagesGiveNoCurves) {
   EXPECT_EQ(outcome.exit_code, 5) << outcome.output;
   EXPECT_THAT(outcome.output,
               AllOf(HasSubstr("No curves: "), HasSubstr("0 edges")));
-  EXPECT_THAT(Names(results_), UnorderedElementsAre("report.json", "stages"));
+  EXPECT_THAT(Names(results_),
+              UnorderedElementsAre("report.json", "project.ini", "stages"));
   const json report = json::parse(Read(results_ / "report.json"));
   EXPECT_EQ(report["result"]["num_curves"], 0);
   EXPECT_NE(report["result"]["why_empty"], "");
@@ -235,7 +236,17 @@ TEST_F(ProgramRun, NoFileOfTheRunBeforeStays) {
   EXPECT_THAT(names(),
               UnorderedElementsAre("curves.txt", "curves.obj", "project.ini"));
   ASSERT_EQ(RunWorkspace("--CurveFilter.min_length_px 9000").exit_code, 5);
-  EXPECT_THAT(names(), UnorderedElementsAre("curves.obj"));
+  EXPECT_THAT(names(), UnorderedElementsAre("curves.obj", "project.ini"));
+}
+
+TEST_F(ProgramRun, ReplacesNoFolderThatNoRunWrote) {
+  const fs::path mine = results_ / "sparse/0/images.bin";
+  fs::create_directories(mine.parent_path());
+  std::ofstream(mine) << "mine";
+  const Outcome outcome = RunWorkspace();
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("which no earlier run wrote"));
+  EXPECT_EQ(Read(mine), "mine");
 }
 
 TEST_F(ProgramRun, GoesOnFromTheStagesThatALateOptionLeavesAsTheyWere) {

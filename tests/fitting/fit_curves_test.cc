@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
-#include "tests/support/random.h"
+#include "tests/fitting/sampled_curves.h"
 #include "tests/support/test_views.h"
 
 namespace curvix {
@@ -19,25 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::ElementsAre;
-constexpr double kSigma = 0.001;
-
-// `n` samples of position(t), t from 0 to 1, with errors of kSigma.
-Curve Sample(const std::function<Vector3d(double)>& position,
-             int n,
-             bool closed = false,
-             double noise = kSigma) {
-  Random random(7);
-  Curve curve;
-  curve.closed = closed;
-  for (int i = 0; i < n; ++i) {
-    CurveSample& sample = curve.samples.emplace_back();
-    const double t = static_cast<double>(i) / (closed ? n : n - 1);
-    sample.position = position(t) + noise * random.NormalVector();
-    sample.sigma = kSigma;
-  }
-  return curve;
-}
-
 // A frame that is along no axis.
 const Eigen::Matrix3d kFrame =
     Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
@@ -46,16 +27,6 @@ const Vector3d kCenter(3, -1, 2);
 Vector3d OnEllipse(double a, double b, double angle) {
   return kCenter +
          kFrame * Vector3d(a * std::cos(angle), b * std::sin(angle), 0);
-}
-
-FittedCurves Fit(std::vector<Curve> curves, int num_threads = 1) {
-  return FitCurves({std::move(curves)}, {}, {}, num_threads);
-}
-
-std::vector<std::string> Kinds(const FittedCurve& curve) {
-  std::vector<std::string> kinds;
-  for (const CurveFit& fit : curve.fits) kinds.emplace_back(KindName(fit));
-  return kinds;
 }
 
 CurveFit FitOne(const Curve& curve) {

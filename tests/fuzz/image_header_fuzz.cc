@@ -16,8 +16,8 @@ std::vector<std::string> FuzzSeeds() {
     std::vector<unsigned char> bytes;
     cv::imencode(extension, cv::Mat(9, 7, CV_8UC3, cv::Scalar(1, 2, 3)), bytes);
     seeds.emplace_back(bytes.begin(), bytes.end());
-    const auto size = SizeInHeader(seeds.back());
-    Require(size && size->width == 7 && size->height == 9, "sizes are found");
+    const auto header = HeaderOf(seeds.back());
+    Require(header && header->size == ImageSize{7, 9}, "sizes are found");
   }
   return seeds;
 }
@@ -26,8 +26,9 @@ void FuzzReader(std::string_view bytes) {
   IsTruncatedJpeg(bytes);
   std::vector<std::uint8_t> tiff(bytes.begin(), bytes.end());
   IgnoreTiffOrientation(&tiff);
-  const std::optional<ImageSize> size = SizeInHeader(bytes);
-  Require(!size || (size->width > 0 && size->height > 0), "sizes are positive");
+  const std::optional<ImageHeader> header = HeaderOf(bytes);
+  Require(!header || (header->size.width > 0 && header->size.height > 0),
+          "sizes are positive");
 }
 
 }  // namespace curvix

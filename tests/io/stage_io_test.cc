@@ -182,6 +182,21 @@ TEST_F(StageIo, GivesPosesBackBitByBit) {
   EXPECT_EQ(ReadCurvePoses(path_, kKey).status().code(), StatusCode::kDataLoss);
 }
 
+TEST_F(StageIo, GivesABundleAdjustmentBackBitByBit) {
+  const BundleAdjustment adjustment = {
+      SomePoses().cam_from_world, {{1.0 / 3, 0, -2}, {1e300, 4, 5}}, "3.8"};
+  ASSERT_TRUE(WriteBundleAdjustment(path_, kKey, adjustment).ok());
+  const auto read = ReadBundleAdjustment(path_, kKey);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  ASSERT_EQ(read->cam_from_world.size(), 3u);
+  EXPECT_EQ(read->cam_from_world[1].rotation.coeffs(),
+            adjustment.cam_from_world[1].rotation.coeffs());
+  EXPECT_EQ(read->cam_from_world[1].translation,
+            adjustment.cam_from_world[1].translation);
+  EXPECT_EQ(read->positions, adjustment.positions);
+  EXPECT_EQ(read->program_version, "3.8");
+}
+
 PartResult SomePart() {
   PartResult part;
   part.num_own_edges_2d = 17;

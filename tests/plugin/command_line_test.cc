@@ -120,6 +120,15 @@ TEST_F(CommandLine, ArgumentsWinOverTheProjectFile) {
   }
 }
 
+TEST_F(CommandLine, APresetDoesNotChangeAProjectFile) {
+  std::string preset;
+  sections_.front().flags.push_back(TextFlag("preset", &preset, ""));
+  const std::string path = ProjectFile("workspace_path=w\npreset=default\n");
+  EXPECT_TRUE(Parse({"--project_path", path, "--preset", "default"}).ok());
+  const auto request = Parse({"--project_path", path, "--preset", "paper"});
+  EXPECT_THAT(request.status().message(), HasSubstr("would not change"));
+}
+
 TEST_F(CommandLine, AWorkspaceTakesThePathsOfTheProjectFileWithIt) {
   std::filesystem::path input_path;
   sections_.front().flags.push_back(PathFlag("input_path", &input_path, ""));

@@ -299,6 +299,21 @@ TEST_F(FakeColmap, IsGivenNoOutliers) {
   EXPECT_GT(num_written, num_observations * 3 / 4);
 }
 
+TEST_F(FakeColmap, IsGivenTheObservationsOfAViewThatIsFarOff) {
+  Rigid3& pose = model_.images[0].cam_from_world;
+  pose.translation.x() += 0.02 * pose.translation.norm();
+  const ColmapModel written = Written();
+  std::vector<std::size_t> counts(written.images.size());
+  for (const ColmapPoint3D& point : written.points) {
+    for (const ColmapTrackElement& seen : point.track) {
+      ++counts[seen.image_id - 1];
+    }
+  }
+  for (const std::size_t count : counts) {
+    EXPECT_GT(2 * count, std::ranges::max(counts));
+  }
+}
+
 TEST_F(FakeColmap, SamePosesGiveTheSameBytes) {
   const PoseRefinement a = Solve(PosedPoints({}));
   const PoseRefinement b = Solve(PosedPoints({}));

@@ -316,6 +316,22 @@ TEST_F(RunParts, OneRunAtATimeWorksOnAPart) {
   EXPECT_TRUE(fs::exists(folder / "part.bin"));
 }
 
+TEST_F(RunParts, APlanTakesThePlaceOfAnotherPlanOnly) {
+  MakeStreet(80);
+  {
+    const auto lock = FolderLock::Take(parts_ / "parts/0");
+    const Status status = RunPartition(settings_, 48, progress_).status();
+    EXPECT_THAT(status.message(), HasSubstr("is being reconstructed"));
+  }
+  fs::remove_all(parts_ / "parts");
+  const fs::path mine = parts_ / "parts/gearbox/data.txt";
+  fs::create_directories(mine.parent_path());
+  std::ofstream(mine) << "mine";
+  const Status status = RunPartition(settings_, 48, progress_).status();
+  EXPECT_THAT(status.message(), HasSubstr("which is no plan"));
+  EXPECT_TRUE(fs::exists(mine));
+}
+
 TEST_F(RunParts, NeedASoundPlan) {
   MakeStreet(80);
   const fs::path path = parts_ / "parts/plan.json";

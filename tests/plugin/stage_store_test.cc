@@ -30,6 +30,25 @@ TEST(StageStore, KeepsNothingWithoutAFolder) {
   store.Clean();
 }
 
+TEST(StageStore, CleansUpAfterAKilledRun) {
+  const TemporaryFolder folder;
+  folder.Write("stages/edges.bin", "");
+  folder.Write("stages/sketch.bin.tmp", "half");
+  StageStore(folder.path() / "stages").Clean();
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "stages"));
+}
+
+TEST(AdjustmentKey, DependsOnPixelsAndTheProgram) {
+  Scene scene;
+  scene.points.resize(1);
+  scene.points[0].pixels = {{3, 4}};
+  const std::uint64_t key = AdjustmentKey(scene, "/bin/true");
+  EXPECT_EQ(AdjustmentKey(scene, "/bin/true"), key);
+  EXPECT_NE(AdjustmentKey(scene, "/bin/false"), key);
+  scene.points[0].pixels[0].x() += 1e-9;
+  EXPECT_NE(AdjustmentKey(scene, "/bin/true"), key);
+}
+
 TEST(StageStore, LoadsNothingOfOtherImages) {
   const TemporaryFolder folder;
   constexpr std::uint64_t kImages = 5;

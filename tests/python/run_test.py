@@ -144,7 +144,7 @@ class Stopping(WorkspaceTest):
 
     def test_false_stops_the_run(self):
         with self.assertRaisesRegex(pycurvix.CancelledError, 'interrupted'):
-            self.reconstruct(progress=lambda stage, done, total: stage != 'sketch_edges')
+            self.reconstruct(progress=lambda stage, done, total: np.bool_(stage != 'sketch_edges'))
         self.assert_nothing_was_written()
 
     def test_none_and_true_do_not(self):
@@ -244,6 +244,8 @@ class Failures(WorkspaceTest):
                 curves.write(self.folder / name)
         with self.assertRaisesRegex(pycurvix.ArgumentError, 'ply, obj'):
             curves.write(self.folder / 'a.stl')
+        with self.assertRaisesRegex(pycurvix.ArgumentError, 'ends in .ply'):
+            curves.write(self.folder / 'again.obj', 'ply')
         (self.folder / 'folder.ply' / 'inside').mkdir(parents=True)
         for path in (self.folder / 'no' / 'such' / 'folder' / 'a.ply', self.folder / 'folder.ply'):
             with self.assertRaises(OSError) as caught:
