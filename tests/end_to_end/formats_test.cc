@@ -261,6 +261,7 @@ TEST_F(Formats, ViewerMeasuresWhatDimensionsHave) {
   EXPECT_EQ(seen["coordinates"], true);
   EXPECT_LT(seen["square"], 1e-6);
   EXPECT_EQ(seen["measuringAfterEscape"], false);
+  EXPECT_EQ(seen["pickedBesideCamera"], true);
   EXPECT_EQ(seen["pictureSize"], 3000);
   EXPECT_GT(seen["pictureDark"], 3000);
   EXPECT_EQ(seen["pictureCorner"], json({255, 255, 255, 255}));

@@ -20,6 +20,21 @@ function allMeasures() {
   }
   return found;
 }
+// Whether a line that begins behind the camera can be picked where it is seen.
+function isPickedBesideCamera(c) {
+  const [from, to] = [c.points[0], c.points[c.points.length - 1]];
+  const along = to.clone().sub(from), across = along.clone().cross(Math.abs(along.dot(up)) < .9 * along.length() ? up : side);
+  $("parallel").checked = false;
+  eye.position.lerpVectors(from, to, .4).add(across.setLength(.05 * along.length()));
+  controls.target.copy(to);
+  eye.lookAt(to);
+  paint();
+  const behind = onScreen(from), spot = onScreen(new THREE.Vector3().lerpVectors(from, to, .45));
+  for (const other of curves) other.shown = other === c;
+  const isPicked = behind.hidden && !spot.hidden && nearest(spot.x, spot.y, 20) === c.id;
+  filter();
+  return isPicked;
+}
 // Two nodes by mouse, two points of curves by a finger, elevations and a picture.
 function measureLikeAPerson(seen, click, point) {
   seen.measures = allMeasures();
@@ -64,6 +79,7 @@ function measureLikeAPerson(seen, click, point) {
     seen.pictureDark = pixels.filter((v, i) => i % 4 === 0 && v < 200).length;
     seen.pictureCorner = [...pixels.slice(0, 4)];
   }
+  seen.pickedBesideCamera = isPickedBesideCamera(lines[0]);
   lookAs("Photo");
 }
 setTimeout(() => {
