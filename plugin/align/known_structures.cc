@@ -21,10 +21,17 @@ Status BadDistance(const std::string& text, const std::string& why) {
       "31 1.250 or --distance 0,0,0 1,0.5,0 1.250");
 }
 
+// As uncertain as most nodes; without any, as samples of most fits.
 CurveNode UsualPoint(const KnownStructures& structures) {
   std::vector<double> variances;
   for (const CurveNode& node : structures.fitted.nodes) {
     variances.push_back(node.covariance.trace() / 3);
+  }
+  for (const FittedCurve& curve : structures.fitted.curves) {
+    if (!structures.fitted.nodes.empty()) break;
+    for (const CurveFit& fit : curve.fits) {
+      variances.push_back(fit.sigma * fit.sigma);
+    }
   }
   CurveNode point;
   point.covariance =

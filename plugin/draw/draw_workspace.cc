@@ -95,6 +95,8 @@ class Drafter {
   Status TakePlanes();
   // kInvalidArgument, with the depths of all curves.
   Status NothingInSlice(const DrawingPlane& plane) const;
+  // What of the curves the view shows, without hidden ones if there are others.
+  FittedCurves SeenInView(const DrawnView& view) const;
   Status TakePhotograph();
   Status LayOut();
   Status Write();
@@ -183,21 +185,35 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
       " of the curves is from " + DepthText(low) + " to " + DepthText(high));
 }
 
+FittedCurves Drafter::SeenInView(const DrawnView& view) const {
+  FittedCurves all = curves_.fitted;
+  FittedCurves seen = WithoutHidden(curves_, view.plane.toward, scene_);
+  bool any = false;
+  for (FittedCurves* fitted : {&all, &seen}) {
+    any = false;
+    for (FittedCurve& curve : fitted->curves) {
+      std::erase_if(curve.fits, [&](const CurveFit& fit) {
+        return PartsInWindow(fit, view.plane, view.window).empty();
+      });
+      any = any || !curve.fits.empty();
+    }
+  }
+  return any ? seen : all;
+}
+
 Status Drafter::TakePhotograph() {
   if (settings_.photograph.empty()) return {};
   const DrawnView& view = views_.front();
   const Eigen::AlignedBox2d bounds = BoundsOf(view.curves);
   if (bounds.isEmpty()) return {};
   const bool through_nodes = view.plane.name.starts_with("nodes");
-  const PictureArea area{
-      view.plane,
-      through_nodes
-          ? 0
-          : MainDepth(WithoutHidden(curves_, view.plane.toward, scene_),
-                      view.plane,
-                      window_.depth.from,
-                      window_.depth.to),
-      bounds};
+  const PictureArea area{view.plane,
+                         through_nodes ? 0
+                                       : MainDepth(SeenInView(view),
+                                                   view.plane,
+                                                   window_.depth.from,
+                                                   window_.depth.to),
+                         bounds};
   std::optional<std::size_t> chosen;
   if (settings_.photograph == "auto") {
     chosen = BestViewOf(scene_, area);

@@ -18,6 +18,7 @@ struct BlurredImage {
   int height = 0;
   double scale = 1;  // pixels here per pixel of the file, in (0, 1]
   std::vector<std::uint8_t> pixels;  // row by row
+  double noise_variance = 0;         // of the pixels, squared grey levels
 
   // Whether grey levels within `reach` pixels of the file around `pixel`, one
   // of the file, are known.

@@ -46,9 +46,11 @@ constexpr double kAgreeingShare = 0.7;
 constexpr double kMinSine = 0.25;
 
 // The variance, in squared grey levels, by which strips of one surface differ:
-// noise, and a share of the variance of the strip for what resampling and
-// reflections do to it. And the share of strips of different things.
-constexpr double kNoiseVariance = 2;
+// noise of the images and what is added to it, at least so much; and a share of
+// the variance of the strip for what resampling and reflections do to it. And
+// the share of strips of different things.
+constexpr double kLeastVariance = 2;
+constexpr double kAddedVariance = 1.4;
 constexpr double kSameShare = 0.04;
 constexpr double kOtherShare = 0.4;
 // Neighbouring pixels are correlated: a strip beyond the first counts as so
@@ -147,15 +149,15 @@ class StripSet {
   void Keep() { ++num_; }
 
   // Minus infinity if there are fewer than kMinViews. `other_curve_px`: to the
-  // nearest other curve in the direction.
-  float LogBayes(double other_curve_px) const;
+  // nearest other curve in the direction. `noise`: a variance.
+  float LogBayes(double other_curve_px, double noise) const;
 
  private:
   using Gram = Eigen::Matrix<float, kMaxViews, kMaxViews>;
   // Of the first pixels of each strip less their mean.
   Gram InnerProducts(int num_pixels) const;
   // That of the first rows of the strips that agree best.
-  double LogBayesOfRows(int num_rows) const;
+  double LogBayesOfRows(int num_rows, double noise) const;
 
   std::array<Strip, kMaxViews> strips_;
   int num_ = 0;
@@ -211,22 +213,23 @@ double Mixture(double probability, double log_bayes, double other_log_bayes) {
                   (1 - probability) * std::exp(other_log_bayes));
 }
 
-float StripSet::LogBayes(double other_curve_px) const {
+float StripSet::LogBayes(double other_curve_px, double noise) const {
   if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
   double log_bayes = Mixture(kNarrowProbability,
-                             LogBayesOfRows(kNumNarrowRows),
-                             LogBayesOfRows(kNumAcross));
+                             LogBayesOfRows(kNumNarrowRows, noise),
+                             LogBayesOfRows(kNumAcross, noise));
   const double readable_px = other_curve_px - kOtherBlurPx - kFirstAcrossPx;
   if (readable_px < kNumAcross - 1) {
     const int num_rows = static_cast<int>(std::floor(readable_px)) + 1;
-    log_bayes = Mixture(kEndsAtCurveProbability,
-                        num_rows < kMinRows ? 0 : LogBayesOfRows(num_rows),
-                        log_bayes);
+    log_bayes =
+        Mixture(kEndsAtCurveProbability,
+                num_rows < kMinRows ? 0 : LogBayesOfRows(num_rows, noise),
+                log_bayes);
   }
   return std::max(static_cast<float>(log_bayes), kMinLogBayes);
 }
 
-double StripSet::LogBayesOfRows(int num_rows) const {
+double StripSet::LogBayesOfRows(int num_rows, double noise) const {
   const int num_pixels = num_rows * kNumAlong;
   const Gram gram = InnerProducts(num_pixels);
   std::vector<int> left;
@@ -238,8 +241,8 @@ double StripSet::LogBayesOfRows(int num_rows) const {
   // `total` counts every pair twice.
   const double residual =
       total / (2.0 * num_left * (num_left - 1) * num_pixels);
-  const double same = kNoiseVariance + kSameShare * variance;
-  const double other = kNoiseVariance + kOtherShare * variance;
+  const double same = noise + kSameShare * variance;
+  const double other = noise + kOtherShare * variance;
   const double num_independent =
       kIndependentPixels * num_pixels / kNumPixels * (num_left - 1);
   return -num_independent / 2 *
@@ -270,7 +273,12 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     return evidence;
   }
   std::vector<double> sizes;
-  for (const LocalView& view : seen) sizes.push_back(view.pixel_size);
+  double noise = 0;
+  for (const LocalView& view : seen) {
+    sizes.push_back(view.pixel_size);
+    noise += view.image->noise_variance / static_cast<double>(seen.size());
+  }
+  noise = std::max(kLeastVariance, kAddedVariance + noise);
   const double step = Median(std::move(sizes)) / seen.front().image->scale;
   std::array<StripSet, 2> sides;
   for (int d = 0; d < kNumDirections; ++d) {
@@ -286,7 +294,8 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     }
     for (std::size_t side = 0; side < 2; ++side) {
       evidence.log_bayes[side][static_cast<std::size_t>(d)] =
-          sides[side].LogBayes(other_curves_px[static_cast<std::size_t>(d)]);
+          sides[side].LogBayes(other_curves_px[static_cast<std::size_t>(d)],
+                               noise);
     }
   }
   return evidence;

@@ -27,8 +27,8 @@ constexpr double kNumParameters = 2;  // a place across a curve
 constexpr double kPriorFreedom = 4;
 constexpr double kMinSlope = 0.1;
 // Determinant of the information, over its squared trace: views whose rays are
-// nearer to each other than a few millionths do not determine a place.
-constexpr double kMinInformation = 1e-12;
+// nearer to each other than some ten-thousandths do not determine a place.
+constexpr double kMinInformation = 1e-8;
 
 // How far 2D edges of one view are from a curve; sums while they are added up.
 struct MeanDistance {

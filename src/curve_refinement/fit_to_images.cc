@@ -317,8 +317,7 @@ std::vector<Curve> FitCurve(const Curve& curve,
                             const RefinementInput& input,
                             const ResponseCurve& response) {
   if (curve.samples.size() < kMinNumFittedSamples) return {curve};
-  const CurveSample& first = curve.samples.front();
-  const double pixel = PixelSize(first, input.views);
+  const double pixel = PixelSize(curve, input.views);
   if (!(pixel > 0)) return {curve};
   CurveFitter fitter(curve, pixel);
   fitter.AddEdges(input, response);

@@ -154,7 +154,20 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
   return Junction{std::move(members), point, *gap};
 }
 
+// Whether `end` may join `members`. Both ends of a curve that is not `is_long`
+// would make a spike of it.
+bool MayJoin(std::size_t end,
+             const Members& members,
+             const std::vector<CurveEnd>& ends,
+             const std::vector<bool>& is_long) {
+  const std::size_t curve = ItemOf(ends[end].idx);
+  return is_long[curve] || std::ranges::none_of(members, [&](std::size_t i) {
+           return ItemOf(ends[i].idx) == curve;
+         });
+}
+
 std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
+                                const std::vector<bool>& is_long,
                                 const CurveRefinementOptions& options,
                                 int num_threads) {
   const PointTree tree(ends,
@@ -167,7 +180,10 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
     };
     for (const std::size_t j : tree.Within(a.position, reach(a))) {
       const EndFit& b = ends[j].fit;
-      if (j <= i || (a.position - b.position).norm() > reach(b)) continue;
+      if (j <= i || (a.position - b.position).norm() > reach(b) ||
+          !MayJoin(j, {i}, ends, is_long)) {
+        continue;
+      }
       if (auto pair = MakeJunction(ends, {i, j}, options)) {
         pairs_of[i].push_back(*std::move(pair));
       }
@@ -182,11 +198,12 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
 
 // Pairs by rising gap; a free end may still join the junction of the other one.
 std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
+                                    const std::vector<bool>& is_long,
                                     const CurveRefinementOptions& options,
                                     int num_threads) {
   std::vector<Junction> junctions;
   std::vector<std::optional<std::size_t>> junction_of(ends.size());
-  for (const Junction& pair : FindPairs(ends, options, num_threads)) {
+  for (const Junction& pair : FindPairs(ends, is_long, options, num_threads)) {
     const std::size_t i = pair.members[0], j = pair.members[1];
     if (junction_of[i] && junction_of[j]) continue;
     if (!junction_of[i] && !junction_of[j]) {
@@ -197,6 +214,7 @@ std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
     const std::size_t free = junction_of[i] ? j : i;
     const std::size_t idx = junction_of[i] ? *junction_of[i] : *junction_of[j];
     Members members = junctions[idx].members;
+    if (!MayJoin(free, members, ends, is_long)) continue;
     members.push_back(free);
     if (auto larger = MakeJunction(ends, std::move(members), options)) {
       junction_of[free] = idx;
@@ -250,7 +268,13 @@ std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
   if (!(options.junction_reach_px > 0)) return curves;
   const std::vector<CurveEnd> ends =
       WithoutTouches(FitEnds(curves, views, num_threads), curves);
-  for (const Junction& junction : FormJunctions(ends, options, num_threads)) {
+  std::vector<bool> is_long;  // enough for a loop
+  for (const Curve& curve : curves) {
+    is_long.push_back(LengthInPixels(curve, views) >
+                      4 * options.junction_reach_px);
+  }
+  for (const Junction& junction :
+       FormJunctions(ends, is_long, options, num_threads)) {
     for (const std::size_t i : junction.members) {
       CarryOn(ends[i], junction.point, curves[ItemOf(ends[i].idx)]);
     }

@@ -140,16 +140,21 @@ double MainDepth(const FittedCurves& fitted,
   const double away = plane.depth_axis.dot(plane.toward) > 0 ? -1 : 1;
   WeightedDepths depths;
   double total = 0;
-  for (const FittedCurve& curve : fitted.curves) {
-    for (const CurveFit& fit : curve.fits) {
-      const double length = LengthAcross(fit, plane.toward);
-      const double depth = plane.Depth((fit.start + fit.end) / 2);
-      if (!(length > 0 && depth >= low && depth <= high)) continue;
-      depths.emplace_back(away * depth, length);
-      total += length;
+  // Of lines that lie in the plane; without any, of everything.
+  for (const bool all : {false, true}) {
+    if (!depths.empty()) break;
+    for (const FittedCurve& curve : fitted.curves) {
+      for (const CurveFit& fit : curve.fits) {
+        const double length =
+            all ? Length(fit) : LengthAcross(fit, plane.toward);
+        const double depth = plane.Depth((fit.start + fit.end) / 2);
+        if (!(length > 0 && depth >= low && depth <= high)) continue;
+        depths.emplace_back(away * depth, length);
+        total += length;
+      }
     }
   }
-  if (depths.empty()) return 0;
+  if (depths.empty()) return std::clamp(0.0, low, high);
   std::ranges::sort(depths);
   const double width = kMainDepthWidth * (Quantile(depths, total, 0.75) -
                                           Quantile(depths, total, 0.25));

@@ -311,7 +311,14 @@ Result<Evaluation> EvaluateCurves(const CurveSet& curves,
   Evaluation result;
   result.num_predicted = c.predicted.size();
   result.num_true = c.truth.size();
-  if (c.predicted.empty()) return result;
+  if (c.predicted.empty()) {
+    if (std::ranges::find(c.visible, true) != c.visible.end()) {
+      result.visible_recall_5 = result.visible_recall_10 = 0;
+      result.visible_f_score_5 = 0;
+    }
+    if (truth.has_curve_ids) result.whole = 0;
+    return result;
+  }
 
   CompareNearest(c);
   result.accuracy_mm = Mean(c.predicted_mm);

@@ -19,6 +19,8 @@ constexpr double kOffsetStep = 100;
 // Positions are on a line if their extent across it is a smaller share of that
 // along it.
 constexpr double kOnALine = 1e-3;
+// A variance that says nothing of an angle, radians.
+constexpr double kUnknownHeading = 1e4;
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
@@ -160,6 +162,7 @@ class Estimator {
       }
       if (!a.has_scale) start.scale = to / from;
       a.has_scale = true;
+      TurnToPositions(model, world);
     }
     if (!(start.scale > 0) || !std::isfinite(start.scale)) {
       return Status::InvalidArgument(
@@ -174,6 +177,42 @@ class Estimator {
     start.translation = world.rowwise().mean() -
                         start.scale * (start.rotation * model.rowwise().mean());
     return {};
+  }
+
+  // Positions on a line that is not upright know the heading, which the lines
+  // of a scene do not; these tell the tilt.
+  void TurnToPositions(const Eigen::Matrix3Xd& model,
+                       const Eigen::Matrix3Xd& world) {
+    Similarity3& start = result_.alignment.world_from_model;
+    Eigen::Index furthest = 0;
+    (world.colwise() - world.col(0)).colwise().norm().maxCoeff(&furthest);
+    const Eigen::Vector3d to = world.col(furthest) - world.col(0);
+    const Eigen::Vector3d from =
+        start.rotation * (model.col(furthest) - model.col(0));
+    constexpr double kMinLevelShare = 0.1;
+    if (to.head<2>().norm() < kMinLevelShare * to.norm() ||
+        from.head<2>().norm() < kMinLevelShare * from.norm()) {
+      return;
+    }
+    heading_ = Eigen::AngleAxisd(
+        std::atan2(to.y(), to.x()) - std::atan2(from.y(), from.x()),
+        Eigen::Vector3d::UnitZ());
+    has_heading_ = true;
+    start.rotation = heading_ * start.rotation;
+  }
+
+  // Of the axes: how far they are turned, and the root of its information.
+  std::pair<Eigen::Vector3d, Eigen::Matrix3d> TurnOfAxes() const {
+    const Similarity3& now = result_.alignment.world_from_model;
+    const Eigen::AngleAxisd turn(heading_ * input_.axes->world_from_model *
+                                 now.rotation.conjugate());
+    Eigen::Matrix3d covariance = input_.axes->covariance;
+    if (has_heading_) {
+      const Eigen::Matrix3d turned = heading_.toRotationMatrix();
+      covariance = turned * covariance * turned.transpose();
+      covariance(2, 2) += kUnknownHeading;
+    }
+    return {turn.angle() * turn.axis(), covariance.inverse().llt().matrixU()};
   }
 
   Eigen::Vector3d World(const KnownPosition& p) const {
@@ -196,14 +235,10 @@ class Estimator {
       add_scale(std::log(s.scale / now.scale), s.sigma);
     }
     if (input_.axes && !result_.has_rotation_of_positions) {
-      const Eigen::AngleAxisd turn(input_.axes->world_from_model *
-                                   now.rotation.conjugate());
-      const Eigen::Matrix3d weight =
-          input_.axes->covariance.inverse().llt().matrixU();
+      const auto [turn, weight] = TurnOfAxes();
       Eigen::Matrix<double, 3, 7> rows = Eigen::Matrix<double, 3, 7>::Zero();
       rows.block<3, 3>(0, 1) = weight;
-      equations.Add(rows,
-                    Eigen::Vector3d(weight * (turn.angle() * turn.axis())));
+      equations.Add(rows, Eigen::Vector3d(weight * turn));
     }
     for (const KnownPosition& p : input_.positions) {
       const double sigma = SigmaOf(p);
@@ -265,6 +300,9 @@ class Estimator {
 
   const AlignmentInput& input_;
   AlignmentResult result_;
+  // By which positions turn the axes of lines, about z.
+  Eigen::Quaterniond heading_ = Eigen::Quaterniond::Identity();
+  bool has_heading_ = false;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
@@ -13,6 +14,7 @@
 
 #include "base/angles.h"
 #include "model/posed_view.h"
+#include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_views.h"
 
@@ -70,6 +72,7 @@ class ClassifyCurvesTest : public ::testing::Test {
     }
     Scene scene = ToScene(posed);
     scene.points = points;
+    Random random(1);
     for (std::size_t i = 0; i < posed.size(); ++i) {
       cv::Mat image(800, 800, CV_8U);
       for (int y = 0; y < image.rows; ++y) {
@@ -82,7 +85,10 @@ class ClassifyCurvesTest : public ::testing::Test {
                                    posed[i].Ray({x + 0.5, y + 0.5})));
           }
           image.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(
-              std::lround(128 + contrast * (nearest.second - 128)));
+              std::lround(std::clamp(128 + contrast * (nearest.second - 128) +
+                                         noise_ * random.Normal(),
+                                     0.0,
+                                     255.0)));
         }
       }
       scene.views[i].image_path =
@@ -99,6 +105,7 @@ class ClassifyCurvesTest : public ::testing::Test {
     return curves[0].samples[30];
   }
 
+  double noise_ = 0;                  // of the images, grey levels
   int first_view_ = 0;                // of those that support the curves
   std::vector<double> other_curves_;  // x of curves parallel to the edge
   StepDone step_done_;
@@ -137,6 +144,12 @@ TEST_F(ClassifyCurvesTest, SurfacesThatMeetMakeACrease) {
     EXPECT_EQ(sample.kind, CurveKind::kCrease) << bend_deg;
     EXPECT_GT(sample.kind_probability, 0.95F) << bend_deg;
   }
+}
+
+TEST_F(ClassifyCurvesTest, NoiseOfTheImagesIsNoDepth) {
+  noise_ = 10;
+  EXPECT_EQ(Classified({{50, 1}, {130, 2}}, 0.3).kind, CurveKind::kCrease);
+  EXPECT_EQ(Classified({{0, 1}, {180, 2}}, 0.3).kind, CurveKind::kMarking);
 }
 
 TEST_F(ClassifyCurvesTest, SurfaceThatEndsBeforeAnotherIsABoundary) {

@@ -90,6 +90,15 @@ TEST(MeetAtJunctions, NoEdgeSupportsWhatIsAdded) {
   }
 }
 
+// Both its ends could go on to the corner.
+TEST(MeetAtJunctions, AShortCurveDoesNotTurnBack) {
+  std::vector<Curve> curves = Corner(90, 4);
+  const Eigen::Vector3d way = Eigen::Vector3d(1, 0, 1).normalized();
+  curves.push_back(Line(0.5 * kPixel * way, 6.5 * kPixel * way));
+  const Curve met = Meet(curves)[2];
+  EXPECT_NE(met.samples.front().position, met.samples.back().position);
+}
+
 TEST(MeetAtJunctions, EndsOutOfReachStay) {
   EXPECT_GT(LargestDistance(Meet(Corner(90, 9)), Corner(90, 9)), 0);
   EXPECT_EQ(LargestDistance(Meet(Corner(90, 11)), Corner(90, 11)), 0);

@@ -189,7 +189,15 @@ TEST(DrawingPlane, MainDepthIsThatOfTheWallWithMostLines) {
   EXPECT_EQ(MainDepth(house, front, -20, 20), 2);
   EXPECT_NEAR(MainDepth(house, FromBehind(front), -20, 20), 10, 0.3);
   EXPECT_NEAR(MainDepth(house, front, 5, 20), 10, 0.3);
-  EXPECT_EQ(MainDepth({}, front, -20, 20), 0);  // no lines
+  EXPECT_EQ(MainDepth({}, front, -20, 20), 0);
+  EXPECT_EQ(MainDepth({}, front, 5, 20), 5);
+  // Without lines across the view, that of the others.
+  FittedCurves posts;
+  CurveFit away;
+  away.start = {0, 5, 0};
+  away.end = {0, 7, 0};
+  posts.curves.push_back({{away}});
+  EXPECT_EQ(MainDepth(posts, front, -20, 20), 6);
 }
 
 TEST(DrawingPlane, MainPlaneIsThatWhichMostViewsFace) {

@@ -171,6 +171,15 @@ TEST(EvaluateCurves, ColumnsThatAreMissingLeaveTheirMeasuresOut) {
   EXPECT_EQ(e.visible_recall_5, e.agreement[0].recall);
 }
 
+TEST(EvaluateCurves, NothingFindsNothing) {
+  GroundTruth truth = OneLine();
+  truth.has_curve_ids = true;
+  const Evaluation e = *EvaluateCurves({}, truth, {});
+  EXPECT_EQ(e.visible_recall_5, 0);
+  EXPECT_EQ(e.visible_f_score_5, 0);
+  EXPECT_EQ(e.whole, 0);
+}
+
 TEST(EvaluateCurves, UnusableInputIsRefused) {
   CurveSet curves;
   curves.curves.push_back(Polyline({{0, 0, 0}, {1, 0, 0}}));

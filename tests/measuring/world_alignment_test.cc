@@ -184,6 +184,25 @@ TEST(EstimateAlignment, AxesTurnAndDistancesScaleTogether) {
   EXPECT_NEAR(result->alignment.covariance(1, 1), 1e-6, 1e-9);
 }
 
+// Which way is north, the lines of a building do not tell.
+TEST(EstimateAlignment, PositionsOnALineTellTheHeadingAndAxesTheTilt) {
+  Random random(6);
+  const Similarity3 truth = RandomSimilarity(random);
+  AlignmentInput input;
+  input.axes.emplace();
+  input.axes->world_from_model =
+      Eigen::AngleAxisd(2.1, Vector3d::UnitZ()) * truth.rotation;
+  input.axes->covariance = 1e-6 * Matrix3d::Identity();
+  const Vector3d along = truth.rotation.conjugate() * Vector3d(3, -1, 0.5);
+  for (const double share : {0.0, 0.3, 1.0}) {
+    const Vector3d x = Vector3d(1, 2, 3) + share * along;
+    input.positions.push_back({"", x, truth * x, 0.01});
+  }
+  const auto result = EstimateAlignment(input);
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_LT(ErrorOf(result->alignment.world_from_model, truth).norm(), 1e-6);
+}
+
 TEST(EstimateAlignment, DistancesThatDisagreeRaiseTheSigma) {
   AlignmentInput input;
   for (const double length : {1.0, 1.1}) {
