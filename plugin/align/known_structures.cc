@@ -27,10 +27,11 @@ CurveNode UsualPoint(const KnownStructures& structures) {
   for (const CurveNode& node : structures.fitted.nodes) {
     variances.push_back(node.covariance.trace() / 3);
   }
-  for (const FittedCurve& curve : structures.fitted.curves) {
-    if (!structures.fitted.nodes.empty()) break;
-    for (const CurveFit& fit : curve.fits) {
-      variances.push_back(fit.sigma * fit.sigma);
+  if (variances.empty()) {
+    for (const FittedCurve& curve : structures.fitted.curves) {
+      for (const CurveFit& fit : curve.fits) {
+        variances.push_back(fit.sigma * fit.sigma);
+      }
     }
   }
   CurveNode point;

@@ -95,8 +95,8 @@ class Drafter {
   Status TakePlanes();
   // kInvalidArgument, with the depths of all curves.
   Status NothingInSlice(const DrawingPlane& plane) const;
-  // What of the curves the view shows, without hidden ones if there are others.
-  FittedCurves SeenInView(const DrawnView& view) const;
+  // What the view shows of the curves, without hidden ones if there are others.
+  FittedCurves ShownBy(const DrawnView& view) const;
   Status TakePhotograph();
   Status LayOut();
   Status Write();
@@ -185,20 +185,20 @@ Status Drafter::NothingInSlice(const DrawingPlane& plane) const {
       " of the curves is from " + DepthText(low) + " to " + DepthText(high));
 }
 
-FittedCurves Drafter::SeenInView(const DrawnView& view) const {
-  FittedCurves all = curves_.fitted;
-  FittedCurves seen = WithoutHidden(curves_, view.plane.toward, scene_);
-  bool any = false;
-  for (FittedCurves* fitted : {&all, &seen}) {
-    any = false;
-    for (FittedCurve& curve : fitted->curves) {
+FittedCurves Drafter::ShownBy(const DrawnView& view) const {
+  const auto in_window = [&](FittedCurves fitted) {
+    for (FittedCurve& curve : fitted.curves) {
       std::erase_if(curve.fits, [&](const CurveFit& fit) {
         return PartsInWindow(fit, view.plane, view.window).empty();
       });
-      any = any || !curve.fits.empty();
     }
-  }
-  return any ? seen : all;
+    std::erase_if(fitted.curves,
+                  [](const FittedCurve& curve) { return curve.fits.empty(); });
+    return fitted;
+  };
+  FittedCurves shown =
+      in_window(WithoutHidden(curves_, view.plane.toward, scene_));
+  return shown.curves.empty() ? in_window(curves_.fitted) : shown;
 }
 
 Status Drafter::TakePhotograph() {
@@ -209,7 +209,7 @@ Status Drafter::TakePhotograph() {
   const bool through_nodes = view.plane.name.starts_with("nodes");
   const PictureArea area{view.plane,
                          through_nodes ? 0
-                                       : MainDepth(SeenInView(view),
+                                       : MainDepth(ShownBy(view),
                                                    view.plane,
                                                    window_.depth.from,
                                                    window_.depth.to),

@@ -44,7 +44,7 @@ class ScratchFolder {
   static Result<fs::path> Make() {
     std::error_code error;
     // COLMAP runs in it, so not relative to where this program runs.
-    const fs::path parent = fs::absolute(fs::temp_directory_path(error));
+    const fs::path parent = fs::absolute(fs::temp_directory_path(error), error);
     std::string name = (parent / "colmap_curvix-XXXXXX").string();
     if (!error && mkdtemp(name.data()) != nullptr) return fs::path(name);
     return Status::InvalidArgument(

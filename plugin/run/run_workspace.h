@@ -30,9 +30,9 @@ struct WorkspaceRun {
 // The inputs are read only.
 //
 // Without any curve this succeeds too, with num_curves = 0 and why_empty, and
-// writes report.json, what belongs to the poses, and edges.ply if there are 3D
-// edges. Curves and drawings of an earlier run go, since they are not of these
-// options.
+// writes report.json, project.ini, what belongs to the poses, and edges.ply if
+// there are 3D edges. Curves and drawings of an earlier run go, since they are
+// not of these options.
 //
 // kInvalidArgument and kNotFound: the workspace, or an output folder that
 // cannot be used; kDataLoss and kUnsupported: broken or foreign files;

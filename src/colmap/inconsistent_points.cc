@@ -53,8 +53,8 @@ std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
           : "are behind the cameras";
   return "The points of " + model_path.string() + " " + place +
          " (median), so they do not belong to its poses; their positions are "
-         "not used. Were "
-         "they moved or scaled without these, or is a focal length wrong?";
+         "not used. Were they moved or scaled without these, or is a focal "
+         "length wrong?";
 }
 
 std::string LargeErrorsNote(const Scene& scene) {

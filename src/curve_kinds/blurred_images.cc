@@ -29,8 +29,9 @@ std::int64_t Bytes(const Scene& scene, int shrink) {
   return bytes;
 }
 
-// Of single pixels, by Immerkaer's (1996) mask: texture of some pixels hardly
-// counts. JPEG removes such noise, and strips do not see it then. Grey levels.
+// The standard deviation of white noise, grey levels, by Immerkaer's (1996)
+// mask, to which texture coarser than a few pixels hardly counts. It is small
+// in JPEG images, which lose such noise.
 double FineNoise(const GrayImage& gray) {
   constexpr int kStride = 3;
   std::vector<double> responses;

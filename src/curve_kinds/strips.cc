@@ -149,15 +149,15 @@ class StripSet {
   void Keep() { ++num_; }
 
   // Minus infinity if there are fewer than kMinViews. `other_curve_px`: to the
-  // nearest other curve in the direction. `noise`: a variance.
-  float LogBayes(double other_curve_px, double noise) const;
+  // nearest other curve in the direction.
+  float LogBayes(double other_curve_px, double noise_variance) const;
 
  private:
   using Gram = Eigen::Matrix<float, kMaxViews, kMaxViews>;
   // Of the first pixels of each strip less their mean.
   Gram InnerProducts(int num_pixels) const;
   // That of the first rows of the strips that agree best.
-  double LogBayesOfRows(int num_rows, double noise) const;
+  double LogBayesOfRows(int num_rows, double noise_variance) const;
 
   std::array<Strip, kMaxViews> strips_;
   int num_ = 0;
@@ -213,23 +213,23 @@ double Mixture(double probability, double log_bayes, double other_log_bayes) {
                   (1 - probability) * std::exp(other_log_bayes));
 }
 
-float StripSet::LogBayes(double other_curve_px, double noise) const {
+float StripSet::LogBayes(double other_curve_px, double noise_variance) const {
   if (num_ < kMinViews) return -std::numeric_limits<float>::infinity();
   double log_bayes = Mixture(kNarrowProbability,
-                             LogBayesOfRows(kNumNarrowRows, noise),
-                             LogBayesOfRows(kNumAcross, noise));
+                             LogBayesOfRows(kNumNarrowRows, noise_variance),
+                             LogBayesOfRows(kNumAcross, noise_variance));
   const double readable_px = other_curve_px - kOtherBlurPx - kFirstAcrossPx;
   if (readable_px < kNumAcross - 1) {
     const int num_rows = static_cast<int>(std::floor(readable_px)) + 1;
-    log_bayes =
-        Mixture(kEndsAtCurveProbability,
-                num_rows < kMinRows ? 0 : LogBayesOfRows(num_rows, noise),
-                log_bayes);
+    log_bayes = Mixture(
+        kEndsAtCurveProbability,
+        num_rows < kMinRows ? 0 : LogBayesOfRows(num_rows, noise_variance),
+        log_bayes);
   }
   return std::max(static_cast<float>(log_bayes), kMinLogBayes);
 }
 
-double StripSet::LogBayesOfRows(int num_rows, double noise) const {
+double StripSet::LogBayesOfRows(int num_rows, double noise_variance) const {
   const int num_pixels = num_rows * kNumAlong;
   const Gram gram = InnerProducts(num_pixels);
   std::vector<int> left;
@@ -241,8 +241,8 @@ double StripSet::LogBayesOfRows(int num_rows, double noise) const {
   // `total` counts every pair twice.
   const double residual =
       total / (2.0 * num_left * (num_left - 1) * num_pixels);
-  const double same = noise + kSameShare * variance;
-  const double other = noise + kOtherShare * variance;
+  const double same = noise_variance + kSameShare * variance;
+  const double other = noise_variance + kOtherShare * variance;
   const double num_independent =
       kIndependentPixels * num_pixels / kNumPixels * (num_left - 1);
   return -num_independent / 2 *
@@ -273,12 +273,13 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     return evidence;
   }
   std::vector<double> sizes;
-  double noise = 0;
+  double noise_variance = 0;
   for (const LocalView& view : seen) {
     sizes.push_back(view.pixel_size);
-    noise += view.image->noise_variance / static_cast<double>(seen.size());
+    noise_variance +=
+        view.image->noise_variance / static_cast<double>(seen.size());
   }
-  noise = std::max(kLeastVariance, kAddedVariance + noise);
+  noise_variance = std::max(kLeastVariance, kAddedVariance + noise_variance);
   const double step = Median(std::move(sizes)) / seen.front().image->scale;
   std::array<StripSet, 2> sides;
   for (int d = 0; d < kNumDirections; ++d) {
@@ -295,7 +296,7 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     for (std::size_t side = 0; side < 2; ++side) {
       evidence.log_bayes[side][static_cast<std::size_t>(d)] =
           sides[side].LogBayes(other_curves_px[static_cast<std::size_t>(d)],
-                               noise);
+                               noise_variance);
     }
   }
   return evidence;

@@ -15,11 +15,12 @@
 namespace curvix {
 
 // Carries the edges of `distorted`, in pixels of the camera's images, to the
-// camera's ideal pinhole: positions through the inverse of the distortion,
-// tangents through its derivative, the bright side unchanged. Strengths and
-// sharpness stay those of the image. Edges that the camera model cannot invert,
-// or where it mirrors the image, are dropped and links to them removed; the
-// others keep their order. Pinhole cameras give back what they got.
+// camera's ideal pinhole: positions, those of Edge2d::fine_px too, through the
+// inverse of the distortion, tangents through its derivative, the bright side
+// unchanged. Strengths and sharpness stay those of the image. Edges that the
+// camera model cannot invert, or where it mirrors the image, are dropped and
+// links to them removed; the others keep their order. Pinhole cameras give back
+// what they got.
 EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera);
 
 // The edges of the ideal pinhole of `from` in that of `to`, in the same order;

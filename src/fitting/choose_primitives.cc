@@ -291,11 +291,12 @@ std::optional<Primitive> SingleEllipse(const FitSamples& curve, bool closed) {
 // Whether there are samples only at corners: most turn by more than 30 degrees,
 // which their errors do not explain.
 bool IsPolygon(const FitSamples& curve, bool closed) {
-  constexpr double kMinCosine = 0.866;
+  constexpr double kLargestCosine = 0.866;
   constexpr double kMinSigmas = 10;  // between samples
   const std::size_t n = curve.size();
+  const std::size_t num_ends = closed ? 0 : 1;  // on either side
   std::size_t num_places = 0, num_turns = 0;
-  for (std::size_t i = closed ? 0 : 1; i + (closed ? 0 : 1) < n; ++i) {
+  for (std::size_t i = num_ends; i + num_ends < n; ++i) {
     const Eigen::Vector3d& here = curve[i].position;
     const Eigen::Vector3d before = here - curve[(i + n - 1) % n].position;
     const Eigen::Vector3d after = curve[(i + 1) % n].position - here;
@@ -303,7 +304,7 @@ bool IsPolygon(const FitSamples& curve, bool closed) {
     const double b = after.norm();
     ++num_places;
     num_turns += std::min(a, b) > kMinSigmas * curve[i].sigma &&
-                         before.dot(after) < kMinCosine * a * b
+                         before.dot(after) < kLargestCosine * a * b
                      ? 1
                      : 0;
   }

@@ -15,10 +15,9 @@
 //     (3 doubles each), sigma, evidence (doubles), number of supports, per
 //     support view and edge (int32 each)
 //   curve_poses.bin: number of views; per view: as in adjustment.bin; number of
-//   cameras; per camera: model, width,
-//     height (int32 each), number of parameters, these (doubles); accepted (1
-//     byte); length of the reason, its text; counts and doubles in the order of
-//     Fields()
+//     cameras; per camera: model, width, height (int32 each), number of
+//     parameters, these (doubles); accepted (1 byte); length of the reason, its
+//     text; counts and doubles in the order of Fields()
 #include "io/stage_io.h"
 
 #include <cstddef>

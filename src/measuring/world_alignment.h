@@ -96,7 +96,8 @@ struct AlignmentResult {
 
 // The least squares estimate from all of `input`: the scale from distances,
 // scales and two positions or more; the rotation from three positions or more
-// that are not on a line, else from axes; the translation from positions.
+// that are not on a line, else from axes, whose heading positions on a line
+// correct; the translation from positions.
 // Unobserved parameters stay as in the model. The covariance is multiplied by
 // the square of `misfit` where this is above 1; without positions, that of the
 // scale, which nothing else depends on. Positions without a sigma all have the

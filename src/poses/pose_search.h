@@ -71,7 +71,7 @@ class PoseSearch {
   std::vector<double> LossesOf(const PoseObservationSet& observations);
 
   // Restores the gauge: scale and frame that places and points have with the
-  // poses of the scene.
+  // poses of the scene. Views that see none of them stay.
   void RestoreGauge(PoseObservationSet* observations);
 
   // How far each image has shifted since `before`: the median over the places

@@ -218,7 +218,8 @@ class Curves:
         Raises
         ------
         ArgumentError
-            There is no such format, or it needs views and the curves have none.
+            There is no such format, it needs views and the curves have none, or
+            the path has another ending.
         NotFoundError, DataError
             The path cannot be written.
         """
