@@ -99,7 +99,8 @@ struct ValidationOptions {
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;
   // With kEveryView: of views that see nine tenths of the same at a smaller ray
-  // angle, one is queried. Degrees, 0..90; 0: all are.
+  // angle, one is queried, and of others that are nearer to each other than
+  // that, one at each place. Degrees, 0..90; 0: all are.
   double min_view_angle_deg = 0.5;
 };
 

@@ -142,8 +142,8 @@ void AddRows(ValidationOptions& o, Section row) {
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
       "every_view: fewest views of exclusive support");
   row("min_view_angle_deg", &o.min_view_angle_deg, Between(0, 90), "deg", "",
-      "every_view: least ray angle between views that show the same; nearer "
-      "ones are not queried");
+      "every_view: least ray angle between views that show the same; of "
+      "nearer ones one is queried");
 }
 
 void AddRows(NeighborhoodOptions& o, Section row) {

@@ -200,13 +200,12 @@ class Grower {
     return measurements;
   }
 
-  // nullopt outside the image, if the prediction is too uncertain, and of views
-  // that repeat another one.
+  // nullopt if the view is not queried or the prediction is too uncertain.
   std::optional<Look> LookIn(std::size_t v, const CurveTip& tip) const {
-    if (input_.are_repeated[v]) return std::nullopt;
     const ViewIndex& index = input_.indices[v];
     const auto view_idx = static_cast<std::int32_t>(v);
-    const auto projected = ProjectInto(*index.view, tip.edge());
+    const auto projected =
+        ProjectIntoQueryView(view_idx, tip.edge(), input_.indices);
     if (!projected) return std::nullopt;
     const double variance_px2 = tip.VarianceIn(*index.view, *projected);
     if (variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {

@@ -28,7 +28,6 @@ struct GrowthInput {
   const std::vector<PosedView>& views;
   const std::vector<EdgeMap>& edge_maps;  // by view
   const std::vector<ViewIndex>& indices;  // by view
-  const std::vector<bool>& are_repeated;  // by view; these are not queried
   // By view.
   const NeighborsByView& neighbors;
   double edge_sigma_px = 0;

@@ -16,17 +16,25 @@ struct Candidate {
 };
 
 // Adds `view_idx` to the chosen views.
-void Choose(const Overlaps& overlaps,
+void Choose(const DistinctViews& views,
             int view_idx,
             std::vector<Candidate>& candidates,
             std::vector<int>& chosen) {
   chosen.push_back(view_idx);
   std::erase_if(candidates,
                 [&](const Candidate& c) { return c.view_idx == view_idx; });
+  const auto station_of = [&](int i) {
+    return views.stations[static_cast<std::size_t>(i)];
+  };
+  for (Candidate& candidate : candidates) {
+    if (station_of(candidate.view_idx) == station_of(view_idx)) {
+      candidate.angle_rad = 0;
+    }
+  }
   // Both are in the order of views.
   auto candidate = candidates.begin();
   for (const ViewOverlap& overlap :
-       overlaps[static_cast<std::size_t>(view_idx)]) {
+       views.overlaps[static_cast<std::size_t>(view_idx)]) {
     while (candidate != candidates.end() &&
            candidate->view_idx < overlap.other) {
       ++candidate;
@@ -57,14 +65,14 @@ std::vector<int> SelectValidators(const DistinctViews& views,
   for (const ViewOverlap& overlap : overlaps[static_cast<std::size_t>(h1)]) {
     candidates.push_back({overlap.other, kPi});
   }
-  Choose(overlaps, h1, candidates, chosen);
+  Choose(views, h1, candidates, chosen);
   for (const int partner : partners) {
-    Choose(overlaps, partner, candidates, chosen);
+    Choose(views, partner, candidates, chosen);
   }
   while (!candidates.empty() && static_cast<int>(chosen.size()) < max_num) {
     const auto best =
         std::ranges::max_element(candidates, {}, &Candidate::angle_rad);
-    Choose(overlaps, best->view_idx, candidates, chosen);
+    Choose(views, best->view_idx, candidates, chosen);
   }
   std::ranges::sort(chosen);
   return chosen;

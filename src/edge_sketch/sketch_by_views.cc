@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/angles.h"
@@ -46,18 +47,23 @@ struct Partner {
 // All partners of an H1 view.
 struct H1View {
   std::vector<Partner> partners;
-  NeighborsByView neighbors;            // among query views
-  std::vector<std::int32_t> not_asked;  // others that overlap it
+  NeighborsByView neighbors;  // among query views
+  // Others that overlap it, also those that are not queried for some edges.
+  std::vector<std::int32_t> may_show_more;
 };
 
-// View h1, and those that look from nearly the same direction.
+// The stations of view h1 and of those that look from nearly the same
+// direction.
 std::size_t NumOnThisSide(const SketchInput& input, int h1) {
-  const std::vector<ViewOverlap>& overlaps =
-      input.distinct.overlaps[static_cast<std::size_t>(h1)];
-  return 1 + static_cast<std::size_t>(std::ranges::count_if(
-                 overlaps, [](const ViewOverlap& overlap) {
-                   return overlap.ray_angle_rad <= kSameSideRad;
-                 }));
+  const std::vector<int>& stations = input.distinct.stations;
+  const auto i = static_cast<std::size_t>(h1);
+  std::set<int> on_this_side = {stations[i]};
+  for (const ViewOverlap& overlap : input.distinct.overlaps[i]) {
+    if (overlap.ray_angle_rad <= kSameSideRad) {
+      on_this_side.insert(stations[static_cast<std::size_t>(overlap.other)]);
+    }
+  }
+  return on_this_side.size();
 }
 
 // The views next to either in direction, then both.
@@ -87,12 +93,15 @@ H1View Prepare(const SketchInput& input, int h1) {
   const std::vector<int> validators =
       SelectValidators(input.distinct, h1, partners);
   for (const ViewOverlap& overlap : input.distinct.overlaps[i]) {
-    if (!std::ranges::binary_search(validators, overlap.other)) {
-      view.not_asked.push_back(overlap.other);
+    const auto other = static_cast<std::size_t>(overlap.other);
+    if (!input.distinct.before_at_station[other].empty() ||
+        !std::ranges::binary_search(validators, overlap.other)) {
+      view.may_show_more.push_back(overlap.other);
     }
   }
   view.neighbors =
-      NeighborsInDirection(OverlapsAmong(input.distinct.overlaps, validators));
+      NeighborsInDirection(OverlapsAmong(input.distinct.overlaps, validators),
+                           input.distinct.stations);
   const std::size_t fewest_supports =
       FewestSupports(input.options.validation, NumOnThisSide(input, h1));
   std::vector<std::optional<HypothesisViews>> pairs(partners.size());
@@ -194,7 +203,7 @@ H1Result Sketch(const SketchInput& input,
   for (const TrackedEdge& tracked : result.tracked) {
     const std::vector<EdgeRef> more = FindMoreSupport(tracked.estimate,
                                                       input.indices,
-                                                      view.not_asked,
+                                                      view.may_show_more,
                                                       input.sigma_px,
                                                       input.options.validation);
     result.also_shown.insert(result.also_shown.end(), more.begin(), more.end());

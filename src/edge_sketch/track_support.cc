@@ -84,7 +84,7 @@ std::optional<std::vector<EdgeRef>> FindSupport(
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (sightings.size() + (asked.size() - i) < fewest) return std::nullopt;
     const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
-    const auto projected = ProjectInto(*view.view, estimate.edge);
+    const auto projected = ProjectIntoQueryView(asked[i], estimate.edge, views);
     if (projected &&
         view.presence.MayHave(projected->position, projected->tangent)) {
       sightings.push_back({asked[i], *projected});
@@ -105,14 +105,16 @@ std::optional<std::vector<EdgeRef>> FindSupport(
   return support;
 }
 
-// The vote of a view with this support, if any; nullopt if the estimate is too
-// uncertain in it.
-std::optional<double> VoteOf(const ViewIndex& view,
+// The vote of a view with this support, if any; nullopt if it is not queried,
+// or the estimate is too uncertain in it.
+std::optional<double> VoteOf(std::int32_t view_idx,
+                             const std::vector<ViewIndex>& views,
                              const std::optional<ImageEdge>& support,
                              const EdgeEstimate& estimate,
                              const Search& search) {
-  const auto projected = ProjectInto(*view.view, estimate.edge);
+  const auto projected = ProjectIntoQueryView(view_idx, estimate.edge, views);
   if (!projected) return std::nullopt;
+  const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
   const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
   if (!expected_px) return std::nullopt;
   return support ? VoteWithSupport(view, *projected, *expected_px, *support)
@@ -133,8 +135,8 @@ Votes VotesOf(const EdgeEstimate& estimate,
     if (next != support.end() && next->view_idx == view_idx) {
       supporting = ToImageEdge(EdgeOf(*next++, views));
     }
-    const auto i = static_cast<std::size_t>(view_idx);
-    votes[i] = VoteOf(views[i], supporting, estimate, search);
+    votes[static_cast<std::size_t>(view_idx)] =
+        VoteOf(view_idx, views, supporting, estimate, search);
   }
   return votes;
 }
@@ -204,8 +206,20 @@ std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
                                      const std::vector<std::int32_t>& asked,
                                      double sigma_px,
                                      const ValidationOptions& options) {
-  return *FindSupport(
-      tracked, views, asked, 0, {sigma_px, WidestGate(options)});
+  const Search search{sigma_px, WidestGate(options)};
+  std::vector<EdgeRef> support;
+  for (const std::int32_t view_idx : asked) {
+    const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
+    const auto projected = ProjectInto(*view.view, tracked.edge);
+    if (!projected ||
+        !view.presence.MayHave(projected->position, projected->tangent)) {
+      continue;
+    }
+    if (const auto edge_idx = FindEdge(tracked, *projected, view, search)) {
+      support.push_back({view_idx, *edge_idx});
+    }
+  }
+  return support;
 }
 
 }  // namespace curvix

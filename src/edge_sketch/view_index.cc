@@ -15,16 +15,24 @@ namespace {
 
 // Sigma of the weights of neighbouring views.
 constexpr double kNeighborAngleDeg = 25;
-constexpr std::size_t kMaxNumNeighbors = 4;
+constexpr std::size_t kMaxNumStations = 4;
 constexpr double kGridCellPx = 8;
 constexpr double kGateSigmas = 4;
 
-// The nearest views in direction, nearest first.
-std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps) {
+// The views of the nearest stations in direction, nearest first.
+std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps,
+                                            const std::vector<int>& stations) {
   std::ranges::sort(overlaps, {}, [](const ViewOverlap& overlap) {
     return std::pair(overlap.ray_angle_rad, overlap.other);
   });
-  overlaps.resize(std::min(overlaps.size(), kMaxNumNeighbors));
+  std::vector<int> nearest;
+  std::erase_if(overlaps, [&](const ViewOverlap& overlap) {
+    const int station = stations[static_cast<std::size_t>(overlap.other)];
+    if (std::ranges::find(nearest, station) != nearest.end()) return false;
+    if (nearest.size() == kMaxNumStations) return true;
+    nearest.push_back(station);
+    return false;
+  });
   return overlaps;
 }
 
@@ -77,6 +85,7 @@ double VoteWithSupport(const ViewIndex& view,
 
 std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                                   const std::vector<EdgeMap>& edge_maps,
+                                  const DistinctViews& distinct,
                                   int num_threads) {
   std::vector<ViewIndex> indices(views.size());
   ParallelFor(indices.size(), num_threads, [&](std::size_t i) {
@@ -86,8 +95,25 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                   &map,
                   GridIndex(map.edges, kGridCellPx),
                   EdgeDensity(map, view.width, view.height, view.margin_px)};
+    indices[i].is_repeated = distinct.are_repeated[i];
+    indices[i].before_at_station = distinct.before_at_station[i];
   });
   return indices;
+}
+
+std::optional<ImageEdge> ProjectIntoQueryView(
+    std::int32_t view_idx,
+    const SpaceEdge& edge,
+    const std::vector<ViewIndex>& views) {
+  const ViewIndex& index = views[static_cast<std::size_t>(view_idx)];
+  if (index.is_repeated) return std::nullopt;
+  const auto projected = ProjectInto(*index.view, edge);
+  if (!projected) return std::nullopt;
+  for (const int before : index.before_at_station) {
+    const ViewIndex& other = views[static_cast<std::size_t>(before)];
+    if (ProjectInto(*other.view, edge)) return std::nullopt;
+  }
+  return projected;
 }
 
 void AddPresence(const ValidationOptions& options,
@@ -104,10 +130,12 @@ void AddPresence(const ValidationOptions& options,
   });
 }
 
-NeighborsByView NeighborsInDirection(const Overlaps& overlaps) {
+NeighborsByView NeighborsInDirection(const Overlaps& overlaps,
+                                     const std::vector<int>& stations) {
   NeighborsByView neighbors(overlaps.size());
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
-    for (const ViewOverlap& overlap : NearestInDirection(overlaps[i])) {
+    for (const ViewOverlap& overlap :
+         NearestInDirection(overlaps[i], stations)) {
       const double r = RadToDeg(overlap.ray_angle_rad) / kNeighborAngleDeg;
       neighbors[i].push_back({overlap.other, std::exp(-0.5 * r * r)});
     }

@@ -4,6 +4,8 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/grid_index.h"
@@ -24,6 +26,8 @@ struct ViewIndex {
   GridIndex grid;
   EdgeDensity density;
   EdgePresence presence = {};  // may be left out
+  bool is_repeated = false;    // see DistinctViews
+  std::vector<int> before_at_station = {};
 };
 
 // `views` by view index.
@@ -46,18 +50,27 @@ double VoteWithSupport(const ViewIndex& view,
                        double expected_px,
                        const ImageEdge& support);
 
-// One index per view; both vectors must outlive them.
+// One index per view; the first two vectors must outlive them.
 std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                                   const std::vector<EdgeMap>& edge_maps,
+                                  const DistinctViews& distinct,
                                   int num_threads);
+
+// Where a view sees `edge`, if it is queried for it: nullopt outside the image,
+// in repeated views, and if one before it at its station sees the edge.
+std::optional<ImageEdge> ProjectIntoQueryView(
+    std::int32_t view_idx,
+    const SpaceEdge& edge,
+    const std::vector<ViewIndex>& views);
 
 // Adds to each index the `presence` for searches with `options`.
 void AddPresence(const ValidationOptions& options,
                  int num_threads,
                  std::vector<ViewIndex>& indices);
 
-// The views nearest in direction to each view, nearest first, with the weights
-// of their votes.
-NeighborsByView NeighborsInDirection(const Overlaps& overlaps);
+// The views of the four stations nearest in direction to each view, nearest
+// first, with the weights of their votes. `stations`: see DistinctViews.
+NeighborsByView NeighborsInDirection(const Overlaps& overlaps,
+                                     const std::vector<int>& stations);
 
 }  // namespace curvix

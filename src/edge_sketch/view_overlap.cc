@@ -110,10 +110,11 @@ std::optional<ViewOverlap> Overlap(const PosedView& view,
   return overlap;
 }
 
+using Places = std::vector<std::vector<Eigen::Vector3d>>;  // by view
+
 // FindOverlaps() and views with the same centre, whose ray angle is 0.
 Overlaps FindAllOverlaps(const std::vector<PosedView>& views,
-                         const std::vector<ScenePoint>& points) {
-  const auto places = FindPlaces(views, points);
+                         const Places& places) {
   Overlaps overlaps(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (std::size_t j = 0; j < views.size(); ++j) {
@@ -153,6 +154,47 @@ std::vector<std::size_t> ByFallingNumberOfPoints(
   return order;
 }
 
+std::vector<double> MedianDistances(const std::vector<PosedView>& views,
+                                    const Places& places) {
+  std::vector<double> medians;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<double> distances;
+    for (const Eigen::Vector3d& place : places[i]) {
+      distances.push_back((place - views[i].center).norm());
+    }
+    medians.push_back(Median(std::move(distances)));
+  }
+  return medians;
+}
+
+// Sets the stations of the views that are not repeated. `order`: of the views.
+void FindStations(const std::vector<PosedView>& views,
+                  const Places& places,
+                  double max_angle_rad,
+                  std::vector<std::size_t> order,
+                  DistinctViews* distinct) {
+  const std::vector<double> distances = MedianDistances(views, places);
+  std::erase_if(order,
+                [&](std::size_t i) { return distinct->are_repeated[i]; });
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) {
+    return views[i].calibration(0, 0);
+  });
+  std::vector<bool> has_station(views.size(), false);
+  for (const std::size_t first : order) {
+    if (has_station[first]) continue;
+    std::vector<int> station;
+    for (const std::size_t i : order) {
+      const double angle_rad = (views[i].center - views[first].center).norm() /
+                               std::min(distances[i], distances[first]);
+      if (has_station[i] || !(angle_rad < max_angle_rad)) continue;
+      has_station[i] = true;
+      distinct->stations[i] = static_cast<int>(first);
+      distinct->before_at_station[i] = station;
+      station.push_back(static_cast<int>(i));
+    }
+  }
+}
+
 bool SeesTheSame(const ViewOverlap& overlap, double min_angle_rad) {
   return overlap.share >= kRepeatedShare &&
          overlap.ray_angle_rad < min_angle_rad;
@@ -170,7 +212,7 @@ const ViewOverlap* OverlapWith(const std::vector<ViewOverlap>& overlaps,
 std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
     const std::vector<PosedView>& views,
     const std::vector<ScenePoint>& points) {
-  std::vector<std::vector<Eigen::Vector3d>> places(views.size());
+  Places places(views.size());
   for (const ScenePoint& point : points) {
     for (const int view_idx : point.view_idxs) {
       places[static_cast<std::size_t>(view_idx)].push_back(point.position);
@@ -193,9 +235,19 @@ std::vector<std::vector<Eigen::Vector3d>> FindPlaces(
 
 Overlaps FindOverlaps(const std::vector<PosedView>& views,
                       const std::vector<ScenePoint>& points) {
-  Overlaps overlaps = FindAllOverlaps(views, points);
+  Overlaps overlaps = FindAllOverlaps(views, FindPlaces(views, points));
   DropNarrow(0, &overlaps);
   return overlaps;
+}
+
+DistinctViews AllDistinct(Overlaps overlaps) {
+  DistinctViews distinct;
+  distinct.are_repeated.resize(overlaps.size(), false);
+  distinct.stations.resize(overlaps.size());
+  std::iota(distinct.stations.begin(), distinct.stations.end(), 0);
+  distinct.before_at_station.resize(overlaps.size());
+  distinct.overlaps = std::move(overlaps);
+  return distinct;
 }
 
 DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
@@ -206,11 +258,12 @@ DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
       options.hypotheses.view_selection == ViewSelection::kEveryView;
   const double min_angle_rad =
       may_repeat ? DegToRad(options.validation.min_view_angle_deg) : 0;
-  DistinctViews distinct{std::vector<bool>(views.size(), false),
-                         FindAllOverlaps(views, points)};
+  const Places places = FindPlaces(views, points);
+  DistinctViews distinct = AllDistinct(FindAllOverlaps(views, places));
   Overlaps& overlaps = distinct.overlaps;
   std::vector<bool>& are_repeated = distinct.are_repeated;
-  for (const std::size_t i : ByFallingNumberOfPoints(edge_maps, points)) {
+  const auto order = ByFallingNumberOfPoints(edge_maps, points);
+  for (const std::size_t i : order) {
     if (are_repeated[i] || edge_maps[i].edges.empty()) continue;
     for (const ViewOverlap& overlap : overlaps[i]) {
       const auto j = static_cast<std::size_t>(overlap.other);
@@ -228,6 +281,7 @@ DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
       return are_repeated[static_cast<std::size_t>(overlap.other)];
     });
   }
+  FindStations(views, places, min_angle_rad, order, &distinct);
   return distinct;
 }
 

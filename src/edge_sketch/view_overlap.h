@@ -44,7 +44,14 @@ Overlaps FindOverlaps(const std::vector<PosedView>& views,
 struct DistinctViews {
   std::vector<bool> are_repeated;  // by view: another one shows the same
   Overlaps overlaps;               // among the others
+  // By view: the first view of its station, which are views from one place.
+  std::vector<int> stations;
+  // By view: those of its station that come before it, first ones first.
+  std::vector<std::vector<int>> before_at_station;
 };
+
+// None repeated, and each a station of its own.
+DistinctViews AllDistinct(Overlaps overlaps);
 
 // Two views repeat each other if either sees nine tenths of the places of the
 // other at a median ray angle below options.validation.min_view_angle_deg:
@@ -52,9 +59,16 @@ struct DistinctViews {
 // are in depth, so together they confirm no more than one of them does. In the
 // order of falling numbers of sparse points (ties: of edges, then by view_idx),
 // each view that is left and has edges leaves out those that repeat it. Views
-// that see less of the same remain but do not overlap. With 0, and without
-// ViewSelection::kEveryView, none is repeated, and the overlaps are those of
-// FindOverlaps().
+// that see less of the same remain but do not overlap.
+//
+// These make stations, such as photographs of a panorama, zoomed photographs
+// from a tripod, or pieces of one image: in the order of falling focal lengths
+// (ties: as above), each view that is left opens a station and takes those that
+// are left whose distance from it is below that angle as seen from the median
+// of the places of either. Where several views of a station see an edge, only
+// the first is queried. With 0, and without ViewSelection::kEveryView, none is
+// repeated, the overlaps are those of FindOverlaps(), and each view is a
+// station.
 DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
                                 const std::vector<EdgeMap>& edge_maps,
                                 const std::vector<ScenePoint>& points,

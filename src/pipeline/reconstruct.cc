@@ -187,16 +187,16 @@ Result<Reconstruction> Connect(const Scene& scene,
   if (CurvesGrow(edge_maps, options)) {
     if (!run.Begin("grow_curves")) return CancelledStatus();
     result.edges = sketch.edges;
-    const std::vector<ViewIndex> indices =
-        IndexViews(views, edge_maps, num_threads);
     const DistinctViews distinct =
         FindDistinctViews(views, edge_maps, scene.points, options);
-    const auto neighbors = NeighborsInDirection(distinct.overlaps);
+    const std::vector<ViewIndex> indices =
+        IndexViews(views, edge_maps, distinct, num_threads);
+    const auto neighbors =
+        NeighborsInDirection(distinct.overlaps, distinct.stations);
     result.curves.curves = GrowCurves(sketch.edges,
                                       {views,
                                        edge_maps,
                                        indices,
-                                       distinct.are_repeated,
                                        neighbors,
                                        sketch.edge_sigma_px,
                                        options.curve_growth,

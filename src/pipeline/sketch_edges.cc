@@ -38,7 +38,8 @@ EdgeSketch SketchViews(const std::vector<PosedView>& views,
     case ViewSelection::kUnusedEdges:
       return SketchByPairs(input, step_done);
     case ViewSelection::kEveryView: {
-      indices = IndexViews(views, edge_maps, options.runtime.num_threads);
+      indices =
+          IndexViews(views, edge_maps, distinct, options.runtime.num_threads);
       AddPresence(options.validation, options.runtime.num_threads, indices);
       input.sigma_px = EstimateEdgeSigma(input, step_done);
       input.finds_seeds = CurvesGrow(edge_maps, options);

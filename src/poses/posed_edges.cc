@@ -49,11 +49,13 @@ PosedEdges::PosedEdges(const Scene& scene,
       options_(options),
       input_views_(MakePosedViews(scene)),
       views_(input_views_),
-      indices_(IndexViews(views_, edge_maps, options.runtime.num_threads)),
       distinct_(FindDistinctViews(views_, edge_maps, scene.points, options)),
+      indices_(IndexViews(
+          views_, edge_maps, distinct_, options.runtime.num_threads)),
       depths_(FindDepthRanges(
           views_, scene.points, options.hypotheses.depth_margin)),
-      neighbors_(NeighborsInDirection(FindOverlaps(views_, scene.points))),
+      neighbors_(NeighborsInDirection(FindOverlaps(views_, scene.points),
+                                      distinct_.stations)),
       moved_(Unmoved()) {}
 
 std::size_t PosedEdges::NumMoved() const {
@@ -127,7 +129,7 @@ PlaceSketch PosedEdges::Sketch(double sigma_px, const StepDone& step_done) {
   std::vector<ViewIndex> carried_indices;
   if (!is_as_input) {
     carried = CarriedMaps();
-    carried_indices = IndexViews(views_, carried, num_threads());
+    carried_indices = IndexViews(views_, carried, distinct_, num_threads());
   }
   std::vector<ViewIndex>& indices = is_as_input ? indices_ : carried_indices;
   const double reach_px = options.validation.max_distance_px;

@@ -120,9 +120,9 @@ class PosedEdges {
   const Options& options_;
   const std::vector<PosedView> input_views_;
   std::vector<PosedView> views_;  // indices_ points into it
+  DistinctViews distinct_;
   std::vector<ViewIndex> indices_;
   double presence_reach_px_ = 0;  // of their presences; 0: none yet
-  DistinctViews distinct_;
   std::vector<DepthRange> depths_;
   NeighborsByView neighbors_;
   MovedCameras moved_;

@@ -45,7 +45,7 @@ class Seen {
   }
 
   std::vector<EdgeMap>& maps() { return maps_; }
-  std::vector<bool>& are_repeated() { return are_repeated_; }
+  DistinctViews& distinct() { return distinct_; }
 
   // A seed on the curve, `off_px` beside it, supported by these views.
   Edge3d Seed(std::size_t curve_idx,
@@ -75,18 +75,15 @@ class Seen {
       indices.push_back({&views_[i],
                          &maps_[i],
                          GridIndex(maps_[i].edges, 4),
-                         EdgeDensity(maps_[i], 800, 800)});
+                         EdgeDensity(maps_[i], 800, 800),
+                         {},
+                         distinct_.are_repeated[i],
+                         distinct_.before_at_station[i]});
     }
-    return GrowCurves(seeds,
-                      {views_,
-                       maps_,
-                       indices,
-                       are_repeated_,
-                       neighbors_,
-                       kSigmaPx,
-                       options,
-                       validation},
-                      num_threads);
+    return GrowCurves(
+        seeds,
+        {views_, maps_, indices, neighbors_, kSigmaPx, options, validation},
+        num_threads);
   }
 
   // The length of a step at the sample, which is a pixel in an image.
@@ -121,7 +118,7 @@ class Seen {
   std::vector<TestCurve> curves_;
   std::vector<PosedView> views_;
   std::vector<EdgeMap> maps_;
-  std::vector<bool> are_repeated_ = std::vector<bool>(kNumViews, false);
+  DistinctViews distinct_ = AllDistinct(Overlaps(kNumViews));
   NeighborsByView neighbors_;
 };
 
@@ -162,9 +159,8 @@ TEST(GrowCurves, OneSeedGivesAWholeCircleOnce) {
 TEST(GrowCurves, RepeatedViewsAreNotQueried) {
   constexpr std::int32_t kNumQueried = 9;
   Seen seen({kLine});
-  std::fill(seen.are_repeated().begin() + kNumQueried,
-            seen.are_repeated().end(),
-            true);
+  std::vector<bool>& are_repeated = seen.distinct().are_repeated;
+  std::fill(are_repeated.begin() + kNumQueried, are_repeated.end(), true);
   const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.3)});
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_NEAR(Length(curves[0]), kLine.length, 4 * kPixel);
@@ -173,6 +169,18 @@ TEST(GrowCurves, RepeatedViewsAreNotQueried) {
       EXPECT_LT(ref.view_idx, kNumQueried);
     }
   }
+}
+
+// All see all of the line, so each but the first of a station could only
+// confirm what this shows.
+TEST(GrowCurves, OneViewOfAStationIsQueried) {
+  constexpr int kNumStations = 2;
+  Seen seen({kLine});
+  for (int v = kNumStations; v < kNumViews; ++v) {
+    seen.distinct().before_at_station[static_cast<std::size_t>(v)] = {
+        v % kNumStations};
+  }
+  EXPECT_TRUE(seen.Grow({seen.Seed(0, 0.3)}).empty());
 }
 
 TEST(GrowCurves, TangentsLeadAlongTheCurve) {

@@ -15,11 +15,12 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 DistinctViews Ring(std::size_t num_views) {
-  return {std::vector<bool>(num_views, false),
-          FindOverlaps(RingOfViews(static_cast<int>(num_views)), {})};
+  return AllDistinct(
+      FindOverlaps(RingOfViews(static_cast<int>(num_views)), {}));
 }
 
 TEST(SelectValidators, TakesAllOfFewViews) {
@@ -44,6 +45,21 @@ TEST(SelectValidators, SpreadsThemOverAllDirections) {
     const int gap = (next - chosen[i] + 200) % 200;
     EXPECT_LE(gap, 16) << chosen[i];
     EXPECT_GE(gap, 2) << chosen[i];
+  }
+}
+
+TEST(SelectValidators, TakesOneViewOfAStationFirst) {
+  DistinctViews views = Ring(20);
+  // Those of a station do not overlap.
+  views.stations[8] = views.stations[9] = 7;
+  for (const std::size_t i : {7, 8, 9}) {
+    std::erase_if(views.overlaps[i], [](const ViewOverlap& overlap) {
+      return overlap.other >= 7 && overlap.other <= 9;
+    });
+  }
+  EXPECT_THAT(SelectValidators(views, 7, {0}, 18), SizeIs(18));
+  for (const int mate : {8, 9}) {
+    EXPECT_THAT(SelectValidators(views, 7, {0}, 18), Not(Contains(mate)));
   }
 }
 

@@ -117,6 +117,26 @@ TEST_F(TrackSupportTest, FindsExactCurvesInEveryView) {
   }
 }
 
+TEST_F(TrackSupportTest, AStationSupportsOnce) {
+  const auto start = Start(curves_[0], 0.5 * curves_[0].length, 0);
+  const auto alone = Track(start);
+  ASSERT_TRUE(alone);
+  for (const std::size_t v : {5, 6, 7}) indices_[v].before_at_station = {4};
+  const auto tracked = Track(start);
+  ASSERT_TRUE(tracked);
+  EXPECT_LT(tracked->evidence, alone->evidence);
+  std::vector<EdgeRef> expected = alone->support;
+  std::erase_if(expected, [](const EdgeRef& ref) {
+    return ref.view_idx >= 5 && ref.view_idx <= 7;
+  });
+  ASSERT_EQ(expected.size() + 3, alone->support.size());
+  EXPECT_EQ(tracked->support, expected);
+  // But their edges are found.
+  const auto more =
+      FindMoreSupport(tracked->estimate, indices_, {4, 5, 6, 7}, kSigmaPx, {});
+  EXPECT_EQ(more.size(), 4u);
+}
+
 TEST_F(TrackSupportTest, RejectsWhatTheFirstViewsDoNotShow) {
   const EdgeEstimate start = Start(curves_[0], 1, 0);
   const auto track = [&](const std::vector<std::int32_t>& first) {

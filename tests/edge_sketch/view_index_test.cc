@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edge_sketch/view_index.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <cmath>
 #include <vector>
@@ -13,6 +14,7 @@ namespace curvix {
 namespace {
 
 using Eigen::Vector2d;
+using ::testing::ElementsAre;
 
 Edge2d EdgeAt(double x, double y, double degrees) {
   Edge2d edge;
@@ -82,6 +84,71 @@ TEST(NearestEdge, AgreesWithLookingAtAllEdges) {
     }
     EXPECT_EQ(Nearest(edges, kGate), expected);
   }
+}
+
+// View 0 shows the left half of what view 1 from the same place shows; view 2
+// stands elsewhere.
+class QueryViews {
+ public:
+  QueryViews() {
+    views_[0].width = 100;
+    views_[1].width = 200;
+    views_[2].width = 200;
+    views_[2].center = {1, 0, 0};
+    views_[2].translation = {-1, 0, 0};
+    for (PosedView& view : views_) {
+      view.height = 100;
+      view.calibration << 100, 0, 100, 0, 100, 50, 0, 0, 1;
+    }
+    DistinctViews distinct = AllDistinct(Overlaps(views_.size()));
+    distinct.before_at_station[1] = {0};
+    indices_ = IndexViews(views_, maps_, distinct, 1);
+  }
+
+  // Those queried for an edge that view 1 sees at `x`, at depth 10.
+  std::vector<int> At(double x) const {
+    const SpaceEdge edge{{(x - 100) / 10, 0, 10}, Eigen::Vector3d::UnitY()};
+    std::vector<int> queried;
+    for (const int v : {0, 1, 2}) {
+      if (ProjectIntoQueryView(v, edge, indices_)) queried.push_back(v);
+    }
+    return queried;
+  }
+
+  std::vector<ViewIndex>& indices() { return indices_; }
+
+ private:
+  std::vector<PosedView> views_ = std::vector<PosedView>(3);
+  std::vector<EdgeMap> maps_ = std::vector<EdgeMap>(3);
+  std::vector<ViewIndex> indices_;
+};
+
+TEST(ProjectIntoQueryView, OneViewOfAStationIsQueried) {
+  const QueryViews views;
+  EXPECT_THAT(views.At(50), ElementsAre(0, 2));
+  EXPECT_THAT(views.At(150), ElementsAre(1, 2));
+  EXPECT_THAT(views.At(5), ElementsAre(0)) << "view 2 does not see it";
+}
+
+TEST(ProjectIntoQueryView, RepeatedViewsAreNotQueried) {
+  QueryViews views;
+  views.indices()[2].is_repeated = true;
+  EXPECT_THAT(views.At(150), ElementsAre(1));
+}
+
+TEST(NeighborsInDirection, AreOfTheFourNearestStations) {
+  // Of view 0. Views 1, 4 and 6 are a station.
+  Overlaps overlaps(8);
+  for (int other = 1; other < 8; ++other) {
+    overlaps[0].push_back({other, 1, DegToRad(10.0 * other)});
+  }
+  const NeighborsByView neighbors =
+      NeighborsInDirection(overlaps, {0, 1, 2, 3, 1, 5, 1, 7});
+  std::vector<int> of_view_0;
+  for (const ViewNeighbor& neighbor : neighbors[0]) {
+    of_view_0.push_back(neighbor.view_idx);
+  }
+  EXPECT_THAT(of_view_0, ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -248,6 +249,41 @@ TEST(FindDistinctViews, WhatShowsMoreOrLessRemainsButDoesNotOverlap) {
     EXPECT_FALSE(OverlapWith(distinct.overlaps[0], other)) << other;
     EXPECT_TRUE(OverlapWith(distinct.overlaps[3], other)) << other;
   }
+}
+
+// Views 0 to 7 on a ring, and at the place of view 0, 0.3 degrees on and 0.3
+// degrees further one that looks aside (8 to 10), and one with a longer lens
+// (11).
+std::vector<PosedView> RingAndTurned() {
+  std::vector<PosedView> views = RingOfViews(8);
+  for (const double degrees : {0.0, 0.3, 0.6}) {
+    const Eigen::AngleAxisd turn(DegToRad(degrees), Vector3d::UnitZ());
+    views.push_back(LookAt(turn * views[0].center, {2, 2, 0}));
+  }
+  views.push_back(views[0]);
+  views.back().calibration.topLeftCorner<2, 2>() *= 10;
+  return views;
+}
+
+TEST(FindDistinctViews, ViewsFromOnePlaceAreAStation) {
+  const DistinctViews distinct = Distinct(RingAndTurned());
+  EXPECT_THAT(Repeated(distinct), ElementsAre(9));
+  // The longest lens first; 0.6 degrees on is another station.
+  EXPECT_THAT(distinct.stations,
+              ElementsAre(11, 1, 2, 3, 4, 5, 6, 7, 11, 9, 10, 11));
+  EXPECT_THAT(distinct.before_at_station[11], IsEmpty());
+  EXPECT_THAT(distinct.before_at_station[0], ElementsAre(11));
+  EXPECT_THAT(distinct.before_at_station[8], ElementsAre(11, 0));
+  EXPECT_THAT(distinct.before_at_station[1], IsEmpty());
+}
+
+TEST(FindDistinctViews, EachViewIsAStationAtZeroDegrees) {
+  Options zero;
+  zero.validation.min_view_angle_deg = 0;
+  const DistinctViews distinct = Distinct(RingAndTurned(), {}, zero);
+  EXPECT_THAT(distinct.stations,
+              ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+  EXPECT_THAT(distinct.before_at_station, Each(IsEmpty()));
 }
 
 TEST(FindOverlaps, FindsNoneBetweenViewsThatLookAwayFromEachOther) {

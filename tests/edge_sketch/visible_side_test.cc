@@ -29,7 +29,8 @@ class Views {
                                                    static_cast<double>(i % 3));
       posed_[i].width = posed_[i].height = 10;
     }
-    indices_ = IndexViews(posed_, maps_, 1);
+    indices_ =
+        IndexViews(posed_, maps_, AllDistinct(Overlaps(posed_.size())), 1);
   }
 
   // Without neighbours, unless given.
