@@ -20,7 +20,7 @@ case "${1:-}" in
       [invariance_tests]='*ReconstructionInvariance.*'
       [pipeline_tests]='ReconstructCurves.*:*WhyEmptyOf.*'
       [poses_tests]='RefinePosesWithCurves.*')
-    export TSAN_OPTIONS="halt_on_error=1:suppressions=$PWD/tests/thread_sanitizer.supp"
+    export TSAN_OPTIONS="halt_on_error=1:suppressions='$PWD/tests/thread_sanitizer.supp'"
     cmake --preset tsan --log-level=NOTICE
     cmake --build --preset tsan --target "${!cases[@]}"
     for program in "${!cases[@]}"; do

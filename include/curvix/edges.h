@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -46,10 +47,33 @@ struct EdgeNeighbors {
   std::optional<std::int32_t> next;
 };
 
+// The places of an ideal pinhole image at which no edge is found, by cells: on
+// black pixels of the mask, and outside the photograph, whose outline is curved
+// there if its lens distorts.
+struct UnseenCells {
+  static constexpr double kCellPx = 8;
+  // Row by row, 1: unseen. Empty: none. The first cell begins margin_px before
+  // the image in x and y.
+  std::vector<std::uint8_t> cells;
+  std::int32_t num_columns = 0;
+  double margin_px = 0;
+
+  bool Contain(const Eigen::Vector2d& pixel) const {
+    if (cells.empty()) return false;
+    const double column = std::floor((pixel.x() + margin_px) / kCellPx);
+    const double row = std::floor((pixel.y() + margin_px) / kCellPx);
+    if (!(column >= 0 && column < num_columns && row >= 0)) return false;
+    const double cell = row * num_columns + column;
+    return cell < static_cast<double>(cells.size()) &&
+           cells[static_cast<std::size_t>(cell)] != 0;
+  }
+};
+
 // All edges of one view, in detector order (row by row).
 struct EdgeMap {
   std::vector<Edge2d> edges;
   std::vector<EdgeNeighbors> neighbors;  // one per edge
+  UnseenCells unseen = {};               // a view is not queried there
   double noise = 0;  // standard deviation of the image noise, grey levels
   // The mean distance between edges along a contour. The detector samples
   // contours twice a pixel, or less in crowded images. Pixels, > 0.

@@ -27,6 +27,9 @@ constexpr std::size_t kMinViews = 3;
 // number, or badly seen.
 constexpr double kMaxErrorPx = 3;
 constexpr double kLeastSigmaPx = 0.02;
+// Of a side, in all images alike: the response curve of the camera, blur and
+// compression make dark squares larger or smaller, which no view tells.
+constexpr double kCommonSideSigmaPx = 0.02;
 
 // Where the corners of a marker are seen.
 using Sightings = std::array<std::vector<PointInImage>, 4>;
@@ -151,13 +154,17 @@ std::optional<Eigen::Vector3d> NearestToRays(
   return solver.solve(right);
 }
 
-// Adds to `errors` the distances from the projections, in pixels.
+// Adds to `errors` the distances from the projections, as large as they would
+// be from the true place, in pixels. Of two views or more.
 std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
                                   std::vector<double>& errors) {
   const std::optional<Eigen::Vector3d> start = NearestToRays(seen);
   if (!start) return std::nullopt;
   Corner corner;
   corner.position = FitPoint(*start, seen);
+  // The fit takes up three of the two coordinates of each view.
+  const double num_coordinates = 2 * static_cast<double>(seen.size());
+  const double as_left = std::sqrt(num_coordinates / (num_coordinates - 3));
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (const PointInImage& point : seen) {
     const auto pixel =
@@ -167,7 +174,7 @@ std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
         PixelJacobian(*point.camera, point.cam_from_world * corner.position) *
         point.cam_from_world.rotation.toRotationMatrix();
     information += jacobian.transpose() * jacobian;
-    errors.push_back((*pixel - point.pixel).norm());
+    errors.push_back(as_left * (*pixel - point.pixel).norm());
   }
   corner.covariance = information.inverse();
   return corner;
@@ -193,6 +200,18 @@ std::pair<double, double> FitSquare(const std::array<Corner, 4>& corners) {
                              gradient);
   }
   return {fit.scale, variance};
+}
+
+// The median over views, pixels.
+double SideInImages(const Sightings& sightings) {
+  std::vector<double> sides;
+  for (std::size_t v = 0; v < sightings[0].size(); ++v) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      sides.push_back(
+          (sightings[(k + 1) % 4][v].pixel - sightings[k][v].pixel).norm());
+    }
+  }
+  return Median(std::move(sides));
 }
 
 // Of each view.
@@ -266,6 +285,7 @@ Result<SightingsById> Detect(const Scene& scene,
 struct Triangulated {
   std::optional<FoundMarker> marker;
   double variance = 0;
+  double common_sigma = 0;  // of the logarithmic scale, of all markers alike
   std::vector<double> errors;
   std::string problem;
 };
@@ -299,6 +319,7 @@ Triangulated TriangulateMarker(int id,
   result.marker = FoundMarker{
       id, static_cast<int>(sightings[0].size()), side, {size / side, 0}};
   result.variance = variance / (side * side);
+  result.common_sigma = kCommonSideSigmaPx / SideInImages(sightings);
   return result;
 }
 
@@ -311,7 +332,7 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
   const Result<SightingsById> by_id = Detect(scene, dictionary, runtime);
   if (!by_id.ok()) return by_id.status();
   FoundMarkers found;
-  std::vector<double> errors, variances;
+  std::vector<double> errors, variances, common_sigmas;
   for (const auto& [id, sightings] : *by_id) {
     Triangulated t = TriangulateMarker(id, sightings, size);
     if (!t.marker) {
@@ -320,6 +341,7 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
     }
     found.markers.push_back(*t.marker);
     variances.push_back(t.variance);
+    common_sigmas.push_back(t.common_sigma);
     errors.insert(errors.end(), t.errors.begin(), t.errors.end());
   }
   if (found.markers.empty()) {
@@ -331,9 +353,13 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
   }
   // The median of the length of a normal vector of two is 1.177 of its sigma.
   found.corner_sigma_px = std::max(Median(errors) / 1.177, kLeastSigmaPx);
+  // The mean over markers divides each variance by their number, which must not
+  // lower what they have in common.
+  const double num_markers = static_cast<double>(variances.size());
   for (std::size_t i = 0; i < variances.size(); ++i) {
     found.markers[i].scale.sigma =
-        found.corner_sigma_px * std::sqrt(variances[i]);
+        std::hypot(found.corner_sigma_px * std::sqrt(variances[i]),
+                   common_sigmas[i] * std::sqrt(num_markers));
   }
   return found;
 }

@@ -190,18 +190,22 @@ def read_binary_model(folder):
 
 def read_text_model(folder):
     cameras, images = {}, []
-    for line in (folder / 'cameras.txt').read_text('utf8').splitlines():
+    for line in (folder / 'cameras.txt').read_text('utf-8-sig').splitlines():
         if line.strip() and not line.startswith('#'):
             camera_id, name, width, height, *params = line.split()
             cameras[int(camera_id)] = (name, int(width), int(height), tuple(map(float, params)))
-    text = (folder / 'images.txt').read_text('utf8', 'surrogateescape')
-    lines = [line for line in text.splitlines() if not line.startswith('#')]
-    for line in lines[::2]:  # the 2D points of an image follow it
-        if line.strip():
+    lines = iter((folder / 'images.txt').read_text('utf-8-sig', 'surrogateescape').split('\n'))
+    for line in lines:
+        if line.strip() and not line.startswith('#'):
             words = line.split(maxsplit=9)
             numbers = tuple(map(float, words[1:8]))
-            images.append((numbers[:4], numbers[4:], int(words[8]), words[9]))
+            images.append((numbers[:4], numbers[4:], int(words[8]), words[9].rstrip()))
+            next(lines, None)  # the 2D points of the image, perhaps none
     return cameras, images
+
+
+def holds_model(folder):
+    return folder is not None and any((folder / name).is_file() for name in ('images.bin', 'images.txt'))
 
 
 def read_model(folder):
@@ -212,6 +216,20 @@ def read_model(folder):
         return read_text_model(folder)
     except (struct.error, IndexError, ValueError) as error:
         raise ValueError(f'The COLMAP model in {folder} cannot be read: {error}.') from None
+
+
+def path_of(image_path, name):
+    """The photograph of an image; None if it is not there. Backslashes are folders where no file is called so."""
+    if image_path.name:
+        for path in (image_path / name, image_path / name.replace('\\', '/')):
+            if path.is_file():
+                return path
+    return None
+
+
+def shown(name):
+    """A name that Blender takes: bytes that are not UTF-8 are replaced."""
+    return name.encode('utf8', 'replace').decode()
 
 
 def rotation_of(q):
@@ -272,7 +290,7 @@ def add_cameras(model, image_path, parent, alignment, offset, center, size):
         turn = rotation_of(alignment['rotation'])
     scene = bpy.context.scene
     if images:
-        first = next((image for image in images if image_path.name and (image_path / image[3]).is_file()), images[0])
+        first = next((image for image in images if path_of(image_path, image[3])), images[0])
         scene.render.resolution_x, scene.render.resolution_y = cameras[first[2]][1:3]
     frame = scene.render.resolution_x, scene.render.resolution_y
     num_photographs = num_distorted = 0
@@ -280,7 +298,7 @@ def add_cameras(model, image_path, parent, alignment, offset, center, size):
         q, t, camera_id, name = image
         model_name, width, height, params = cameras[camera_id]
         two = TWO_FOCALS[model_name]
-        data = bpy.data.cameras.new(name)
+        data = bpy.data.cameras.new(shown(name))
         data.sensor_fit, data.sensor_width = 'HORIZONTAL', 36
         data.lens = params[0] / width * 36
         data.shift_x = 0.5 - params[1 + two] / width
@@ -293,14 +311,15 @@ def add_cameras(model, image_path, parent, alignment, offset, center, size):
         matrix = np.eye(4)
         matrix[:3, :3] = turn @ model_from_cam @ np.diag((1, -1, -1))
         matrix[:3, 3] = position - offset
-        thing = bpy.data.objects.new(name, data)
+        thing = bpy.data.objects.new(shown(name), data)
         thing.matrix_world = Matrix(matrix.tolist())
         collection.objects.link(thing)
         if image is first:
             scene.camera = thing
-        if image_path.name and (image_path / name).is_file():
+        photograph = path_of(image_path, name)
+        if photograph:
             num_photographs += 1
-            num_distorted += not add_photograph(data, image_path / name, cameras[camera_id], frame)
+            num_distorted += not add_photograph(data, photograph, cameras[camera_id], frame)
     return len(images), num_photographs, num_distorted
 
 
@@ -333,6 +352,11 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
     path = pathlib.Path(path).resolve()
     document = read_curves(path)
     curves = document['curves']
+    # All is read before anything is added.
+    model, images = paths_of_run(path) if cameras else (None, pathlib.Path())
+    model = pathlib.Path(model_path) if model_path else model
+    images = pathlib.Path(image_path) if image_path else images
+    colmap = read_model(model) if cameras and holds_model(model) else None
     center, size = extent_of(curves)
     # Blender has seven digits: a world far from its origin is moved there.
     offset = center if np.abs(center).max() > 50 * size else np.zeros(3)
@@ -344,22 +368,18 @@ def import_file(path, cameras=True, model_path='', image_path='', separate=False
     said = plural(len(curves), 'curve')
     if offset.any():
         said += f', moved by {(-offset).tolist()}'
-    model, images = paths_of_run(path) if cameras else (None, pathlib.Path())
-    if cameras:
-        model = pathlib.Path(model_path) if model_path else model
-        images = pathlib.Path(image_path) if image_path else images
-        if model is None or not model.is_dir():
-            said += '; no cameras: name the folder of the COLMAP model'
-        else:
-            alignment = document.get('alignment', {}).get('world_from_model')
-            count, found, distorted = add_cameras(read_model(model), images, collection, alignment, offset, center, size)
-            said += f', {plural(count, "camera")}, {plural(found, "photograph")}'
-            if found < count:
-                are = 'is' if count - found == 1 else 'are'
-                said += f'; {plural(count - found, "image")} {are} not in "{images}": name their folder'
-            if distorted:
-                have = 'has' if distorted == 1 else 'have'
-                said += f'; {plural(distorted, "photograph")} {have} a lens that Blender does not have, curves are beside them'
+    if cameras and colmap is None:
+        said += '; no cameras: name the folder of the COLMAP model'
+    elif cameras:
+        alignment = document.get('alignment', {}).get('world_from_model')
+        count, found, distorted = add_cameras(colmap, images, collection, alignment, offset, center, size)
+        said += f', {plural(count, "camera")}, {plural(found, "photograph")}'
+        if found < count:
+            are = 'is' if count - found == 1 else 'are'
+            said += f'; {plural(count - found, "image")} {are} not in "{images}": name their folder'
+        if distorted:
+            have = 'has' if distorted == 1 else 'have'
+            said += f'; {plural(distorted, "photograph")} {have} a lens that Blender does not have, curves are beside them'
     return collection, said + '.'
 
 

@@ -168,7 +168,7 @@ class Grower {
                        MeasureAll(support),
                        input_.edge_sigma_px,
                        pixel);
-    facing_ = ChooseSide(tip);
+    facing_ = ChooseSide(tip, support);
     GrownSample first;
     SetEdge(tip.edge(), first);
     first.sigma = tip.Sigma();
@@ -201,11 +201,13 @@ class Grower {
   }
 
   // nullopt if the view is not queried or the prediction is too uncertain.
-  std::optional<Look> LookIn(std::size_t v, const CurveTip& tip) const {
+  std::optional<Look> LookIn(std::size_t v,
+                             const CurveTip& tip,
+                             double pixel_size) const {
     const ViewIndex& index = input_.indices[v];
     const auto view_idx = static_cast<std::int32_t>(v);
     const auto projected =
-        ProjectIntoQueryView(view_idx, tip.edge(), input_.indices);
+        ProjectIntoQueryView(view_idx, tip.edge(), pixel_size, input_.indices);
     if (!projected) return std::nullopt;
     const double variance_px2 = tip.VarianceIn(*index.view, *projected);
     if (variance_px2 > kMaxPredictedSigmaPx * kMaxPredictedSigmaPx) {
@@ -240,24 +242,30 @@ class Grower {
   }
 
   // The side from which the curve is seen, by the votes at its seed.
-  std::optional<Eigen::Vector3d> ChooseSide(const CurveTip& tip) const {
+  std::optional<Eigen::Vector3d> ChooseSide(
+      const CurveTip& tip, const std::vector<EdgeRef>& support) const {
+    const double pixel_size =
+        TypicalPixelSize(tip.edge().position, support, input_.indices);
     Votes votes(input_.indices.size());
     for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      if (const auto look = LookIn(v, tip)) votes[v] = look->vote;
+      if (const auto look = LookIn(v, tip, pixel_size)) votes[v] = look->vote;
     }
     return FindVisibleSide(tip.edge(), votes, input_.neighbors, input_.indices)
         .facing;
   }
 
-  // What all views show at the tip. Adds the hits of views that support the
-  // curve steadily to `trusted`.
+  // What all views show at the tip. `trusted` are the hits of views that
+  // support the curve steadily: on entry those of the step before.
   GrownSample LookAround(const CurveTip& tip,
                          Streaks& streaks,
                          std::vector<EdgeRef>& trusted) const {
     GrownSample grown;
+    const double pixel_size =
+        TypicalPixelSize(tip.edge().position, trusted, input_.indices);
+    trusted.clear();
     Votes votes(input_.indices.size());
     for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      const auto look = LookIn(v, tip);
+      const auto look = LookIn(v, tip, pixel_size);
       if (!look) continue;
       if (IsInFront(input_.views[v].center, tip.edge(), facing_)) {
         ++grown.num_looks;
@@ -280,7 +288,6 @@ class Grower {
                      Streaks& streaks,
                      std::vector<EdgeRef>& trusted) {
     tip.Step(StepAlong(tip, trusted));
-    trusted.clear();
     GrownSample grown = LookAround(tip, streaks, trusted);
     found_.insert(found_.end(), grown.support.begin(), grown.support.end());
     tip.Correct(MeasureAll(trusted));

@@ -205,7 +205,9 @@ Result<EdgeMap> DetectViewEdges(const View& view,
   const Result<std::optional<GrayImage>> mask = LoadMask(view, camera);
   if (!mask.ok()) return mask.status();
   EdgeMap map = DetectEdgesIn({*image, *mask, EstimateNoise(*image)}, options);
-  return UndistortEdges(std::move(map), camera);
+  map = UndistortEdges(std::move(map), camera);
+  map.unseen = FindUnseenCells(camera, *mask);
+  return map;
 }
 
 }  // namespace curvix

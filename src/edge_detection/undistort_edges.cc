@@ -12,6 +12,7 @@
 #include "base/check.h"
 #include "geometry/detected_edge.h"
 #include "geometry/lens.h"
+#include "model/posed_view.h"
 
 namespace curvix {
 namespace {
@@ -41,6 +42,28 @@ std::optional<std::int32_t> Renumbered(const NewIndices& new_idx,
                                        std::optional<std::int32_t> old_idx) {
   if (!old_idx) return std::nullopt;
   return new_idx[static_cast<std::size_t>(*old_idx)];
+}
+
+// Whether `pixel` of an image is on a black pixel of its mask.
+bool IsBlack(const GrayImage& mask, const Eigen::Vector2d& pixel) {
+  const double x = std::floor(pixel.x());
+  const double y = std::floor(pixel.y());
+  if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) return false;
+  return mask.at(static_cast<int>(x), static_cast<int>(y)) == 0;
+}
+
+// Whether the photograph shows `pixel` of the ideal pinhole.
+bool IsSeen(const Camera& camera,
+            const PosedView& view,
+            const std::optional<GrayImage>& mask,
+            const Eigen::Vector2d& pixel) {
+  const Eigen::Vector2d uv = view.Ray(pixel).hnormalized();
+  const Eigen::Vector2d in_image = ImageFromIdeal(camera, uv);
+  if (!(in_image.x() >= 0 && in_image.y() >= 0 &&
+        in_image.x() <= camera.width && in_image.y() <= camera.height)) {
+    return false;
+  }
+  return !mask || !IsBlack(*mask, in_image);
 }
 
 }  // namespace
@@ -88,13 +111,46 @@ std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
 
 std::int32_t DropMaskedEdges(const GrayImage& mask,
                              std::vector<LocatedEdge>* edges) {
-  const auto is_masked = [&mask](const LocatedEdge& edge) {
-    const double x = std::floor(edge.position.x());
-    const double y = std::floor(edge.position.y());
-    if (x < 0 || y < 0 || x >= mask.width || y >= mask.height) return false;
-    return mask.at(static_cast<int>(x), static_cast<int>(y)) == 0;
+  return static_cast<std::int32_t>(std::erase_if(
+      *edges,
+      [&](const LocatedEdge& edge) { return IsBlack(mask, edge.position); }));
+}
+
+UnseenCells FindUnseenCells(const Camera& camera,
+                            const std::optional<GrayImage>& mask) {
+  UnseenCells unseen;
+  if (IsPinhole(camera) && !mask) return unseen;
+  const PosedView view = MakePosedView(camera, {});
+  unseen.margin_px = view.margin_px;
+  const auto num_half_cells = [&](int size) {
+    return 2 * static_cast<int>(std::ceil((size + 2 * view.margin_px) /
+                                          UnseenCells::kCellPx));
   };
-  return static_cast<std::int32_t>(std::erase_if(*edges, is_masked));
+  const int num_columns = num_half_cells(view.width);
+  const int num_rows = num_half_cells(view.height);
+  unseen.num_columns = num_columns / 2;
+  unseen.cells.resize(static_cast<std::size_t>(num_columns / 2) *
+                      static_cast<std::size_t>(num_rows / 2));
+  const auto mark = [&](int column, int row) {
+    if (column < 0 || row < 0 || 2 * column >= num_columns ||
+        2 * row >= num_rows) {
+      return;
+    }
+    unseen.cells[static_cast<std::size_t>(row * unseen.num_columns + column)] =
+        1;
+  };
+  for (int i = 0; i <= num_rows; ++i) {
+    for (int j = 0; j <= num_columns; ++j) {
+      const Eigen::Vector2d pixel =
+          UnseenCells::kCellPx / 2 * Eigen::Vector2d(j, i) -
+          Eigen::Vector2d::Constant(view.margin_px);
+      if (IsSeen(camera, view, mask, pixel)) continue;
+      for (const int row : {(i - 1) / 2, i / 2}) {
+        for (const int column : {(j - 1) / 2, j / 2}) mark(column, row);
+      }
+    }
+  }
+  return unseen;
 }
 
 }  // namespace curvix

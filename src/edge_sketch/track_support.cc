@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/infinity.h"
 #include "edge_sketch/visible_side.h"
 #include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
@@ -25,6 +26,7 @@ constexpr std::size_t kFewestToGoOn = 4;
 struct Search {
   double sigma_px = 0;
   Gate widest;
+  double pixel_size = kInfinity;  // see ProjectIntoQueryView()
 };
 
 // False only if no edge can be found for `edge`.
@@ -84,7 +86,8 @@ std::optional<std::vector<EdgeRef>> FindSupport(
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (sightings.size() + (asked.size() - i) < fewest) return std::nullopt;
     const ViewIndex& view = views[static_cast<std::size_t>(asked[i])];
-    const auto projected = ProjectIntoQueryView(asked[i], estimate.edge, views);
+    const auto projected =
+        ProjectIntoQueryView(asked[i], estimate.edge, search.pixel_size, views);
     if (projected &&
         view.presence.MayHave(projected->position, projected->tangent)) {
       sightings.push_back({asked[i], *projected});
@@ -112,7 +115,8 @@ std::optional<double> VoteOf(std::int32_t view_idx,
                              const std::optional<ImageEdge>& support,
                              const EdgeEstimate& estimate,
                              const Search& search) {
-  const auto projected = ProjectIntoQueryView(view_idx, estimate.edge, views);
+  const auto projected =
+      ProjectIntoQueryView(view_idx, estimate.edge, search.pixel_size, views);
   if (!projected) return std::nullopt;
   const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
   const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
@@ -169,7 +173,7 @@ std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
                                         const ViewsToAsk& to_ask,
                                         double sigma_px,
                                         const ValidationOptions& options) {
-  const Search search{sigma_px, WidestGate(options)};
+  Search search{sigma_px, WidestGate(options)};
   auto support =
       FindSupport(start, views, to_ask.first, FewestToGoOn(to_ask), search);
   if (!support) return std::nullopt;
@@ -182,6 +186,8 @@ std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
     tracked.estimate = AdjustEdge(
         tracked.estimate.edge, MeasurePlanes(tracked.support, views), sigma_px);
     if (round == kNumRounds) break;
+    search.pixel_size = TypicalPixelSize(
+        tracked.estimate.edge.position, tracked.support, views);
     support = FindSupport(
         tracked.estimate, views, to_ask.all, to_ask.fewest_supports, search);
     if (!support) return std::nullopt;

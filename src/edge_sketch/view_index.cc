@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/infinity.h"
 #include "base/parallel.h"
 #include "geometry/detected_edge.h"
+#include "geometry/pixel_size.h"
 
 namespace curvix {
 namespace {
@@ -18,6 +20,8 @@ constexpr double kNeighborAngleDeg = 25;
 constexpr std::size_t kMaxNumStations = 4;
 constexpr double kGridCellPx = 8;
 constexpr double kGateSigmas = 4;
+constexpr std::ptrdiff_t kNumFinest = 4;
+constexpr double kMaxRelativePixelSize = 2;
 
 // The views of the nearest stations in direction, nearest first.
 std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps,
@@ -34,6 +38,17 @@ std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps,
     return false;
   });
   return overlaps;
+}
+
+// nullopt outside the image and where it can show no edge.
+std::optional<ImageEdge> ProjectWhereSeen(const ViewIndex& index,
+                                          const SpaceEdge& edge) {
+  if (index.edges->edges.empty()) return std::nullopt;
+  const auto projected = ProjectInto(*index.view, edge);
+  if (!projected || index.edges->unseen.Contain(projected->position)) {
+    return std::nullopt;
+  }
+  return projected;
 }
 
 double AngleOf(const Eigen::Vector2d& direction) {
@@ -101,17 +116,38 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
   return indices;
 }
 
+double TypicalPixelSize(const Eigen::Vector3d& position,
+                        const std::vector<EdgeRef>& support,
+                        const std::vector<ViewIndex>& views) {
+  if (support.empty()) return kInfinity;
+  std::vector<double> sizes;
+  sizes.reserve(support.size());
+  for (const EdgeRef& ref : support) {
+    const ViewIndex& view = views[static_cast<std::size_t>(ref.view_idx)];
+    sizes.push_back(PixelSizeIn(*view.view, position));
+  }
+  const auto nth = sizes.begin() +
+                   std::min<std::ptrdiff_t>(kNumFinest, std::ssize(sizes)) - 1;
+  std::nth_element(sizes.begin(), nth, sizes.end());
+  return *nth;
+}
+
 std::optional<ImageEdge> ProjectIntoQueryView(
     std::int32_t view_idx,
     const SpaceEdge& edge,
+    double pixel_size,
     const std::vector<ViewIndex>& views) {
   const ViewIndex& index = views[static_cast<std::size_t>(view_idx)];
   if (index.is_repeated) return std::nullopt;
-  const auto projected = ProjectInto(*index.view, edge);
-  if (!projected) return std::nullopt;
+  const auto projected = ProjectWhereSeen(index, edge);
+  if (!projected || PixelSizeIn(*index.view, edge.position) >
+                        kMaxRelativePixelSize * pixel_size) {
+    return std::nullopt;
+  }
   for (const int before : index.before_at_station) {
-    const ViewIndex& other = views[static_cast<std::size_t>(before)];
-    if (ProjectInto(*other.view, edge)) return std::nullopt;
+    if (ProjectWhereSeen(views[static_cast<std::size_t>(before)], edge)) {
+      return std::nullopt;
+    }
   }
   return projected;
 }

@@ -56,11 +56,22 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
                                   const DistinctViews& distinct,
                                   int num_threads);
 
+// The pixel size at `position` (PixelSizeIn(), world units) in the views of
+// `support` that see it largest: the fourth smallest, or, of fewer, the
+// largest; infinite without support. In much coarser views neighbouring edges
+// are one, or none.
+double TypicalPixelSize(const Eigen::Vector3d& position,
+                        const std::vector<EdgeRef>& support,
+                        const std::vector<ViewIndex>& views);
+
 // Where a view sees `edge`, if it is queried for it: nullopt outside the image,
-// in repeated views, and if one before it at its station sees the edge.
+// where it can show no edge (UnseenCells), in views without edges, where pixels
+// are more than twice `pixel_size`, in repeated views, and if one before it at
+// its station sees the edge. `pixel_size`: TypicalPixelSize().
 std::optional<ImageEdge> ProjectIntoQueryView(
     std::int32_t view_idx,
     const SpaceEdge& edge,
+    double pixel_size,
     const std::vector<ViewIndex>& views);
 
 // Adds to each index the `presence` for searches with `options`.

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 
 // "CVXSTAGE", little endian.
 constexpr std::uint64_t kMagic = 0x4547415453585643;
-constexpr std::uint32_t kVersion = 10;
+constexpr std::uint32_t kVersion = 11;
 
 Status Other(const fs::path& path) {
   return Status::NotFound(path.string() +

@@ -3,9 +3,10 @@
 // their head (stage_file.h) hold
 //   edges.bin: number of views; per view: number of edges, noise, spacing in
 //     pixels, gain of variance (doubles), edges dropped by the mask, as
-//     isolated, over the limit (int32 each); per edge: x, y (doubles), angle,
-//     strength, sharpness (floats), level, crowding, fine_px (halves), indices
-//     of the previous and the next edge (int32, -1: none)
+//     isolated, over the limit (int32 each); number of cells and these (1 byte
+//     each), their columns (int32), margin in pixels (double); per edge: x, y
+//     (doubles), angle, strength, sharpness (floats), level, crowding, fine_px
+//     (halves), indices of the previous and the next edge (int32, -1: none)
 //   adjustment.bin: number of views; per view: rotation x, y, z, w and
 //     translation (7 doubles); number of points; per point: position (3
 //     doubles); length of the program's version, its text
@@ -33,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
-constexpr std::size_t kEdgeMapBytes = 44;  // without edges
+constexpr std::size_t kEdgeMapBytes = 64;  // without edges
 constexpr std::size_t kPoseBytes = 56;
 constexpr std::size_t kVector3dBytes = 24;
 constexpr std::size_t kMinCameraBytes = 20;
@@ -76,6 +77,8 @@ void Fields(Archive& archive, EdgeMap& map) {
           map.num_dropped_masked,
           map.num_dropped_isolated,
           map.num_dropped_over_limit);
+  List(archive, map.unseen.cells, 1);
+  archive(map.unseen.num_columns, map.unseen.margin_px);
   map.edges.resize(num_edges);
   map.neighbors.resize(num_edges);
   for (std::size_t i = 0; i < num_edges; ++i) {
@@ -179,7 +182,8 @@ Status WriteEdgeMaps(const fs::path& path,
                      const std::vector<EdgeMap>& edge_maps) {
   std::size_t num_bytes = sizeof(std::uint64_t);
   for (const EdgeMap& map : edge_maps) {
-    num_bytes += kEdgeMapBytes + kLinkedEdge2dBytes * map.edges.size();
+    num_bytes += kEdgeMapBytes + map.unseen.cells.size() +
+                 kLinkedEdge2dBytes * map.edges.size();
   }
   return Write(path, StageKind::kEdgeMaps, key, edge_maps, num_bytes);
 }

@@ -109,6 +109,8 @@ TEST(DetectViewEdges, LeavesOutWhatTheMaskBlackens) {
       half->edges.size() + static_cast<std::size_t>(half->num_dropped_masked),
       all->edges.size());
   for (const Edge2d& edge : half->edges) EXPECT_GE(edge.position.x(), 50);
+  EXPECT_TRUE(half->unseen.Contain({30, 50}));
+  EXPECT_FALSE(half->unseen.Contain({70, 50}));
 }
 
 TEST(DetectViewEdges, TakesAMaskInAnotherSize) {

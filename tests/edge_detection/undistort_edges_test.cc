@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "base/angles.h"
@@ -133,6 +134,60 @@ TEST(UndistortEdges, DropsWhatHasNoIdealPlaceAndRenumbersLinks) {
   EXPECT_EQ(result.neighbors[1].previous, std::nullopt);
   EXPECT_EQ(result.neighbors[1].next, 2);
   EXPECT_EQ(result.neighbors[2].previous, 1);
+}
+
+TEST(FindUnseenCells, APinholeSeesAllOfItsImage) {
+  const UnseenCells unseen = FindUnseenCells(
+      {CameraModel::kPinhole, 100, 80, {100, 100, 50, 40}}, std::nullopt);
+  EXPECT_TRUE(unseen.cells.empty());
+  EXPECT_FALSE(unseen.Contain({50, 40}));
+}
+
+TEST(FindUnseenCells, HasTheCellsThatTheMaskTouches) {
+  GrayImage mask{96, 80, std::vector<float>(96 * 80, 255)};
+  for (std::size_t y = 20; y < 30; ++y) {
+    for (std::size_t x = 40; x < 50; ++x) mask.pixels[96 * y + x] = 0;
+  }
+  const UnseenCells unseen = FindUnseenCells(
+      {CameraModel::kPinhole, 96, 80, {100, 100, 48, 40}}, mask);
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      // Rows 16 to 32 and columns 40 to 56; the cell before 40 ends there.
+      const bool is_inside = y >= 16 && y < 32 && x >= 32 && x < 56;
+      EXPECT_EQ(unseen.Contain({x + 0.5, y + 0.5}), is_inside) << x << " " << y;
+    }
+  }
+}
+
+// A cell of which a part is outside the photograph may count as outside.
+TEST(FindUnseenCells, IsWhatALensLeavesOutOfTheIdealImage) {
+  for (const Camera& camera : {kSimpleRadial, kOpenCV}) {
+    const UnseenCells unseen = FindUnseenCells(camera, std::nullopt);
+    int num_inside = 0;
+    int num_unseen_inside = 0;
+    for (int y = -100; y < 580; y += 3) {
+      for (int x = -100; x < 740; x += 3) {
+        const Eigen::Vector2d pixel(x, y);
+        if (x < -unseen.margin_px || y < -unseen.margin_px ||
+            x >= 640 + unseen.margin_px || y >= 480 + unseen.margin_px) {
+          continue;
+        }
+        const Eigen::Vector2d in_image = Distort(camera, pixel);
+        const double inside = std::min({in_image.x(),
+                                        in_image.y(),
+                                        camera.width - in_image.x(),
+                                        camera.height - in_image.y()});
+        if (inside < -8) {
+          EXPECT_TRUE(unseen.Contain(pixel)) << pixel.transpose();
+        } else if (inside > 16) {
+          EXPECT_FALSE(unseen.Contain(pixel)) << pixel.transpose();
+        }
+        num_inside += inside > 0;
+        num_unseen_inside += inside > 0 && unseen.Contain(pixel);
+      }
+    }
+    EXPECT_LT(num_unseen_inside, 0.05 * num_inside);
+  }
 }
 
 }  // namespace

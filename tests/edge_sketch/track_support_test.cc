@@ -137,6 +137,20 @@ TEST_F(TrackSupportTest, AStationSupportsOnce) {
   EXPECT_EQ(more.size(), 4u);
 }
 
+// A view that cannot show the edge does not speak against it.
+TEST_F(TrackSupportTest, AMaskedViewHasNoVote) {
+  const auto start = Start(curves_[0], 0.5 * curves_[0].length, 0);
+  maps_[5].edges.resize(1);
+  indices_[5].grid = GridIndex(maps_[5].edges, 4);
+  const auto unseen = Track(start);
+  maps_[5].unseen.num_columns = 100;
+  maps_[5].unseen.cells.assign(100 * 100, 1);
+  const auto masked = Track(start);
+  ASSERT_TRUE(unseen && masked);
+  EXPECT_EQ(masked->support, unseen->support);
+  EXPECT_GT(masked->evidence, unseen->evidence);
+}
+
 TEST_F(TrackSupportTest, RejectsWhatTheFirstViewsDoNotShow) {
   const EdgeEstimate start = Start(curves_[0], 1, 0);
   const auto track = [&](const std::vector<std::int32_t>& first) {

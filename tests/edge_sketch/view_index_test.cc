@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "base/infinity.h"
 #include "geometry/nearest_edge.h"
 #include "tests/support/random.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 Edge2d EdgeAt(double x, double y, double degrees) {
   Edge2d edge;
@@ -100,21 +102,26 @@ class QueryViews {
       view.height = 100;
       view.calibration << 100, 0, 100, 0, 100, 50, 0, 0, 1;
     }
+    for (EdgeMap& map : maps_) map.edges.resize(1);
     DistinctViews distinct = AllDistinct(Overlaps(views_.size()));
     distinct.before_at_station[1] = {0};
     indices_ = IndexViews(views_, maps_, distinct, 1);
   }
 
   // Those queried for an edge that view 1 sees at `x`, at depth 10.
-  std::vector<int> At(double x) const {
+  std::vector<int> At(double x, double pixel_size = kInfinity) const {
     const SpaceEdge edge{{(x - 100) / 10, 0, 10}, Eigen::Vector3d::UnitY()};
     std::vector<int> queried;
     for (const int v : {0, 1, 2}) {
-      if (ProjectIntoQueryView(v, edge, indices_)) queried.push_back(v);
+      if (ProjectIntoQueryView(v, edge, pixel_size, indices_)) {
+        queried.push_back(v);
+      }
     }
     return queried;
   }
 
+  std::vector<PosedView>& views() { return views_; }
+  std::vector<EdgeMap>& maps() { return maps_; }
   std::vector<ViewIndex>& indices() { return indices_; }
 
  private:
@@ -134,6 +141,49 @@ TEST(ProjectIntoQueryView, RepeatedViewsAreNotQueried) {
   QueryViews views;
   views.indices()[2].is_repeated = true;
   EXPECT_THAT(views.At(150), ElementsAre(1));
+}
+
+TEST(ProjectIntoQueryView, ViewsAreQueriedWhereTheyMayShowEdges) {
+  QueryViews views;
+  // View 2 is masked left of x = 80, and sees the edges 10 pixels left of
+  // where view 1 does.
+  UnseenCells& unseen = views.maps()[2].unseen;
+  unseen.num_columns = 25;
+  unseen.cells.resize(25 * 13);
+  for (std::size_t i = 0; i < unseen.cells.size(); ++i) {
+    unseen.cells[i] = i % 25 < 10;
+  }
+  EXPECT_THAT(views.At(89), ElementsAre(0));
+  EXPECT_THAT(views.At(91), ElementsAre(0, 2));
+  // What view 0 does not see, view 1 at the same place may.
+  views.maps()[0].unseen = unseen;
+  EXPECT_THAT(views.At(79), ElementsAre(1));
+  views.maps()[1].edges.clear();
+  EXPECT_THAT(views.At(150), ElementsAre(2));
+}
+
+TEST(ProjectIntoQueryView, MuchCoarserViewsAreNotQueried) {
+  QueryViews views;
+  EXPECT_THAT(views.At(150, 0.051), ElementsAre(1, 2)) << "twice as coarse";
+  EXPECT_THAT(views.At(150, 0.049), IsEmpty());
+  views.views()[1].calibration(0, 0) = views.views()[1].calibration(1, 1) = 50;
+  EXPECT_THAT(views.At(150, 0.051), ElementsAre(2));
+}
+
+TEST(TypicalPixelSize, IsThatOfTheFourViewsThatSeeAPlaceLargest) {
+  std::vector<PosedView> views(6);
+  std::vector<ViewIndex> indices(6);
+  std::vector<EdgeRef> support;
+  for (std::int32_t v = 0; v < 6; ++v) {
+    const auto i = static_cast<std::size_t>(v);
+    views[i].calibration(0, 0) = views[i].calibration(1, 1) = 10 * (6 - v);
+    indices[i].view = &views[i];
+    support.push_back({v, 0});
+  }
+  const Eigen::Vector3d place(0, 0, 60);
+  EXPECT_DOUBLE_EQ(TypicalPixelSize(place, support, indices), 2);
+  EXPECT_DOUBLE_EQ(TypicalPixelSize(place, {{1, 0}, {4, 0}}, indices), 3);
+  EXPECT_EQ(TypicalPixelSize(place, {}, indices), kInfinity);
 }
 
 TEST(NeighborsInDirection, AreOfTheFourNearestStations) {

@@ -24,6 +24,7 @@ std::vector<EdgeMap> SomeEdgeMaps() {
   maps[0].num_dropped_isolated = 7;
   maps[2].num_dropped_masked = 3;
   maps[2].fine_variance_gain_px2 = 1.25;
+  maps[2].unseen = {{1, 0, 0, 1}, 2, 0.75};
   maps[2].num_dropped_over_limit = 5;
   for (int i = 0; i < 4; ++i) {
     Edge2d edge;
@@ -92,6 +93,9 @@ TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
     EXPECT_EQ(a.num_dropped_isolated, b.num_dropped_isolated);
     EXPECT_EQ(a.num_dropped_over_limit, b.num_dropped_over_limit);
     ASSERT_EQ(a.edges.size(), b.edges.size());
+    EXPECT_EQ(a.unseen.cells, b.unseen.cells);
+    EXPECT_EQ(a.unseen.num_columns, b.unseen.num_columns);
+    EXPECT_EQ(a.unseen.margin_px, b.unseen.margin_px);
     ASSERT_EQ(b.neighbors.size(), b.edges.size());
     for (std::size_t k = 0; k < a.edges.size(); ++k) {
       EXPECT_EQ(a.edges[k].position, b.edges[k].position);

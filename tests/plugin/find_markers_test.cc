@@ -125,7 +125,7 @@ TEST_F(FindMarkersTest, TheyGiveTheScale) {
     EXPECT_EQ(marker.num_views, 6);
     EXPECT_NEAR(marker.side, kSide, 0.001 * kSide);
     EXPECT_LT(std::abs(std::log(marker.scale.scale / 100)),
-              4 * marker.scale.sigma);
+              2.5 * marker.scale.sigma);
     EXPECT_LT(marker.scale.sigma, 0.001);
   }
 }

@@ -130,6 +130,8 @@ class Reconstruct(WorkspaceTest):
         expected = json.loads(run_program('evaluate', '--workspace_path', self.workspace, '--holdout_every', 4,
                                           '--json', 1))
         self.assertEqual(pycurvix.evaluate_holdout(self.workspace, 4), expected)
+        with self.assertRaisesRegex(pycurvix.ArgumentError, 'holdout_every is 8.5'):
+            pycurvix.evaluate_holdout(self.workspace, 8.5)
 
 
 class Stopping(WorkspaceTest):

@@ -97,6 +97,10 @@ class FromColmap(WorkspaceTest):
         self.assertRegex(repr(self.scene), r'<pycurvix.Scene: 12 views, 1 camera, \d+ points>')
         self.assertEqual(self.scene.view_idx(-1), 11)
         self.assertEqual(self.scene.view_idx(self.scene.names[4]), 4)
+        self.assertEqual(self.scene.view_idx(np.int32(3)), 3)
+        for none in (12, -13, 0.7, True, 'none.png', None):
+            with self.assertRaisesRegex(pycurvix.ArgumentError, 'there is no view'):
+                self.scene.view_idx(none)
 
     def test_missing_images_are_told(self):
         fewer = self.folder / 'images'

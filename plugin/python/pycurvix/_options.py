@@ -69,7 +69,7 @@ class Options:
     --------
     >>> options = pycurvix.Options({'CurveFilter.min_length_px': 20}, num_threads=4)
     >>> options['CurveFilter.min_num_views']
-    4
+    0
     >>> print(options.about('CurveFilter.min_num_views'))
     >>> options['preset'] = 'paper'  # keeps what was set
     """

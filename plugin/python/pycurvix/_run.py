@@ -2,6 +2,7 @@
 """What the commands of the program do."""
 from __future__ import annotations
 
+import numbers
 import os
 
 from . import _core
@@ -146,6 +147,8 @@ def evaluate_holdout(workspace_path: Path, holdout_every: int = 8, *, curves_pat
     As `reconstruct`.
     """
     import json
+    if not isinstance(holdout_every, numbers.Integral):
+        raise _core.ArgumentError(f'holdout_every is {holdout_every!r}, which is not a whole number')
     paths = _paths(workspace_path, input_path, image_path, '', mask_path)
     text = _core.evaluate_holdout(paths, os.fspath(curves_path), holdout_every, core_options(options), progress)
     return json.loads(text)

@@ -2,6 +2,7 @@
 """Posed views."""
 from __future__ import annotations
 
+import numbers
 import os
 
 from . import _core
@@ -314,7 +315,8 @@ class Scene:
         names = self.names
         if isinstance(view, str) and view in names:
             return names.index(view)
-        if not isinstance(view, str) and -len(names) <= view < len(names):
+        is_index = isinstance(view, numbers.Integral) and not isinstance(view, bool)
+        if is_index and -len(names) <= view < len(names):
             return int(view) % len(names)
         raise _core.ArgumentError(f'there is no view {view!r} among {len(names)}')
 
