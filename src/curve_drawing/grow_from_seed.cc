@@ -243,12 +243,15 @@ class Grower {
 
   // The side from which the curve is seen, by the votes at its seed.
   std::optional<Eigen::Vector3d> ChooseSide(
-      const CurveTip& tip, const std::vector<EdgeRef>& support) const {
+      const CurveTip& tip, const std::vector<EdgeRef>& support) {
     const double pixel_size =
         TypicalPixelSize(tip.edge().position, support, input_.indices);
     Votes votes(input_.indices.size());
     for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      if (const auto look = LookIn(v, tip, pixel_size)) votes[v] = look->vote;
+      const auto look = LookIn(v, tip, pixel_size);
+      if (!look) continue;
+      votes[v] = look->vote;
+      if (look->hit) found_.push_back(*look->hit);
     }
     return FindVisibleSide(tip.edge(), votes, input_.neighbors, input_.indices)
         .facing;

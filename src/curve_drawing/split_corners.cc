@@ -20,6 +20,9 @@ namespace {
 constexpr double kBranchBegin = 3;  // pixels from the corner
 constexpr double kBranchEnd = 9;    // pixels from the corner
 constexpr std::size_t kMinBranchSamples = 4;
+// Of the turn between the branches, within kBranchBegin of the corner. Waves
+// turn all along.
+constexpr double kMinTurnShare = 0.5;
 
 // The directions of one branch, all along the curve.
 struct Branch {
@@ -48,8 +51,12 @@ class CornerFinder {
     for (std::size_t k = 0; k < turns.size(); ++k) turns[k] = Turn(k);
     std::vector<std::size_t> corners;
     for (std::size_t k = 0; k < turns.size(); ++k) {
-      if (turns[k] > max_turn && IsSharpest(turns, k)) {
-        corners.push_back(SharpestNear(k));
+      if (turns[k] <= max_turn || !IsSharpest(turns, k)) continue;
+      const std::size_t corner = SharpestNear(k);
+      const double between_branches =
+          AngleBetween(BranchAt(k, false)->mean, BranchAt(k, true)->mean);
+      if (TurnAtCut(corner) >= kMinTurnShare * between_branches) {
+        corners.push_back(corner);
       }
     }
     std::ranges::sort(corners);

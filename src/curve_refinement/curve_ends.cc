@@ -243,7 +243,10 @@ EndFit FitEnd(const Curve& curve,
   if (!SetFrom(SolveLine(placed), last.position, line)) return fit;
   const double arc_square = MeanSquare(arc, last.position, placed);
   const double line_square = MeanSquare(line, last.position, placed);
-  const bool is_arc = arc_square < kLineShare * line_square;
+  // An arc has a parameter more.
+  const auto size = static_cast<double>(placed.size());
+  const bool is_arc =
+      arc_square / (size - 3) < kLineShare * line_square / (size - 2);
   fit = is_arc ? arc : line;
   fit.rms = std::sqrt(is_arc ? arc_square : line_square);
   fit.length = -placed.back().along;

@@ -23,7 +23,10 @@ constexpr double kMaxCornerMissPx = 1;   // of the branches, of each other
 constexpr double kCostOfMiss = 0.1;      // a pixel of rms is a pixel
 constexpr double kMaxCornerRmsPx = 0.2;  // of the samples from their branches
 constexpr double kMaxRmsShare = 0.3;     // of that from one parabola
-constexpr double kApartPx = 12;          // between two corners
+// Blur takes so much off a corner, times the sine of half its angle. At the
+// crest of a wave the branches, carried on, meet further outside.
+constexpr double kMaxRoundedOffPx = 2.2;
+constexpr double kApartPx = 12;  // between two corners
 
 // How a curve goes on at a sample where it is not straight.
 struct Turn {
@@ -81,10 +84,15 @@ std::optional<Turn> TurnAt(const Curve& curve,
       AngleBetween(in.DirectionAt(arrival), -out.DirectionAt(departure));
   const double bend =
       std::max(in.length * in.bend.norm(), out.length * out.bend.norm());
-  return Turn{
-      miss <= kMaxCornerMissPx * pixel && angle > std::max(max_turn, bend),
-      std::hypot(rms, kCostOfMiss * miss) / pixel,
-      pixel};
+  const double off =
+      std::max((in.PointAt(arrival) - sample.position).norm(),
+               (out.PointAt(departure) - sample.position).norm());
+  const bool is_rounded =
+      off <= kMaxRoundedOffPx * pixel * std::sin(angle / 2) + rms;
+  return Turn{is_rounded && miss <= kMaxCornerMissPx * pixel &&
+                  angle > std::max(max_turn, bend),
+              std::hypot(rms, kCostOfMiss * miss) / pixel,
+              pixel};
 }
 
 // Of neighbouring samples the one whose branches fit best, if it is a corner.

@@ -29,6 +29,11 @@ constexpr double kMinSlope = 0.1;
 // Determinant of the information, over its squared trace: views whose rays are
 // nearer to each other than some ten-thousandths do not determine a place.
 constexpr double kMinInformation = 1e-8;
+// Views that see a smaller share of what an end is carried on from tell nothing
+// of it.
+constexpr double kMinShare = 0.5;
+// Ends are carried on to junctions along what fits so much of the curve.
+constexpr double kCarriedFromPx = 17.5;
 
 // How far 2D edges of one view are from a curve; sums while they are added up.
 struct MeanDistance {
@@ -114,14 +119,61 @@ class CurveInViews {
   // Around sample `i`, weighted by a Gaussian along the curve.
   Agreement About(std::size_t i, double bandwidth_px) const {
     const double bandwidth = bandwidth_px * pixels_[i];
-    std::vector<MeanDistance> sums(centers_.size());
-    double total_weight = 0;
+    std::vector<Weighted> weighted;
     for (const SampleAround& near :
          SamplesAround(curve_, i, kKernelReach * bandwidth)) {
       const double r = near.along / bandwidth;
-      const double weight = std::exp(-0.5 * r * r);
+      weighted.push_back({near.index, std::exp(-0.5 * r * r)});
+    }
+    return Summary(curve_.samples[i], weighted, 0);
+  }
+
+  // About sample `i` of an end that was carried on along what fits the samples
+  // `from`, first that next to it: their distances carried on alike. nullopt
+  // without a fit.
+  std::optional<Agreement> Beyond(std::size_t i,
+                                  const std::vector<SampleAround>& from,
+                                  bool is_arc) const {
+    const Eigen::Index num_powers = is_arc ? 3 : 2;
+    const double unit = from.back().along;
+    const auto powers_of = [&](double along) -> Eigen::VectorXd {
+      const double t = along / unit;
+      return Eigen::Vector3d(1, t, t * t).head(num_powers);
+    };
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(num_powers, num_powers);
+    for (const SampleAround& sample : from) {
+      const Eigen::VectorXd powers = powers_of(sample.along);
+      normal += powers * powers.transpose();
+    }
+    const Eigen::FullPivLU<Eigen::MatrixXd> solver(normal);
+    if (!solver.isInvertible()) return std::nullopt;
+    // At sample `i`, which is at 0.
+    const Eigen::VectorXd to_weight = solver.solve(powers_of(0));
+    std::vector<Weighted> weighted;
+    for (const SampleAround& sample : from) {
+      weighted.push_back(
+          {sample.index, to_weight.dot(powers_of(sample.along))});
+    }
+    return Summary(curve_.samples[i], weighted, kMinShare);
+  }
+
+ private:
+  // A sample and its weight, which is negative for some where a curve is
+  // carried on.
+  struct Weighted {
+    std::size_t index = 0;
+    double weight = 0;
+  };
+
+  // Of the views with more than `min_share` of the weight.
+  Agreement Summary(const CurveSample& sample,
+                    const std::vector<Weighted>& weighted,
+                    double min_share) const {
+    std::vector<MeanDistance> sums(centers_.size());
+    double total_weight = 0;
+    for (const auto& [index, weight] : weighted) {
       total_weight += weight;
-      for (const MeanDistance& d : distances_[near.index]) {
+      for (const MeanDistance& d : distances_[index]) {
         MeanDistance& sum = sums[d.view];
         sum.view = d.view;
         sum.weight += weight;
@@ -129,14 +181,9 @@ class CurveInViews {
         sum.gradient += weight * d.gradient;
       }
     }
-    std::erase_if(sums, [](const MeanDistance& d) { return d.weight == 0; });
-    return Summary(curve_.samples[i], sums, total_weight);
-  }
-
- private:
-  Agreement Summary(const CurveSample& sample,
-                    const std::vector<MeanDistance>& sums,
-                    double total_weight) const {
+    std::erase_if(sums, [&](const MeanDistance& d) {
+      return d.weight <= min_share * total_weight;
+    });
     const AcrossAxes axes = AxesAcross(sample.tangent);
     Agreement result;
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
@@ -186,6 +233,48 @@ class CurveInViews {
   std::vector<std::vector<MeanDistance>> distances_;  // of each sample
 };
 
+double StepBetween(const Curve& curve, std::size_t a, std::size_t b) {
+  return (curve.samples[a].position - curve.samples[b].position).norm();
+}
+
+// Sets the agreement about the samples that an end was carried on by, which no
+// edge supports.
+void ExtrapolateTo(bool at_head,
+                   const Curve& curve,
+                   const RefinementInput& input,
+                   const CurveInViews& in_views,
+                   std::vector<Agreement>& agreements) {
+  const std::size_t size = curve.samples.size();
+  const auto index = [&](std::size_t k) { return at_head ? size - 1 - k : k; };
+  std::size_t num_carried = 0;
+  while (num_carried < size &&
+         curve.samples[index(num_carried)].support.empty()) {
+    ++num_carried;
+  }
+  if (num_carried == 0 || num_carried == size) return;
+  Curve supported = curve;
+  CutEnd(supported, at_head, [](const CurveSample& sample) {
+    return !sample.support.empty();
+  });
+  const EndFit fit =
+      FitEnd(supported, at_head, {0, kCarriedFromPx}, input.views);
+  if (!(fit.length > 0)) return;
+  std::vector<SampleAround> from;
+  double along = 0;
+  for (std::size_t k = num_carried; k < size; ++k) {
+    if (k > num_carried) along += StepBetween(curve, index(k - 1), index(k));
+    if (along > fit.length * (1 + 1e-9)) break;
+    from.push_back({index(k), along});
+  }
+  for (std::size_t k = num_carried; k-- > 0;) {
+    const double step = StepBetween(curve, index(k), index(k + 1));
+    for (SampleAround& sample : from) sample.along += step;
+    if (auto agreement = in_views.Beyond(index(k), from, !fit.bend.isZero())) {
+      agreements[index(k)] = *std::move(agreement);
+    }
+  }
+}
+
 std::vector<Agreement> MeasureAgreement(const Curve& curve,
                                         const RefinementInput& input,
                                         const ResponseCurve& response) {
@@ -196,14 +285,22 @@ std::vector<Agreement> MeasureAgreement(const Curve& curve,
   for (std::size_t k = 0; k < curve.samples.size(); ++k) {
     agreements.push_back(in_views.About(k, bandwidth_px));
   }
+  if (!curve.closed) {
+    for (const bool at_head : {true, false}) {
+      ExtrapolateTo(at_head, curve, input, in_views, agreements);
+    }
+  }
   return agreements;
 }
 
 // Of all curves together, for one degree of freedom.
-Scatter UsualScatter(const std::vector<std::vector<Agreement>>& agreements) {
+Scatter UsualScatter(const std::vector<Curve>& curves,
+                     const std::vector<std::vector<Agreement>>& agreements) {
   Scatter sum;
-  for (const std::vector<Agreement>& curve : agreements) {
-    for (const Agreement& agreement : curve) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    // They are elsewhere in every view.
+    if (MainKind(curves[i]) == CurveKind::kOccludingContour) continue;
+    for (const Agreement& agreement : agreements[i]) {
       if (agreement.scatter.freedom > 0) sum.Add(1, agreement.scatter);
     }
   }
@@ -222,7 +319,7 @@ std::vector<Curve> EstimateCovariances(std::vector<Curve> curves,
   ForEachCurve(curves.size(), input, [&](std::size_t i) {
     agreements[i] = MeasureAgreement(curves[i], input, response);
   });
-  const Scatter usual = UsualScatter(agreements);
+  const Scatter usual = UsualScatter(curves, agreements);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     for (std::size_t k = 0; k < agreements[i].size(); ++k) {
       const Agreement& agreement = agreements[i][k];

@@ -59,6 +59,27 @@ TEST(SplitCorners, LeavesCirclesOfAnyRadius) {
   }
 }
 
+TEST(SplitCorners, LeavesWavesWhole) {
+  for (const double length_px : {40.0, 50.0, 60.0}) {
+    for (const double amplitude_px : {2.0, 4.0, 5.0}) {
+      // Of a sine, by the length along it.
+      const double turn = 2 * 3.14159265358979 / length_px;
+      std::vector<double> turns;
+      double x = 0;
+      double before = std::atan(amplitude_px * turn);
+      while (turns.size() < 150) {
+        x += std::cos(before);
+        const double angle =
+            std::atan(amplitude_px * turn * std::cos(turn * x));
+        turns.push_back(57.29578 * (angle - before));
+        before = angle;
+      }
+      EXPECT_EQ(PieceSizes({Walked(turns)}), std::vector<std::size_t>{150})
+          << length_px << " " << amplitude_px;
+    }
+  }
+}
+
 TEST(SplitCorners, OpensAPolygonIntoItsSides) {
   std::vector<double> hexagon = NoTurns(180);
   for (std::size_t k = 29; k < 180; k += 30) hexagon[k] = 60;

@@ -86,6 +86,15 @@ TEST(CutCorners, CornersBetweenArcsAreFound) {
   EXPECT_LT(pieces[1].samples.front().position.norm(), 1.5 * kPixel);
 }
 
+TEST(CutCorners, WavesStayWhole) {
+  for (const double length_px : {40.0, 50.0, 60.0, 80.0}) {
+    for (const double amplitude_px : {1.0, 2.0, 4.0, 6.0}) {
+      EXPECT_EQ(CutOne(Wave(length_px, amplitude_px, 0, 240)).size(), 1u)
+          << length_px << " " << amplitude_px;
+    }
+  }
+}
+
 TEST(CutCorners, BendsStayWhole) {
   for (const double radius_px : {6.0, 10.0, 20.0, 40.0, 100.0}) {
     for (const double roughness_px : {0.0, 0.05}) {

@@ -66,6 +66,21 @@ inline Curve Arc(double radius_px, double begin, double end) {
   return curve;
 }
 
+// A sine along x from begin_px to end_px, a sample per pixel of x.
+inline Curve Wave(double length_px,
+                  double amplitude_px,
+                  double begin_px,
+                  double end_px) {
+  const double turn = 2 * std::numbers::pi / length_px;
+  Curve curve;
+  for (double x = begin_px; x <= end_px; x += 1) {
+    curve.samples.push_back(
+        SampleAt(InPlane(x, amplitude_px * std::sin(turn * x)),
+                 {1, 0, amplitude_px * turn * std::cos(turn * x)}));
+  }
+  return curve;
+}
+
 // Gives each sample a 2D edge of its own, just where it projects, and returns
 // the edges of the views.
 inline std::vector<EdgeMap> SupportByEdges(const std::vector<PosedView>& views,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/median.h"
+#include "curve_refinement/curve_ends.h"
 #include "curve_refinement/fit_to_images.h"
 #include "tests/curve_refinement/seen_curves.h"
 #include "tests/support/random.h"
@@ -196,6 +197,43 @@ TEST(EstimateCovariances, ThreadsChangeNothing) {
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t k = 0; k < one[i].samples.size(); ++k) {
       EXPECT_EQ(one[i].samples[k].covariance, three[i].samples[k].covariance);
+    }
+  }
+}
+
+// A curve carried on by so many pixels, along what fits its last samples.
+Curve CarriedOn(Curve curve,
+                int length_px,
+                const std::vector<PosedView>& views) {
+  const EndFit fit = FitEnd(curve, true, {0, 17.5}, views);
+  CurveSample added = curve.samples.back();
+  added.support.clear();
+  for (int k = 1; k <= length_px; ++k) {
+    added.position = fit.PointAt(k * fit.pixel);
+    curve.samples.push_back(added);
+  }
+  return curve;
+}
+
+TEST(EstimateCovariances, EndsThatAreCarriedOnAreLessCertain) {
+  for (const auto& [shared_px, own_px] :
+       {std::pair{0.05, 0.05}, std::pair{0.02, 0.1}}) {
+    for (const int length_px : {3, 6, 9}) {
+      SeenCurves seen =
+          DisturbedLines(60, ViewsAround(12, 0.25), shared_px, own_px);
+      seen.curves = FitToImages(
+          std::move(seen.curves),
+          {seen.views, seen.edge_maps, kEdgeSigmaPx, kFitOptions, 1},
+          {});
+      for (Curve& line : seen.curves) {
+        line = CarriedOn(std::move(line), length_px, seen.views);
+      }
+      std::vector<Curve> ends;
+      for (const Curve& line : WithCovariances(seen)) {
+        ends.emplace_back().samples = {line.samples.back()};
+      }
+      EXPECT_NEAR(NormalisedSpread(ends), 1, 0.3)
+          << shared_px << " " << own_px << " " << length_px;
     }
   }
 }

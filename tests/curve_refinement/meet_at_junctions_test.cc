@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/angles.h"
 #include "model/curve_chains.h"
 #include "tests/curve_refinement/drawn_curves.h"
 
@@ -72,6 +73,21 @@ TEST(MeetAtJunctions, CutsOffWhatTheCornerHasBent) {
   }
   EXPECT_LT(met[0].samples.front().position.norm(), 1e-9);
   EXPECT_EQ(met[1].samples.front().position, met[0].samples.front().position);
+}
+
+// The ends of a small circle, a piece of which is missing, make no spike.
+TEST(MeetAtJunctions, LeavesTheEndsOfSmallCircles) {
+  for (const double radius_px : {4.5, 5.0, 6.0, 7.0}) {
+    for (const double gap : {0.2, 0.4, 0.8}) {
+      const Curve circle = Arc(radius_px, gap / 2, 2 * kPi - gap / 2);
+      const std::vector<Curve> met = Meet({circle});
+      ASSERT_EQ(met.size(), 1u);
+      for (const CurveSample& sample : met[0].samples) {
+        EXPECT_NEAR(sample.position.norm() / kPixel, radius_px, 0.3)
+            << radius_px << " " << gap;
+      }
+    }
+  }
 }
 
 TEST(MeetAtJunctions, NoEdgeSupportsWhatIsAdded) {
