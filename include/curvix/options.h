@@ -31,7 +31,7 @@ struct EdgeDetectionOptions {
   // about a pixel apart; >= 1, which makes none short.
   int min_contour_edges = 6;
   // Most edges of an image of a million pixels; n^0.8 times as many of n
-  // million pixels, and 10,000 of any image. Contours of images with more are
+  // million pixels, and 20,000 of any image. Contours of images with more are
   // thinned, and those that tell most of structure are kept: strong, straight
   // and not crowded ones; > 0.
   double max_edges_per_megapixel = 25000;

@@ -117,7 +117,13 @@ Status Aligner::TakeMarkers() {
   progress_.Finish(Plural(found->markers.size(), "marker"));
   for (const std::string& note : found->notes) progress_.Note(note);
   for (const FoundMarker& marker : found->markers) {
-    input_.scales.push_back(marker.scale);
+    // Their mean divides each variance by their number, which must not lower
+    // what they have in common.
+    KnownScale scale = marker.scale;
+    const auto num_others = static_cast<double>(found->markers.size() - 1);
+    scale.sigma =
+        std::hypot(scale.sigma, marker.common_sigma * std::sqrt(num_others));
+    input_.scales.push_back(scale);
   }
   sources_["corner_sigma_px"] = found->corner_sigma_px;
   markers_ = std::move(found->markers);

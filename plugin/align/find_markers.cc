@@ -285,7 +285,6 @@ Result<SightingsById> Detect(const Scene& scene,
 struct Triangulated {
   std::optional<FoundMarker> marker;
   double variance = 0;
-  double common_sigma = 0;  // of the logarithmic scale, of all markers alike
   std::vector<double> errors;
   std::string problem;
 };
@@ -316,10 +315,12 @@ Triangulated TriangulateMarker(int id,
     return result;
   }
   const auto [side, variance] = FitSquare(corners);
-  result.marker = FoundMarker{
-      id, static_cast<int>(sightings[0].size()), side, {size / side, 0}};
+  result.marker = FoundMarker{id,
+                              static_cast<int>(sightings[0].size()),
+                              side,
+                              {size / side, 0},
+                              kCommonSideSigmaPx / SideInImages(sightings)};
   result.variance = variance / (side * side);
-  result.common_sigma = kCommonSideSigmaPx / SideInImages(sightings);
   return result;
 }
 
@@ -332,7 +333,7 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
   const Result<SightingsById> by_id = Detect(scene, dictionary, runtime);
   if (!by_id.ok()) return by_id.status();
   FoundMarkers found;
-  std::vector<double> errors, variances, common_sigmas;
+  std::vector<double> errors, variances;
   for (const auto& [id, sightings] : *by_id) {
     Triangulated t = TriangulateMarker(id, sightings, size);
     if (!t.marker) {
@@ -341,7 +342,6 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
     }
     found.markers.push_back(*t.marker);
     variances.push_back(t.variance);
-    common_sigmas.push_back(t.common_sigma);
     errors.insert(errors.end(), t.errors.begin(), t.errors.end());
   }
   if (found.markers.empty()) {
@@ -353,13 +353,10 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
   }
   // The median of the length of a normal vector of two is 1.177 of its sigma.
   found.corner_sigma_px = std::max(Median(errors) / 1.177, kLeastSigmaPx);
-  // The mean over markers divides each variance by their number, which must not
-  // lower what they have in common.
-  const double num_markers = static_cast<double>(variances.size());
   for (std::size_t i = 0; i < variances.size(); ++i) {
-    found.markers[i].scale.sigma =
-        std::hypot(found.corner_sigma_px * std::sqrt(variances[i]),
-                   common_sigmas[i] * std::sqrt(num_markers));
+    FoundMarker& marker = found.markers[i];
+    marker.scale.sigma = std::hypot(
+        found.corner_sigma_px * std::sqrt(variances[i]), marker.common_sigma);
   }
   return found;
 }

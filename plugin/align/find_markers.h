@@ -18,6 +18,8 @@ struct FoundMarker {
   // The side of the square that fits the corners, model units.
   double side = 0;
   KnownScale scale;  // that this marker tells
+  // The part of scale.sigma that all markers have in common.
+  double common_sigma = 0;
 };
 
 struct FoundMarkers {

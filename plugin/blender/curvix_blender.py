@@ -211,10 +211,12 @@ def holds_model(folder):
 def read_model(folder):
     """Cameras by id: model, width, height, parameters; images: q, t, camera id, name."""
     try:
-        if (folder / 'images.bin').is_file():
-            return read_binary_model(folder)
-        return read_text_model(folder)
-    except (struct.error, IndexError, ValueError) as error:
+        is_binary = (folder / 'images.bin').is_file()
+        cameras, images = read_binary_model(folder) if is_binary else read_text_model(folder)
+        for image in images:
+            TWO_FOCALS[cameras[image[2]][0]]  # known
+        return cameras, images
+    except (struct.error, IndexError, KeyError, OSError, ValueError) as error:
         raise ValueError(f'The COLMAP model in {folder} cannot be read: {error}.') from None
 
 
@@ -393,7 +395,7 @@ class ImportCurvix(bpy.types.Operator, ImportHelper):
     cameras: BoolProperty(name='Cameras', default=True, description='The cameras of the COLMAP model, with their images')
     model_path: StringProperty(name='Model', description='Folder of the COLMAP model; empty: that of the run')
     image_path: StringProperty(name='Images', description='Folder of the images; empty: that of the run')
-    separate: BoolProperty(name='Separate objects', description='One object per line, arc or spline, instead of one per type')
+    separate: BoolProperty(name='Separate objects', description='One object per fit, instead of one per type')
     thickness: FloatProperty(name='Thickness, %', default=0.2, min=0, soft_max=2,
                              description='Diameter of the curves, in percent of their extent; 0: they do not render')
 

@@ -28,8 +28,7 @@ struct GrowthInput {
   const std::vector<PosedView>& views;
   const std::vector<EdgeMap>& edge_maps;  // by view
   const std::vector<ViewIndex>& indices;  // by view
-  // By view.
-  const NeighborsByView& neighbors;
+  const NeighborsByView& neighbors;       // by view
   double edge_sigma_px = 0;
   const CurveGrowthOptions& options;
   const ValidationOptions& validation;  // which edges are near enough

@@ -96,10 +96,11 @@ constexpr double kScalePx = 0.3;  // of the robust weights
 // squares away.
 constexpr double kLineShare = 0.5;
 
-// Of FitLongEnd.
+constexpr std::array kNearPx = {8.0, 12.0, 20.0};
+constexpr double kMaxNearRmsPx = 0.06;
 constexpr std::array kLongPx = {15.0, 25.0, 40.0, 60.0};
 constexpr double kMaxLongRmsPx = 0.25;
-constexpr double kMaxRmsRatio = 1.5;
+constexpr double kMaxRmsRatio = 1.5;  // of the shortest
 
 struct Placed {
   double along = 0;  // arc length, negative inside the curve
@@ -253,24 +254,53 @@ EndFit FitEnd(const Curve& curve,
   return fit;
 }
 
-EndFit FitLongEnd(const Curve& curve,
+namespace {
+
+// Of ever longer segments the last whose fit leaves at most max_rms_px, or
+// about as little as the first.
+EndFit FitLongest(const Curve& curve,
                   bool at_head,
+                  const std::vector<EndSegment>& segments,
+                  double max_rms_px,
                   const std::vector<PosedView>& views) {
   EndFit best;
   double max_rms = 0;
   const double length = Length(curve);
-  for (const double long_px : kLongPx) {
-    const EndFit fit = FitEnd(curve, at_head, {kBentEndPx, long_px}, views);
-    if (long_px == kLongPx.front()) {
+  for (const EndSegment& segment : segments) {
+    const EndFit fit = FitEnd(curve, at_head, segment, views);
+    if (!(best.length > 0)) {
       best = fit;
-      max_rms = std::max(kMaxLongRmsPx * fit.pixel, kMaxRmsRatio * fit.rms);
+      max_rms = std::max(max_rms_px * fit.pixel, kMaxRmsRatio * fit.rms);
     } else if (fit.length > best.length && fit.rms <= max_rms) {
       best = fit;
     }
-    // Longer ends have the same samples.
-    if (long_px * fit.pixel > length) break;
+    // Longer segments have the same samples.
+    if (segment.end_px * fit.pixel > length) break;
   }
   return best;
+}
+
+}  // namespace
+
+EndFit FitNearEnd(const Curve& curve,
+                  bool at_head,
+                  double skipped_px,
+                  double cut_px,
+                  const std::vector<PosedView>& views) {
+  std::vector<EndSegment> segments;
+  for (const double near_px : kNearPx) {
+    segments.push_back({skipped_px, near_px - cut_px});
+  }
+  return FitLongest(curve, at_head, segments, kMaxNearRmsPx, views);
+}
+
+EndFit FitLongEnd(const Curve& curve,
+                  bool at_head,
+                  const std::vector<PosedView>& views) {
+  std::vector<EndSegment> segments;
+  for (const double long_px : kLongPx)
+    segments.push_back({kBentEndPx, long_px});
+  return FitLongest(curve, at_head, segments, kMaxLongRmsPx, views);
 }
 
 }  // namespace curvix

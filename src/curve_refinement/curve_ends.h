@@ -94,6 +94,16 @@ EndFit FitEnd(const Curve& curve,
               const EndSegment& segment,
               const std::vector<PosedView>& views);
 
+// How a curve goes on right beyond its end: the fit to the last 8, 12 or 20 px,
+// without the last `skipped_px`: the longest that fits to 0.06 px or about as
+// well as the shortest. What a longer one leaves over is a change of bend, not
+// noise. `cut_px` of these pixels are cut off already.
+EndFit FitNearEnd(const Curve& curve,
+                  bool at_head,
+                  double skipped_px,
+                  double cut_px,
+                  const std::vector<PosedView>& views);
+
 // The fit to the last 15, 25, 40 or 60 px, the last three of them aside, which
 // corners bend: the longest that fits to 0.25 px or about as well as the first.
 EndFit FitLongEnd(const Curve& curve,

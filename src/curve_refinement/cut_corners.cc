@@ -23,8 +23,8 @@ constexpr double kMaxCornerMissPx = 1;   // of the branches, of each other
 constexpr double kCostOfMiss = 0.1;      // a pixel of rms is a pixel
 constexpr double kMaxCornerRmsPx = 0.2;  // of the samples from their branches
 constexpr double kMaxRmsShare = 0.3;     // of that from one parabola
-// Blur takes so much off a corner, times the sine of half its angle. At the
-// crest of a wave the branches, carried on, meet further outside.
+// Blur takes so much off a corner, times the sine of half the angle by which it
+// turns. At the crest of a wave the branches, carried on, meet further outside.
 constexpr double kMaxRoundedOffPx = 2.2;
 constexpr double kApartPx = 12;  // between two corners
 

@@ -32,8 +32,6 @@ constexpr double kMinInformation = 1e-8;
 // Views that see a smaller share of what an end is carried on from tell nothing
 // of it.
 constexpr double kMinShare = 0.5;
-// Ends are carried on to junctions along what fits so much of the curve.
-constexpr double kCarriedFromPx = 17.5;
 
 // How far 2D edges of one view are from a curve; sums while they are added up.
 struct MeanDistance {
@@ -190,7 +188,7 @@ class CurveInViews {
     std::vector<Eigen::Vector2d> pulls;
     std::vector<Eigen::Vector3d> rays;
     for (const MeanDistance& sum : sums) {
-      const double share = sum.weight / total_weight;
+      const double share = std::min(1.0, sum.weight / total_weight);
       const Eigen::Vector2d gradient =
           axes.transpose() * sum.gradient / sum.weight;
       result.scatter.Add(share, sum.distance_px / sum.weight, edge_sigma_px_);
@@ -256,8 +254,7 @@ void ExtrapolateTo(bool at_head,
   CutEnd(supported, at_head, [](const CurveSample& sample) {
     return !sample.support.empty();
   });
-  const EndFit fit =
-      FitEnd(supported, at_head, {0, kCarriedFromPx}, input.views);
+  const EndFit fit = FitNearEnd(supported, at_head, 0, kRoundedPx, input.views);
   if (!(fit.length > 0)) return;
   std::vector<SampleAround> from;
   double along = 0;
@@ -300,8 +297,13 @@ Scatter UsualScatter(const std::vector<Curve>& curves,
   for (std::size_t i = 0; i < curves.size(); ++i) {
     // They are elsewhere in every view.
     if (MainKind(curves[i]) == CurveKind::kOccludingContour) continue;
-    for (const Agreement& agreement : agreements[i]) {
-      if (agreement.scatter.freedom > 0) sum.Add(1, agreement.scatter);
+    for (std::size_t k = 0; k < agreements[i].size(); ++k) {
+      // What ends were carried on by scatters more.
+      const Scatter& scatter = agreements[i][k].scatter;
+      if (curves[i].samples[k].support.empty() || !(scatter.freedom > 0)) {
+        continue;
+      }
+      sum.Add(1, scatter);
     }
   }
   if (!(sum.freedom > 0)) return kSharpImages;

@@ -21,11 +21,7 @@ namespace curvix {
 namespace {
 
 constexpr double kShortRoundedPx = 0.5;  // of curves that are hardly longer
-// Along which a line or arc is fitted: the longest that fits about as well as
-// the shortest. What a long one leaves over is a change of bend, not noise.
-constexpr std::array kFitLengthsPx = {8.0, 12.0, 20.0};
-constexpr double kMaxNearRmsPx = 0.06;
-constexpr double kMaxNearRmsRatio = 1.5;
+// Where the fit leaves more, the bend of the end cannot be told.
 constexpr double kMaxEndRmsPx = 0.25;
 constexpr double kMinCornerDeg = 10;
 // Largest distance of a continued end from its corner. Pixels.
@@ -44,28 +40,6 @@ struct Line {
   Eigen::Vector3d origin;     // on the line
 };
 
-// How a curve goes on beyond its end; length is 0 if its bend there cannot be
-// told.
-EndFit FitNearEnd(const Curve& curve,
-                  bool at_head,
-                  double rounded_px,
-                  const std::vector<PosedView>& views) {
-  EndFit best;
-  double max_rms = 0;
-  for (const double fitted_px : kFitLengthsPx) {
-    const EndFit fit = FitEnd(curve, at_head, {rounded_px, fitted_px}, views);
-    if (!(fit.length > 0)) continue;
-    if (!(best.length > 0)) {
-      best = fit;
-      max_rms = std::max(kMaxNearRmsPx * fit.pixel, kMaxNearRmsRatio * fit.rms);
-    } else if (fit.length > best.length && fit.rms <= max_rms) {
-      best = fit;
-    }
-  }
-  if (best.rms > kMaxEndRmsPx * best.pixel) best.length = 0;
-  return best;
-}
-
 std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
                               const std::vector<PosedView>& views,
                               int num_threads) {
@@ -73,11 +47,13 @@ std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     for (const EndIdx end : {2 * i + 1, 2 * i}) {
       const bool at_head = IsHead(end);
-      EndFit fit = FitNearEnd(curves[i], at_head, kRoundedPx, views);
+      EndFit fit = FitNearEnd(curves[i], at_head, kRoundedPx, 0, views);
       if (!(fit.length > 0)) {
-        fit = FitNearEnd(curves[i], at_head, kShortRoundedPx, views);
+        fit = FitNearEnd(curves[i], at_head, kShortRoundedPx, 0, views);
       }
-      if (fit.length > 0) ends[i].push_back({end, fit});
+      if (fit.length > 0 && fit.rms <= kMaxEndRmsPx * fit.pixel) {
+        ends[i].push_back({end, fit});
+      }
     }
   });
   return Concatenate(std::move(ends));

@@ -185,7 +185,7 @@ double GradientThreshold(const EdgeDetectionOptions& options,
 std::int64_t MaxEdges(const EdgeDetectionOptions& options,
                       int width,
                       int height) {
-  constexpr double kAlwaysAllowed = 10000;
+  constexpr double kAlwaysAllowed = 20000;
   // A finer image shows the same contours, longer, and more of the small ones.
   constexpr double kGrowth = 0.8;
   // More than any image has, and still an integer.

@@ -59,8 +59,10 @@ bool IsSeen(const Camera& camera,
             const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d uv = view.Ray(pixel).hnormalized();
   const Eigen::Vector2d in_image = ImageFromIdeal(camera, uv);
-  if (!(in_image.x() >= 0 && in_image.y() >= 0 &&
-        in_image.x() <= camera.width && in_image.y() <= camera.height)) {
+  constexpr double kTolerancePx = 1e-6;  // of the border
+  if (!(in_image.minCoeff() >= -kTolerancePx &&
+        in_image.x() <= camera.width + kTolerancePx &&
+        in_image.y() <= camera.height + kTolerancePx)) {
     return false;
   }
   return !mask || !IsBlack(*mask, in_image);
@@ -141,9 +143,12 @@ UnseenCells FindUnseenCells(const Camera& camera,
   };
   for (int i = 0; i <= num_rows; ++i) {
     for (int j = 0; j <= num_columns; ++j) {
+      // Of the last cells only what is in the image counts.
       const Eigen::Vector2d pixel =
-          UnseenCells::kCellPx / 2 * Eigen::Vector2d(j, i) -
-          Eigen::Vector2d::Constant(view.margin_px);
+          (UnseenCells::kCellPx / 2 * Eigen::Vector2d(j, i) -
+           Eigen::Vector2d::Constant(view.margin_px))
+              .cwiseMin(Eigen::Vector2d(view.width + view.margin_px,
+                                        view.height + view.margin_px));
       if (IsSeen(camera, view, mask, pixel)) continue;
       for (const int row : {(i - 1) / 2, i / 2}) {
         for (const int column : {(j - 1) / 2, j / 2}) mark(column, row);

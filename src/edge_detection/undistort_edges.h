@@ -24,7 +24,8 @@ namespace curvix {
 EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera);
 
 // The edges of the ideal pinhole of `from` in that of `to`, in the same order;
-// nothing if `to` cannot be inverted at one of them.
+// nothing if `to` cannot be inverted at one of them. The unseen cells stay:
+// cameras are refined by less than a cell.
 std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
                                   const Camera& from,
                                   const Camera& to);

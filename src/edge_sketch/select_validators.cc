@@ -74,7 +74,14 @@ std::vector<int> SelectValidators(const DistinctViews& views,
         std::ranges::max_element(candidates, {}, &Candidate::angle_rad);
     Choose(views, best->view_idx, candidates, chosen);
   }
+  // These are queried in their stead where they see an edge.
+  for (const int view_idx : std::vector<int>(chosen)) {
+    const std::vector<int>& before =
+        views.before_at_station[static_cast<std::size_t>(view_idx)];
+    chosen.insert(chosen.end(), before.begin(), before.end());
+  }
   std::ranges::sort(chosen);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
 

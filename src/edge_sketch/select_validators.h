@@ -14,7 +14,8 @@ inline constexpr int kMaxNumValidators = 64;
 // All distinct views, if there are at most `max_num` (>= 1) views in all. Else
 // h1, its `partners`, and of the views that overlap h1 those that differ most
 // in direction, max_num in all: repeatedly the view with the largest ray angle
-// to the nearest view chosen so far; ties: the smaller index. Ascending.
+// to the nearest view chosen so far; ties: the smaller index. Besides, those
+// before them at their stations. Ascending.
 std::vector<int> SelectValidators(const DistinctViews& views,
                                   int h1,
                                   const std::vector<int>& partners,

@@ -48,8 +48,9 @@ struct Partner {
 struct H1View {
   std::vector<Partner> partners;
   NeighborsByView neighbors;  // among query views
-  // Others that overlap it, also those that are not queried for some edges.
-  std::vector<std::int32_t> may_show_more;
+  // Those that overlap it or are of its station, ascending. Some of them are
+  // not queried, or not for all edges.
+  std::vector<std::int32_t> views_of_place;
 };
 
 // The stations of view h1 and of those that look from nearly the same
@@ -69,9 +70,13 @@ std::size_t NumOnThisSide(const SketchInput& input, int h1) {
 // The views next to either in direction, then both.
 std::vector<std::int32_t> FirstViews(int h1,
                                      int h2,
-                                     const NeighborsByView& neighbors) {
+                                     const NeighborsByView& neighbors,
+                                     const DistinctViews& distinct) {
   std::vector<std::int32_t> first;
   for (const int view_idx : {h1, h2}) {
+    const auto& before =
+        distinct.before_at_station[static_cast<std::size_t>(view_idx)];
+    first.insert(first.end(), before.begin(), before.end());
     for (const ViewNeighbor& neighbor :
          neighbors[static_cast<std::size_t>(view_idx)]) {
       first.push_back(neighbor.view_idx);
@@ -84,6 +89,23 @@ std::vector<std::int32_t> FirstViews(int h1,
   return first;
 }
 
+// The views that overlap a view, and the others of its station, ascending.
+std::vector<std::int32_t> ViewsOfSamePlaces(const DistinctViews& distinct,
+                                            std::size_t view_idx) {
+  std::vector<std::int32_t> views;
+  for (const ViewOverlap& overlap : distinct.overlaps[view_idx]) {
+    views.push_back(overlap.other);
+  }
+  for (std::size_t i = 0; i < distinct.stations.size(); ++i) {
+    if (i != view_idx && distinct.stations[i] == distinct.stations[view_idx]) {
+      views.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  std::ranges::sort(views);
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  return views;
+}
+
 // View h1 and its partners, ready for pairing.
 H1View Prepare(const SketchInput& input, int h1) {
   H1View view;
@@ -92,13 +114,7 @@ H1View Prepare(const SketchInput& input, int h1) {
       SelectPartners(input.distinct.overlaps[i], input.options.hypotheses);
   const std::vector<int> validators =
       SelectValidators(input.distinct, h1, partners);
-  for (const ViewOverlap& overlap : input.distinct.overlaps[i]) {
-    const auto other = static_cast<std::size_t>(overlap.other);
-    if (!input.distinct.before_at_station[other].empty() ||
-        !std::ranges::binary_search(validators, overlap.other)) {
-      view.may_show_more.push_back(overlap.other);
-    }
-  }
+  view.views_of_place = ViewsOfSamePlaces(input.distinct, i);
   view.neighbors =
       NeighborsInDirection(OverlapsAmong(input.distinct.overlaps, validators),
                            input.distinct.stations);
@@ -120,11 +136,12 @@ H1View Prepare(const SketchInput& input, int h1) {
       });
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!pairs[k]) continue;
-    view.partners.push_back({*std::move(pairs[k]),
-                             {FirstViews(h1, partners[k], view.neighbors),
-                              validators,
-                              fewest_supports,
-                              input.finds_seeds}});
+    view.partners.push_back(
+        {*std::move(pairs[k]),
+         {FirstViews(h1, partners[k], view.neighbors, input.distinct),
+          validators,
+          fewest_supports,
+          input.finds_seeds}});
   }
   return view;
 }
@@ -201,11 +218,13 @@ H1Result Sketch(const SketchInput& input,
   }
   DropRivals(result);
   for (const TrackedEdge& tracked : result.tracked) {
-    const std::vector<EdgeRef> more = FindMoreSupport(tracked.estimate,
-                                                      input.indices,
-                                                      view.may_show_more,
-                                                      input.sigma_px,
-                                                      input.options.validation);
+    const std::vector<EdgeRef> more =
+        FindMoreSupport(tracked,
+                        input.indices,
+                        view.views_of_place,
+                        view.partners.front().to_ask,
+                        input.sigma_px,
+                        input.options.validation);
     result.also_shown.insert(result.also_shown.end(), more.begin(), more.end());
   }
   return result;

@@ -207,21 +207,30 @@ std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
   return tracked;
 }
 
-std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
-                                     const std::vector<ViewIndex>& views,
-                                     const std::vector<std::int32_t>& asked,
-                                     double sigma_px,
-                                     const ValidationOptions& options) {
+std::vector<EdgeRef> FindMoreSupport(
+    const TrackedEdge& tracked,
+    const std::vector<ViewIndex>& views,
+    const std::vector<std::int32_t>& views_of_place,
+    const ViewsToAsk& asked,
+    double sigma_px,
+    const ValidationOptions& options) {
+  const EdgeEstimate& estimate = tracked.estimate;
+  const double pixel_size =
+      TypicalPixelSize(estimate.edge.position, tracked.support, views);
   const Search search{sigma_px, WidestGate(options)};
   std::vector<EdgeRef> support;
-  for (const std::int32_t view_idx : asked) {
+  for (const std::int32_t view_idx : views_of_place) {
+    if (std::ranges::binary_search(asked.all, view_idx) &&
+        ProjectIntoQueryView(view_idx, estimate.edge, pixel_size, views)) {
+      continue;
+    }
     const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
-    const auto projected = ProjectInto(*view.view, tracked.edge);
+    const auto projected = ProjectInto(*view.view, estimate.edge);
     if (!projected ||
         !view.presence.MayHave(projected->position, projected->tangent)) {
       continue;
     }
-    if (const auto edge_idx = FindEdge(tracked, *projected, view, search)) {
+    if (const auto edge_idx = FindEdge(estimate, *projected, view, search)) {
       support.push_back({view_idx, *edge_idx});
     }
   }

@@ -69,13 +69,15 @@ std::optional<TrackedEdge> TrackSupport(const EdgeEstimate& start,
                                         double sigma_px,
                                         const ValidationOptions& options);
 
-// The edges that show `tracked` in the views of `asked`, also views that
-// TrackSupport() did not query: at most one per view, ascending. They change
-// neither the estimate nor its log-likelihood ratio.
-std::vector<EdgeRef> FindMoreSupport(const EdgeEstimate& tracked,
-                                     const std::vector<ViewIndex>& views,
-                                     const std::vector<std::int32_t>& asked,
-                                     double sigma_px,
-                                     const ValidationOptions& options);
+// The edges that show `tracked` in those of `views_of_place` (ascending) that
+// TrackSupport() did not query for it: at most one per view, ascending. They
+// change neither the estimate nor its log-likelihood ratio.
+std::vector<EdgeRef> FindMoreSupport(
+    const TrackedEdge& tracked,
+    const std::vector<ViewIndex>& views,
+    const std::vector<std::int32_t>& views_of_place,
+    const ViewsToAsk& asked,
+    double sigma_px,
+    const ValidationOptions& options);
 
 }  // namespace curvix

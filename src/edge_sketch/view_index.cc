@@ -40,12 +40,15 @@ std::vector<ViewOverlap> NearestInDirection(std::vector<ViewOverlap> overlaps,
   return overlaps;
 }
 
-// nullopt outside the image and where it can show no edge.
+// nullopt outside the image and where it can show no edge or is too coarse.
 std::optional<ImageEdge> ProjectWhereSeen(const ViewIndex& index,
-                                          const SpaceEdge& edge) {
+                                          const SpaceEdge& edge,
+                                          double pixel_size) {
   if (index.edges->edges.empty()) return std::nullopt;
   const auto projected = ProjectInto(*index.view, edge);
-  if (!projected || index.edges->unseen.Contain(projected->position)) {
+  if (!projected || index.edges->unseen.Contain(projected->position) ||
+      PixelSizeIn(*index.view, edge.position) >
+          kMaxRelativePixelSize * pixel_size) {
     return std::nullopt;
   }
   return projected;
@@ -139,15 +142,11 @@ std::optional<ImageEdge> ProjectIntoQueryView(
     const std::vector<ViewIndex>& views) {
   const ViewIndex& index = views[static_cast<std::size_t>(view_idx)];
   if (index.is_repeated) return std::nullopt;
-  const auto projected = ProjectWhereSeen(index, edge);
-  if (!projected || PixelSizeIn(*index.view, edge.position) >
-                        kMaxRelativePixelSize * pixel_size) {
-    return std::nullopt;
-  }
+  const auto projected = ProjectWhereSeen(index, edge, pixel_size);
+  if (!projected) return std::nullopt;
   for (const int before : index.before_at_station) {
-    if (ProjectWhereSeen(views[static_cast<std::size_t>(before)], edge)) {
-      return std::nullopt;
-    }
+    const ViewIndex& other = views[static_cast<std::size_t>(before)];
+    if (ProjectWhereSeen(other, edge, pixel_size)) return std::nullopt;
   }
   return projected;
 }

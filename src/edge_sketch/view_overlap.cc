@@ -176,9 +176,6 @@ void FindStations(const std::vector<PosedView>& views,
   const std::vector<double> distances = MedianDistances(views, places);
   std::erase_if(order,
                 [&](std::size_t i) { return distinct->are_repeated[i]; });
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) {
-    return views[i].calibration(0, 0);
-  });
   std::vector<bool> has_station(views.size(), false);
   for (const std::size_t first : order) {
     if (has_station[first]) continue;

@@ -44,7 +44,8 @@ Overlaps FindOverlaps(const std::vector<PosedView>& views,
 struct DistinctViews {
   std::vector<bool> are_repeated;  // by view: another one shows the same
   Overlaps overlaps;               // among the others
-  // By view: the first view of its station, which are views from one place.
+  // By view: the first view of its station. A station is a set of views from
+  // one place.
   std::vector<int> stations;
   // By view: those of its station that come before it, first ones first.
   std::vector<std::vector<int>> before_at_station;
@@ -61,14 +62,14 @@ DistinctViews AllDistinct(Overlaps overlaps);
 // each view that is left and has edges leaves out those that repeat it. Views
 // that see less of the same remain but do not overlap.
 //
-// These make stations, such as photographs of a panorama, zoomed photographs
-// from a tripod, or pieces of one image: in the order of falling focal lengths
-// (ties: as above), each view that is left opens a station and takes those that
-// are left whose distance from it is below that angle as seen from the median
-// of the places of either. Where several views of a station see an edge, only
-// the first is queried. With 0, and without ViewSelection::kEveryView, none is
-// repeated, the overlaps are those of FindOverlaps(), and each view is a
-// station.
+// Views that are left form stations, sets of views from one place: photographs
+// of a panorama, zoomed ones from a tripod, pieces of one image. In the same
+// order, each view without a station opens one, and takes the views without a
+// station whose distance from it, divided by the smaller median distance of
+// their places, is below that angle in radians. Where several views of a
+// station see an edge, only the first is queried. With 0, and without
+// ViewSelection::kEveryView, none is repeated, the overlaps are those of
+// FindOverlaps(), and each view is a station.
 DistinctViews FindDistinctViews(const std::vector<PosedView>& views,
                                 const std::vector<EdgeMap>& edge_maps,
                                 const std::vector<ScenePoint>& points,

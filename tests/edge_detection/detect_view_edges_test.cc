@@ -146,14 +146,14 @@ TEST(DetectViewEdges, PassesOnThatTheImageIsMissing) {
 }
 
 TEST(DetectViewEdges, CountsWhatItDrops) {
-  GrayImage image = RenderDisc(400, {200, 200}, 150);
+  GrayImage image = RenderDisc(600, {300, 300}, 150);
   AddNoise(8, 11, image);
   const ImageFile file(image);
   EdgeDetectionOptions options;
   options.noise_factor = 1;
   options.max_edges_per_megapixel = 1e9;
   const auto detect = [&] {
-    return DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+    return DetectViewEdges(file.view(), PinholeOfSize(600, 600), options);
   };
   const Result<EdgeMap> bounded_by_noise = detect();
   options.max_edges_per_megapixel = 1;
@@ -170,18 +170,18 @@ TEST(DetectViewEdges, CountsWhatItDrops) {
       all->edges.size());
   EXPECT_GT(bounded_by_noise->num_dropped_isolated, 1000);
   EXPECT_EQ(bounded_by_noise->num_dropped_over_limit, 0);
-  EXPECT_LE(bounded->edges.size(), 10000u);
-  EXPECT_GT(bounded->edges.size(), 5000u);
+  EXPECT_LE(bounded->edges.size(), 20000u);
+  EXPECT_GT(bounded->edges.size(), 10000u);
   EXPECT_GT(bounded->spacing_px, 0.8);
   const auto on_disc = std::count_if(
       bounded->edges.begin(), bounded->edges.end(), [](const Edge2d& edge) {
-        return std::abs((edge.position - Eigen::Vector2d(200, 200)).norm() -
+        return std::abs((edge.position - Eigen::Vector2d(300, 300)).norm() -
                         150) < 1;
       });
   EXPECT_GT(on_disc, 600) << "the disc outlives the noise";
 }
 
-// The edges of an image of 400 x 400 pixels under noise, most of which counts
+// The edges of an image of 600 x 600 pixels under noise, most of which counts
 // as edges: with a limit that makes the image crowded, and with none.
 std::pair<Result<EdgeMap>, Result<EdgeMap>> DetectCrowdedAndNot(
     GrayImage image, EdgeDetectionOptions options) {
@@ -190,16 +190,16 @@ std::pair<Result<EdgeMap>, Result<EdgeMap>> DetectCrowdedAndNot(
   options.noise_factor = 1;
   options.max_edges_per_megapixel = 1;
   Result<EdgeMap> crowded =
-      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+      DetectViewEdges(file.view(), PinholeOfSize(600, 600), options);
   options.max_edges_per_megapixel = 1e9;
   Result<EdgeMap> not_crowded =
-      DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+      DetectViewEdges(file.view(), PinholeOfSize(600, 600), options);
   return {std::move(crowded), std::move(not_crowded)};
 }
 
 TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
-  const Eigen::Vector2d center(200, 200);
-  const GrayImage image = RenderDisc(400, center, 150);
+  const Eigen::Vector2d center(300, 300);
+  const GrayImage image = RenderDisc(600, center, 150);
   const auto [crowded, not_crowded] = DetectCrowdedAndNot(image, {});
   ASSERT_TRUE(crowded.ok() && not_crowded.ok());
   std::vector<double> of_disc, of_noise;
@@ -217,9 +217,9 @@ TEST(DetectViewEdges, MeasuresCrowdingWhereImagesAreCrowded) {
 
 // The sides of a bright bar repel each other, at the finer scale less.
 TEST(DetectViewEdges, MeasuresCrowdedImagesAtTheFinerScale) {
-  constexpr double kLeft = 200.3;
+  constexpr double kLeft = 300.3;
   constexpr double kWidth = 3;
-  const GrayImage image = Picture(400, 400, [](const Eigen::Vector2d& place) {
+  const GrayImage image = Picture(600, 600, [](const Eigen::Vector2d& place) {
     return place.x() > kLeft && place.x() < kLeft + kWidth;
   });
   EdgeDetectionOptions options;
@@ -249,17 +249,17 @@ TEST(DetectViewEdges, MeasuresCrowdedImagesAtTheFinerScale) {
 // Across a blurred step the sharpness is 1 / w^2, w^2 the sum of the squares of
 // the blur and of the detector's own scale.
 TEST(DetectViewEdges, SeesCrowdedImagesAtTheCoarserScale) {
-  GrayImage image = RenderDisc(400, {200, 200}, 150);
+  GrayImage image = RenderDisc(600, {300, 300}, 150);
   AddNoise(8, 11, image);
   const ImageFile file(image);
   EdgeDetectionOptions options;
   options.noise_factor = 1;
   const auto sharpness_on_disc = [&] {
     const auto map =
-        DetectViewEdges(file.view(), PinholeOfSize(400, 400), options);
+        DetectViewEdges(file.view(), PinholeOfSize(600, 600), options);
     std::vector<double> sharpness;
     for (const Edge2d& edge : map->edges) {
-      const double r = (edge.position - Eigen::Vector2d(200, 200)).norm();
+      const double r = (edge.position - Eigen::Vector2d(300, 300)).norm();
       if (std::abs(r - 150) < 0.5)
         sharpness.push_back(static_cast<double>(edge.sharpness));
     }
@@ -281,10 +281,10 @@ TEST(DetectViewEdges, SeesCrowdedImagesAtTheCoarserScale) {
 
 TEST(MaxEdges, GrowsWithTheImage) {
   EdgeDetectionOptions options;
-  options.max_edges_per_megapixel = 20000;
-  EXPECT_EQ(MaxEdges(options, 1000, 1000), 20000);
-  EXPECT_EQ(MaxEdges(options, 8000, 4000), 16 * 20000);
-  EXPECT_EQ(MaxEdges(options, 100, 100), 10000);
+  options.max_edges_per_megapixel = 30000;
+  EXPECT_EQ(MaxEdges(options, 1000, 1000), 30000);
+  EXPECT_EQ(MaxEdges(options, 8000, 4000), 16 * 30000);
+  EXPECT_EQ(MaxEdges(options, 100, 100), 20000);
   options.max_edges_per_megapixel = 1e300;
   EXPECT_GT(MaxEdges(options, 2000, 1000), 2000 * 1000);
 }

@@ -57,10 +57,17 @@ TEST(SelectValidators, TakesOneViewOfAStationFirst) {
       return overlap.other >= 7 && overlap.other <= 9;
     });
   }
-  EXPECT_THAT(SelectValidators(views, 7, {0}, 18), SizeIs(18));
+  EXPECT_THAT(SelectValidators(views, 0, {7}, 18), SizeIs(18));
   for (const int mate : {8, 9}) {
-    EXPECT_THAT(SelectValidators(views, 7, {0}, 18), Not(Contains(mate)));
+    EXPECT_THAT(SelectValidators(views, 0, {7}, 18), Not(Contains(mate)));
   }
+}
+
+TEST(SelectValidators, TakesThoseThatAreQueriedInTheirStead) {
+  DistinctViews views = Ring(20);
+  views.before_at_station[3] = {1, 2};
+  const auto chosen = SelectValidators(views, 3, {10}, 2);
+  EXPECT_THAT(chosen, ElementsAre(1, 2, 3, 10));
 }
 
 TEST(SelectValidators, TakesViewsThatOverlapOnly) {

@@ -131,10 +131,14 @@ TEST_F(TrackSupportTest, AStationSupportsOnce) {
   });
   ASSERT_EQ(expected.size() + 3, alone->support.size());
   EXPECT_EQ(tracked->support, expected);
-  // But their edges are found.
-  const auto more =
-      FindMoreSupport(tracked->estimate, indices_, {4, 5, 6, 7}, kSigmaPx, {});
-  EXPECT_EQ(more.size(), 4u);
+  // But the edges of those that were not queried are found.
+  const auto more = FindMoreSupport(*tracked,
+                                    indices_,
+                                    {4, 5, 6, 7},
+                                    {kFirstViews, AllViews()},
+                                    kSigmaPx,
+                                    {});
+  EXPECT_EQ(more.size(), 3u);
 }
 
 // A view that cannot show the edge does not speak against it.
@@ -142,13 +146,13 @@ TEST_F(TrackSupportTest, AMaskedViewHasNoVote) {
   const auto start = Start(curves_[0], 0.5 * curves_[0].length, 0);
   maps_[5].edges.resize(1);
   indices_[5].grid = GridIndex(maps_[5].edges, 4);
-  const auto unseen = Track(start);
+  const auto missed = Track(start);
   maps_[5].unseen.num_columns = 100;
   maps_[5].unseen.cells.assign(100 * 100, 1);
   const auto masked = Track(start);
-  ASSERT_TRUE(unseen && masked);
-  EXPECT_EQ(masked->support, unseen->support);
-  EXPECT_GT(masked->evidence, unseen->evidence);
+  ASSERT_TRUE(missed && masked);
+  EXPECT_EQ(masked->support, missed->support);
+  EXPECT_GT(masked->evidence, missed->evidence);
 }
 
 TEST_F(TrackSupportTest, RejectsWhatTheFirstViewsDoNotShow) {
@@ -252,9 +256,10 @@ TEST_F(TrackSupportTest, FindsMoreInViewsThatWereNotAsked) {
                                       {});
     ASSERT_TRUE(tracked);
     const auto more = [&](const std::vector<std::int32_t>& views) {
-      return FindMoreSupport(tracked->estimate, indices_, views, kSigmaPx, {});
+      return FindMoreSupport(
+          *tracked, indices_, views, {kFirstViews, asked}, kSigmaPx, {});
     };
-    EXPECT_EQ(more(asked), tracked->support);
+    EXPECT_TRUE(more(asked).empty());
     EXPECT_GE(more(not_asked).size(), 4u);
     EXPECT_TRUE(more({}).empty());
   }

@@ -168,6 +168,10 @@ TEST(ProjectIntoQueryView, MuchCoarserViewsAreNotQueried) {
   EXPECT_THAT(views.At(150, 0.049), IsEmpty());
   views.views()[1].calibration(0, 0) = views.views()[1].calibration(1, 1) = 50;
   EXPECT_THAT(views.At(150, 0.051), ElementsAre(2));
+  // Nor does it stand in for another of its station.
+  views.indices()[0].before_at_station = {1};
+  views.indices()[1].before_at_station = {};
+  EXPECT_THAT(views.At(90, 0.051), ElementsAre(0, 2));
 }
 
 TEST(TypicalPixelSize, IsThatOfTheFourViewsThatSeeAPlaceLargest) {

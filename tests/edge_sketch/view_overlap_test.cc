@@ -268,12 +268,12 @@ std::vector<PosedView> RingAndTurned() {
 TEST(FindDistinctViews, ViewsFromOnePlaceAreAStation) {
   const DistinctViews distinct = Distinct(RingAndTurned());
   EXPECT_THAT(Repeated(distinct), ElementsAre(9));
-  // The longest lens first; 0.6 degrees on is another station.
+  // 0.6 degrees on is another station.
   EXPECT_THAT(distinct.stations,
-              ElementsAre(11, 1, 2, 3, 4, 5, 6, 7, 11, 9, 10, 11));
-  EXPECT_THAT(distinct.before_at_station[11], IsEmpty());
-  EXPECT_THAT(distinct.before_at_station[0], ElementsAre(11));
-  EXPECT_THAT(distinct.before_at_station[8], ElementsAre(11, 0));
+              ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 0, 9, 10, 0));
+  EXPECT_THAT(distinct.before_at_station[0], IsEmpty());
+  EXPECT_THAT(distinct.before_at_station[8], ElementsAre(0));
+  EXPECT_THAT(distinct.before_at_station[11], ElementsAre(0, 8));
   EXPECT_THAT(distinct.before_at_station[1], IsEmpty());
 }
 
