@@ -164,7 +164,7 @@ std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
   corner.position = FitPoint(*start, seen);
   // The fit takes up three of the two coordinates of each view.
   const double num_coordinates = 2 * static_cast<double>(seen.size());
-  const double as_left = std::sqrt(num_coordinates / (num_coordinates - 3));
+  const double correction = std::sqrt(num_coordinates / (num_coordinates - 3));
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (const PointInImage& point : seen) {
     const auto pixel =
@@ -174,7 +174,7 @@ std::optional<Corner> Triangulate(const std::vector<PointInImage>& seen,
         PixelJacobian(*point.camera, point.cam_from_world * corner.position) *
         point.cam_from_world.rotation.toRotationMatrix();
     information += jacobian.transpose() * jacobian;
-    errors.push_back(as_left * (*pixel - point.pixel).norm());
+    errors.push_back(correction * (*pixel - point.pixel).norm());
   }
   corner.covariance = information.inverse();
   return corner;
@@ -202,7 +202,7 @@ std::pair<double, double> FitSquare(const std::array<Corner, 4>& corners) {
   return {fit.scale, variance};
 }
 
-// The median over views, pixels.
+// The median length of a side in the images. Pixels.
 double SideInImages(const Sightings& sightings) {
   std::vector<double> sides;
   for (std::size_t v = 0; v < sightings[0].size(); ++v) {

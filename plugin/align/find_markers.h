@@ -32,9 +32,9 @@ struct FoundMarkers {
 // sides, triangulates their corners, and compares the squares with `size`, the
 // side of the black square, world units. The standard deviation of corners in
 // images is what the triangulation leaves; that of the scale also has what errs
-// alike in all images and markers. Same result for any number of
-// threads. kNotFound: an image cannot be read, or no marker is seen well by
-// three views, as without OpenCV's aruco module.
+// alike in all images and markers. Same result for any number of threads.
+// kNotFound: an image cannot be read, or no marker is seen well by three views,
+// as without OpenCV's aruco module.
 Result<FoundMarkers> FindMarkers(const Scene& scene,
                                  const std::string& dictionary,
                                  double size,

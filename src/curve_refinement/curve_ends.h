@@ -95,9 +95,9 @@ EndFit FitEnd(const Curve& curve,
               const std::vector<PosedView>& views);
 
 // How a curve goes on right beyond its end: the fit to the last 8, 12 or 20 px,
-// without the last `skipped_px`: the longest that fits to 0.06 px or about as
-// well as the shortest. What a longer one leaves over is a change of bend, not
-// noise. `cut_px` of these pixels are cut off already.
+// without the last `skipped_px`; the longest that fits to 0.06 px or about as
+// well as the shortest, since what a longer one leaves over is a change of
+// bend. `cut_px` of these pixels are cut off the curve already.
 EndFit FitNearEnd(const Curve& curve,
                   bool at_head,
                   double skipped_px,

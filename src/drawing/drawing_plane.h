@@ -64,8 +64,8 @@ DrawingPlane MainPlane(const FittedCurves& fitted,
 // The depth of the wall to look at, from `low` to `high`: the median depth of
 // the lines in a slice that has a tenth of the range between the quartiles of
 // their depths, by length. Of the slices with nearly the most length, the
-// nearest to the viewer. Without lines in the plane, of all
-// primitives; without any, the depth in the range that is nearest to 0.
+// nearest to the viewer. Without lines in the plane, of all primitives; without
+// any, the depth in the range that is nearest to 0.
 double MainDepth(const FittedCurves& fitted,
                  const DrawingPlane& plane,
                  double low,

@@ -134,13 +134,11 @@ UnseenCells FindUnseenCells(const Camera& camera,
   unseen.cells.resize(static_cast<std::size_t>(num_columns / 2) *
                       static_cast<std::size_t>(num_rows / 2));
   const auto mark = [&](int column, int row) {
-    if (column < 0 || row < 0 || 2 * column >= num_columns ||
-        2 * row >= num_rows) {
-      return;
-    }
+    if (2 * column >= num_columns || 2 * row >= num_rows) return;
     unseen.cells[static_cast<std::size_t>(row * unseen.num_columns + column)] =
         1;
   };
+  // Corners and middles of cells; each belongs to up to four.
   for (int i = 0; i <= num_rows; ++i) {
     for (int j = 0; j <= num_columns; ++j) {
       // Of the last cells only what is in the image counts.
