@@ -14,6 +14,8 @@
 #include "base/median.h"
 #include "colmap/colmap_model.h"
 #include "colmap/inconsistent_points.h"
+#include "geometry/similarity.h"
+#include "measuring/moved_curves.h"
 #include "plugin/base/text.h"
 #include "plugin/poses/adjustable_scene.h"
 #include "plugin/poses/child_process.h"
@@ -44,9 +46,14 @@ class ScratchFolder {
   static Result<fs::path> Make() {
     std::error_code error;
     // COLMAP runs in it, so not relative to where this program runs.
-    const fs::path parent = fs::absolute(fs::temp_directory_path(error), error);
+    const fs::path parent = fs::absolute(fs::temp_directory_path(error));
+    if (error) {
+      return Status::InvalidArgument(
+          "TMPDIR is not a folder; let it name one with room, or use "
+          "--refiner none");
+    }
     std::string name = (parent / "colmap_curvix-XXXXXX").string();
-    if (!error && mkdtemp(name.data()) != nullptr) return fs::path(name);
+    if (mkdtemp(name.data()) != nullptr) return fs::path(name);
     return Status::InvalidArgument(
         "cannot make a temporary folder in " + parent.string() +
         "; let TMPDIR name one with room, or use --refiner none");
@@ -108,6 +115,21 @@ std::vector<ScenePoint> WithoutOutliers(Scene scene) {
     }
   }
   return std::move(scene.points);
+}
+
+// `scene` moved so that its cameras are about the origin. Far from it, as in a
+// world of map coordinates, COLMAP ends too early: Ceres compares steps with
+// the size of the unknowns.
+Scene AboutOrigin(Scene scene) {
+  Similarity3 move;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> coordinates;
+    for (const View& view : scene.views) {
+      coordinates.push_back(view.cam_from_world.Inverse().translation[i]);
+    }
+    move.translation[i] = -MedianOr(0, std::move(coordinates));
+  }
+  return MoveScene(move, std::move(scene));
 }
 
 // What is written for COLMAP: ids are indices + 1 and names are ids, whatever
@@ -306,12 +328,13 @@ Result<fs::path> FindColmap(const fs::path& given) {
                           kHowToInstall);
 }
 
-Result<BundleAdjustment> RefineWithColmap(const Scene& scene,
+Result<BundleAdjustment> RefineWithColmap(const Scene& in_world,
                                           const ColmapRun& run,
                                           const KeepGoing& keep_going,
                                           std::string* version) {
   const Result<fs::path> made = ScratchFolder::Make();
   if (!made.ok()) return made.status();
+  const Scene scene = AboutOrigin(in_world);
   const ScratchFolder scratch(*made);
   const Result<std::string> general =
       ColmapHelp({"help"}, run, scratch.path(), keep_going);

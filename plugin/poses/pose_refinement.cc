@@ -176,8 +176,11 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   record.num_views = input.views.size();
   record.num_points = input.points.size();
   if (record.num_points < kMinPointsToRefine || record.num_views < 3) {
-    Keep("the model has " + Plural(record.num_points, "point") +
-             ", and at least " + std::to_string(kMinPointsToRefine) +
+    Keep("of the model's " + Plural(model.points.size(), "point") + ", " +
+             GroupDigits(record.num_points) + " can be used (in front of " +
+             "their cameras, in images with at least " +
+             std::to_string(kMinObservationsPerView) +
+             " of them), and at least " + std::to_string(kMinPointsToRefine) +
              " in 3 views are needed",
          "Bundle adjustment is left out: ",
          &result);

@@ -241,6 +241,18 @@ std::string EmptyText(const RunRecord& record) {
   return text + "\n" + FilesText(record.result);
 }
 
+// "" if it is not known.
+std::string EdgeSigmaText(const RunRecord& record) {
+  const double sigma_px = Rounded(record.result.edge_sigma_px, 3);
+  if (!(sigma_px > 0)) return "";
+  const double least_px =
+      Rounded(record.settings.options.hypotheses.EdgeSigmaPx(), 3);
+  return "  2D edges are " +
+         std::string(sigma_px > least_px ? "" : "taken to be ") +
+         ShortText(sigma_px, 4) + " px off their 3D edges (standard deviation" +
+         (sigma_px > least_px ? "" : ", the least") + ")\n";
+}
+
 }  // namespace
 
 std::string_view ProgramVersion() { return CURVIX_VERSION; }
@@ -342,10 +354,7 @@ std::string SummaryText(const RunRecord& record) {
   text += " in " + DurationText(record.total.wall_seconds) + " (CPU " +
           DurationText(record.total.cpu_seconds) + ", " +
           GroupDigits(std::llround(record.total.peak_memory_mb)) + " MB)\n";
-  if (result.edge_sigma_px > 0) {
-    text += "  2D edges are " + ShortText(Rounded(result.edge_sigma_px, 3), 4) +
-            " px off their 3D edges (standard deviation)\n";
-  }
+  text += EdgeSigmaText(record);
   text += "\n";
   return text + FilesText(result);
 }

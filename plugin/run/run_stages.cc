@@ -118,7 +118,7 @@ Result<SceneStages> RunStages::Run(const ColmapModel& model,
   SceneStages stages;
   Result<std::vector<EdgeMap>> edge_maps =
       edges == nullptr ? Detect(scene) : Link(*edges);
-  if (!edge_maps.ok()) return edge_maps.status();
+  if (!edge_maps.ok()) return KeptStages(edge_maps.status());
   stages.scene = std::move(scene);
   stages.edge_maps = *std::move(edge_maps);
   if (record_.settings.poses.refine_poses_with_curves) {

@@ -177,8 +177,8 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   for (const std::string& note : record.input.notes) progress.Note(note);
   if (LosesDigits(input->scene, record.alignment)) {
     progress.Note(
-        "Coordinates are large: the 32-bit floats of curves.ply and curves.pcd "
-        "lose digits, curves.obj and curves.txt do not");
+        "Coordinates are large: the 32-bit floats of .ply and .pcd files lose "
+        "digits, other formats do not");
   }
   if (record.alignment) {
     progress.Note("The results are in the frame of " +

@@ -47,14 +47,20 @@ std::string RemoveInconsistentPoints(const std::filesystem::path& model_path,
   const double median_px = MedianOr(0, AllErrors(*scene));
   if (median_px <= kMaxMedianPx) return "";
   scene->points.clear();
-  const std::string place =
-      std::isfinite(median_px)
-          ? "project " + FixedText(median_px, 0) + " px from their pixels"
-          : "are behind the cameras";
+  const bool is_in_front = std::isfinite(median_px);
+  const std::string place = is_in_front ? "project " + FixedText(median_px, 0) +
+                                              " px from their pixels"
+                                        : "are behind the cameras";
+  const std::string cause =
+      is_in_front
+          ? "Were they moved or scaled without these, or is a focal length "
+            "wrong?"
+          : "Do the cameras look along -z, as in OpenGL and Blender? COLMAP's "
+            "axes are x right, y down, z forwards.";
   return "The points of " + model_path.string() + " " + place +
          " (median), so they do not belong to its poses; their positions are "
-         "not used. Were they moved or scaled without these, or is a focal "
-         "length wrong?";
+         "not used. " +
+         cause;
 }
 
 std::string LargeErrorsNote(const Scene& scene) {

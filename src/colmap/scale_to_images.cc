@@ -25,17 +25,18 @@ struct Scale {
   double y = 1;
 };
 
-// By camera_id; nullopt: not known.
+// By camera_id, that of all its images; nullopt: they differ, or one is not
+// known.
 std::map<std::uint32_t, std::optional<ImageSize>> SizesOfImages(
     const fs::path& folder, const ColmapModel& model) {
   std::map<std::uint32_t, std::optional<ImageSize>> sizes;
   for (const ColmapImage& image : model.images) {
-    if (sizes.count(image.camera_id) > 0) continue;
     const fs::path file = ImageFile(folder, image.name);
     if (!IsFile(file)) continue;
     const std::optional<ImageHeader> header = ReadImageHeader(file);
-    sizes.emplace(image.camera_id,
-                  header ? std::optional(header->size) : std::nullopt);
+    const auto size = header ? std::optional(header->size) : std::nullopt;
+    const auto [known, is_new] = sizes.emplace(image.camera_id, size);
+    if (!is_new && known->second != size) known->second = std::nullopt;
   }
   return sizes;
 }

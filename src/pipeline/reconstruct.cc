@@ -79,6 +79,18 @@ std::string WhyNoPair(const Overlaps& overlaps,
   return text.str();
 }
 
+// Whether noise raises the gradient that edges need in most images.
+bool IsNoiseTheLimit(const std::vector<EdgeMap>& edge_maps,
+                     const Options& options) {
+  const EdgeDetectionOptions& detection = options.edge_detection;
+  const auto num_noisy =
+      std::ranges::count_if(edge_maps, [&](const EdgeMap& map) {
+        return GradientThreshold(detection, detection.sigma_px, map.noise) >
+               detection.min_gradient;
+      });
+  return 2 * static_cast<std::size_t>(num_noisy) > edge_maps.size();
+}
+
 // At which stage everything was lost, and what may help: one or two sentences.
 // `num_curves`: before the filters.
 std::string WhyEmpty(const Overlaps& overlaps,
@@ -95,6 +107,11 @@ std::string WhyEmpty(const Overlaps& overlaps,
     text << "All edges are on black pixels of the masks ("
          << GroupDigits(num_masked)
          << "), which are left out. Are the masks inverted?";
+  } else if (num_edges == 0 && IsNoiseTheLimit(edge_maps, options)) {
+    text << "No edges were found above the noise of the "
+         << Plural(edge_maps.size(), "image")
+         << ". A lower --EdgeDetection.noise_factor (now "
+         << options.edge_detection.noise_factor << ") finds weaker edges.";
   } else if (num_edges == 0) {
     text << "No edges were found in the " << Plural(edge_maps.size(), "image")
          << ". Are they blank or very dark? A lower "

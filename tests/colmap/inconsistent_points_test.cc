@@ -62,6 +62,17 @@ TEST(RemoveInconsistentPoints, RemovesThoseThatWereMovedWithoutTheCameras) {
   EXPECT_THAT(scene.points, SizeIs(0));
 }
 
+TEST(RemoveInconsistentPoints, TellsTheAxesWherePointsAreBehindTheCameras) {
+  Scene scene = SceneWithPoints();
+  const Rigid3 turn = {Eigen::Quaterniond(0, 1, 0, 0), {0, 0, 0}};
+  for (View& view : scene.views) {
+    view.cam_from_world = turn * view.cam_from_world;
+  }
+  EXPECT_THAT(RemoveInconsistentPoints("sparse/0", &scene),
+              AllOf(HasSubstr("are behind the cameras"),
+                    HasSubstr("x right, y down, z forwards")));
+}
+
 // Moves every pixel by `px`, and those of the first point by as much again.
 Scene SceneWithErrors(double px, int num_views) {
   Scene scene = SceneWithPoints(num_views);

@@ -156,6 +156,15 @@ TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesThatTellNoSize) {
   ExpectUntouched();
 }
 
+TEST_F(ScaleToImagesTest, LeavesCamerasOfImagesOfSeveralSizes) {
+  ColmapImage other = model_.images.front();
+  other.image_id = 2;
+  other.name = "b.png";
+  model_.images.push_back(other);
+  folder_.Write("b.png", HeaderOfPng(800, 600));
+  ExpectLeft(1600, 1200);
+}
+
 TEST_F(ScaleToImagesTest, ScalesOnlyTheCamerasThatNeedIt) {
   AddCamera(
       2, {CameraModel::kSimplePinhole, 800, 600, {700, 400, 300}}, "b.png");

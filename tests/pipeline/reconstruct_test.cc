@@ -158,6 +158,16 @@ TEST_P(WhyEmptyOf, ImagesWithoutEdges) {
   EXPECT_THAT(Reason(wires), HasSubstr("No edges were found in the 6 images"));
 }
 
+TEST_P(WhyEmptyOf, ImagesOfNoise) {
+  WireScene wires = MakeWireScene({CubeCurves()[0]}, 6);
+  EdgeMap noisy;
+  noisy.noise = 20;
+  wires.edge_maps.assign(6, noisy);
+  EXPECT_THAT(Reason(wires),
+              AllOf(HasSubstr("above the noise of the 6 images"),
+                    HasSubstr("--EdgeDetection.noise_factor")));
+}
+
 TEST_P(WhyEmptyOf, ACameraThatOnlyTurned) {
   EXPECT_THAT(Reason(TurnedInPlace()),
               AllOf(HasSubstr("No two views overlap"),

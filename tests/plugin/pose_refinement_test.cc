@@ -359,6 +359,23 @@ TEST_F(FakeColmap, MovingAndScalingTheWorldIsUndone) {
   EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 1e-3);
 }
 
+TEST_F(FakeColmap, GetsAWorldOfMapCoordinatesAboutTheOrigin) {
+  const Similarity3 to_map = {.translation = {5e5, 5.4e6, 100}};
+  for (ColmapImage& image : model_.images) {
+    image.cam_from_world = MovePose(to_map, image.cam_from_world);
+  }
+  for (ColmapPoint3D& point : model_.points) {
+    point.position = to_map * point.position;
+  }
+  const ColmapModel written = Written();
+  for (const Rigid3& pose : PosesOf(written)) {
+    EXPECT_LT(pose.Inverse().translation.norm(), 10);
+  }
+  for (const ColmapPoint3D& point : written.points) {
+    EXPECT_LT(point.position.norm(), 10);
+  }
+}
+
 class EveryCameraModel : public FakeColmap,
                          public testing::WithParamInterface<int> {};
 

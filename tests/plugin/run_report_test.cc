@@ -148,6 +148,16 @@ TEST(SummaryText, TellsWhatWasFoundAndWhereItIs) {
                     HasSubstr("MeshLab")));
 }
 
+TEST(SummaryText, SaysWhetherSigmaOf2dEdgesIsTheLeast) {
+  RunRecord record = Example();
+  record.result.edge_sigma_px =
+      record.settings.options.hypotheses.EdgeSigmaPx();
+  EXPECT_THAT(SummaryText(record),
+              HasSubstr("2D edges are taken to be 0.15 px off"));
+  record.result.edge_sigma_px = 0.31;
+  EXPECT_THAT(SummaryText(record), HasSubstr("2D edges are 0.31 px off"));
+}
+
 TEST(SummaryText, ExplainsAnEmptyResult) {
   RunRecord record = Example();
   record.result.num_curves = 0;
