@@ -55,7 +55,8 @@ void EncodeVtpCurves(const CurveSource& curves, const ByteSink& sink);
 // loop if it is closed, with positions and colours, unlit; node "curves", and
 // the id of a curve in the primitive's extras. Positions are 32-bit floats
 // relative to the node's translation, the middle of the curves, so that far
-// origins lose no digits. kUnsupported beyond 4 GB.
+// origins lose no digits. The node turns z up to y up, as glTF has it.
+// kUnsupported beyond 4 GB.
 Status EncodeGlbCurves(const CurveSource& curves, const ByteSink& sink);
 
 // SVG in the pixels of the view: one group per curve in its colour, class

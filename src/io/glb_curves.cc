@@ -3,6 +3,7 @@
 #include "io/curve_formats.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -20,6 +21,8 @@ constexpr std::size_t kPositionBytes = 12;
 constexpr std::size_t kColorBytes = 4;
 constexpr int kLineLoop = 2;
 constexpr int kLineStrip = 3;
+// In glTF y is up. Readers whose z is up turn it back.
+const Eigen::Quaterniond kYUpFromZUp(std::sqrt(0.5), -std::sqrt(0.5), 0, 0);
 
 template <typename Vector>
 std::string VectorText(const Vector& v) {
@@ -81,7 +84,8 @@ std::string Json(const Lists& lists, const Eigen::Vector3d& middle) {
       "\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
       "\"nodes\":[{\"name\":\"curves\"";
   if (lists.primitives.empty()) return json + "}]}";
-  json += ",\"mesh\":0,\"translation\":" + VectorText(middle) +
+  json += ",\"mesh\":0,\"rotation\":" + VectorText(kYUpFromZUp.coeffs()) +
+          ",\"translation\":" + VectorText(kYUpFromZUp * middle) +
           "}],\"meshes\":[{\"name\":\"curves\",\"primitives\":[" +
           lists.primitives +
           "]}],\"materials\":[{\"extensions\":{\"KHR_materials_unlit\":{}},"

@@ -10,6 +10,7 @@ Prints the number of curves that the reader saw; exits with 77 where the reader
 is not installed, with 1 where it finds a fault.
 """
 import math
+import os
 import sys
 
 SKIP = 77
@@ -143,10 +144,20 @@ def read_glb(path):
     blocks = vtkDataObjectTreeIterator()
     blocks.SetDataSet(reader.GetOutput())
     blocks.InitTraversal()
-    count = 0
+    count, seen = 0, []
     while not blocks.IsDoneWithTraversal():
-        count += blocks.GetCurrentDataObject().GetNumberOfPoints() > 0
+        curve = blocks.GetCurrentDataObject()
+        count += curve.GetNumberOfPoints() > 0
+        seen += [curve.GetPoint(i) for i in range(curve.GetNumberOfPoints())]
         blocks.GoToNextItem()
+    with open(os.path.join(os.path.dirname(path), 'curves.obj')) as obj:
+        rows = [line.split() for line in obj if line.startswith('v ')]
+    # z up becomes y up.
+    turned = [(float(x), float(z), -float(y)) for _, x, y, z, *_ in rows]
+    for axis in range(3):
+        for end in (min, max):
+            a, b = (end(p[axis] for p in points) for points in (seen, turned))
+            assert abs(a - b) < 1e-4, (axis, a, b)
     return count
 
 
