@@ -11,9 +11,11 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
+#include "plugin/align/check_positions.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"
 #include "plugin/align/positions_file.h"
+#include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
 #include "plugin/run/run_steps.h"
 
@@ -28,18 +30,11 @@ constexpr int kFewDirections = 3;
 // Above it, something that is given is wrong.
 constexpr double kLargeMisfit = 3;
 
-// Positions whose coordinates are off by more than this share of the distance
-// of cameras from their middle (standard deviation, and root mean square) are
-// not those of the cameras. 3 m of GPS around a house are 0.15 of it, mirrored
-// positions all around 0.8, whatever their number.
-constexpr double kLargeShareOff = 0.3;
+// The others fit if they are off by so much less than all of them.
+constexpr double kOthersShareOff = 1 / 3.0;
+constexpr std::size_t kFewPositions = 5;
 
 std::string Text(double value) { return ShortText(value, 6); }
-
-// Two digits, or all before the point.
-std::string SigmaText(double sigma) {
-  return sigma < 99.5 ? ShortText(sigma, 2) : FixedText(sigma, 0);
-}
 
 std::string WithSigma(double value, double sigma) {
   return Text(value) + " +- " + SigmaText(sigma);
@@ -67,8 +62,6 @@ class Aligner {
   Status TakeAll();
   Status Write(const AlignmentResult& result);
   void DescribeScale(const AlignmentResult& result);
-  // kInvalidArgument: positions without standard deviations are far off.
-  Status CheckPositions(const AlignmentResult& result) const;
   void DescribePositions(const AlignmentResult& result);
   void Say(const std::string& line) { text_ += line + "\n"; }
 
@@ -212,51 +205,31 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
   }
 }
 
-// Index of the position that is furthest off, of one or more.
-std::size_t WorstOf(const AlignmentResult& result) {
-  const auto& left = result.position_residuals;
-  const auto worst = std::ranges::max_element(left, {}, &Eigen::Vector3d::norm);
-  return static_cast<std::size_t>(worst - left.begin());
-}
-
-Status Aligner::CheckPositions(const AlignmentResult& result) const {
-  if (input_.positions.empty()) return {};
-  const auto n = static_cast<double>(input_.positions.size());
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const KnownPosition& p : input_.positions) mean += p.model / n;
-  double squares = 0;
-  for (const KnownPosition& p : input_.positions) {
-    squares += (p.model - mean).squaredNorm();
-  }
-  const double extent =
-      result.alignment.world_from_model.scale * std::sqrt(squares / n);
-  if (!(result.position_sigma > kLargeShareOff * extent)) return {};
-  const std::size_t worst = WorstOf(result);
-  return Status::InvalidArgument(
-      "The positions do not fit the cameras: each coordinate is " +
-      SigmaText(result.position_sigma) +
-      " off (standard deviation), and the cameras are " + SigmaText(extent) +
-      " from their middle. " + input_.positions[worst].name +
-      " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
-      ". Look for a wrong number, degrees or a mirrored axis; if positions are "
-      "that uncertain, give a standard deviation after each");
-}
-
 void Aligner::DescribePositions(const AlignmentResult& result) {
-  double squares = 0;
   for (std::size_t i = 0; i < input_.positions.size(); ++i) {
     const Eigen::Vector3d& left = result.position_residuals[i];
-    squares += left.squaredNorm();
     sources_["positions"].push_back(
         {{"name", input_.positions[i].name},
          {"residual", {left.x(), left.y(), left.z()}}});
   }
-  const double n = static_cast<double>(input_.positions.size());
   const std::size_t worst = WorstOf(result);
+  const std::string& name = input_.positions[worst].name;
   Say(Plural(input_.positions.size(), "position") + ", " +
-      SigmaText(std::sqrt(squares / n)) + " off (root mean square), " +
-      input_.positions[worst].name +
+      SigmaText(RmsOf(result)) + " off (root mean square), " + name +
       " most: " + SigmaText(result.position_residuals[worst].norm()));
+  if (AreUpsideDown(result, MeanUp(scene_.views))) {
+    Say("  By the positions the cameras are upside down: are x and y swapped, "
+        "or is z a depth?");
+  }
+  if (input_.positions.size() < kFewPositions) return;
+  AlignmentInput others = input_;
+  others.positions.erase(others.positions.begin() +
+                         static_cast<std::ptrdiff_t>(worst));
+  const Result<AlignmentResult> without = EstimateAlignment(others);
+  if (without.ok() && RmsOf(*without) < kOthersShareOff * RmsOf(result)) {
+    Say("  Without " + name + " the others are " + SigmaText(RmsOf(*without)) +
+        " off: look whether its position is right.");
+  }
 }
 
 Status Aligner::Write(const AlignmentResult& result) {
@@ -274,7 +247,8 @@ Result<std::string> Aligner::Run() {
   if (!taken.ok()) return taken;
   Result<AlignmentResult> result = EstimateAlignment(input_);
   if (!result.ok()) return result.status();
-  Status fits = CheckPositions(*result);
+  Status fits = CheckPositions(
+      input_, *result, MeanUp(scene_.views), !settings_.epsg.empty());
   if (!fits.ok()) return fits;
   WorldAlignment& alignment = result->alignment;
   if (settings_.unit != "none" && !alignment.has_scale) {
@@ -286,6 +260,11 @@ Result<std::string> Aligner::Run() {
     return Status::InvalidArgument(
         "--epsg needs a scale, which a single position does not tell: add "
         "--distance, --markers or more positions");
+  }
+  if (!settings_.epsg.empty() && !result->has_heading) {
+    return Status::InvalidArgument(
+        "--epsg needs to know where north is, which one position, or positions "
+        "above each other, do not tell: add another to the side");
   }
   if (settings_.unit != "none") alignment.unit = settings_.unit;
   if (!settings_.epsg.empty()) {

@@ -52,6 +52,10 @@ std::string ForTerminal(std::string text) {
   return text;
 }
 
+std::string SigmaText(double sigma) {
+  return sigma < 99.5 ? ShortText(sigma, 2) : FixedText(sigma, 0);
+}
+
 std::string DurationText(double seconds) {
   if (seconds < 59.95) {
     return FixedText(std::max(seconds, 0.0), 1) + " s";

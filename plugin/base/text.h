@@ -26,6 +26,9 @@ std::string ValidUtf8(const std::string& text);
 // a terminal would obey.
 std::string ForTerminal(std::string text);
 
+// A standard deviation: two digits, or all before the point.
+std::string SigmaText(double sigma);
+
 // "0.4 s", "3.1 s", "2 min 05 s", "1 h 02 min".
 std::string DurationText(double seconds);
 

@@ -49,6 +49,34 @@ std::vector<std::string_view> NodesIn(std::string_view text) {
   return words;
 }
 
+// The mean direction in which images see the curves next to `points`; of all
+// images if none does.
+Eigen::Vector3d DirectionTowards(const std::vector<Eigen::Vector3d>& points,
+                                 const CurvesFile& curves,
+                                 const Scene& scene) {
+  constexpr double kNear = 0.1;  // of the distance between the first two points
+  const double reach = kNear * (points[1] - points[0]).norm();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto add = [&](const SeenSample& sample) {
+    for (const View& view : scene.views) {
+      if (!std::ranges::binary_search(sample.image_ids, view.image_id)) {
+        continue;
+      }
+      sum += (sample.position - view.cam_from_world.Inverse().translation)
+                 .normalized();
+    }
+  };
+  for (const std::vector<SeenSample>& samples : curves.samples) {
+    for (const SeenSample& sample : samples) {
+      const auto is_near = [&](const Eigen::Vector3d& point) {
+        return (sample.position - point).norm() <= reach;
+      };
+      if (std::ranges::any_of(points, is_near)) add(sample);
+    }
+  }
+  return sum.isZero(0) ? MeanViewDirection(scene.views) : sum;
+}
+
 Result<DrawingPlane> PlaneOfNodes(const std::string& text,
                                   const CurvesFile& curves,
                                   const Scene& scene) {
@@ -61,8 +89,12 @@ Result<DrawingPlane> PlaneOfNodes(const std::string& text,
     if (id >= nodes.size()) return BadPlane(NoSuchNode(word, curves.fitted));
     points.push_back(nodes[id].position);
   }
-  Result<DrawingPlane> plane = PlaneThrough(
-      points[0], points[1], points[2], up, MeanViewDirection(scene.views));
+  Result<DrawingPlane> plane =
+      PlaneThrough(points[0],
+                   points[1],
+                   points[2],
+                   up,
+                   DirectionTowards(points, curves, scene));
   if (!plane.ok()) return BadPlane(plane.status().message());
   plane->name = text;
   return plane;
@@ -77,6 +109,10 @@ Result<DrawingPlane> ChoosePlane(const std::string& name,
 }
 
 }  // namespace
+
+bool HasPlaneOfNodes(const std::string& text) {
+  return text.find("nodes") != text.npos;
+}
 
 Status CheckPlanes(const std::string& text) {
   std::set<std::string> names;

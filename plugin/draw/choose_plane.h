@@ -15,11 +15,15 @@ namespace curvix {
 // kInvalidArgument: it is no text for ChoosePlanes, whatever nodes there are.
 Status CheckPlanes(const std::string& text);
 
+// Whether ChoosePlanes() needs the samples of the curves.
+bool HasPlaneOfNodes(const std::string& text);
+
 // "xy", "xz", "yz", "auto" (MainPlane, of the axes of the alignment or else of
-// those that lines share), "nodes A B C", or several with commas between.
-// `scene` is in the frame of the curves. CheckPlanes() accepts `text`.
-// kInvalidArgument: there is no such node, or nodes are on a line;
-// kUnsupported: "auto", and no two directions are perpendicular.
+// those that lines share), "nodes A B C", seen from where images show the
+// curves next to these nodes, or several with commas between. `scene` is in the
+// frame of the curves. CheckPlanes() accepts `text`. kInvalidArgument: there is
+// no such node, or nodes are on a line; kUnsupported: "auto", and no two
+// directions are perpendicular.
 Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
                                                const CurvesFile& curves,
                                                const Scene& scene);

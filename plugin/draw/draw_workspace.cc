@@ -89,7 +89,8 @@ class Drafter {
  private:
   // Of the curves, for what photographs show from one side.
   bool NeedsSamples() const {
-    return settings_.hidden != "solid" || !settings_.photograph.empty();
+    return settings_.hidden != "solid" || !settings_.photograph.empty() ||
+           HasPlaneOfNodes(settings_.plane);
   }
   Status Read();
   Status TakePlanes();

@@ -77,8 +77,10 @@ class Estimator {
       equations = Linearise();
       a.covariance = Covariance(equations.normal);
     }
-    const int num_free = equations.count - (a.has_scale + 3 * a.has_rotation +
-                                            3 * a.has_translation);
+    // The heading of the axes counts for nothing where positions tell it.
+    const int num_free =
+        equations.count - has_heading_ -
+        (a.has_scale + 3 * a.has_rotation + 3 * a.has_translation);
     if (num_free > 0) {
       const double mean_square = equations.sum_of_squares / num_free;
       result_.misfit = std::sqrt(mean_square);
@@ -92,6 +94,7 @@ class Estimator {
       return Status::InvalidArgument(
           "What is given does not fix scale and axes");
     }
+    result_.has_heading = has_heading_ || result_.has_rotation_of_positions;
     for (const KnownPosition& p : input_.positions) {
       result_.position_residuals.push_back(a.world_from_model * p.model -
                                            World(p));
@@ -125,6 +128,8 @@ class Estimator {
       if (a.has_scale || a.has_rotation) return {};
       return Status::InvalidArgument("Nothing is given to align to");
     }
+    Status sigmas = CheckSigmas();
+    if (!sigmas.ok()) return sigmas;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const KnownPosition& p : input_.positions) mean += p.world;
     mean /= static_cast<double>(input_.positions.size());
@@ -133,6 +138,25 @@ class Estimator {
       a.offset[axis] = kOffsetStep * std::round(mean[axis] / kOffsetStep);
     }
     return StartAtPositions();
+  }
+
+  // Positions without a sigma show it by their residuals only if they are more
+  // than it takes to meet all of them, and if none has more weight.
+  Status CheckSigmas() const {
+    constexpr std::ptrdiff_t kFewest = 3;
+    const auto num_known = std::ranges::count_if(
+        input_.positions, [](const KnownPosition& p) { return p.sigma > 0; });
+    const auto size = std::ssize(input_.positions);
+    if (num_known == size) return {};
+    if (num_known > 0) {
+      return Status::InvalidArgument(
+          "Some positions have a standard deviation and others have none: give "
+          "it for all or for none");
+    }
+    if (size >= kFewest) return {};
+    return Status::InvalidArgument(
+        "The uncertainty of fewer than three positions cannot be estimated: "
+        "give a standard deviation after each");
   }
 
   Status StartAtPositions() {
@@ -167,11 +191,6 @@ class Estimator {
     if (!(start.scale > 0) || !std::isfinite(start.scale)) {
       return Status::InvalidArgument(
           "The positions coincide, which gives no scale");
-    }
-    if (n == 1 && !(input_.positions.front().sigma > 0)) {
-      return Status::InvalidArgument(
-          "The uncertainty of a single position cannot be estimated: give its "
-          "standard deviation, too");
     }
     a.has_translation = true;
     start.translation = world.rowwise().mean() -
@@ -261,8 +280,10 @@ class Estimator {
     return {std::log(d.length / (scale * distance)), std::max(share, 1e-12)};
   }
 
+  bool KnowSigmas() const { return input_.positions.front().sigma > 0; }
+
   double SigmaOf(const KnownPosition& p) const {
-    return p.sigma > 0 ? p.sigma : result_.position_sigma;
+    return KnowSigmas() ? p.sigma : result_.position_sigma;
   }
 
   // The inverse for the parameters that are observed, else 0.
@@ -282,16 +303,13 @@ class Estimator {
   }
 
   void EstimatePositionSigma() {
+    if (input_.positions.empty() || KnowSigmas()) return;
     double squares = 0;
-    int count = 0;
     for (const KnownPosition& p : input_.positions) {
-      if (p.sigma > 0) continue;
       squares += (World(p) - result_.alignment.world_from_model * p.model)
                      .squaredNorm();
-      count += 3;
     }
-    if (count == 0) return;
-    const double free = std::max(1, count - 7);
+    const auto free = static_cast<double>(3 * input_.positions.size() - 7);
     // Not 0, where they agree to the last digit.
     const double least =
         1e-9 * (1 + result_.alignment.world_from_model.translation.norm());

@@ -85,9 +85,11 @@ struct AlignmentResult {
   WorldAlignment alignment;
   // Whether the rotation is that of the positions; then axes have no part.
   bool has_rotation_of_positions = false;
+  // Whether positions tell the directions of x and y.
+  bool has_heading = false;
   // Of each position, the estimated one minus the known one; world units.
   std::vector<Eigen::Vector3d> position_residuals;
-  // The standard deviation of the positions that had none.
+  // The standard deviation of the positions if they had none.
   double position_sigma = 0;
   // Root mean square of all residuals, in standard deviations: above 1, what is
   // given contradicts itself. 0: it is no more than what is estimated.
@@ -103,7 +105,8 @@ struct AlignmentResult {
 // scale, which nothing else depends on. Positions without a sigma all have the
 // same, estimated from their residuals. kInvalidArgument, with a sentence:
 // nothing is given, points of a distance coincide, or positions do not fix the
-// rotation and no axes are given, or one position has no sigma.
+// rotation and no axes are given, or some positions have no sigma that are
+// fewer than three or not all.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

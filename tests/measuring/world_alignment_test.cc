@@ -125,6 +125,40 @@ TEST(EstimateAlignment, PositionsWithoutSigmasTellTheirOwn) {
   EXPECT_EQ(result->position_residuals.size(), 200u);
 }
 
+// One that may be anywhere would be met exactly, and outweigh the others.
+TEST(EstimateAlignment, SigmasAreGivenForAllPositionsOrEstimatedOfMany) {
+  Random random(3);
+  AlignmentInput input;
+  for (int i = 0; i < 5; ++i) {
+    const Vector3d x = random.NormalVector();
+    input.positions.push_back(
+        {"", x, 2 * x + 0.01 * random.NormalVector(), i > 0 ? 0.01 : 0});
+  }
+  EXPECT_THAT(EstimateAlignment(input).status().message(),
+              HasSubstr("for all or for none"));
+  for (KnownPosition& p : input.positions) p.sigma = 0;
+  EXPECT_TRUE(EstimateAlignment(input).ok());
+  input.positions.resize(2);
+  input.axes.emplace();
+  EXPECT_THAT(EstimateAlignment(input).status().message(),
+              HasSubstr("fewer than three positions"));
+}
+
+TEST(EstimateAlignment, TellsWhetherPositionsKnowTheHeading) {
+  AlignmentInput input;
+  input.axes.emplace();
+  input.axes->covariance = 1e-6 * Matrix3d::Identity();
+  input.positions = {{"", {0, 0, 0}, {0, 0, 0}, 0.1},
+                     {"", {0, 0, 1}, {0, 0, 2}, 0.1}};
+  const auto upright = EstimateAlignment(input);
+  ASSERT_TRUE(upright.ok());
+  EXPECT_FALSE(upright->has_heading);
+  input.positions.back() = {"", {1, 0, 0}, {0, 2, 0}, 0.1};
+  const auto level = EstimateAlignment(input);
+  ASSERT_TRUE(level.ok());
+  EXPECT_TRUE(level->has_heading);
+}
+
 TEST(EstimateAlignment, DistanceErrorsAreAsLargeAsStated) {
   constexpr int kNumSeeds = 300;
   double sum = 0;
