@@ -113,22 +113,54 @@ Status CheckInput(const ImportSettings& settings) {
       " does not exist; name the cameras of the data set, or the lines");
 }
 
+bool IsOfLines(const std::string& format) {
+  return std::ranges::find(kLineFormats, format, &LineFormat::name) !=
+         kLineFormats.end();
+}
+
 // Options that the format does not know.
 Status CheckOptions(const ImportSettings& settings) {
   const ImportOptions& options = settings.options;
-  if (settings.format == "colmap_images" && options.image_path.empty()) {
+  const std::string& format = settings.format;
+  if (format == "colmap_images" && options.image_path.empty()) {
     return Status::InvalidArgument(
         "The option '--image_path' is required with --format colmap_images");
   }
-  if (settings.format == "dtu") return {};
-  for (const auto& [is_given, name] :
-       {std::pair(options.normalize, "--normalize"),
-        {!options.image_filter.empty(), "--image_filter"}}) {
-    if (!is_given) continue;
-    return Status::InvalidArgument(std::string(name) +
-                                   " is only for --format dtu");
+  struct Row {
+    bool is_given;
+    bool is_known;
+    const char* name;
+  };
+  for (const Row& row :
+       {Row{options.normalize, format == "dtu", "--normalize"},
+        Row{!options.image_filter.empty(), format == "dtu", "--image_filter"},
+        Row{settings.first_pixel != "auto",
+            format != "colmap_images" && !IsOfLines(format),
+            "--first_pixel"},
+        Row{settings.copy_policy != CopyPolicy::kCopy,
+            !IsOfLines(format),
+            "--copy_policy"},
+        Row{!settings.run.output_path.empty(),
+            IsOfLines(format),
+            "--output_path"}}) {
+    if (!row.is_given || row.is_known) continue;
+    return Status::InvalidArgument(std::string(row.name) +
+                                   " is not for --format " + format);
   }
   return {};
+}
+
+// Results would take the place of the lines.
+Status CheckOutput(const ImportSettings& settings,
+                   const std::filesystem::path& output_path) {
+  std::error_code error;
+  const auto output = std::filesystem::weakly_canonical(output_path, error);
+  const auto input =
+      std::filesystem::weakly_canonical(settings.options.input_path, error);
+  if (input != output && input.parent_path() != output) return {};
+  return Status::InvalidArgument(
+      "the results would be written among the lines in " + output.string() +
+      "; choose another folder with --output_path");
 }
 
 ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
@@ -136,9 +168,11 @@ ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
   run.image_path = settings.options.image_path;
   if (run.output_path.empty()) {
     run.output_path = run.workspace_path / format.name;
-    const Status usable = CheckNoLink(run.output_path);
-    if (!usable.ok()) return Fail(usable);
+    const Status no_link = CheckNoLink(run.output_path);
+    if (!no_link.ok()) return Fail(no_link);
   }
+  const Status usable = CheckOutput(settings, run.output_path);
+  if (!usable.ok()) return Fail(usable);
   run.poses.refiner = "none";
   return RunAndSummarize(run, [&](RunProgress& progress) {
     return RunLines(

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -126,6 +128,15 @@ Result<std::map<int, std::string>> NumberedImages(
   return numbered;
 }
 
+// Whether the first numbers in the names are the numbers of the cameras.
+bool HaveSameNumbers(const Projections& projections,
+                     const std::vector<std::string>& names) {
+  std::set<std::optional<int>> of_names, of_cameras;
+  for (const std::string& name : names) of_names.insert(FirstNumber(name));
+  for (const auto& [number, _] : projections) of_cameras.insert(number);
+  return of_names.size() == names.size() && of_names == of_cameras;
+}
+
 std::vector<DtuView> PairInOrder(const Projections& projections,
                                  const std::vector<std::string>& names) {
   std::vector<DtuView> views;
@@ -239,7 +250,8 @@ Result<ImportedScene> ImportDtu(const ImportOptions& options) {
   const auto names = ImageNames(*folder, options.image_filter);
   std::vector<std::string> notes;
   Result<std::vector<DtuView>> pairs =
-      is_npz && names.size() == projections.size()
+      is_npz && names.size() == projections.size() &&
+              !HaveSameNumbers(projections, names)
           ? PairInOrder(projections, names)
           : PairByNumber(projections, names, *folder, &notes);
   if (!pairs.ok()) return pairs.status();

@@ -18,9 +18,10 @@ Result<ImportedScene> ImportColmapImages(const ImportOptions& options);
 //    one: world_mat_<i>, 4 x 4, whose first three rows are K [R | t] of the
 //    i-th image. In millimetres and DTU's frame, or, with
 //    options.normalize, those of scale_mat_<i>, where the object is in the unit
-//    sphere. Images are looked for in image/, images/ and beside the file.
-//    Their order by name is that of i; if their number is another, the first
-//    number in a name is i.
+//    sphere. Images are looked for in image/, images/ and beside the file. The
+//    first numbers in their names are those i if they are the same numbers, or
+//    if images and cameras differ in number; else their order by name is that
+//    of i.
 //  * a folder with the original set's pos_<n>.txt, each 3 x 4: K [R | t] in
 //    millimetres. The first number in an image's name is n. Positions
 //    without images are left out (a calibration has 64 of them, most scans
@@ -43,19 +44,22 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options);
 // Poses: transform_matrix, world_from_cam with OpenGL's axes (y up, z
 // backward), 4 x 4 or 3 x 4; a scale common to its axes is taken out of them.
 //
-// Cameras: what a frame says wins over what the file says. The first of these
-// that is there, with the centre of the first pixel in the source:
+// Cameras: what a frame says wins over what the file says, a focal length of
+// any kind over one of any other. The first of these that is there, with the
+// centre of the first pixel in the source:
 //   camera_intrinsics       3 x 3 (ABC-NEF)                           (0, 0)
 //   fl_x, fl_y, cx, cy      (instant-ngp, nerfstudio)             (0.5, 0.5)
 //   camera_angle_x, _y      full angles of view in radians (Blender)
 // fl_y falls back on fl_x, cx and cy on the middle of the image. With k1, k2,
-// p1, p2 the camera is OPENCV, with k3 FULL_OPENCV, with camera_model
+// p1, p2, or distortion_params (k1 to k4, p1, p2), the camera is OPENCV, with
+// k3 FULL_OPENCV (with that camera_model k1 to k6), with camera_model
 // OPENCV_FISHEYE or is_fisheye OPENCV_FISHEYE (k1 to k4). w and h, where given,
 // must be the size of the image.
 //
 // Images: file_path, with or without an extension, below the file's folder
-// or below options.image_path; there also by its last part alone, since the
-// folders of file_path are often those of another machine.
+// or below options.image_path; there also without its first folders, since
+// those of file_path are often of another machine: the fewest without which all
+// are found.
 //
 // kNotFound: images that are not there. kDataLoss: not such a file.
 // kUnsupported: another camera model.

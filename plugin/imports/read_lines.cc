@@ -74,11 +74,15 @@ Edge2d EdgeAt(const CurveSample& sample,
 Curve CurveOf(const ImportedLine& line,
               const Scene& scene,
               const std::map<std::uint32_t, std::int32_t>& view_of_image,
-              std::vector<EdgeMap>& edge_maps) {
+              LineCurves& result) {
   std::vector<std::int32_t> views;
   for (const std::uint32_t image_id : line.image_ids) {
     const auto view = view_of_image.find(image_id);
-    if (view != view_of_image.end()) views.push_back(view->second);
+    if (view == view_of_image.end()) {
+      ++result.num_unknown_images;
+    } else {
+      views.push_back(view->second);
+    }
   }
   std::ranges::sort(views);
   views.erase(std::unique(views.begin(), views.end()), views.end());
@@ -86,12 +90,12 @@ Curve CurveOf(const ImportedLine& line,
   for (const Eigen::Vector3d& position : {line.start, line.end}) {
     CurveSample& sample = curve.samples.emplace_back();
     sample.position = position;
-    sample.tangent = (line.end - line.start).normalized();
+    sample.tangent = (line.end - line.start).stableNormalized();
     for (const std::int32_t view_idx : views) {
       const View& view = scene.views[static_cast<std::size_t>(view_idx)];
       const Camera& camera = CameraOf(scene, view);
       if (!ProjectPoint(position, view, camera)) continue;
-      EdgeMap& map = edge_maps[static_cast<std::size_t>(view_idx)];
+      EdgeMap& map = result.edge_maps[static_cast<std::size_t>(view_idx)];
       sample.support.push_back(
           {view_idx, static_cast<std::int32_t>(map.edges.size())});
       map.edges.push_back(EdgeAt(sample, view, camera));
@@ -125,6 +129,9 @@ class Words {
   std::uint32_t Id() { return Take<std::uint32_t>("the id of an image"); }
   std::uint32_t Count() { return Take<std::uint32_t>("a count"); }
   void Skip() { Number(); }
+  void End() {
+    if (!AtEnd()) Fail("its end after the lines that it announces");
+  }
   void Name(std::string_view name) {
     if (ok() && words_.Word() != name) Fail("\"" + std::string(name) + "\"");
   }
@@ -237,6 +244,7 @@ void ReadAllTracks(Words& words, Lines& lines) {
     for (std::uint32_t k = 0; k < num_segments && words.ok(); ++k) words.Skip();
     lines.push_back(std::move(line));
   }
+  words.End();
 }
 
 // Two points, how many segments of how many images show the line, the images of
@@ -324,9 +332,9 @@ Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
   result.edge_maps.resize(scene.views.size());
   const KnownSpace known = KnownSpaceOf(scene);
   for (const ImportedLine& line : lines) {
-    if (line.start != line.end && known.Holds(line)) {
+    if ((line.end - line.start).stableNorm() > 0 && known.Holds(line)) {
       result.curves.curves.push_back(
-          CurveOf(line, scene, view_of_image, result.edge_maps));
+          CurveOf(line, scene, view_of_image, result));
     } else {
       ++result.num_left_out;
     }

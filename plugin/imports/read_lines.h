@@ -39,6 +39,8 @@ struct LineCurves {
   std::vector<EdgeMap> edge_maps;  // one per view: what the samples refer to
   int num_left_out = 0;            // lines of length 0 or too far to be known
   int num_seen = 0;                // lines whose middle some view sees
+  // References of lines to images that the scene does not have.
+  int num_unknown_images = 0;
 };
 
 // A curve of two samples per line, in the order of the lines. A sample is

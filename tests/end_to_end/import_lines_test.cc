@@ -64,6 +64,16 @@ TEST_F(ImportLines, AreFittedAndWrittenBesideTheModel) {
   }
 }
 
+TEST_F(ImportLines, AreNotOverwritten) {
+  const std::string tracks = Tracks();
+  const Outcome outcome =
+      RunProgram("import --format limap --input_path " + Quoted(tracks) +
+                 " --workspace_path " + Quoted(workspace_) + " --output_path " +
+                 Quoted(fs::path(tracks).parent_path()));
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("among the lines"));
+}
+
 TEST_F(ImportLines, AreAlignedByAnotherImport) {
   const std::string folders = " --workspace_path " + Quoted(workspace_);
   const std::string import =

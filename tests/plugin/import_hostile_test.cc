@@ -155,7 +155,8 @@ TEST_F(HostileImport, NerfSaysWhatIsWrong) {
       message(Transforms("a.png", MatrixJson(Eigen::MatrixXd::Zero(3, 4)))),
       HasSubstr("no rotation"));
   EXPECT_THAT(message(Transforms("../a.png", unit)), HasSubstr("../a.png"));
-  EXPECT_THAT(message(Transforms("..\\\\a.png", unit)), HasSubstr("relative"));
+  EXPECT_THAT(message(Transforms("..\\\\a.png", unit)),
+              HasSubstr("with --image_path"));
   EXPECT_THAT(message(Transforms("a.png\\u0000", unit)),
               HasSubstr("control characters"));
   EXPECT_THAT(message(Transforms("c.png", unit)), HasSubstr("c.png"));
@@ -168,6 +169,14 @@ TEST_F(HostileImport, NerfSaysWhatIsWrong) {
   EXPECT_THAT(camera("\"fl_x\": 700, \"w\": 320"), HasSubstr("640 x 480"));
   EXPECT_THAT(camera("\"fl_x\": 700, \"camera_model\": \"EQUIRECTANGULAR\""),
               HasSubstr("EQUIRECTANGULAR"));
+  EXPECT_THAT(camera("\"fl_x\": 700, \"latlong\": true"), HasSubstr("latlong"));
+  EXPECT_THAT(camera("\"fl_x\": 700, \"is_fisheye\": 1"),
+              HasSubstr("true or false"));
+  EXPECT_THAT(camera("\"fl_x\": 700, \"is_fisheye\": true, \"p1\": 0.1"),
+              HasSubstr("p1 and p2"));
+  EXPECT_THAT(camera("\"fl_x\": 700, \"distortion_params\": [0.1]"),
+              HasSubstr("distortion_params"));
+  EXPECT_THAT(camera("\"camera_angle_x\": 45"), HasSubstr("in radians"));
   EXPECT_THAT(camera("\"camera_intrinsics\": [[1, 2], [3, 4]]"),
               HasSubstr("3 x 3"));
 }

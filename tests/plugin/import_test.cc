@@ -122,6 +122,26 @@ TEST_F(Import, DtuArchiveComesBackThroughSinglePrecision) {
   EXPECT_THAT(scene->notes, IsEmpty());
 }
 
+// By name, 10.png comes before 2.png.
+TEST_F(Import, DtuArchivesFindImagesOfTheSameNumbers) {
+  std::map<std::string, std::string> entries;
+  for (const int i : {2, 10}) {
+    Photo(std::to_string(i) + ".png");
+    Eigen::Matrix4d world =
+        Eigen::Vector4d(700, 700, 1, 1).asDiagonal().toDenseMatrix();
+    world(2, 3) = i;
+    entries["world_mat_" + std::to_string(i)] = NpyOfMatrix(world);
+  }
+  WriteNpz(folder_.path() / "cameras.npz", entries);
+  const auto scene = ImportDtu(From(""));
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  for (const ColmapImage& image : scene->model.images) {
+    EXPECT_NEAR(image.cam_from_world.translation.z(),
+                image.name == "2.png" ? 2 : 10,
+                1e-9);
+  }
+}
+
 TEST_F(Import, FilesInTheCurrentFolderHaveTheirImagesThere) {
   Photo("000.png");
   WriteNpz(folder_.path() / "cameras.npz",
@@ -240,9 +260,15 @@ TEST_F(Import, InstantNgpKeepsColmapsPixelsAndDistortion) {
       {radial + "\"k3\": 0.5, ",
        CameraModel::kFullOpenCV,
        {0.1, 0.2, 0.3, 0.4, 0.5, 0, 0, 0}},
-      {radial + "\"k4\": 0.6, \"camera_model\": \"OPENCV_FISHEYE\", ",
+      {radial + "\"k4\": 0.6, \"camera_model\": \"FULL_OPENCV\", ",
+       CameraModel::kFullOpenCV,
+       {0.1, 0.2, 0.3, 0.4, 0, 0.6, 0, 0}},
+      {"\"distortion_params\": [0.1, 0.2, 0, 0, 0.3, 0.4], \"k1\": 9, ",
+       CameraModel::kOpenCV,
+       {0.1, 0.2, 0.3, 0.4}},
+      {"\"k1\": 0.1, \"k4\": 0.6, \"camera_model\": \"OPENCV_FISHEYE\", ",
        CameraModel::kOpenCVFisheye,
-       {0.1, 0.2, 0, 0.6}}};
+       {0.1, 0, 0, 0.6}}};
   for (auto [fields, model, params] : kinds) {
     WriteTransforms(pinhole + fields, "", "");
     const auto distorted = ImportNerf(From(""));
@@ -252,6 +278,53 @@ TEST_F(Import, InstantNgpKeepsColmapsPixelsAndDistortion) {
     params.insert(params.begin(), {700, 710, 310, 245});
     EXPECT_EQ(camera.params, params);
   }
+}
+
+// A focal length of the frame wins over one of another kind of the file.
+TEST_F(Import, FramesMayHaveOtherKindsOfFocalLengths) {
+  Photo("0.png");
+  Photo("1.png");
+  const auto frame = [&](const std::string& fields, std::size_t i) {
+    return "{\"file_path\": \"" + std::to_string(i) + ".png\", " + fields +
+           ", \"transform_matrix\": " + MatrixJson(NerfMatrix(poses_[i])) + "}";
+  };
+  folder_.Write("transforms.json",
+                "{\"fl_x\": 700, \"fl_y\": 710, // of another camera\n"
+                "\"frames\": [" +
+                    frame("\"fl_x\": 500", 0) + ", " +
+                    frame("\"camera_angle_x\": 1.5707963267948966", 1) + "]}");
+  const auto scene = ImportNerf(From(""));
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  ASSERT_THAT(scene->model.cameras, SizeIs(2));
+  EXPECT_THAT(scene->model.cameras[0].camera.params,
+              ElementsAre(500, 500, 320, 240));
+  EXPECT_NEAR(scene->model.cameras[1].camera.params[0], 320, 1e-9);
+  EXPECT_NEAR(scene->model.cameras[1].camera.params[1], 320, 1e-9);
+}
+
+// Folders of another machine, of which the last tells images apart.
+TEST_F(Import, NerfImagesAreFoundWithoutTheirFirstFolders) {
+  for (const char* name : {"left/a.png", "right/a.png"}) {
+    Photo(std::string("photos/") + name);
+  }
+  std::string frames;
+  for (std::size_t i = 0; i < 2; ++i) {
+    frames += (i > 0 ? ", " : "") +
+              ("{\"file_path\": \"/home/x/images/" +
+               std::string(i > 0 ? "right" : "left") +
+               "/a.png\", \"transform_matrix\": ") +
+              MatrixJson(NerfMatrix(poses_[i])) + "}";
+  }
+  folder_.Write("transforms.json",
+                "{\"fl_x\": 700, \"frames\": [" + frames + "]}");
+  ImportOptions options = From("");
+  EXPECT_THAT(ImportNerf(options).status().message(),
+              HasSubstr("name their folder with --image_path"));
+  options.image_path = folder_.path() / "photos";
+  const auto scene = ImportNerf(options);
+  ASSERT_TRUE(scene.ok()) << scene.status().message();
+  EXPECT_EQ(scene->model.images[0].name, "left/a.png");
+  EXPECT_EQ(scene->model.images[1].name, "right/a.png");
 }
 
 TEST_F(Import, FramesMayHaveCamerasOfTheirOwn) {

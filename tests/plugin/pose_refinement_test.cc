@@ -9,9 +9,8 @@
 #include "geometry/similarity.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
+#include "tests/plugin/fake_colmap.h"
 #include "tests/plugin/posed_points.h"
-#include "tests/support/temporary_folder.h"
-
 namespace curvix {
 namespace {
 
@@ -21,27 +20,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-bool Continue(const std::string&, int, int) { return true; }
-
-PoseRefinement Refine(const ColmapModel& model,
-                      const PoseRefinementSettings& settings,
-                      const fs::path& log_path = {}) {
-  Result<PoseRefinement> result =
-      RefinePoses(model, settings, log_path, Continue);
-  EXPECT_TRUE(result.ok()) << result.status().message();
-  return result.ok() ? *std::move(result) : PoseRefinement();
-}
-
-// `model` after the similarity that brings its cameras to those of `truth`.
-ColmapModel AlignedTo(const ColmapModel& truth, ColmapModel model) {
-  const auto back = AlignPoses(PosesOf(model), PosesOf(truth));
-  EXPECT_TRUE(back);
-  for (ColmapImage& image : model.images) {
-    image.cam_from_world = MovePose(*back, image.cam_from_world);
-  }
-  return model;
-}
 
 TEST(RefinePoses, SkipsModelsWithFewPoints) {
   for (const std::size_t num_points : {0u, 5u, 90u}) {
@@ -65,80 +43,6 @@ TEST(RefinePoses, DoesNothingIfNotAskedTo) {
   EXPECT_FALSE(result.model);
   EXPECT_THAT(result.notes, IsEmpty());
 }
-
-// A script in COLMAP's place. $4 is the input folder, $6 the output folder.
-class FakeColmap : public testing::Test {
- protected:
-  void SetUp() override { DisturbPoses(1, 5, &model_); }
-
-  PoseRefinement Run(const std::string& bundle_adjuster,
-                     const std::string& help = "echo 'COLMAP 3.8 -- SfM'") {
-    const fs::path script =
-        folder_.Write("bin/colmap",
-                      "#!/bin/sh\nif [ \"$1\" = help -o \"$2\" = --help ]; "
-                      "then\n" +
-                          help + "\nexit 0\nfi\n" + bundle_adjuster + "\n");
-    fs::permissions(script, fs::perms::owner_all);
-    settings_.colmap_path = script;
-    settings_.refiner_timeout_s = 1;
-    return Refine(model_, settings_, folder_.path() / "log");
-  }
-
-  // What the script printed.
-  std::string Log() const {
-    std::ifstream log(folder_.path() / "log");
-    return {std::istreambuf_iterator<char>(log), {}};
-  }
-
-  // Writes `model` where the script can copy it from.
-  std::string Copy(const ColmapModel& model, const std::string& name) {
-    const fs::path folder = folder_.path() / name;
-    const Status status = WriteColmapModel(model, folder);
-    EXPECT_TRUE(status.ok()) << status.message();
-    return "cp '" + folder.string() + "'/*.bin \"$5\"";
-  }
-
-  // What the adapter writes for COLMAP.
-  ColmapModel Written() {
-    Run("cp \"$3\"/*.bin '" + folder_.path().string() + "'");
-    return ReadColmapModel(folder_.path()).value();
-  }
-
-  // The same with the poses of `truth`.
-  ColmapModel WrittenWithPosesOf(ColmapModel truth) {
-    ColmapModel model = Written();
-    // It has ids in the order of the names.
-    std::sort(truth.images.begin(),
-              truth.images.end(),
-              [](const auto& a, const auto& b) { return a.name < b.name; });
-    for (std::size_t i = 0; i < model.images.size(); ++i) {
-      model.images[i].cam_from_world = truth.images[i].cam_from_world;
-    }
-    return model;
-  }
-
-  // The run of a bundle adjuster that finds the poses of `truth`.
-  PoseRefinement Solve(const ColmapModel& truth) {
-    return Run(Copy(WrittenWithPosesOf(truth), "solved"));
-  }
-
-  static void ExpectKept(const PoseRefinement& result,
-                         const std::string& reason,
-                         const std::string& what = "is left out: ") {
-    EXPECT_FALSE(result.model);
-    EXPECT_FALSE(result.record.accepted);
-    EXPECT_EQ(result.record.refiner, "colmap");
-    EXPECT_THAT(result.record.reason, HasSubstr(reason));
-    EXPECT_THAT(result.notes,
-                ElementsAre(AllOf(HasSubstr("Bundle adjustment"),
-                                  HasSubstr(what),
-                                  HasSubstr(reason))));
-  }
-
-  TemporaryFolder folder_;
-  ColmapModel model_ = PosedPoints({});
-  PoseRefinementSettings settings_;
-};
 
 TEST_F(FakeColmap, GetsStableOptionsAndAModelInAPrivateFolder) {
   Run("echo \"$@\"; ls \"$3\"; stat -c %a \"$3/..\"");
@@ -375,42 +279,6 @@ TEST_F(FakeColmap, GetsAWorldOfMapCoordinatesAboutTheOrigin) {
     EXPECT_LT(point.position.norm(), 10);
   }
 }
-
-class EveryCameraModel : public FakeColmap,
-                         public testing::WithParamInterface<int> {};
-
-TEST_P(EveryCameraModel, GetsThePosesThatColmapFinds) {
-  PosedPointsOptions options;
-  options.camera = {*ModelFromId(GetParam()), 640, 480, {}};
-  for (int i = NumParams(options.camera.model); i > 0; --i) {
-    options.camera.params.push_back(0.01);
-  }
-  const Eigen::Matrix3d k = [&] {
-    Camera numbered = options.camera;
-    for (std::size_t i = 0; i < numbered.params.size(); ++i) {
-      numbered.params[i] = static_cast<double>(i);
-    }
-    return PinholeCalibration(numbered);
-  }();
-  const auto cx = static_cast<std::size_t>(k(0, 2));
-  for (std::size_t i = 0; i < cx; ++i) options.camera.params[i] = 500;
-  options.camera.params[cx] = 320;
-  options.camera.params[cx + 1] = 240;
-  if (options.camera.model == CameraModel::kEucm) {
-    options.camera.params[cx + 2] = 0.5;
-    options.camera.params[cx + 3] = 1;
-  }
-  const ColmapModel truth = PosedPoints(options);
-  model_ = truth;
-  DisturbPoses(1, 5, &model_);
-  const PoseRefinement result = Solve(truth);
-  ASSERT_TRUE(result.model) << result.record.reason;
-  EXPECT_GT(MedianShift(AlignedTo(truth, model_), truth), 0.5);
-  EXPECT_LT(MedianShift(AlignedTo(truth, *result.model), truth), 1e-6);
-  EXPECT_EQ(result.model->cameras[0].camera.params, options.camera.params);
-}
-
-INSTANTIATE_TEST_SUITE_P(Ids, EveryCameraModel, testing::Range(0, 17));
 
 }  // namespace
 }  // namespace curvix
