@@ -299,13 +299,15 @@ Result<Lines> ReadLimapLines(const fs::path& path) {
     return ExtensionOf(path) == ".obj" ? ReadObj(path)
                                        : ReadWords(path, ReadAllTracks);
   }
-  for (const fs::path& folder : {path, path / "finaltracks"}) {
+  for (const char* const name : {"", "finaltracks", "fitnmerge_finaltracks"}) {
+    const fs::path folder = path / name;
     if (const std::size_t count = CountTracks(folder); count > 0) {
       return ReadTracks(folder, count);
     }
   }
-  const fs::path all = path / "alltracks.txt";
-  if (IsFile(all)) return ReadWords(all, ReadAllTracks);
+  for (const char* const name : {"alltracks.txt", "fitnmerge_alltracks.txt"}) {
+    if (IsFile(path / name)) return ReadWords(path / name, ReadAllTracks);
+  }
   return Status::NotFound(
       path.string() +
       " holds no finaltracks/, track_<i>.txt or alltracks.txt; name the output "

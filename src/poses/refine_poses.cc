@@ -79,7 +79,6 @@ class Refiner {
   }
 
   const SpaceCells& cells() const { return cells_; }
-  bool cameras_stay() const { return !reason_of_cameras_.empty(); }
   const HeldOutGains& gains() const { return *gains_; }
 
   // Adds those of another search, in which other cells were held out.
@@ -340,7 +339,8 @@ class Refiner {
 };
 
 // Held out is one set of cells; as long as this leaves open if the poses are
-// better, other searches hold out other sets.
+// better, other searches hold out other sets. They refine cameras only if the
+// first search has found better ones.
 CurvePoses Refine(const Scene& scene,
                   const std::vector<EdgeMap>& edge_maps,
                   const Options& options,
@@ -352,10 +352,10 @@ CurvePoses Refine(const Scene& scene,
   Refiner refiner(scene, places, refine_intrinsics, &search);
   refiner.Search(0, std::nullopt);
   const PoseSearch::State found = search.state();
+  const bool has_new_cameras = !found.free_lenses.empty();
   for (int set = 1; set < SpaceCells::kNumSets && refiner.IsOpen(set); ++set) {
     search.SetState(at_input);
-    Refiner other(
-        scene, places, refine_intrinsics && !refiner.cameras_stay(), &search);
+    Refiner other(scene, places, has_new_cameras, &search);
     other.Search(set, refiner.cells());
     refiner.Add(other.gains());
     search.SetState(found);
