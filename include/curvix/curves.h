@@ -169,6 +169,7 @@ class CurvesInMemory : public CurveSource {
   explicit CurvesInMemory(const CurveSet& curves,
                           const std::vector<EdgeMap>* edge_maps = nullptr)
       : curves_(curves), edge_maps_(edge_maps) {}
+  CurvesInMemory(CurveSet&&, const std::vector<EdgeMap>* = nullptr) = delete;
 
   std::size_t size() const override { return curves_.curves.size(); }
   void ForEach(const Visit& visit) const override {

@@ -22,7 +22,7 @@ namespace curvix {
 struct Edge2d {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
   float angle = 0;                                     // radians
-  float strength = 0;  // gradient magnitude, grey levels (0..255) per pixel
+  float strength = 0;  // gradient magnitude >= 0, grey levels per pixel
   // How sharp the edge is: 1 / w^2 if across it the image is a step blurred by
   // a Gaussian of standard deviation w pixels, the detector's own included; <=
   // 0 where the gradient has no peak; 0 also if it is not known.
@@ -72,7 +72,7 @@ struct UnseenCells {
 // All edges of one view, in detector order (row by row).
 struct EdgeMap {
   std::vector<Edge2d> edges;
-  std::vector<EdgeNeighbors> neighbors;  // one per edge
+  std::vector<EdgeNeighbors> neighbors;  // one per edge; curves follow them
   UnseenCells unseen = {};               // a view is not queried there
   double noise = 0;  // standard deviation of the image noise, grey levels
   // The mean distance between edges along a contour. The detector samples

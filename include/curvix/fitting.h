@@ -158,7 +158,7 @@ struct FittedCurves {
 // Fits each curve by the primitives that explain its samples with the fewest
 // parameters: one line, arc or ellipse, or a chain of lines and arcs, or a
 // spline; the least of
-//   sum of min(distance^2 / sigma^2, 9) + (number of parameters) * log(samples)
+//   sum of min(distance^2 / sigma^2, 9) + 2 (number of parameters) log(samples)
 // wins, ties go to the earlier kind. Samples further than three standard
 // deviations off, as at rounded corners, thus cost the same at any distance.
 // Sigma is that of each sample (the median where it is not known; where it is

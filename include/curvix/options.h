@@ -10,11 +10,11 @@ namespace curvix {
 
 // Sec. 3, ref. [15].
 struct EdgeDetectionOptions {
-  // Standard deviation of the Gaussian derivative filters. Pixels, > 0.
+  // Standard deviation of the Gaussian derivative filters. Pixels, 0.3 to 10.
   double sigma_px = 1.0;
   // Images with more edges than `max_edges_per_megapixel` allows are seen at
   // this many times `sigma_px`, at which texture and noise weigh less. They are
-  // sampled at every pixel instead of every half; >= 1, which sees all images
+  // sampled at every pixel instead of every half; 1 to 4; 1 sees all images
   // alike.
   double crowded_scale = 1.5;
   // Weakest gradient kept, grey levels per pixel; >= 0. Raised by
@@ -134,11 +134,11 @@ struct ConnectivityOptions {
   double sample_spacing_px = 1.0;
   // Largest angle between connected edges. Degrees, > 0, <= 90.
   double max_angle_deg = 30.0;
-  // Longest gap closed between ends that continue each other. Pixels, >= 0; 0
-  // (paper) closes none.
+  // Longest gap closed between ends that continue each other. Pixels, 0 to 50;
+  // 0 (paper) closes none.
   double max_gap_px = 10.0;
-  // A piece of a curve nearer to a longer one is drawn once. Pixels, >= 0; 0
-  // (paper) keeps all.
+  // A piece of a curve nearer to a longer one is drawn once. Pixels, 0 to 20;
+  // 0 (paper) keeps all.
   double max_duplicate_distance_px = 1.0;
   // Curves are cut where they turn by more in one place. Degrees, > 0, <= 180;
   // 180 (paper) cuts none.
@@ -158,8 +158,8 @@ struct CurveGrowthOptions {
   double min_significance = 14.0;
   // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
   // are texture, joints of brick or tiles, and dropped unless they are four
-  // times as significant as min_significance. No curve grows from a 2D edge
-  // that is more crowded. >= 0; 0: nothing is texture.
+  // times as significant as min_significance. No 2D edge that is more crowded
+  // is the first of a seed. >= 0; 0: nothing is texture.
   double max_crowding = 0.35;
 
   bool IsTexture(double crowding) const {
@@ -234,7 +234,7 @@ struct CurveFittingOptions {
 };
 
 struct RuntimeOptions {
-  // Threads; <= 0 means one per core.
+  // Threads; -1 and 0 mean one per core.
   int num_threads = -1;
 };
 

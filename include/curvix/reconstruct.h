@@ -33,7 +33,7 @@ struct Report {
 };
 
 // Called from one thread at a time: `stage` has finished `done` of `total`
-// steps. Returning false asks the run to stop with StatusCode::kCancelled.
+// steps (0: not known). False asks the run to stop with StatusCode::kCancelled.
 using Progress =
     std::function<bool(const std::string& stage, int done, int total)>;
 

@@ -121,7 +121,7 @@ struct Scene {
 
 // The camera of one of the scene's views.
 inline const Camera& CameraOf(const Scene& scene, const View& view) {
-  return scene.cameras[static_cast<std::size_t>(view.camera_idx)];
+  return scene.cameras.at(static_cast<std::size_t>(view.camera_idx));
 }
 
 // COLMAP's camera models, both ways: ids 0 to 16, with COLMAP's formulas.

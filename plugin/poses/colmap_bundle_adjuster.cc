@@ -45,15 +45,16 @@ class ScratchFolder {
  public:
   static Result<fs::path> Make() {
     std::error_code error;
-    // COLMAP runs in it, so not relative to where this program runs.
-    const fs::path parent = fs::absolute(fs::temp_directory_path(error));
+    const fs::path given = fs::temp_directory_path(error);
     if (error) {
       return Status::InvalidArgument(
           "TMPDIR is not a folder; let it name one with room, or use "
           "--refiner none");
     }
+    // COLMAP runs in it, so not relative to where this program runs.
+    const fs::path parent = fs::absolute(given, error);
     std::string name = (parent / "colmap_curvix-XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) return fs::path(name);
+    if (!error && mkdtemp(name.data()) != nullptr) return fs::path(name);
     return Status::InvalidArgument(
         "cannot make a temporary folder in " + parent.string() +
         "; let TMPDIR name one with room, or use --refiner none");

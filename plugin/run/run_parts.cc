@@ -282,6 +282,7 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   const JoinedCurves curves(
       plan->partition, *parts, input->scene, settings.options);
   if (!curves.status().ok()) return curves.status();
+  if (settings.clean) StageStore(workspace->output_path / "stages").Clean();
   const std::size_t num_parts = plan->partition.parts.size();
   record.stages.push_back(
       since_join.Read(kJoinStage,

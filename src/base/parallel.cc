@@ -74,12 +74,15 @@ void ParallelForWhile(std::size_t n,
   std::atomic<std::size_t> num_ended = 0;
   const auto work = [&](bool may_ask) {
     for (std::size_t i = next++; i < n; i = next++) {
+      bool is_asking = false;
       try {
         if (!f(i)) next = n;
         ++num_ended;
+        is_asking = may_ask;
         if (may_ask && !keep_going(num_ended)) next = n;
       } catch (...) {
         error.Keep(i, std::current_exception());
+        if (is_asking) next = n;
       }
     }
   };

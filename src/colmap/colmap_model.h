@@ -84,9 +84,9 @@ std::size_t CountColmapImages(const std::filesystem::path& folder);
 Result<ColmapModel> ReadColmapModel(const std::filesystem::path& folder);
 
 // Writes `model` into `folder`, which is made if needed, as .bin, each file
-// whole or not at all. kInvalidArgument if the model is not valid, or if the
-// folder holds rigs, frames or files in .txt, which COLMAP would read instead
-// of these.
+// whole or not at all. kDataLoss if the model is not valid; kInvalidArgument if
+// the folder holds rigs, frames or files in .txt, which COLMAP would read
+// instead of these.
 Status WriteColmapModel(const ColmapModel& model,
                         const std::filesystem::path& folder);
 

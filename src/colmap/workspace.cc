@@ -253,7 +253,7 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
 fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
   const fs::path mask = ImageFile(folder, image_name + ".png");
   if (IsFile(mask)) return mask;
-  const fs::path same_name = folder / image_name;
+  const fs::path same_name = ImageFile(folder, image_name);
   const bool is_png = same_name.extension() == ".png";
   return is_png && IsFile(same_name) ? same_name : fs::path();
 }

@@ -33,7 +33,7 @@ class CurveTip {
   // Predicts the tip after a step along the tangent.
   void Step(double step_px);
   // Corrects the tip by these 2D edges, with Cauchy's weights. Their order
-  // makes no difference.
+  // makes a difference by rounding.
   void Correct(const std::vector<PlaneMeasurement>& measurements);
 
   // Variance of the distance across the projected tangent, px^2.

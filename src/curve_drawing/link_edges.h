@@ -43,7 +43,8 @@ NeighborhoodGraph BuildGraph(const std::vector<Edge3d>& edges,
                              int num_threads);
 
 // Links two 3D edges if one has a 2D edge whose previous or next neighbour
-// supports the other; num_tangential is in how many views.
+// supports the other; num_tangential is in how many views,
+// in the direction that has more.
 //
 // Each edge asks for its options.max_num_links heaviest links, as in
 // BuildGraph. `edge_maps` has one map per view, with the neighbours of each

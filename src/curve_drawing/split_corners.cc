@@ -107,7 +107,7 @@ class CornerFinder {
     const auto ahead = BranchAt(k, true);
     const auto behind = BranchAt(k, false);
     if (!ahead.has_value() || !behind.has_value()) return 0;
-    // Branch centres are this many times further apart than halves of an
+    // Branch centres are this many times further apart than halves of a
     // branch.
     const double ratio =
         2 * (kBranchEnd + kBranchBegin) / (kBranchEnd - kBranchBegin);

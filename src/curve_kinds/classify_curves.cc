@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 // together. They are not independent: their strips share errors of the poses
 // and what hides them. Each counts as this share of an independent one.
 constexpr double kStepPx = 8;
-constexpr int kReach = 5;
+constexpr std::size_t kReach = 5;
 constexpr float kIndependentShare = 0.35F;
 
 // Other curves and COLMAP's points as near as this are looked at, too.
@@ -60,18 +60,34 @@ Vector3d Across(const Vector3d& tangent, const Vector3d& normal) {
   return tangent.cross(Vector3d::Unit(axis)).normalized();
 }
 
-// The weighted sum over the neighbours within kReach. Those that do not see a
-// direction count as the mean of those that do, unless they are most.
-SurfaceEvidence SumAround(const std::vector<SurfaceEvidence>& evidence,
-                          std::size_t at) {
-  const std::size_t first = at < kReach ? 0 : at - kReach;
-  const std::size_t last = std::min(evidence.size() - 1, at + kReach);
-  const auto num = static_cast<float>(last + 1 - first);
+// Of `size` places along a curve those within kReach of one.
+std::vector<std::size_t> PlacesAround(std::size_t at,
+                                      std::size_t size,
+                                      bool is_closed) {
+  std::vector<std::size_t> around;
+  if (is_closed && size > 2 * kReach + 1) {
+    for (std::size_t k = 0; k <= 2 * kReach; ++k) {
+      around.push_back((at + size - kReach + k) % size);
+    }
+    return around;
+  }
+  const std::size_t first = at < kReach || is_closed ? 0 : at - kReach;
+  const std::size_t last =
+      is_closed ? size - 1 : std::min(size - 1, at + kReach);
+  for (std::size_t i = first; i <= last; ++i) around.push_back(i);
+  return around;
+}
+
+// The weighted sum over the places `around`. Those that do not see a direction
+// count as the mean of those that do, unless they are most.
+SurfaceEvidence SumOver(const std::vector<std::size_t>& around,
+                        const std::vector<SurfaceEvidence>& evidence) {
+  const auto num = static_cast<float>(around.size());
   SurfaceEvidence sum;
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t d = 0; d < kNumDirections; ++d) {
       float seen = 0;
-      for (std::size_t i = first; i <= last; ++i) {
+      for (const std::size_t i : around) {
         const float log_bayes = evidence[i].log_bayes[side][d];
         if (!std::isfinite(log_bayes)) continue;
         sum.log_bayes[side][d] += log_bayes;
@@ -214,12 +230,16 @@ class Classifier {
     if (chosen.empty()) return;
     const std::vector<SurfaceEvidence> evidence =
         EvidenceAlong(curve_idx, *curve);
+    const auto judge = [&](std::size_t at) {
+      return Judge(
+          SumOver(PlacesAround(at, evidence.size(), curve->closed), evidence));
+    };
     std::size_t nearest = 0;
-    KindProbability kind = Judge(SumAround(evidence, nearest));
+    KindProbability kind = judge(nearest);
     for (std::size_t i = 0; i < curve->samples.size(); ++i) {
       while (nearest + 1 < chosen.size() &&
              2 * i > chosen[nearest] + chosen[nearest + 1]) {
-        kind = Judge(SumAround(evidence, ++nearest));
+        kind = judge(++nearest);
       }
       curve->samples[i].kind = kind.kind;
       curve->samples[i].kind_probability = static_cast<float>(kind.probability);

@@ -73,7 +73,7 @@ CurveDistances DistancesByDirection(const StripPlace& place,
     for (const double step : {std::floor(steps), std::floor(steps) + 1}) {
       double& nearest =
           distances[static_cast<std::size_t>(step) % kNumDirections];
-      nearest = std::min(nearest, distance);
+      nearest = std::min(nearest, pixel * distance);
     }
   }
   return distances;

@@ -11,9 +11,9 @@
 
 namespace curvix {
 
-// How far the nearest of the `positions` on other curves is in each direction,
-// pixels of length `pixel`, world units; those a few pixels beside the plane
-// across the curve count. Infinity without any.
+// How far the nearest of the `positions` on other curves is in each direction;
+// those a few pixels (of length `pixel`, world units) beside the plane across
+// the curve count. Infinity without any.
 CurveDistances DistancesByDirection(
     const StripPlace& place,
     double pixel,

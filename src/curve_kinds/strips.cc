@@ -253,7 +253,7 @@ double StripSet::LogBayesOfRows(int num_rows, double noise_variance) const {
 }  // namespace
 
 SurfaceEvidence CompareStrips(const StripPlace& place,
-                              const CurveDistances& other_curves_px,
+                              const CurveDistances& other_curves,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images) {
@@ -295,7 +295,7 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     }
     for (std::size_t side = 0; side < 2; ++side) {
       evidence.log_bayes[side][static_cast<std::size_t>(d)] =
-          sides[side].LogBayes(other_curves_px[static_cast<std::size_t>(d)],
+          sides[side].LogBayes(other_curves[static_cast<std::size_t>(d)] / step,
                                noise_variance);
     }
   }

@@ -44,14 +44,14 @@ struct SurfaceEvidence {
   std::array<std::array<float, kNumDirections>, 2> log_bayes = {};
 };
 
-// How far the nearest other curve is in each direction, pixels; infinity: none
-// is near.
+// How far the nearest other curve is in each direction, world units; infinity:
+// none is near.
 using CurveDistances = std::array<double, kNumDirections>;
 
 // One of `views` and `images` per view of the scene. A surface may end at the
 // nearest other curve.
 SurfaceEvidence CompareStrips(const StripPlace& place,
-                              const CurveDistances& other_curves_px,
+                              const CurveDistances& other_curves,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images);

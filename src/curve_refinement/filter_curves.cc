@@ -65,7 +65,8 @@ std::vector<Curve> KeepKinds(std::vector<Curve> curves,
   for (Curve& curve : curves) {
     std::vector<bool> kept;
     for (const CurveSample& sample : curve.samples) {
-      kept.push_back(kinds.Has(sample.kind));
+      kept.push_back(sample.kind == CurveKind::kUnknown ||
+                     kinds.Has(sample.kind));
     }
     std::ranges::move(KeepRanges(std::move(curve), std::move(kept)),
                       std::back_inserter(pieces));

@@ -117,6 +117,7 @@ std::vector<BarPlace> LookAlong(const Curve& curve,
   for (const std::size_t i :
        SamplesAlong(curve, kPlaceSpacingPx * pixel, kMaxPlaces)) {
     const CurveSample& sample = curve.samples[i];
+    if (sample.support.empty()) continue;
     const Vector3d side = MeanSide(sample, views);
     outward = side.dot(outward) < 0 ? Vector3d(-side) : side;
     BarPlace place = Look(sample, outward, pixel, views, images);

@@ -19,7 +19,7 @@ double GradientThreshold(const EdgeDetectionOptions& options,
                          double sigma_px,
                          double noise);
 
-// Most edges that are kept of an image of that size: at least 10,000, and of n
+// Most edges that are kept of an image of that size: at least 20,000, and of n
 // million pixels n^0.8 times options.max_edges_per_megapixel.
 std::int64_t MaxEdges(const EdgeDetectionOptions& options,
                       int width,

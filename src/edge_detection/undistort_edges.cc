@@ -65,6 +65,12 @@ bool IsSeen(const Camera& camera,
         in_image.y() <= camera.height + kTolerancePx)) {
     return false;
   }
+  // Beyond where distortion folds over, it leads to pixels of other rays.
+  constexpr double kSameRay = 1e-6;
+  const auto shown = IdealFromImage(camera, in_image);
+  if (!shown || !((*shown - uv).norm() <= kSameRay * (1 + uv.norm()))) {
+    return false;
+  }
   return !mask || !IsBlack(*mask, in_image);
 }
 

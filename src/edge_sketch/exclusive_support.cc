@@ -13,7 +13,7 @@
 namespace curvix {
 namespace {
 
-// A contour is sampled about every half pixel.
+// A contour is sampled every pixel or less.
 constexpr int kLinksAlongContour = 2;
 constexpr double kSamePlacePx = 0.5;
 constexpr double kSamePlaceSigmas = 4;

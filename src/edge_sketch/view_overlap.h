@@ -54,7 +54,7 @@ struct DistinctViews {
 // None repeated, and each a station of its own.
 DistinctViews AllDistinct(Overlaps overlaps);
 
-// Two views repeat each other if either sees nine tenths of the places of the
+// Two views repeat each other if each sees nine tenths of the places of the
 // other at a median ray angle below options.validation.min_view_angle_deg:
 // neighbouring frames of a video, say. They show the same edges wherever these
 // are in depth, so together they confirm no more than one of them does. In the

@@ -46,7 +46,7 @@ std::optional<Conic> FitEllipse(FitSpan samples);
 
 // `conic` moved to fit `samples` as well as it can while its ends, those next
 // to the first and the last sample, lie on `start` and `end` where these are
-// given, to about a hundredth of a standard deviation. A circle stays one.
+// given, of a circle to 0.05 standard deviations. A circle stays one.
 // nullopt: no circle does, but a straight line.
 std::optional<Conic> FitThrough(const Conic& conic,
                                 FitSpan samples,

@@ -33,9 +33,9 @@ Eigen::Vector3d EdgePlane(const PosedView& view, const ImageEdge& edge);
 
 // The edge in space whose projections are edge1 and edge2. The position lies on
 // the ray of edge1, nearest to that of edge2. nullopt when a ray has negative
-// depth, when the rays are less than min_ray_angle_rad apart, or when the two
-// edge planes are less than min_plane_angle_rad apart: both edges run along the
-// epipolar line and have no tangent in space.
+// depth, when the rays are less than min_ray_angle_rad from parallel, or the
+// two edge planes are less than min_plane_angle_rad apart: both edges run along
+// the epipolar line and have no tangent in space.
 std::optional<SpaceEdge> TriangulateEdge(const PosedView& view1,
                                          const ImageEdge& edge1,
                                          const PosedView& view2,

@@ -12,11 +12,11 @@
 
 namespace curvix {
 
-// Bounds on where an edge may be, relative to a place and direction in the
-// image. The defaults are those of an edge that a view shows.
+// Bounds on where a place in the image may be, relative to an edge found. The
+// defaults are those of an edge that a view shows.
 struct Gate {
-  double normal_px = 1;                        // distance from the tangent line
-  double tangential_px = 1;                    // distance along it
+  double normal_px = 1;                        // from the edge's tangent line
+  double tangential_px = 1;                    // along it
   double min_cosine = std::cos(DegToRad(15));  // between the directions
 };
 

@@ -43,8 +43,8 @@ double PixelSize(const Supported& place, const std::vector<PosedView>& views) {
 inline constexpr double kMaxNormalDistancePx = 1.5;
 
 // The length in space, world units, that fills one pixel along the tangent of
-// `edge` in the view of `support` that sees it largest; PixelSize() or longer,
-// since edges that lead towards the views are foreshortened. 0 if none of the
+// `edge` in the view of `support` that sees it largest; longer than PixelSize()
+// where the edge leads towards the views. 0 if none of the
 // views has it in front, infinite if it leads to the centre of all.
 double PixelSizeAlong(const SpaceEdge& edge,
                       const std::vector<EdgeRef>& support,

@@ -94,7 +94,7 @@ std::vector<std::vector<Eigen::Vector2d>> ProjectCurve(const Curve& curve,
 std::vector<ProjectedStretch> ProjectShownAndHidden(const Curve& curve,
                                                     const Scene& scene,
                                                     int view_idx) {
-  const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+  const View& view = scene.views.at(static_cast<std::size_t>(view_idx));
   return Project(curve, AreShown(curve, view_idx), view, CameraOf(scene, view));
 }
 

@@ -121,6 +121,10 @@ Status WriteProjection(const fs::path& path,
               "projected curves are written as .svg, not as \"" + extension +
               "\"");
         }
+        if (view_idx < 0 || view_idx >= std::ssize(scene.views)) {
+          return Status::InvalidArgument("there is no view " +
+                                         std::to_string(view_idx));
+        }
         EncodeSvgCurves(curves, scene, view_idx, sink);
         return Status();
       },

@@ -24,8 +24,8 @@ Rgb CurveColor(std::size_t id);
 Rgb DirectionColor(const Eigen::Vector3d& tangent);
 
 // How far a sample may be trusted, in [0, 1): n / (n + 4) for n supporting
-// views. Four views give 0.5, twelve 0.75; a sample that a gap was bridged with
-// gives 0.
+// views. Four views give 0.5, twelve 0.75; a sample that was carried on to a
+// corner has none: 0.
 float Confidence(std::size_t num_supporting_views);
 
 }  // namespace curvix

@@ -140,7 +140,10 @@ Curve MakeCurve(const LineGraph& graph, const Path& path) {
   for (std::size_t i = 0; i < path.vertices.size(); ++i) {
     Eigen::Vector3d tangent = Eigen::Vector3d::Zero();
     if (!graph.tangents.empty()) tangent = graph.tangents[path.vertices[i]];
-    if (!tangent.allFinite() || tangent.norm() == 0) tangent = Chord(curve, i);
+    const Eigen::Vector3d along = Chord(curve, i);
+    if (!tangent.allFinite() || tangent.norm() == 0) tangent = along;
+    // The file may have the curve in the other direction.
+    if (tangent.dot(along) < 0) tangent = -tangent;
     if (tangent.norm() > 0) curve.samples[i].tangent = tangent.normalized();
   }
   return curve;

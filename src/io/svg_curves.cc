@@ -48,7 +48,7 @@ void EncodeSvgCurves(const CurveSource& curves,
                      const Scene& scene,
                      int view_idx,
                      const ByteSink& sink) {
-  const View& view = scene.views[static_cast<std::size_t>(view_idx)];
+  const View& view = scene.views.at(static_cast<std::size_t>(view_idx));
   const Camera& camera = CameraOf(scene, view);
   const std::string size =
       std::to_string(camera.width) + " " + std::to_string(camera.height);

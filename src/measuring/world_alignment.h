@@ -105,8 +105,8 @@ struct AlignmentResult {
 // scale, which nothing else depends on. Positions without a sigma all have the
 // same, estimated from their residuals. kInvalidArgument, with a sentence:
 // nothing is given, points of a distance coincide, or positions do not fix the
-// rotation and no axes are given, or some positions have no sigma that are
-// fewer than three or not all.
+// rotation and no axes are given, or positions have no sigma and are fewer than
+// three, or only some have one.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

@@ -49,14 +49,26 @@ bool IsSound(const ScenePoint& point, std::size_t num_views) {
                              [&](int idx) { return IsIn(idx, num_views); });
 }
 
+bool IsSound(const Edge2d& edge) {
+  const auto is_finite = [](auto number) {
+    return std::isfinite(static_cast<float>(number));
+  };
+  return edge.position.allFinite() &&
+         edge.position.cwiseAbs().maxCoeff() <= kFarthestPx &&
+         is_finite(edge.angle) && is_finite(edge.sharpness) &&
+         is_finite(edge.strength) && edge.strength >= 0 &&
+         is_finite(edge.level) && is_finite(edge.crowding) &&
+         is_finite(edge.fine_px);
+}
+
 bool IsSound(const EdgeMap& map) {
   if (map.neighbors.size() != map.edges.size()) return false;
   if (!(map.spacing_px > 0) || !std::isfinite(map.spacing_px)) return false;
+  if (!std::isfinite(map.noise) || !std::isfinite(map.fine_variance_gain_px2)) {
+    return false;
+  }
   for (const Edge2d& edge : map.edges) {
-    const bool is_near = edge.position.cwiseAbs().maxCoeff() <= kFarthestPx;
-    if (!edge.position.allFinite() || !is_near || !std::isfinite(edge.angle)) {
-      return false;
-    }
+    if (!IsSound(edge)) return false;
   }
   for (const EdgeNeighbors& neighbors : map.neighbors) {
     if (!IsIn(neighbors.previous, map.edges.size()) ||
@@ -79,8 +91,11 @@ bool IsSound(const Edge3d& edge, const std::vector<EdgeMap>& edge_maps) {
       return false;
     }
   }
+  constexpr double kRounding = 1e-6;
   return edge.position.allFinite() && edge.tangent.allFinite() &&
-         std::isfinite(edge.sigma) && std::isfinite(edge.evidence);
+         std::abs(edge.tangent.norm() - 1) < kRounding &&
+         std::isfinite(edge.sigma) && edge.sigma >= 0 &&
+         std::isfinite(edge.evidence);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ namespace {
 
 // Leaves item `start` by `end` and walks on to the last item or back to
 // `start`; returns the items on the way, without `start`, in order.
-// `flipped` is whether walking from head to tail counts as flipped.
+// `forward`: items that are walked from tail to head are not flipped.
 std::vector<ChainItem> Walk(const EndTies& ties, EndIdx end, bool forward) {
   const std::size_t start = ItemOf(end);
   std::vector<ChainItem> items;

@@ -84,7 +84,7 @@ std::vector<Curve> CutAt(const Curve& curve,
 
 // Makes junctions of the places, equal to the last bit, in which two or more
 // ends of open curves lie: sets curves.junctions, in the order of their first
-// ends, and the curves' indices into it. The two ends of one curve may be one.
+// ends, and the curves' indices into it. Both ends of a curve may be in one.
 void IndexJunctions(CurveSet& curves);
 
 }  // namespace curvix

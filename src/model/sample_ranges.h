@@ -28,10 +28,10 @@ std::vector<Curve> KeepRanges(Curve curve,
                               std::vector<bool> kept,
                               std::size_t min_samples = 2);
 
-// Indices of samples `spacing` or more apart along the curve, at most
-// `max_num`, the outer ones half as far from the ends; the middle one of a
-// short curve. Ascending, without repeats. `spacing`: world units, > 0. The
-// curve has samples.
+// Indices of the first samples behind places at least `spacing` apart along the
+// curve, at most `max_num`, the outer places half as far from the ends; the
+// middle one of a short curve. Ascending, without repeats. `spacing`: world
+// units, > 0. The curve has samples.
 std::vector<std::size_t> SamplesAlong(
     const Curve& curve,
     double spacing,

@@ -7,7 +7,7 @@ namespace curvix {
 
 Options PaperOptions() {
   Options options;
-  // Also values that equal the defaults, so that new defaults change none.
+  // Also values that equal the defaults today.
   options.edge_detection.crowded_scale = 1;
   options.edge_detection.separate_edges = false;
   options.hypotheses.view_selection = ViewSelection::kUnusedEdges;

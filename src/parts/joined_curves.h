@@ -26,12 +26,12 @@ namespace curvix {
 // Ends at borders are joined to their continuation in another part
 // (TieSegments), without its first samples if they would step back. Curves come
 // in the order of the parts and of the curves in them, by their first piece.
-// Pieces without a continuation go if they are shorter than
-// options.curve_refinement.min_length_px. status() is the first error of
+// Joined curves shorter than options.curve_refinement.min_length_px go, unless
+// they join two junctions. status() is the first error of
 // `parts`, or kDataLoss if a curve names views or edges that are not there.
 class JoinedCurves final : public CurveSource {
  public:
-  // Reads each curve twice.
+  // Reads each curve twice or more.
   JoinedCurves(const ScenePartition& partition,
                PartResults& parts,
                const Scene& scene,

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <iterator>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "base/infinity.h"
+#include "base/median.h"
 #include "geometry/directions.h"
 #include "model/sample_ranges.h"
 
@@ -42,8 +44,24 @@ constexpr double kMinShare = 0.05;
 // reconstructed.
 constexpr int kMinOwnViews = 3;
 
-// Unit; ties and signs do not depend on the order of the points.
-Vector3d LongestDirection(const std::vector<Vector3d>& points) {
+Vector3d MedianOf(const std::vector<Vector3d>& points) {
+  Vector3d median;
+  for (int i = 0; i < 3; ++i) {
+    std::vector<double> coordinates;
+    for (const Vector3d& point : points) coordinates.push_back(point[i]);
+    median[i] = Median(std::move(coordinates));
+  }
+  return median;
+}
+
+// Of nine tenths of the points, those nearest to the median: views with wrong
+// poses are elsewhere. Unit; ties and signs do not depend on their order.
+Vector3d LongestDirection(std::vector<Vector3d> points) {
+  const Vector3d median = MedianOf(points);
+  std::ranges::sort(points, {}, [&](const Vector3d& point) {
+    return std::tuple((point - median).norm(), point.x(), point.y(), point.z());
+  });
+  points.resize(points.size() - points.size() / 10);
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& point : points) mean += point;
   mean /= static_cast<double>(points.size());
@@ -60,9 +78,7 @@ class Partitioner {
   Partitioner(const Places& places, double overlap)
       : places_(places), overlap_(overlap) {
     for (const std::vector<Vector3d>& seen : places) {
-      const Vector3d sum =
-          std::accumulate(seen.begin(), seen.end(), Vector3d(0, 0, 0));
-      centers_.push_back(sum / static_cast<double>(seen.size()));
+      centers_.push_back(MedianOf(seen));
     }
   }
 

@@ -54,10 +54,11 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
       places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
   if (partition) return *std::move(partition);
   return Status::InvalidArgument("the " + Plural(views.size(), "view") +
-                                 " cannot be divided into parts of " +
+                                 " cannot be divided into equal parts of at "
+                                 "most " +
                                  Plural(max_views_per_part, "view") +
-                                 ", because too many of them see the same "
-                                 "places; allow more views per part");
+                                 ", with those that see the same places; "
+                                 "allow more views per part");
 }
 
 PartResult TakePart(const ScenePartition& partition,

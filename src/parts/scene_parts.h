@@ -47,8 +47,8 @@ struct ScenePartition {
 // depth), by recursive bisection across the longest direction. A part has all
 // views with at least one place in twenty in its core or within twice the
 // overlap around it. The overlap is 25 pixels at the depth of a typical view.
-// O(n log n) for n views. kInvalidArgument if the scene is none, or if so few
-// views are too few to divide it, as where all views see the same.
+// O(n log n) for n views with points. kInvalidArgument if the scene is none, or
+// if so few views are too few to divide it, as where all views see the same.
 Result<ScenePartition> PartitionScene(const Scene& scene,
                                       int max_views_per_part);
 

@@ -119,6 +119,10 @@ std::string WhyEmpty(const Overlaps& overlaps,
          << options.edge_detection.min_gradient << ") finds weaker edges.";
   } else if (counts.view_pairs == 0) {
     text << WhyNoPair(overlaps, options.hypotheses);
+  } else if (counts.h1_edges == 0) {
+    text << "None of " << Plural(static_cast<std::size_t>(num_edges), "edge")
+         << " is on a contour that is long enough to begin with: contours are "
+            "short, or EdgeMap::neighbors is not set.";
   } else if (counts.hypotheses == 0) {
     text << "None of " << Plural(counts.h1_edges, "edge")
          << " has a counterpart on its epipolar line in another view: "

@@ -68,7 +68,7 @@ struct AdjustedPoses {
   std::vector<OccludingContour> contours;  // of the samples
   std::vector<Eigen::Vector3d> points;     // positions
   // The loss of each sample, then of each point, over its observations;
-  // infinite if it was left out.
+  // infinite if it is behind a camera.
   std::vector<double> costs;
 };
 

@@ -18,8 +18,8 @@ struct EdgesAround {
 
 // The shift of the image, up to `reach_px` in x and in y, that brings most
 // samples onto an edge. Wrong matches do no harm, since they share no shift.
-// Zero unless another shift is clearly better. Pixels; ties: smaller y,
-// then smaller x.
+// Zero unless another shift is clearly better. Pixels; ties: of whole steps,
+// smaller y, then smaller x.
 Eigen::Vector2d FindShift(const std::vector<EdgesAround>& samples,
                           double reach_px);
 

@@ -348,6 +348,11 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
         Plural(cameras.size(), "camera") + " for the " +
         std::to_string(scene.cameras.size()) + " of the scene");
   }
+  for (const auto* all : {&scene.cameras, &cameras}) {
+    for (const Camera& camera : *all) {
+      if (Status status = Validate(camera); !status.ok()) return status;
+    }
+  }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     const View& view = scene.views[i];
     const auto k = static_cast<std::size_t>(view.camera_idx);

@@ -84,7 +84,6 @@ TEST(FilterCurves, CutsOtherKindsOutAndKeepsWhatIsUnknown) {
   CurveFilterOptions options;
   options.kinds = CurveKindSet::None();
   options.kinds.Add(CurveKind::kCrease);
-  options.kinds.Add(CurveKind::kUnknown);
   const std::vector<Curve> kept =
       FilterCurves({curve}, FrontalViews(), OneEdge(), options);
   ASSERT_EQ(kept.size(), 2u);

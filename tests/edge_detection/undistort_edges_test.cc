@@ -189,5 +189,16 @@ TEST(FindUnseenCells, IsWhatALensLeavesOutOfTheIdealImage) {
   }
 }
 
+// The distortion of this lens folds over 52 degrees off the axis: the ray at
+// u = 1.9 leads to a pixel that shows another.
+TEST(FindUnseenCells, IsWhatLiesBeyondAFold) {
+  const Camera camera = {
+      CameraModel::kSimpleRadial, 1400, 1050, {1000, 700, 525, -0.2}};
+  ASSERT_LT(ImageFromIdeal(camera, {1.9, 0}).x(), 1400);
+  const UnseenCells unseen = FindUnseenCells(camera, std::nullopt);
+  EXPECT_TRUE(unseen.Contain({2600, 525}));
+  EXPECT_FALSE(unseen.Contain({1100, 525}));
+}
+
 }  // namespace
 }  // namespace curvix

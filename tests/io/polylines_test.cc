@@ -77,6 +77,17 @@ TEST(JoinPolylines, TangentsComeFromTheGraphElseFromNeighbours) {
   EXPECT_EQ(curve.samples[2].tangent, Eigen::Vector3d(0, 0, -1));
 }
 
+TEST(JoinPolylines, TangentsPointAlongTheCurve) {
+  LineGraph graph = OnAxis(3, {{0, 1}, {1, 2}});
+  graph.tangents.assign(3, -Eigen::Vector3d::UnitX());
+  const auto curves = JoinPolylines(graph);
+  ASSERT_EQ(curves->curves.size(), 1u);
+  EXPECT_EQ(Names(curves->curves[0]), (Ints{0, 1, 2}));
+  for (const CurveSample& sample : curves->curves[0].samples) {
+    EXPECT_EQ(sample.tangent, Eigen::Vector3d::UnitX());
+  }
+}
+
 TEST(JoinPolylines, ReportsEdgesOutOfRangeAndPositionsThatAreNotFinite) {
   const Status status = JoinPolylines(OnAxis(2, {{0, 2}})).status();
   EXPECT_EQ(status.code(), StatusCode::kDataLoss);

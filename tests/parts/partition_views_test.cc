@@ -60,6 +60,14 @@ TEST(PartitionViews, GivesEachViewToOnePartInBalance) {
   }
 }
 
+TEST(PartitionViews, DividesTheOthersBesideAViewThatIsFarOff) {
+  Places places = Street(60);
+  for (Eigen::Vector3d& place : places[30]) place.z() += 500;
+  const auto partition = PartitionViews(places, kOverlap, 24);
+  ASSERT_TRUE(partition.has_value());
+  EXPECT_LE(partition->parts.size(), 5u);
+}
+
 TEST(PartitionViews, GivesEachPlaceToOneCore) {
   const auto partition = PartitionViews(Street(100), kOverlap, 24);
   ASSERT_TRUE(partition.has_value());

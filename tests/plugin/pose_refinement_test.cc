@@ -4,6 +4,7 @@
 #include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "geometry/similarity.h"
@@ -102,6 +103,15 @@ TEST_F(FakeColmap, StopsWhenAskedTo) {
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.status().code(), StatusCode::kCancelled);
   }
+}
+
+TEST_F(FakeColmap, ATemporaryFolderThatIsNotThereIsTold) {
+  const char* const set = std::getenv("TMPDIR");
+  const std::string before = set == nullptr ? "" : set;
+  setenv("TMPDIR", "/no/such/folder", 1);
+  const PoseRefinement result = Run("exit 0");
+  set == nullptr ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
+  ExpectKept(result, "TMPDIR is not a folder");
 }
 
 TEST_F(FakeColmap, HangingIsEnded) {
