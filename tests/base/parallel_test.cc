@@ -85,6 +85,23 @@ TEST(ParallelForWhile, EndsOnceACallSaysSo) {
   }
 }
 
+TEST(ParallelForWhile, EndsOnceAskingThrows) {
+  std::vector<int> visits(100000, 0);
+  EXPECT_THROW(ParallelForWhile(
+                   visits.size(),
+                   1,
+                   [&](std::size_t i) {
+                     visits[i] = 1;
+                     return true;
+                   },
+                   [](std::size_t done) -> bool {
+                     if (done == 10) throw std::runtime_error("enough");
+                     return true;
+                   }),
+               std::runtime_error);
+  EXPECT_EQ(NumVisited(visits), 10U);
+}
+
 TEST(Concatenate, KeepsTheOrderOfParts) {
   EXPECT_EQ(Concatenate<int>({{1, 2}, {}, {3}}), (std::vector<int>{1, 2, 3}));
 }

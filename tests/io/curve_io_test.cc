@@ -81,6 +81,19 @@ TEST(CurveIo, WritesNothingOfCurvesThatCannotBeRead) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
+TEST(WriteProjection, RefusesViewsThatAreNotThere) {
+  const TemporaryFolder folder;
+  const CurveSet curves = MakeTestCurves();
+  for (const int view_idx : {-1, 3}) {
+    const Status status = WriteProjection(folder.path() / "a.svg",
+                                          CurvesInMemory(curves),
+                                          MakeTestScene(),
+                                          view_idx);
+    EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(CurveStyle, NeighbouringIdsLookDifferent) {
   const auto distance = [](const Rgb& a, const Rgb& b) {
     int sum = 0;

@@ -125,5 +125,19 @@ TEST_F(CheckInput, NeedsSoundEdges) {
       why);
 }
 
+TEST_F(CheckInput, NeedsNumbersOfEdgesThatAreFinite) {
+  const std::function<void(Edge2d&)> spoils[] = {
+      [](Edge2d& e) { e.sharpness = static_cast<float>(kNan); },
+      [](Edge2d& e) { e.strength = static_cast<float>(kNan); },
+      [](Edge2d& e) { e.strength = -1; },
+      [](Edge2d& e) { e.level = Eigen::half(static_cast<float>(kNan)); },
+      [](Edge2d& e) { e.fine_px = Eigen::half(static_cast<float>(kNan)); }};
+  for (const auto& spoil : spoils) {
+    ExpectMapsRefused(
+        [&](std::vector<EdgeMap>& maps) { spoil(maps[1].edges[0]); },
+        "finite numbers");
+  }
+}
+
 }  // namespace
 }  // namespace curvix

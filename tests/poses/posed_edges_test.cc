@@ -93,6 +93,10 @@ TEST_F(PosedEdgesTest, AreCarriedToAtLeastAsManyCameras) {
   const Status status =
       EdgesWithCameras(wires_.scene, wires_.edge_maps, {}).status();
   EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+  cameras.front().params.front() = -1;
+  EXPECT_EQ(
+      EdgesWithCameras(wires_.scene, wires_.edge_maps, cameras).status().code(),
+      StatusCode::kInvalidArgument);
 }
 
 }  // namespace
