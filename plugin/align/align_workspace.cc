@@ -27,10 +27,8 @@ namespace fs = std::filesystem;
 // Two axes that no more directions share may be those of a detail.
 constexpr int kFewDirections = 3;
 
-// Above it, something that is given is wrong.
-constexpr double kLargeMisfit = 3;
-
-// The others fit if they are off by so much less than all of them.
+// One position is suspect if the others, without it, are off by less than this
+// share of what all are.
 constexpr double kOthersShareOff = 1 / 3.0;
 constexpr std::size_t kFewPositions = 5;
 
@@ -38,6 +36,10 @@ std::string Text(double value) { return ShortText(value, 6); }
 
 std::string WithSigma(double value, double sigma) {
   return Text(value) + " +- " + SigmaText(sigma);
+}
+
+MeanDirections DirectionsOf(const Scene& scene) {
+  return {MeanUp(scene.views), MeanViewDirection(scene.views)};
 }
 
 Status CheckUp(const std::string& text) {
@@ -217,7 +219,7 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
   Say(Plural(input_.positions.size(), "position") + ", " +
       SigmaText(RmsOf(result)) + " off (root mean square), " + name +
       " most: " + SigmaText(result.position_residuals[worst].norm()));
-  if (AreUpsideDown(result, MeanUp(scene_.views))) {
+  if (AreUpsideDown(result, DirectionsOf(scene_))) {
     Say("  By the positions the cameras are upside down: are x and y swapped, "
         "or is z a depth?");
   }
@@ -228,7 +230,7 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
   const Result<AlignmentResult> without = EstimateAlignment(others);
   if (without.ok() && RmsOf(*without) < kOthersShareOff * RmsOf(result)) {
     Say("  Without " + name + " the others are " + SigmaText(RmsOf(*without)) +
-        " off: look whether its position is right.");
+        " off: check its position.");
   }
 }
 
@@ -248,7 +250,7 @@ Result<std::string> Aligner::Run() {
   Result<AlignmentResult> result = EstimateAlignment(input_);
   if (!result.ok()) return result.status();
   Status fits = CheckPositions(
-      input_, *result, MeanUp(scene_.views), !settings_.epsg.empty());
+      input_, *result, DirectionsOf(scene_), !settings_.epsg.empty());
   if (!fits.ok()) return fits;
   WorldAlignment& alignment = result->alignment;
   if (settings_.unit != "none" && !alignment.has_scale) {

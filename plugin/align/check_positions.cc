@@ -18,11 +18,16 @@ namespace {
 // positions all around 0.8, whatever their number.
 constexpr double kLargeShareOff = 0.3;
 
-// Nor if they fit so much better in a mirror. Where all are in a plane, they
-// fit a mirror as well, and cameras that are upside down tell.
-constexpr double kMirroredShareOff = 0.5;
+// x and y are swapped if positions fit so much better then. Fewer positions may
+// do so by chance. Positions in a plane fit as well either way, but swapped
+// ones turn the cameras upside down.
+constexpr double kSwappedShareOff = 0.3;
+constexpr std::size_t kFewestToTellSwapped = 5;
 constexpr double kExactShareOff = 1e-4;  // of their extent: they fit
+
+// Least cosine of the mean up with down; of the mean view direction with up.
 constexpr double kUpsideDownCosine = 0.5;
+constexpr double kToTheSkyCosine = 0.8;
 
 // Of the positions from their middle, model units; root mean square.
 double ExtentOf(const std::vector<KnownPosition>& positions) {
@@ -36,33 +41,37 @@ double ExtentOf(const std::vector<KnownPosition>& positions) {
   return std::sqrt(squares / n);
 }
 
-Status CheckAxes(const AlignmentInput& input,
-                 const AlignmentResult& result,
-                 const Eigen::Vector3d& up_of_cameras,
-                 bool z_is_up) {
-  if (!result.has_rotation_of_positions) return {};
-  AlignmentInput mirrored;
-  mirrored.positions = input.positions;
-  for (KnownPosition& p : mirrored.positions) {
+bool HaveSigmas(const AlignmentInput& input) {
+  return input.positions.front().sigma > 0;
+}
+
+Status CheckSwapped(const AlignmentInput& input,
+                    const AlignmentResult& result) {
+  if (!result.has_rotation_of_positions ||
+      input.positions.size() < kFewestToTellSwapped) {
+    return {};
+  }
+  AlignmentInput given, swapped;
+  given.positions = swapped.positions = input.positions;
+  for (KnownPosition& p : swapped.positions) {
     std::swap(p.world.x(), p.world.y());
   }
-  const Result<AlignmentResult> other = EstimateAlignment(mirrored);
+  const Result<AlignmentResult> of_given = EstimateAlignment(given);
+  const Result<AlignmentResult> of_swapped = EstimateAlignment(swapped);
+  if (!of_given.ok() || !of_swapped.ok()) return {};
+  const double rms = RmsOf(*of_given);
   const double least = kExactShareOff *
-                       result.alignment.world_from_model.scale *
+                       of_given->alignment.world_from_model.scale *
                        ExtentOf(input.positions);
-  if (other.ok() && RmsOf(result) > least &&
-      RmsOf(*other) < kMirroredShareOff * RmsOf(result)) {
-    return Status::InvalidArgument(
-        "The positions fit the cameras only as in a mirror: they are " +
-        SigmaText(RmsOf(result)) +
-        " off (root mean square), and with x and y "
-        "swapped " +
-        SigmaText(RmsOf(*other)) + ". Give x (east) before y (north)");
+  const bool may_be_off = HaveSigmas(input) && of_given->misfit <= kLargeMisfit;
+  if (may_be_off || rms < least ||
+      RmsOf(*of_swapped) >= kSwappedShareOff * rms) {
+    return {};
   }
-  if (!z_is_up || !AreUpsideDown(result, up_of_cameras)) return {};
   return Status::InvalidArgument(
-      "By the positions the cameras are upside down. Give x (east) before y "
-      "(north), and heights, not depths");
+      "The positions fit the cameras better with x and y swapped: they are " +
+      SigmaText(rms) + " off (root mean square), swapped " +
+      SigmaText(RmsOf(*of_swapped)) + ". Give x (east) before y (north)");
 }
 
 }  // namespace
@@ -83,24 +92,32 @@ std::size_t WorstOf(const AlignmentResult& result) {
 }
 
 bool AreUpsideDown(const AlignmentResult& result,
-                   const Eigen::Vector3d& up_of_cameras) {
-  const Eigen::Vector3d up =
-      result.alignment.world_from_model.rotation * up_of_cameras;
-  return result.has_rotation_of_positions && up.z() < -kUpsideDownCosine;
+                   const MeanDirections& cameras) {
+  if (!result.has_rotation_of_positions) return false;
+  const Eigen::Quaterniond& rotation =
+      result.alignment.world_from_model.rotation;
+  return (rotation * cameras.up).z() < -kUpsideDownCosine ||
+         (rotation * cameras.forward).z() > kToTheSkyCosine;
 }
 
 Status CheckPositions(const AlignmentInput& input,
                       const AlignmentResult& result,
-                      const Eigen::Vector3d& up_of_cameras,
+                      const MeanDirections& cameras,
                       bool z_is_up) {
   if (input.positions.empty()) return {};
-  Status axes = CheckAxes(input, result, up_of_cameras, z_is_up);
-  if (!axes.ok()) return axes;
+  Status swapped = CheckSwapped(input, result);
+  if (!swapped.ok()) return swapped;
+  if (z_is_up && AreUpsideDown(result, cameras)) {
+    return Status::InvalidArgument(
+        "By the positions the cameras are upside down. Give x (east) before y "
+        "(north), and heights, not depths");
+  }
   const double extent =
       result.alignment.world_from_model.scale * ExtentOf(input.positions);
-  // Positions may be as far off as their standard deviations say.
-  const double off = result.misfit > kLargeMisfit ? RmsOf(result) / std::sqrt(3)
-                                                  : result.position_sigma;
+  double off = result.position_sigma;
+  if (HaveSigmas(input) && result.misfit > kLargeMisfit) {
+    off = RmsOf(result) / std::sqrt(3);
+  }
   if (!(extent > 0) || !(off > kLargeShareOff * extent)) return {};
   const std::size_t worst = WorstOf(result);
   return Status::InvalidArgument(
@@ -108,8 +125,9 @@ Status CheckPositions(const AlignmentInput& input,
       SigmaText(off) + " off (standard deviation), and the cameras are " +
       SigmaText(extent) + " from their middle. " + input.positions[worst].name +
       " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
-      ". Look for a wrong number, degrees or a mirrored axis; if positions are "
-      "that uncertain, give a standard deviation after each");
+      ". Look for a wrong number, a wrong distance, degrees or a mirrored "
+      "axis; "
+      "if positions are that uncertain, give a standard deviation after each");
 }
 
 }  // namespace curvix

@@ -157,7 +157,8 @@ Status CheckOutput(const ImportSettings& settings,
   const auto output = std::filesystem::weakly_canonical(output_path, error);
   const auto input =
       std::filesystem::weakly_canonical(settings.options.input_path, error);
-  if (input != output && input.parent_path() != output) return {};
+  const bool is_file = std::filesystem::is_regular_file(input, error);
+  if (input != output && !(is_file && input.parent_path() == output)) return {};
   return Status::InvalidArgument(
       "the results would be written among the lines in " + output.string() +
       "; choose another folder with --output_path");

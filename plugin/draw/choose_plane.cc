@@ -104,7 +104,7 @@ Result<DrawingPlane> ChoosePlane(const std::string& name,
                                  const CurvesFile& curves,
                                  const Scene& scene) {
   if (name == "auto") return AutoPlane(curves, scene);
-  if (name.starts_with("nodes")) return PlaneOfNodes(name, curves, scene);
+  if (!NodesIn(name).empty()) return PlaneOfNodes(name, curves, scene);
   return *AxisPlane(name);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,8 +52,8 @@ Result<Json> ReadTransforms(const fs::path& file) {
   Json document = Json::parse(*text, nullptr, kThrow, kIgnoreComments);
   if (!document.is_object()) {
     return Status::DataLoss(file.string() +
-                            " is not whole JSON in UTF-8 (NaN and Infinity "
-                            "are not JSON, either); export it again.");
+                            " is not valid JSON (NaN and Infinity are not), "
+                            "or is cut short; export it again.");
   }
   const auto frames = document.find("frames");
   const bool usable = frames != document.end() && frames->is_array() &&
@@ -94,61 +93,47 @@ std::string FindName(const fs::path& root, const std::string& name) {
   return "";
 }
 
-// `path` without its first `num` folders, or without all if it has fewer.
+// `path` without its first `num` folders.
 std::string WithoutFolders(const fs::path& path, std::ptrdiff_t num) {
-  const auto num_folders = std::distance(path.begin(), path.end()) - 1;
   fs::path rest;
-  for (auto part = std::next(path.begin(), std::min(num, num_folders));
-       part != path.end();
-       ++part) {
+  for (auto part = std::next(path.begin(), num); part != path.end(); ++part) {
     rest /= *part;
   }
   return rest.generic_string();
 }
 
-// The names below `root` of the images at `paths` without their first
-// `num_folders`, all different; those that are not there in `missing`.
-std::vector<std::string> NamesWithout(std::ptrdiff_t num_folders,
-                                      const std::vector<std::string>& paths,
-                                      const fs::path& root,
-                                      std::vector<std::string>* missing) {
-  std::vector<std::string> names;
-  std::set<std::string> found;
-  for (const std::string& path : paths) {
-    const std::string rest = WithoutFolders(path, num_folders);
-    std::string name =
-        CheckImageName(rest, root).ok() ? FindName(root, rest) : "";
-    if (name.empty() || !found.insert(name).second) missing->push_back(path);
-    names.push_back(std::move(name));
+// The name below `root` of the image at `path`; if `by_last_parts`, without the
+// fewest first folders without which it is there. Empty: it is not there.
+std::string FindBelow(const fs::path& root,
+                      const fs::path& path,
+                      bool by_last_parts) {
+  const auto num_parts = std::distance(path.begin(), path.end());
+  for (std::ptrdiff_t num = 0; num < (by_last_parts ? num_parts : 1); ++num) {
+    const std::string rest = WithoutFolders(path, num);
+    if (!CheckImageName(rest, root).ok()) continue;
+    std::string name = FindName(root, rest);
+    if (!name.empty()) return name;
   }
-  return names;
+  return "";
 }
 
-// The names of the frames' images below `root`. If `by_last_parts`, without as
-// many first folders of their paths as it takes to find all, the fewest.
+// The names of the frames' images below `root`.
 Result<std::vector<std::string>> FindNames(const Json& frames,
                                            const fs::path& root,
                                            bool by_last_parts,
                                            const fs::path& source) {
-  std::vector<std::string> paths;
-  std::ptrdiff_t num_tries = 1;
+  std::vector<std::string> names;
+  std::vector<std::string> missing;
   for (const Json& frame : frames) {
-    paths.push_back(FilePathOf(frame));
-    const fs::path path(paths.back());
+    const fs::path path = FilePathOf(frame);
     const Status status = CheckImageName(path.filename().string(), source);
     if (!status.ok()) return status;
-    if (!by_last_parts) continue;
-    num_tries = std::max(num_tries, std::distance(path.begin(), path.end()));
+    names.push_back(FindBelow(root, path, by_last_parts));
+    if (names.back().empty()) missing.push_back(path.string());
   }
-  std::vector<std::string> missing;
-  for (std::ptrdiff_t num_folders = 0; num_folders < num_tries; ++num_folders) {
-    missing.clear();
-    std::vector<std::string> names =
-        NamesWithout(num_folders, paths, root, &missing);
-    if (missing.empty()) return names;
-  }
+  if (missing.empty()) return names;
   return Status::NotFound(
-      std::to_string(missing.size()) + " of " + Plural(paths.size(), "image") +
+      std::to_string(missing.size()) + " of " + Plural(names.size(), "image") +
       OneOrMore(missing.size(), " is", " are") + " not in " + root.string() +
       " (" + FirstNames(missing) + "); name their folder with --image_path.");
 }

@@ -50,16 +50,16 @@ Result<ImportedScene> ImportMiddlebury(const ImportOptions& options);
 //   camera_intrinsics       3 x 3 (ABC-NEF)                           (0, 0)
 //   fl_x, fl_y, cx, cy      (instant-ngp, nerfstudio)             (0.5, 0.5)
 //   camera_angle_x, _y      full angles of view in radians (Blender)
-// fl_y falls back on fl_x, cx and cy on the middle of the image. With k1, k2,
-// p1, p2, or distortion_params (k1 to k4, p1, p2), the camera is OPENCV, with
-// k3 FULL_OPENCV (with that camera_model k1 to k6), with camera_model
-// OPENCV_FISHEYE or is_fisheye OPENCV_FISHEYE (k1 to k4). w and h, where given,
-// must be the size of the image.
+// fl_y falls back on fl_x of the same object, cx and cy on the middle of the
+// image. With k1, k2, p1, p2, or distortion_params (k1 to k4, p1, p2), the
+// camera is OPENCV, with k3 FULL_OPENCV, which has k4 to k6 if it is
+// camera_model, with camera_model OPENCV_FISHEYE or is_fisheye OPENCV_FISHEYE
+// (k1 to k4). w and h, where given, must be the size of the image.
 //
 // Images: file_path, with or without an extension, below the file's folder
 // or below options.image_path; there also without its first folders, since
-// those of file_path are often of another machine: the fewest without which all
-// are found.
+// those of file_path are often of another machine: the fewest without which it
+// is there.
 //
 // kNotFound: images that are not there. kDataLoss: not such a file.
 // kUnsupported: another camera model.

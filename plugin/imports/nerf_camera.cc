@@ -101,21 +101,20 @@ Result<Camera> Pinhole(const Fields& fields,
     return CameraFromCalibration(
         *matrix, image.width, image.height, first_pixel.value_or(0));
   }
-  for (const char* angle : {"camera_angle_x", "camera_angle_y"}) {
-    const double radians = own.Number(angle).value_or(1);
-    if (radians > 0 && radians < kPi) continue;
-    return Status::DataLoss(std::string(angle) +
-                            " is not an angle of view in radians");
-  }
   const auto focal = [&](const char* length, const char* angle, int size) {
     const std::optional<double> radians = own.Number(angle);
     if (own.Number(length) || !radians) return own.Number(length);
-    return std::optional(0.5 * size / std::tan(0.5 * *radians));
+    // No length for an angle that is none, as one in degrees.
+    const bool is_angle = *radians > 0 && *radians < kPi;
+    return std::optional(is_angle ? 0.5 * size / std::tan(0.5 * *radians) : 0);
   };
   const auto fx = focal("fl_x", "camera_angle_x", image.width);
   if (!fx) {
     return Status::DataLoss(
         "there is no camera_intrinsics, fl_x or camera_angle_x");
+  }
+  if (!own.Number("fl_x") && !(*fx > 0)) {
+    return Status::DataLoss("camera_angle_x is no angle of view in radians");
   }
   // Pixels are square unless fl_y, or an angle beside an angle, says otherwise.
   const auto fy = own.Number("fl_x")
@@ -174,13 +173,15 @@ struct Distortion {
 Result<Distortion> ReadDistortion(const Fields& fields) {
   constexpr std::array kKeys = {"k1", "k2", "k3", "k4", "k5", "k6"};
   Distortion distortion;
-  const Json* const list = fields.Find("distortion_params");
+  const Fields own = fields.WithAnyOf(
+      {"distortion_params", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"});
+  const Json* const list = own.Find("distortion_params");
   if (list == nullptr) {
     for (std::size_t i = 0; i < kKeys.size(); ++i) {
-      distortion.k[i] = fields.Number(kKeys[i]).value_or(0);
+      distortion.k[i] = own.Number(kKeys[i]).value_or(0);
     }
-    distortion.p1 = fields.Number("p1").value_or(0);
-    distortion.p2 = fields.Number("p2").value_or(0);
+    distortion.p1 = own.Number("p1").value_or(0);
+    distortion.p2 = own.Number("p2").value_or(0);
     return distortion;
   }
   const Json rows = Json::array({*list});

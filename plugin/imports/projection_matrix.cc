@@ -90,10 +90,9 @@ Result<Camera> CameraFromCalibration(const Eigen::Matrix3d& calibration,
                                      double first_pixel) {
   constexpr double kMaxSkewPx = 0.05;
   const Eigen::Matrix3d k = calibration / calibration(2, 2);
-  constexpr double kRounding = 1e-6;  // of the largest number
-  const double below =
-      std::max({std::abs(k(1, 0)), std::abs(k(2, 0)), std::abs(k(2, 1))});
-  if (!k.allFinite() || below > kRounding * k.cwiseAbs().maxCoeff()) {
+  constexpr double kRounding = 1e-6;
+  if (!k.allFinite() || k.row(2).head<2>().norm() > kRounding ||
+      std::abs(k(1, 0)) > kRounding * k.cwiseAbs().maxCoeff()) {
     return Status::DataLoss(
         "the calibration matrix is not upper triangular and finite");
   }

@@ -130,7 +130,7 @@ class Words {
   std::uint32_t Count() { return Take<std::uint32_t>("a count"); }
   void Skip() { Number(); }
   void End() {
-    if (!AtEnd()) Fail("its end after the lines that it announces");
+    if (!AtEnd()) Fail("the end of the file");
   }
   void Name(std::string_view name) {
     if (ok() && words_.Word() != name) Fail("\"" + std::string(name) + "\"");

@@ -250,7 +250,7 @@ std::string EdgeSigmaText(const RunRecord& record) {
   return "  2D edges are " +
          std::string(sigma_px > least_px ? "" : "taken to be ") +
          ShortText(sigma_px, 4) + " px off their 3D edges (standard deviation" +
-         (sigma_px > least_px ? "" : ", the least") + ")\n";
+         (sigma_px > least_px ? "" : "; the lower limit") + ")\n";
 }
 
 }  // namespace

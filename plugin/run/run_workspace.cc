@@ -72,11 +72,11 @@ Result<LineCurves> ReadCurvesOfLines(const LinesSource& read,
                   "--workspace_path.");
   }
   if (curves->num_unknown_images > 0) {
-    progress.Note(
-        Plural(curves->num_unknown_images, "reference") +
-        " of lines to images that the model does not have left out. If the "
-        "lines were made of another model, name its workspace with "
-        "--workspace_path.");
+    progress.Note("Left out " +
+                  Plural(curves->num_unknown_images, "reference") +
+                  " of lines to images that are not in the model. If the lines "
+                  "were made of another model, name its workspace with "
+                  "--workspace_path.");
   }
   if (curves->num_left_out > 0) {
     progress.Note("Left out " + Plural(curves->num_left_out, "line") +

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colmap/scale_to_images.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <vector>
@@ -25,18 +27,25 @@ struct Scale {
   double y = 1;
 };
 
-// By camera_id, that of all its images; nullopt: they differ, or one is not
-// known.
+// By camera_id: that of most of its images; nullopt: of none, or not known.
 std::map<std::uint32_t, std::optional<ImageSize>> SizesOfImages(
     const fs::path& folder, const ColmapModel& model) {
-  std::map<std::uint32_t, std::optional<ImageSize>> sizes;
+  std::map<std::uint32_t, std::vector<std::optional<ImageSize>>> all;
   for (const ColmapImage& image : model.images) {
     const fs::path file = ImageFile(folder, image.name);
     if (!IsFile(file)) continue;
     const std::optional<ImageHeader> header = ReadImageHeader(file);
-    const auto size = header ? std::optional(header->size) : std::nullopt;
-    const auto [known, is_new] = sizes.emplace(image.camera_id, size);
-    if (!is_new && known->second != size) known->second = std::nullopt;
+    all[image.camera_id].push_back(header ? std::optional(header->size)
+                                          : std::nullopt);
+  }
+  std::map<std::uint32_t, std::optional<ImageSize>> sizes;
+  for (const auto& [camera_id, of_images] : all) {
+    std::optional<ImageSize>& size = sizes[camera_id];
+    for (const std::optional<ImageSize>& one : of_images) {
+      if (2 * std::ranges::count(of_images, one) > std::ssize(of_images)) {
+        size = one;
+      }
+    }
   }
   return sizes;
 }

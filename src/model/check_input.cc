@@ -57,8 +57,8 @@ bool IsSound(const Edge2d& edge) {
          edge.position.cwiseAbs().maxCoeff() <= kFarthestPx &&
          is_finite(edge.angle) && is_finite(edge.sharpness) &&
          is_finite(edge.strength) && edge.strength >= 0 &&
-         is_finite(edge.level) && is_finite(edge.crowding) &&
-         is_finite(edge.fine_px);
+         is_finite(edge.level) && is_finite(edge.fine_px) &&
+         !std::isnan(static_cast<float>(edge.crowding));
 }
 
 bool IsSound(const EdgeMap& map) {

@@ -54,11 +54,10 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
       places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
   if (partition) return *std::move(partition);
   return Status::InvalidArgument("the " + Plural(views.size(), "view") +
-                                 " cannot be divided into equal parts of at "
-                                 "most " +
+                                 " cannot be divided into parts of at most " +
                                  Plural(max_views_per_part, "view") +
-                                 ", with those that see the same places; "
-                                 "allow more views per part");
+                                 ", because each also needs the views that "
+                                 "overlap it; allow more views per part");
 }
 
 PartResult TakePart(const ScenePartition& partition,

@@ -120,9 +120,9 @@ std::string WhyEmpty(const Overlaps& overlaps,
   } else if (counts.view_pairs == 0) {
     text << WhyNoPair(overlaps, options.hypotheses);
   } else if (counts.h1_edges == 0) {
-    text << "None of " << Plural(static_cast<std::size_t>(num_edges), "edge")
-         << " is on a contour that is long enough to begin with: contours are "
-            "short, or EdgeMap::neighbors is not set.";
+    text << "No contour of " << Plural(num_edges, "edge")
+         << " is long and clear enough (--EdgeDetection.min_contour_edges), or "
+            "all are texture (--CurveGrowth.max_crowding).";
   } else if (counts.hypotheses == 0) {
     text << "None of " << Plural(counts.h1_edges, "edge")
          << " has a counterpart on its epipolar line in another view: "

@@ -233,7 +233,7 @@ TEST_F(Align, PositionsThatAreNotOfTheCamerasAreRefused) {
     mirrored += std::to_string(z) + "\n";
   }
   std::ofstream(path) << mirrored;
-  ExpectError("align " + command, "fit the cameras only as in a mirror");
+  ExpectError("align " + command, "better with x and y swapped");
 }
 
 TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {

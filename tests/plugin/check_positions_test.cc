@@ -11,6 +11,7 @@ namespace curvix {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Ten cameras around the origin whose heights differ by up to `height`, at ten
 // times the scale and to about 0.02.
@@ -36,7 +37,8 @@ void SwapXAndY(AlignmentInput& input) {
 std::string WrongWith(const AlignmentInput& input, bool z_is_up) {
   const Result<AlignmentResult> result = EstimateAlignment(input);
   EXPECT_TRUE(result.ok()) << result.status().message();
-  return CheckPositions(input, *result, {0, 0, 1}, z_is_up).message();
+  return CheckPositions(input, *result, {{0, 0, 1}, {0, 0, 0}}, z_is_up)
+      .message();
 }
 
 TEST(CheckPositions, AcceptsThoseOfTheCameras) {
@@ -54,7 +56,8 @@ TEST(CheckPositions, TellsThatXAndYAreSwapped) {
   for (const double sigma : {0.0, 0.02}) {
     AlignmentInput input = CamerasAround(0.3, sigma);
     SwapXAndY(input);
-    EXPECT_THAT(WrongWith(input, false), HasSubstr("with x and y swapped"));
+    EXPECT_THAT(WrongWith(input, false),
+                HasSubstr("better with x and y swapped"));
   }
 }
 
@@ -77,6 +80,23 @@ TEST(CheckPositions, RefusesThoseOfOtherCameras) {
   }
   EXPECT_EQ(WrongWith(CamerasAround(0.3, 20), false), "")
       << "as uncertain as it says";
+}
+
+// Cameras that look down have no mean up.
+TEST(CheckPositions, TellsThatCamerasLookToTheSky) {
+  AlignmentInput input = CamerasAround(0, 0);
+  SwapXAndY(input);
+  const Result<AlignmentResult> result = EstimateAlignment(input);
+  ASSERT_TRUE(result.ok());
+  const MeanDirections down = {{0, 0, 0}, {0, 0, -1}};
+  EXPECT_THAT(CheckPositions(input, *result, down, true).message(),
+              HasSubstr("upside down"));
+}
+
+TEST(CheckPositions, AWrongDistanceIsNoSwap) {
+  AlignmentInput input = CamerasAround(0.3, 0.02);
+  input.distances.push_back({.b = {1, 0, 0}, .length = 11, .sigma = 1e-6});
+  EXPECT_THAT(WrongWith(input, true), Not(HasSubstr("swapped")));
 }
 
 TEST(CheckPositions, NamesTheWorst) {
