@@ -72,7 +72,7 @@ struct UnseenCells {
 // All edges of one view, in detector order (row by row).
 struct EdgeMap {
   std::vector<Edge2d> edges;
-  std::vector<EdgeNeighbors> neighbors;  // one per edge; curves follow them
+  std::vector<EdgeNeighbors> neighbors;  // one per edge; curves grow along
   UnseenCells unseen = {};               // a view is not queried there
   double noise = 0;  // standard deviation of the image noise, grey levels
   // The mean distance between edges along a contour. The detector samples

@@ -158,8 +158,8 @@ struct CurveGrowthOptions {
   double min_significance = 14.0;
   // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
   // are texture, joints of brick or tiles, and dropped unless they are four
-  // times as significant as min_significance. No 2D edge that is more crowded
-  // is the first of a seed. >= 0; 0: nothing is texture.
+  // times as significant as min_significance. No seed is sought from a 2D edge
+  // that is more crowded. >= 0; 0: nothing is texture.
   double max_crowding = 0.35;
 
   bool IsTexture(double crowding) const {

@@ -126,8 +126,8 @@ Status CheckPositions(const AlignmentInput& input,
       SigmaText(extent) + " from their middle. " + input.positions[worst].name +
       " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
       ". Look for a wrong number, a wrong distance, degrees or a mirrored "
-      "axis; "
-      "if positions are that uncertain, give a standard deviation after each");
+      "axis; if positions are that uncertain, give a standard deviation after "
+      "each");
 }
 
 }  // namespace curvix

@@ -335,8 +335,8 @@ Result<BundleAdjustment> RefineWithColmap(const Scene& in_world,
                                           std::string* version) {
   const Result<fs::path> made = ScratchFolder::Make();
   if (!made.ok()) return made.status();
-  const Scene scene = AboutOrigin(in_world);
   const ScratchFolder scratch(*made);
+  const Scene scene = AboutOrigin(in_world);
   const Result<std::string> general =
       ColmapHelp({"help"}, run, scratch.path(), keep_going);
   if (!general.ok()) return general.status();

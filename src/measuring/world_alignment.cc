@@ -140,8 +140,8 @@ class Estimator {
     return StartAtPositions();
   }
 
-  // Positions without a sigma show it by their residuals only if they are more
-  // than it takes to meet all of them, and if none has more weight.
+  // A common sigma is estimated from the residuals of three positions or more.
+  // Beside others with a sigma, those without could be fitted exactly.
   Status CheckSigmas() const {
     constexpr std::ptrdiff_t kFewest = 3;
     const auto num_known = std::ranges::count_if(

@@ -27,8 +27,8 @@ namespace curvix {
 // (TieSegments), without its first samples if they would step back. Curves come
 // in the order of the parts and of the curves in them, by their first piece.
 // Joined curves shorter than options.curve_refinement.min_length_px go, unless
-// they join two junctions. status() is the first error of
-// `parts`, or kDataLoss if a curve names views or edges that are not there.
+// they join two junctions. status() is the first error of `parts`, or kDataLoss
+// if a curve names views or edges that are not there.
 class JoinedCurves final : public CurveSource {
  public:
   // Reads each curve twice or more.

@@ -12,6 +12,7 @@
 #include "gtest/gtest.h"
 #include "tests/plugin/fake_colmap.h"
 #include "tests/plugin/posed_points.h"
+
 namespace curvix {
 namespace {
 
