@@ -94,7 +94,7 @@ struct ValidationOptions {
   int min_num_support_views = 2;
   // With kEveryView: least log-likelihood ratio, see
   // docs/stages/sketch.md; natural logarithm, >= 0.
-  double min_log_likelihood_ratio = 10.0;
+  double min_log_likelihood_ratio = 12.0;
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;
@@ -155,7 +155,7 @@ struct CurveGrowthOptions {
   // Smallest significance of a curve: the sum of the log-likelihood ratios of
   // its samples, a pixel apart, over the square root of the number of queries
   // of views, times its contrast over that of the scene. >= 0.
-  double min_significance = 14.0;
+  double min_significance = 22.0;
   // Curves whose 2D edges are more crowded than this (Edge2d::crowding, median)
   // are texture, joints of brick or tiles, and dropped unless they are four
   // times as significant as min_significance. No seed is sought from a 2D edge

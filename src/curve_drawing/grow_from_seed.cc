@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "curve_drawing/curve_tip.h"
+#include "curve_drawing/streaks.h"
 #include "edge_sketch/visible_side.h"
 #include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
@@ -31,6 +32,8 @@ constexpr double kMaxPredictedSigmaPx = 0.7;
 // Least log-likelihood ratio (evidence.h) of a supported sample, as a share of
 // the mean of its curve, 0..1.
 constexpr double kMinRelativeEvidence = 0.3;
+// Hits that look less like those of neighbouring views do not support a curve.
+constexpr double kMinAppearanceRatio = 0.5;
 // Longest gap without supported samples: pixels, as steps are.
 constexpr double kMaxUnsupportedPx = 10;
 // Number of samples that the log-likelihood ratio of the seed counts as.
@@ -38,8 +41,6 @@ constexpr double kSeedWeight = 5;
 constexpr std::size_t kMinNumSamples = 5;
 // Fewest views that support a sample.
 constexpr std::size_t kMinNumSupports = 3;
-// Hits and misses in a row that count.
-constexpr int kStreak = 3;
 // Curves that come back to their seed so near are closed, if they are so long.
 constexpr double kCloseSteps = 2;
 constexpr double kCloseCosine = 0.9;
@@ -56,37 +57,6 @@ void SetEdge(const SpaceEdge& edge, CurveSample& sample) {
   sample.position = edge.position;
   sample.tangent = edge.tangent;
 }
-
-// The views that supported the last samples of a curve.
-class Streaks {
- public:
-  // Those of the seed's support are trusted from the start, the others after
-  // three hits in a row; three misses in a row end it.
-  Streaks(std::size_t num_views, const std::vector<EdgeRef>& seed_support)
-      : streaks_(num_views) {
-    for (const EdgeRef& ref : seed_support) {
-      streaks_[static_cast<std::size_t>(ref.view_idx)].is_trusted = true;
-    }
-  }
-
-  // Adds the view's result for the next sample. Whether it is a hit of a
-  // trusted view.
-  bool Count(std::size_t view_idx, bool is_hit) {
-    Streak& streak = streaks_[view_idx];
-    streak.length = streak.is_of_hits == is_hit ? streak.length + 1 : 1;
-    streak.is_of_hits = is_hit;
-    if (streak.length >= kStreak) streak.is_trusted = is_hit;
-    return is_hit && streak.is_trusted;
-  }
-
- private:
-  struct Streak {
-    bool is_of_hits = false;
-    int length = 0;
-    bool is_trusted = false;
-  };
-  std::vector<Streak> streaks_;
-};
 
 void DropHit(CurveSample& sample, std::size_t view_idx) {
   std::erase_if(sample.support, [&](const EdgeRef& hit) {
@@ -108,7 +78,7 @@ void DropShortStreaks(std::size_t num_views, std::vector<GrownSample>& path) {
     std::size_t begin = 0;
     for (std::size_t i = 1; i <= samples.size(); ++i) {
       if (i < samples.size() && samples[i] <= samples[i - 1] + 2) continue;
-      if (i - begin < static_cast<std::size_t>(kStreak)) {
+      if (i - begin < static_cast<std::size_t>(Streaks::kLength)) {
         for (std::size_t j = begin; j < i; ++j) DropHit(path[samples[j]], v);
       }
       begin = i;
@@ -129,8 +99,18 @@ void TrimEnds(std::vector<GrownSample>& path) {
 // The result of a query in one view.
 struct Look {
   std::optional<EdgeRef> hit;
-  double vote = 0;
+  Vote vote;
 };
+using Looks = std::vector<std::optional<Look>>;  // by view; none: no query
+
+Votes VotesOf(const Looks& looks) {
+  Votes votes;
+  votes.reserve(looks.size());
+  for (const auto& look : looks) {
+    votes.push_back(look ? std::optional(look->vote) : std::nullopt);
+  }
+  return votes;
+}
 
 // The edges that a growing curve has already.
 class OwnEdges {
@@ -225,11 +205,10 @@ class Grower {
                     });
     if (!nearest) return Look{std::nullopt, VoteWithoutSupport()};
     const EdgeRef hit{view_idx, *nearest};
-    return Look{hit,
-                VoteWithSupport(index,
-                                *projected,
-                                expected_px,
-                                ToImageEdge(EdgeOf(hit, input_.indices)))};
+    return Look{
+        hit,
+        VoteWithSupport(
+            index, *projected, expected_px, EdgeOf(hit, input_.indices))};
   }
 
   // A step that is a pixel long in the view of `support` that sees it largest,
@@ -241,46 +220,55 @@ class Grower {
     return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
   }
 
+  // What each view shows at the tip.
+  Looks LookInAll(const CurveTip& tip, const std::vector<EdgeRef>& support) {
+    const double pixel_size =
+        TypicalPixelSize(tip.edge().position, support, input_.indices);
+    Looks looks(input_.indices.size());
+    for (std::size_t v = 0; v < looks.size(); ++v) {
+      looks[v] = LookIn(v, tip, pixel_size);
+      if (looks[v] && looks[v]->hit) found_.push_back(*looks[v]->hit);
+    }
+    return looks;
+  }
+
   // The side from which the curve is seen, by the votes at its seed.
   std::optional<Eigen::Vector3d> ChooseSide(
       const CurveTip& tip, const std::vector<EdgeRef>& support) {
-    const double pixel_size =
-        TypicalPixelSize(tip.edge().position, support, input_.indices);
-    Votes votes(input_.indices.size());
-    for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      const auto look = LookIn(v, tip, pixel_size);
-      if (!look) continue;
-      votes[v] = look->vote;
-      if (look->hit) found_.push_back(*look->hit);
-    }
-    return FindVisibleSide(tip.edge(), votes, input_.neighbors, input_.indices)
+    return FindVisibleSide(tip.edge(),
+                           VotesOf(LookInAll(tip, support)),
+                           input_.neighbors,
+                           input_.indices)
         .facing;
   }
 
-  // What all views show at the tip. `trusted` are the hits of views that
-  // support the curve steadily: on entry those of the step before.
+  // The sample at the tip, and what supports it. `trusted` are the hits of
+  // views that support the curve steadily: on entry those of the step before.
   GrownSample LookAround(const CurveTip& tip,
                          Streaks& streaks,
-                         std::vector<EdgeRef>& trusted) const {
+                         std::vector<EdgeRef>& trusted) {
     GrownSample grown;
-    const double pixel_size =
-        TypicalPixelSize(tip.edge().position, trusted, input_.indices);
+    const Looks looks = LookInAll(tip, trusted);
+    const Votes votes = VotesOf(looks);
+    Votes in_front = votes;
     trusted.clear();
-    Votes votes(input_.indices.size());
-    for (std::size_t v = 0; v < input_.indices.size(); ++v) {
-      const auto look = LookIn(v, tip, pixel_size);
-      if (!look) continue;
+    for (std::size_t v = 0; v < looks.size(); ++v) {
+      if (!looks[v]) continue;
+      const auto& [hit, vote] = *looks[v];
       if (IsInFront(input_.views[v].center, tip.edge(), facing_)) {
         ++grown.num_looks;
-        votes[v] = look->vote;
+      } else {
+        in_front[v].reset();
       }
-      if (look->hit) grown.support.push_back(*look->hit);
-      if (streaks.Count(v, look->hit.has_value())) {
-        trusted.push_back(*look->hit);
-      }
+      const bool is_hit =
+          hit && AppearanceRatio(vote, votes, input_.neighbors[v]) >=
+                     kMinAppearanceRatio;
+      if (is_hit) grown.support.push_back(*hit);
+      if (streaks.Count(v, is_hit)) trusted.push_back(*hit);
     }
     // Rounded, so that the order of views makes no difference.
-    grown.evidence = std::round(1e6 * Evidence(votes, input_.neighbors)) / 1e6;
+    grown.evidence =
+        std::round(1e6 * Evidence(in_front, input_.neighbors)) / 1e6;
     return grown;
   }
 
@@ -292,7 +280,6 @@ class Grower {
                      std::vector<EdgeRef>& trusted) {
     tip.Step(StepAlong(tip, trusted));
     GrownSample grown = LookAround(tip, streaks, trusted);
-    found_.insert(found_.end(), grown.support.begin(), grown.support.end());
     tip.Correct(MeasureAll(trusted));
     SetEdge(tip.edge(), grown);
     grown.sigma = SigmaOf(tip, grown.support);

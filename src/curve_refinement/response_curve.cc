@@ -71,9 +71,7 @@ std::optional<Bend> BendAround(const Curve& curve,
 Eigen::Vector2d ResponseShift(const Edge2d& edge) {
   if (!(edge.sharpness > 0)) return Eigen::Vector2d::Zero();
   const double level = static_cast<double>(edge.level) / kWhite;
-  const double half_contrast =
-      static_cast<double>(edge.strength) / kWhite *
-      std::sqrt(kPi / 2 / static_cast<double>(edge.sharpness));
+  const double half_contrast = HalfContrast(edge) / kWhite;
   const bool is_clipped = level - half_contrast < kMinLevel ||
                           level + half_contrast > 1 - kMinLevel;
   if (is_clipped) return Eigen::Vector2d::Zero();

@@ -17,6 +17,10 @@ constexpr double kAngleSigmaRad = DegToRad(2);
 // Directions within 15 degrees count as like: the range of chance angles.
 constexpr double kAngleRangeRad = DegToRad(30);
 
+// Of the prior that an edge looks unlike those of neighbouring views, among
+// their weights.
+constexpr double kWeightOfUnlike = 0.5;
+
 // A normal density of which a sixth is three times as wide: shading, blur and
 // nearby contours move some edges by more than noise does.
 double WideTailedNormal(double x, double sigma) {
@@ -27,26 +31,53 @@ double WideTailedNormal(double x, double sigma) {
 
 }  // namespace
 
-double VoteWithSupport(const SupportFit& fit, double density) {
+Vote VoteWithSupport(const SupportFit& fit, double density) {
   const double real = kSeenAndDetected *
                       WideTailedNormal(fit.distance_px, fit.sigma_px) *
                       WideTailedNormal(fit.angle_rad, kAngleSigmaRad);
   const double chance = density / kAngleRangeRad;
-  return std::log(real / chance + 1 - kSeenAndDetected);
+  return {real / chance};
 }
 
-double VoteWithoutSupport() { return std::log(1 - kSeenAndDetected); }
+Vote VoteWithoutSupport() { return {}; }
+
+double LogLikelihoodRatio(const Vote& vote) {
+  return std::log(vote.position_ratio + 1 - kSeenAndDetected);
+}
+
+double AppearanceRatio(const Vote& vote,
+                       const Votes& votes,
+                       const std::vector<ViewNeighbor>& neighbors) {
+  if (!vote.appearance) return 1;
+  double sum = kWeightOfUnlike;
+  double weights = kWeightOfUnlike;
+  for (const ViewNeighbor& neighbor : neighbors) {
+    const auto& other = votes[static_cast<std::size_t>(neighbor.view_idx)];
+    if (!other || !other->appearance) continue;
+    sum +=
+        neighbor.weight * LikelihoodRatio(*vote.appearance, *other->appearance);
+    weights += neighbor.weight;
+  }
+  return sum / weights;
+}
 
 double Evidence(const Votes& votes, const NeighborsByView& neighbors) {
+  std::vector<double> logs(votes.size());
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    if (!votes[i]) continue;
+    logs[i] =
+        LogLikelihoodRatio({votes[i]->position_ratio *
+                            AppearanceRatio(*votes[i], votes, neighbors[i])});
+  }
   double evidence = 0;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     if (!votes[i]) continue;
-    double sum = *votes[i];
+    double sum = logs[i];
     double weights = 1;
     for (const ViewNeighbor& neighbor : neighbors[i]) {
-      const auto& vote = votes[static_cast<std::size_t>(neighbor.view_idx)];
-      if (!vote) continue;
-      sum += neighbor.weight * *vote;
+      const auto j = static_cast<std::size_t>(neighbor.view_idx);
+      if (!votes[j]) continue;
+      sum += neighbor.weight * logs[j];
       weights += neighbor.weight;
     }
     if (sum > 0) evidence += sum / weights;

@@ -5,10 +5,11 @@
 // What a view shows where a 3D edge projects has a likelihood if the edge is
 // real and visible, and one if there is none and other edges are there by
 // chance. The logarithm of their ratio is the view's vote:
-//   log(q N(r) N(a) / c + 1 - q)  with an edge at distance r and angle a,
-//   log(1 - q)                    without;
+//   log(q N(r) N(a) / c A + 1 - q)  with an edge at distance r and angle a,
+//   log(1 - q)                      without;
 // N are normal densities with wide tails, q = 0.9 the share of seen edges that
-// are detected, and c the density of edges of like direction around the place.
+// are detected, c the density of edges of like direction around the place, and
+// A the AppearanceRatio().
 //
 // A real edge is seen from one or two connected regions of viewing directions.
 // A view without support between supporting views speaks against it, one far
@@ -21,6 +22,8 @@
 #include <cstddef>
 #include <optional>
 #include <vector>
+
+#include "edge_sketch/appearance.h"
 
 namespace curvix {
 
@@ -38,14 +41,30 @@ struct SupportFit {
   double angle_rad = 0;    // between the directions
 };
 
-// The vote of a view with a supporting edge; `density` of like edges per pixel
-// across them, > 0. Natural logarithm units.
-double VoteWithSupport(const SupportFit& fit, double density);
+// The vote of a query view.
+struct Vote {
+  double position_ratio = 0;  // q N(r) N(a) / c; 0 without a supporting edge
+  // Of the supporting edge along the projected 3D edge; nullopt if not known.
+  std::optional<Appearance> appearance = std::nullopt;
+};
+using Votes = std::vector<std::optional<Vote>>;  // by view; none: no query
+
+// A vote with a supporting edge; `density` of like edges per pixel across them,
+// > 0.
+Vote VoteWithSupport(const SupportFit& fit, double density);
 
 // The vote of a query view without a supporting edge.
-double VoteWithoutSupport();
+Vote VoteWithoutSupport();
 
-using Votes = std::vector<std::optional<double>>;  // by view; none: no query
+// Of a vote whatever the edge looks like, natural logarithm.
+double LogLikelihoodRatio(const Vote& vote);
+
+// How much likelier the look of an edge is by what the `neighbors` of its view
+// show than by chance: the weighted mean LikelihoodRatio(), the prior that it
+// looks like none of them having the weight 0.5. 1 if nothing is known.
+double AppearanceRatio(const Vote& vote,
+                       const Votes& votes,
+                       const std::vector<ViewNeighbor>& neighbors);
 
 // The log-likelihood ratio; `votes` and `neighbors` by view index. >= 0.
 double Evidence(const Votes& votes, const NeighborsByView& neighbors);

@@ -15,6 +15,22 @@ constexpr std::size_t kUsualNumCandidates = 64;  // to reserve memory for
 // move the point where they meet far along the line.
 constexpr double kMinEpipolarAngle = DegToRad(5);
 
+// Least likelihood ratio of the looks of both edges.
+constexpr double kMinAppearanceRatio = 0.1;
+
+// Along its tangent; nullopt if its sharpness is not known.
+std::optional<Appearance> AppearanceOf(const Edge2d& edge) {
+  if (!(edge.sharpness > 0)) return std::nullopt;
+  return Appearance{static_cast<float>(edge.level),
+                    static_cast<float>(HalfContrast(edge))};
+}
+
+// Of edges whose tangents cross their epipolar lines to the same side, or not.
+bool LookAlike(const Appearance& look1, Appearance look2, bool cross_alike) {
+  if (!cross_alike) look2.half_contrast = -look2.half_contrast;
+  return LikelihoodRatio(look2, look1) >= kMinAppearanceRatio;
+}
+
 }  // namespace
 
 HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
@@ -22,7 +38,8 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
                                  const PosedView& h2,
                                  const std::vector<Edge2d>& edges2,
                                  const DepthRange& depths,
-                                 const Options& options)
+                                 const Options& options,
+                                 const AppearanceDensity* appearance2)
     : h1_(&h1),
       h2_(&h2),
       options_(&options),
@@ -36,16 +53,19 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
   for (const std::int32_t edge_idx : sorted2_.EdgeIdxs()) {
     const Edge2d& edge = edges2[static_cast<std::size_t>(edge_idx)];
     candidates_.push_back({edge.position, edge.angle, edge_idx});
+    if (appearance2) {
+      candidates_.back().appearance =
+          appearance2->AppearanceOf(edge, TangentAt(edge.angle));
+    }
   }
 }
 
-bool HypothesisViews::RunsAlongEpipolarLine(const ImageEdge& edge1) const {
+double HypothesisViews::CrossingSine(const ImageEdge& edge1) const {
   // The epipolar plane of the edge meets the image in its epipolar line.
   const Eigen::Vector3d normal =
-      pencil_.baseline().cross(h1_->Ray(edge1.position));
+      h1_->Ray(edge1.position).cross(pencil_.baseline());
   const Eigen::Vector3d line = line_from_normal_ * (h1_->rotation * normal);
-  const double sine = line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
-  return std::abs(sine) < std::sin(kMinEpipolarAngle);
+  return line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
 }
 
 Interval HypothesisViews::SearchAlong(const Line2& line,
@@ -61,7 +81,9 @@ Interval HypothesisViews::SearchAlong(const Line2& line,
 Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   Hypotheses result;
   const ImageEdge image_edge1 = ToImageEdge(edge1);
-  if (RunsAlongEpipolarLine(image_edge1)) return result;
+  const double sine1 = CrossingSine(image_edge1);
+  if (std::abs(sine1) < std::sin(kMinEpipolarAngle)) return result;
+  const std::optional<Appearance> look1 = AppearanceOf(edge1);
   const double tolerance_px = options_->hypotheses.location_tolerance_px;
   const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
   if (!wedge) return result;
@@ -74,11 +96,17 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
     const Candidate& candidate = candidates_[i];
     if (!search.Contains(direction.dot(candidate.position))) return;
-    const auto moved =
-        SlideToLine({candidate.position, TangentAt(candidate.angle)},
-                    line,
-                    tolerance_px,
-                    options_->consolidation);
+    const Eigen::Vector2d tangent = TangentAt(candidate.angle);
+    // Epipolar lines lead the same way in both views.
+    const bool cross_alike = sine1 * line.normal.dot(tangent) > 0;
+    if (look1 && candidate.appearance &&
+        !LookAlike(*look1, *candidate.appearance, cross_alike)) {
+      return;
+    }
+    const auto moved = SlideToLine({candidate.position, tangent},
+                                   line,
+                                   tolerance_px,
+                                   options_->consolidation);
     if (moved) on_line.push_back({*moved, candidate.edge_idx});
   });
   const double min_sine = std::sin(kMinEpipolarAngle);

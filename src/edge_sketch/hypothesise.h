@@ -5,8 +5,10 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
+#include <optional>
 #include <vector>
 
+#include "edge_sketch/appearance.h"
 #include "edge_sketch/cluster_edges.h"
 #include "edge_sketch/depth_range.h"
 #include "geometry/edge_geometry.h"
@@ -37,13 +39,16 @@ struct Hypotheses {
 class HypothesisViews {
  public:
   // Only hypotheses at `depths` of H1. `pencil`: of both views. The views and
-  // the options must outlive it.
+  // the options must outlive it. With `appearance2`, of the edges of H2, edges
+  // whose sides are not about as bright as those of the H1 edge, in the same
+  // order along the epipolar lines, are no candidates.
   HypothesisViews(const EpipolarPencil& pencil,
                   const PosedView& h1,
                   const PosedView& h2,
                   const std::vector<Edge2d>& edges2,
                   const DepthRange& depths,
-                  const Options& options);
+                  const Options& options,
+                  const AppearanceDensity* appearance2 = nullptr);
 
   // Candidates in the epipolar wedge of `edge1`, moved onto its epipolar line,
   // clustered and triangulated. None for an edge that runs along its epipolar
@@ -60,12 +65,14 @@ class HypothesisViews {
     Eigen::Vector2d position;
     float angle = 0;
     std::int32_t edge_idx = 0;
+    std::optional<Appearance> appearance = std::nullopt;  // along the edge
   };
 
   // The part of the epipolar line of `pixel1` that shows `depths_`, extended by
   // the longest slide of an edge. Pixels along the line.
   Interval SearchAlong(const Line2& line, const Eigen::Vector2d& pixel1) const;
-  bool RunsAlongEpipolarLine(const ImageEdge& edge1) const;
+  // Of the angle from the epipolar line of an H1 edge to the edge.
+  double CrossingSine(const ImageEdge& edge1) const;
 
   const PosedView *h1_, *h2_;
   const Options* options_;

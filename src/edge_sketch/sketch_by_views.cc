@@ -127,12 +127,14 @@ H1View Prepare(const SketchInput& input, int h1) {
         const auto pencil =
             EpipolarPencil::Make(input.views[i], input.views[j]);
         if (!pencil) return;
-        pairs[k].emplace(*pencil,
-                         input.views[i],
-                         input.views[j],
-                         input.edge_maps[j].edges,
-                         input.depths[i],
-                         input.options);
+        pairs[k].emplace(
+            *pencil,
+            input.views[i],
+            input.views[j],
+            input.edge_maps[j].edges,
+            input.depths[i],
+            input.options,
+            input.finds_seeds ? &input.indices[j].appearance : nullptr);
       });
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (!pairs[k]) continue;

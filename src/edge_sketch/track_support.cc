@@ -110,19 +110,20 @@ std::optional<std::vector<EdgeRef>> FindSupport(
 
 // The vote of a view with this support, if any; nullopt if it is not queried,
 // or the estimate is too uncertain in it.
-std::optional<double> VoteOf(std::int32_t view_idx,
-                             const std::vector<ViewIndex>& views,
-                             const std::optional<ImageEdge>& support,
-                             const EdgeEstimate& estimate,
-                             const Search& search) {
+std::optional<Vote> VoteOf(std::int32_t view_idx,
+                           const std::vector<ViewIndex>& views,
+                           const std::optional<EdgeRef>& support,
+                           const EdgeEstimate& estimate,
+                           const Search& search) {
   const auto projected =
       ProjectIntoQueryView(view_idx, estimate.edge, search.pixel_size, views);
   if (!projected) return std::nullopt;
   const ViewIndex& view = views[static_cast<std::size_t>(view_idx)];
   const auto expected_px = ExpectedDistance(estimate, *projected, view, search);
   if (!expected_px) return std::nullopt;
-  return support ? VoteWithSupport(view, *projected, *expected_px, *support)
-                 : VoteWithoutSupport();
+  if (!support) return VoteWithoutSupport();
+  return VoteWithSupport(
+      view, *projected, *expected_px, EdgeOf(*support, views));
 }
 
 // The votes of the views of `asked` (ascending) on an estimate with this
@@ -135,9 +136,9 @@ Votes VotesOf(const EdgeEstimate& estimate,
   Votes votes(views.size());
   auto next = support.begin();
   for (const std::int32_t view_idx : asked) {
-    std::optional<ImageEdge> supporting;
+    std::optional<EdgeRef> supporting;
     if (next != support.end() && next->view_idx == view_idx) {
-      supporting = ToImageEdge(EdgeOf(*next++, views));
+      supporting = *next++;
     }
     votes[static_cast<std::size_t>(view_idx)] =
         VoteOf(view_idx, views, supporting, estimate, search);

@@ -89,16 +89,19 @@ Gate NarrowGate(const Gate& widest, double expected_px) {
   return gate;
 }
 
-double VoteWithSupport(const ViewIndex& view,
-                       const ImageEdge& projected,
-                       double expected_px,
-                       const ImageEdge& support) {
+Vote VoteWithSupport(const ViewIndex& view,
+                     const ImageEdge& projected,
+                     double expected_px,
+                     const Edge2d& support) {
   const double angle = AngleOf(projected.tangent);
   const SupportFit fit{
-      support.Normal().dot(projected.position - support.position),
+      ToBrightSide(support).dot(projected.position - support.position),
       expected_px,
-      UndirectedDifference(angle, AngleOf(support.tangent))};
-  return VoteWithSupport(fit, view.density.Density(projected.position, angle));
+      UndirectedDifference(angle, static_cast<double>(support.angle))};
+  Vote vote =
+      VoteWithSupport(fit, view.density.Density(projected.position, angle));
+  vote.appearance = view.appearance.AppearanceOf(support, projected.tangent);
+  return vote;
 }
 
 std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
@@ -112,7 +115,8 @@ std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,
     indices[i] = {&view,
                   &map,
                   GridIndex(map.edges, kGridCellPx),
-                  EdgeDensity(map, view.width, view.height, view.margin_px)};
+                  EdgeDensity(map, view.width, view.height, view.margin_px),
+                  AppearanceDensity(map.edges)};
     indices[i].is_repeated = distinct.are_repeated[i];
     indices[i].before_at_station = distinct.before_at_station[i];
   });

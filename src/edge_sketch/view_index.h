@@ -25,6 +25,7 @@ struct ViewIndex {
   const EdgeMap* edges = nullptr;
   GridIndex grid;
   EdgeDensity density;
+  AppearanceDensity appearance = {};
   EdgePresence presence = {};  // may be left out
   bool is_repeated = false;    // see DistinctViews
   std::vector<int> before_at_station = {};
@@ -43,12 +44,12 @@ Gate WidestGate(const ValidationOptions& options);
 Gate NarrowGate(const Gate& widest, double expected_px);
 
 // The vote of a view (evidence.h) in which a 3D edge projects to `projected`
-// and the edge `support` supports it. `expected_px` is the expected standard
+// and its edge `support` supports it. `expected_px` is the expected standard
 // deviation of the distance between the two.
-double VoteWithSupport(const ViewIndex& view,
-                       const ImageEdge& projected,
-                       double expected_px,
-                       const ImageEdge& support);
+Vote VoteWithSupport(const ViewIndex& view,
+                     const ImageEdge& projected,
+                     double expected_px,
+                     const Edge2d& support);
 
 // One index per view; the first two vectors must outlive them.
 std::vector<ViewIndex> IndexViews(const std::vector<PosedView>& views,

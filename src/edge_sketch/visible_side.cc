@@ -63,7 +63,7 @@ VisibleSide FindVisibleSide(const SpaceEdge& edge,
     if (!votes[i]) continue;
     const Vector3d ray = views[i].view->center - edge.position;
     azimuths.push_back(std::atan2(ray.dot(binormal), ray.dot(normal)));
-    if (*votes[i] > 0) in_favour.push_back(azimuths.back());
+    if (LogLikelihoodRatio(*votes[i]) > 0) in_favour.push_back(azimuths.back());
   }
   VisibleSide best{
       std::max(0.0, Evidence(votes, neighbors) + std::log(kPriorAllAround)),

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/angles.h"
 #include "geometry/edge_geometry.h"
 
 namespace curvix {
@@ -25,6 +26,13 @@ inline ImageEdge ToImageEdge(const Edge2d& edge) {
 // Unit, across the edge.
 inline Eigen::Vector2d ToBrightSide(const Edge2d& edge) {
   return ToImageEdge(edge).Normal();
+}
+
+// Of the bright side over Edge2d::level, if the image is a blurred step; grey
+// levels. The sharpness must be positive.
+inline double HalfContrast(const Edge2d& edge) {
+  return static_cast<double>(edge.strength) *
+         std::sqrt(kPi / 2 / static_cast<double>(edge.sharpness));
 }
 
 // `edge_maps` by view.

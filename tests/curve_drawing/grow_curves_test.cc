@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/angles.h"
 #include "geometry/detected_edge.h"
 #include "geometry/pixel_size.h"
 #include "tests/support/random.h"
@@ -76,6 +77,7 @@ class Seen {
                          &maps_[i],
                          GridIndex(maps_[i].edges, 4),
                          EdgeDensity(maps_[i], 800, 800),
+                         AppearanceDensity(maps_[i].edges),
                          {},
                          distinct_.are_repeated[i],
                          distinct_.before_at_station[i]});
@@ -324,6 +326,32 @@ TEST(GrowCurves, TakesEdgesAsNearAsTheOptionsOfValidationSay) {
   near.max_distance_px = 0.02;
   EXPECT_EQ(rough.Grow({rough.Seed(0, 0.3)}).size(), 1u);
   EXPECT_TRUE(rough.Grow({rough.Seed(0, 0.3)}, {}, 1, near).empty());
+}
+
+TEST(GrowCurves, EdgesThatAreBrightOnTheOtherSideDoNotSupport) {
+  constexpr std::int32_t kOther = 10;
+  Seen seen({kLine});
+  for (EdgeMap& map : seen.maps()) {
+    for (Edge2d& edge : map.edges) {
+      edge.level = Eigen::half(100);
+      edge.strength = 20;
+      edge.sharpness = 1;
+    }
+  }
+  const auto num_supports_of_other = [&] {
+    const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.3)});
+    EXPECT_EQ(curves.size(), 1u);
+    std::ptrdiff_t num = 0;
+    for (const CurveSample& sample : curves.at(0).samples) {
+      num += std::ranges::count(sample.support, kOther, &EdgeRef::view_idx);
+    }
+    return num;
+  };
+  EXPECT_GT(num_supports_of_other(), 100);
+  for (Edge2d& edge : seen.maps()[kOther].edges) {
+    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
+  }
+  EXPECT_EQ(num_supports_of_other(), 0);
 }
 
 TEST(GrowCurves, AsksForThreeViews) {

@@ -23,23 +23,35 @@ Neighbors Row(std::size_t size, double weight) {
   return neighbors;
 }
 
-Votes RowOfVotes(std::initializer_list<double> votes) {
-  return Votes(votes.begin(), votes.end());
+constexpr double kTolerance = 1e-12;  // of exp() and log()
+
+double LogWithSupport(const SupportFit& fit, double density) {
+  return LogLikelihoodRatio(VoteWithSupport(fit, density));
+}
+
+double LogWithoutSupport() { return LogLikelihoodRatio(VoteWithoutSupport()); }
+
+Votes RowOfVotes(std::initializer_list<double> logs) {
+  Votes votes;
+  for (const double log : logs) {
+    votes.push_back(Vote{std::exp(log) - std::exp(LogWithoutSupport())});
+  }
+  return votes;
 }
 
 TEST(VoteWithSupport, FallsWithDistanceAngleAndDensity) {
   const SupportFit fit{0.1, 0.15, DegToRad(1)};
-  const double vote = VoteWithSupport(fit, 0.02);
-  EXPECT_LT(VoteWithSupport({0.3, 0.15, DegToRad(1)}, 0.02), vote);
-  EXPECT_LT(VoteWithSupport({0.1, 0.15, DegToRad(5)}, 0.02), vote);
-  EXPECT_LT(VoteWithSupport(fit, 0.2), vote);
-  EXPECT_EQ(VoteWithSupport({-0.1, 0.15, DegToRad(1)}, 0.02), vote);
+  const double vote = LogWithSupport(fit, 0.02);
+  EXPECT_LT(LogWithSupport({0.3, 0.15, DegToRad(1)}, 0.02), vote);
+  EXPECT_LT(LogWithSupport({0.1, 0.15, DegToRad(5)}, 0.02), vote);
+  EXPECT_LT(LogWithSupport(fit, 0.2), vote);
+  EXPECT_EQ(LogWithSupport({-0.1, 0.15, DegToRad(1)}, 0.02), vote);
 }
 
 TEST(VoteWithSupport, SpeaksForAGoodFitAndNeverBelowNoSupport) {
-  EXPECT_GT(VoteWithSupport({0, 0.15, 0}, 0.02), 3);
-  EXPECT_GE(VoteWithSupport({100, 0.15, 1.5}, 10), VoteWithoutSupport());
-  EXPECT_LT(VoteWithoutSupport(), 0);
+  EXPECT_GT(LogWithSupport({0, 0.15, 0}, 0.02), 3);
+  EXPECT_GE(LogWithSupport({100, 0.15, 1.5}, 10), LogWithoutSupport());
+  EXPECT_LT(LogWithoutSupport(), 0);
 }
 
 // With the shares q and 1 - q of real edges that are seen and missed, the
@@ -55,24 +67,24 @@ TEST(VoteWithSupport, AveragesALikelihoodRatioOfOneOverChanceSupport) {
       const double r = gate_px * (2 * (i + 0.5) / steps - 1);
       const double a = gate_rad * (2 * (j + 0.5) / steps - 1);
       const double ratio =
-          std::exp(VoteWithSupport({r, sigma_px, std::abs(a)}, density));
+          std::exp(LogWithSupport({r, sigma_px, std::abs(a)}, density));
       sum += ratio / (steps * steps);
     }
   }
   const double chance = 2 * gate_px * density;
-  const double without = std::exp(VoteWithoutSupport());
+  const double without = std::exp(LogWithoutSupport());
   EXPECT_NEAR(chance * sum + (1 - chance) * without, 1, 0.05);
 }
 
 TEST(Evidence, AddsUpVotesOfViewsWithoutNeighbors) {
-  EXPECT_DOUBLE_EQ(Evidence(RowOfVotes({2, 3, 4}), Row(3, 0)), 9);
+  EXPECT_NEAR(Evidence(RowOfVotes({2, 3, 4}), Row(3, 0)), 9, kTolerance);
   EXPECT_DOUBLE_EQ(Evidence({}, {}), 0);
 }
 
 TEST(Evidence, LeavesOutViewsThatWereNotAsked) {
   Votes votes = RowOfVotes({2, -2, 4});
   votes[1].reset();
-  EXPECT_DOUBLE_EQ(Evidence(votes, Row(3, 1)), 6);
+  EXPECT_NEAR(Evidence(votes, Row(3, 1)), 6, kTolerance);
 }
 
 TEST(Evidence, IsNeverNegative) {
@@ -81,8 +93,9 @@ TEST(Evidence, IsNeverNegative) {
 
 TEST(Evidence, AgreesWithAWorkedExample) {
   // (4 + 0.5 * 2) / 1.5, (2 + 0.5 * (4 - 2)) / 2, (-2 + 0.5 * 2) / 1.5 < 0.
-  EXPECT_DOUBLE_EQ(Evidence(RowOfVotes({4, 2, -2}), Row(3, 0.5)),
-                   5 / 1.5 + 3 / 2.0);
+  EXPECT_NEAR(Evidence(RowOfVotes({4, 2, -2}), Row(3, 0.5)),
+              5 / 1.5 + 3 / 2.0,
+              kTolerance);
 }
 
 TEST(Evidence, PrefersRegionsToScatteredSupport) {
@@ -99,6 +112,45 @@ TEST(Evidence, ForgivesMissingSupportFarFromAllSupporters) {
   const double many =
       Evidence(RowOfVotes({3, 3, 3, -2, -2, -2, -2, -2}), Row(8, 0.9));
   EXPECT_DOUBLE_EQ(many, few);
+}
+
+Vote VoteThatLooks(float level, float half_contrast) {
+  Vote vote{10};
+  vote.appearance = Appearance{level, half_contrast, 1e-4f};
+  return vote;
+}
+
+TEST(AppearanceRatio, IsOneIfNothingIsKnown) {
+  const std::vector<ViewNeighbor> neighbors = {{1, 1.0}};
+  EXPECT_EQ(
+      AppearanceRatio(Vote{10}, {Vote{10}, VoteThatLooks(100, 20)}, neighbors),
+      1);
+  const Vote vote = VoteThatLooks(100, 20);
+  EXPECT_EQ(AppearanceRatio(vote, {vote, Vote{10}}, neighbors), 1);
+  EXPECT_EQ(AppearanceRatio(vote, {vote, std::nullopt}, neighbors), 1);
+}
+
+TEST(AppearanceRatio, WeighsNeighborsAndThePriorOfNone) {
+  const Vote vote = VoteThatLooks(100, 20);
+  const Vote alike = VoteThatLooks(100, 20), unlike = VoteThatLooks(103, -4);
+  const double ratio_alike =
+      LikelihoodRatio(*vote.appearance, *alike.appearance);
+  const double ratio_unlike =
+      LikelihoodRatio(*vote.appearance, *unlike.appearance);
+  EXPECT_NEAR(
+      AppearanceRatio(vote, {vote, alike, unlike}, {{1, 0.7}, {2, 0.3}}),
+      (0.5 + 0.7 * ratio_alike + 0.3 * ratio_unlike) / 1.5,
+      kTolerance);
+}
+
+TEST(Evidence, IsLargerIfViewsShowTheSameLook) {
+  const Votes known = {Vote{10}, Vote{10}, Vote{10}};
+  const Votes alike(3, VoteThatLooks(100, 20));
+  const Votes unlike = {
+      VoteThatLooks(100, 20), VoteThatLooks(100, -20), VoteThatLooks(100, 20)};
+  const Neighbors neighbors = Row(3, 0.8);
+  EXPECT_GT(Evidence(alike, neighbors), Evidence(known, neighbors) + 1);
+  EXPECT_LT(Evidence(unlike, neighbors), Evidence(known, neighbors) - 1);
 }
 
 }  // namespace

@@ -34,11 +34,14 @@ class Views {
   }
 
   // Without neighbours, unless given.
-  VisibleSide Find(const std::vector<double>& votes,
+  VisibleSide Find(const std::vector<double>& logs,
                    NeighborsByView neighbors = {}) const {
-    neighbors.resize(votes.size());
-    return FindVisibleSide(
-        kEdge, Votes(votes.begin(), votes.end()), neighbors, indices_);
+    neighbors.resize(logs.size());
+    const double without = std::exp(LogLikelihoodRatio(VoteWithoutSupport()));
+    Votes votes;
+    for (const double log : logs)
+      votes.push_back(Vote{std::exp(log) - without});
+    return FindVisibleSide(kEdge, votes, neighbors, indices_);
   }
   bool IsSeenBy(std::size_t i, const VisibleSide& side) const {
     return IsInFront(posed_[i].center, kEdge, side.facing);
