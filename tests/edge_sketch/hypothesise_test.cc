@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "edge_sketch/hypothesise.h"
+
+#include <curvix/options.h>
+#include <gtest/gtest.h>
+#include <vector>
+
+#include "base/angles.h"
+#include "tests/support/synthetic_edges.h"
+
+namespace curvix {
+namespace {
+
+// Two views of a line that is bright on one side.
+class TwoViews {
+ public:
+  TwoViews() {
+    for (EdgeMap& map : maps_) {
+      for (Edge2d& edge : map.edges) {
+        edge.level = Eigen::half(120);
+        edge.strength = 20;
+        edge.sharpness = 1;
+      }
+    }
+  }
+
+  std::vector<Edge2d>& edges1() { return maps_[0].edges; }
+  std::vector<Edge2d>& edges2() { return maps_[1].edges; }
+
+  // Of the edge in the middle of the line in H1.
+  std::size_t NumHypotheses(bool compares_appearance) const {
+    const AppearanceDensity appearance2(maps_[1].edges);
+    const auto pencil = EpipolarPencil::Make(views_[0], views_[1]);
+    const HypothesisViews pair(*pencil,
+                               views_[0],
+                               views_[1],
+                               maps_[1].edges,
+                               DepthRange(),
+                               options_,
+                               compares_appearance ? &appearance2 : nullptr);
+    const std::vector<Edge2d>& edges = maps_[0].edges;
+    return pair.Hypothesise(edges[edges.size() / 2]).hypotheses.size();
+  }
+
+ private:
+  Options options_;
+  std::vector<PosedView> views_ = RingOfViews(16);
+  std::vector<EdgeMap> maps_ =
+      ExactEdgeMaps({LineCurve({-1, -1, -0.5}, {1, 0.5, 1})}, views_, 1);
+};
+
+void SwapSides(std::vector<Edge2d>& edges) {
+  for (Edge2d& edge : edges) {
+    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
+  }
+}
+
+TEST(Hypothesise, PairsEdgesThatLookAlike) {
+  TwoViews views;
+  EXPECT_EQ(views.NumHypotheses(false), 1u);
+  EXPECT_EQ(views.NumHypotheses(true), 1u);
+  SwapSides(views.edges1());
+  SwapSides(views.edges2());
+  EXPECT_EQ(views.NumHypotheses(true), 1u);
+}
+
+TEST(Hypothesise, DoesNotPairEdgesThatAreBrightOnOtherSides) {
+  TwoViews views;
+  SwapSides(views.edges2());
+  EXPECT_EQ(views.NumHypotheses(false), 1u);
+  EXPECT_EQ(views.NumHypotheses(true), 0u);
+}
+
+TEST(Hypothesise, PairsEdgesOfUnknownSharpness) {
+  TwoViews views;
+  SwapSides(views.edges2());
+  for (Edge2d& edge : views.edges2()) edge.sharpness = 0;
+  EXPECT_EQ(views.NumHypotheses(true), 1u);
+}
+
+}  // namespace
+}  // namespace curvix
