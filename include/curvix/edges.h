@@ -17,15 +17,15 @@ namespace curvix {
 // An oriented edge in the ideal (undistorted) pinhole image of a view.
 // `angle` is that of the tangent t = (cos, sin), from +x towards +y, in
 // (-pi, pi]; the image is brighter on the side of (-sin, cos), which is t
-// turned a quarter from +x towards +y. Code that has no use for the bright side
-// treats angles as equal mod pi.
+// turned a quarter from +x towards +y. Where `sharpness` is known, views are
+// matched by the bright side, too; other code treats angles as equal mod pi.
 struct Edge2d {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
   float angle = 0;                                     // radians
   float strength = 0;  // gradient magnitude >= 0, grey levels per pixel
   // How sharp the edge is: 1 / w^2 if across it the image is a step blurred by
   // a Gaussian of standard deviation w pixels, the detector's own included; <=
-  // 0 where the gradient has no peak; 0 also if it is not known.
+  // 0 without a peak of the gradient; 0 also if it or `level` is not known.
   float sharpness = 0;
   // Brightness on the edge, half-way between its sides, grey levels (0..255).
   Eigen::half level{0};

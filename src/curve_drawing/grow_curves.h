@@ -19,12 +19,13 @@ namespace curvix {
 // From the seed, in both directions, the curve steps along its tangent
 // (CurveTip) by about a pixel. Each view is queried for the nearest edge at the
 // projection, within the same bounds as for a 3D edge (WidestGate()), among
-// those that no earlier curve has. Views that show the curve steadily correct
-// the tip; views in which the prediction is too uncertain do not count. A
-// sample is supported if enough such views show it and its log-likelihood ratio
-// (evidence.h) is a fair share of the mean of the curve so far. A curve ends at
-// its last supported sample before a long gap; it is closed where it returns to
-// its seed.
+// those that no earlier curve has. Edges that look unlike those of neighbouring
+// views (appearance.h) do not support the curve. Views that show the curve
+// steadily correct the tip; views in which the prediction is too uncertain do
+// not count. A sample is supported if enough such views show it and its
+// log-likelihood ratio (evidence.h) is a fair share of the mean of the curve so
+// far. A curve ends at its last supported sample before a long gap; it is
+// closed where it returns to its seed.
 //
 // Curves that KeepSignificant() drops keep their edges from other curves. The
 // uncertainty of a position does not matter: a curve goes on where images show

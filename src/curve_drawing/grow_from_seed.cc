@@ -15,7 +15,6 @@
 #include "curve_drawing/curve_tip.h"
 #include "curve_drawing/streaks.h"
 #include "edge_sketch/visible_side.h"
-#include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
 #include "geometry/pixel_size.h"
@@ -32,7 +31,7 @@ constexpr double kMaxPredictedSigmaPx = 0.7;
 // Least log-likelihood ratio (evidence.h) of a supported sample, as a share of
 // the mean of its curve, 0..1.
 constexpr double kMinRelativeEvidence = 0.3;
-// Hits that look less like those of neighbouring views do not support a curve.
+// Least AppearanceRatio() of a hit that supports a curve; others only vote.
 constexpr double kMinAppearanceRatio = 0.5;
 // Longest gap without supported samples: pixels, as steps are.
 constexpr double kMaxUnsupportedPx = 10;

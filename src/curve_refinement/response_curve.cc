@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/angles.h"
 #include "base/parallel.h"
 #include "curve_refinement/curve_ends.h"
 #include "geometry/detected_edge.h"

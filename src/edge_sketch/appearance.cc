@@ -13,20 +13,21 @@ namespace {
 constexpr double kLevelScale = 7;
 constexpr double kContrastScale = 3.5;
 constexpr double kMaxRatio = 15;
-constexpr double kBinWidth = 16;            // grey levels
-constexpr double kMaxHalfContrast = 127.5;  // between black and white
+constexpr double kBinWidth = 16;  // grey levels
 constexpr double kShareOfUnlike =
     0.1;  // of edges that look like none of the view
-
-double BoundedHalfContrast(const Edge2d& edge) {
-  return std::min(kMaxHalfContrast, HalfContrast(edge));
-}
 
 double Cauchy(double x, double scale) {
   return 1 / (kPi * scale * (1 + (x / scale) * (x / scale)));
 }
 
 }  // namespace
+
+std::optional<Appearance> AppearanceAlong(const Edge2d& edge) {
+  if (!(edge.sharpness > 0)) return std::nullopt;
+  return Appearance{static_cast<float>(edge.level),
+                    static_cast<float>(HalfContrast(edge))};
+}
 
 double LikelihoodRatio(const Appearance& a, const Appearance& b) {
   const double alike =
@@ -58,17 +59,15 @@ AppearanceDensity::AppearanceDensity(const std::vector<Edge2d>& edges) {
 
 std::optional<Appearance> AppearanceDensity::AppearanceOf(
     const Edge2d& edge, const Eigen::Vector2d& direction) const {
-  if (!(edge.sharpness > 0)) return std::nullopt;
-  const double half_contrast = BoundedHalfContrast(edge);
-  const bool is_left_bright = TangentAt(edge.angle).dot(direction) >= 0;
+  auto appearance = AppearanceAlong(edge);
+  if (!appearance) return std::nullopt;
+  if (TangentAt(edge.angle).dot(direction) < 0) appearance->SwapSides();
   double density = 0;
   for (const auto& [bin, weight] : BinsOf(edge)) {
     density += weight * densities_[bin];
   }
-  return Appearance{
-      static_cast<float>(edge.level),
-      static_cast<float>(is_left_bright ? half_contrast : -half_contrast),
-      static_cast<float>(density)};
+  appearance->density = static_cast<float>(density);
+  return appearance;
 }
 
 std::array<AppearanceDensity::WeightedBin, 4> AppearanceDensity::BinsOf(
@@ -76,7 +75,7 @@ std::array<AppearanceDensity::WeightedBin, 4> AppearanceDensity::BinsOf(
   const auto [level, next_level] =
       BinsAround(static_cast<double>(edge.level), kNumLevels);
   const auto [contrast, next_contrast] =
-      BinsAround(BoundedHalfContrast(edge), kNumContrasts);
+      BinsAround(HalfContrast(edge), kNumContrasts);
   const auto bin = [](const WeightedBin& row, const WeightedBin& column) {
     return WeightedBin{row.index * kNumContrasts + column.index,
                        row.weight * column.weight};

@@ -17,10 +17,17 @@ namespace curvix {
 // Grey levels (0..255).
 struct Appearance {
   float level = 0;          // half-way between both sides
-  float half_contrast = 0;  // left of a direction along the edge over `level`
+  float half_contrast = 0;  // right of a direction along the edge over `level`
   // Of edges that look so among all of the view, per square grey level; > 0.
   float density = 1;
+
+  // As along the opposite direction.
+  void SwapSides() { half_contrast = -half_contrast; }
 };
+
+// Along the tangent of the edge, without its density; nullopt if the sharpness
+// of the edge is not known.
+std::optional<Appearance> AppearanceAlong(const Edge2d& edge);
 
 // How much likelier an edge looks like `a` if another view shows it like `b`
 // (whose density does not matter) than by chance; at most 15, since things
@@ -35,7 +42,7 @@ class AppearanceDensity {
   AppearanceDensity();  // of no edges: all are equally frequent
   explicit AppearanceDensity(const std::vector<Edge2d>& edges);
 
-  // `direction` along the edge, signed as its 3D tangent; its left is where
+  // `direction` along the edge, signed as its 3D tangent; its right is where
   // (-y, x) points. nullopt if the sharpness of the edge is not known.
   std::optional<Appearance> AppearanceOf(
       const Edge2d& edge, const Eigen::Vector2d& direction) const;

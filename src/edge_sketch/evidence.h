@@ -5,11 +5,12 @@
 // What a view shows where a 3D edge projects has a likelihood if the edge is
 // real and visible, and one if there is none and other edges are there by
 // chance. The logarithm of their ratio is the view's vote:
-//   log(q N(r) N(a) / c A + 1 - q)  with an edge at distance r and angle a,
+//   log(A q N(r) N(a) / c + 1 - q)  with an edge at distance r and angle a,
 //   log(1 - q)                      without;
 // N are normal densities with wide tails, q = 0.9 the share of seen edges that
 // are detected, c the density of edges of like direction around the place, and
-// A the AppearanceRatio().
+// A the AppearanceRatio(). Two views that look alike both gain by it, so the
+// sum is larger than the log-likelihood ratio of both together.
 //
 // A real edge is seen from one or two connected regions of viewing directions.
 // A view without support between supporting views speaks against it, one far

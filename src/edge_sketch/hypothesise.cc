@@ -15,20 +15,13 @@ constexpr std::size_t kUsualNumCandidates = 64;  // to reserve memory for
 // move the point where they meet far along the line.
 constexpr double kMinEpipolarAngle = DegToRad(5);
 
-// Least likelihood ratio of the looks of both edges.
-constexpr double kMinAppearanceRatio = 0.1;
-
-// Along its tangent; nullopt if its sharpness is not known.
-std::optional<Appearance> AppearanceOf(const Edge2d& edge) {
-  if (!(edge.sharpness > 0)) return std::nullopt;
-  return Appearance{static_cast<float>(edge.level),
-                    static_cast<float>(HalfContrast(edge))};
-}
+// Of the appearance of two edges that are paired.
+constexpr double kMinLikelihoodRatio = 0.1;
 
 // Of edges whose tangents cross their epipolar lines to the same side, or not.
 bool LookAlike(const Appearance& look1, Appearance look2, bool cross_alike) {
-  if (!cross_alike) look2.half_contrast = -look2.half_contrast;
-  return LikelihoodRatio(look2, look1) >= kMinAppearanceRatio;
+  if (!cross_alike) look2.SwapSides();
+  return LikelihoodRatio(look2, look1) >= kMinLikelihoodRatio;
 }
 
 }  // namespace
@@ -83,7 +76,7 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   const ImageEdge image_edge1 = ToImageEdge(edge1);
   const double sine1 = CrossingSine(image_edge1);
   if (std::abs(sine1) < std::sin(kMinEpipolarAngle)) return result;
-  const std::optional<Appearance> look1 = AppearanceOf(edge1);
+  const std::optional<Appearance> look1 = AppearanceAlong(edge1);
   const double tolerance_px = options_->hypotheses.location_tolerance_px;
   const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
   if (!wedge) return result;
@@ -97,7 +90,7 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
     const Candidate& candidate = candidates_[i];
     if (!search.Contains(direction.dot(candidate.position))) return;
     const Eigen::Vector2d tangent = TangentAt(candidate.angle);
-    // Epipolar lines lead the same way in both views.
+    // The normals of both lines point to the same side of the epipolar plane.
     const bool cross_alike = sine1 * line.normal.dot(tangent) > 0;
     if (look1 && candidate.appearance &&
         !LookAlike(*look1, *candidate.appearance, cross_alike)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5. From an H1 edge to
-// hypotheses.
+// hypotheses. Deviation: edges that look unlike may be left out, since they
+// make most wrong hypotheses; see docs/paper_map.md.
 #pragma once
 
 #include <curvix/edges.h>
@@ -41,7 +42,8 @@ class HypothesisViews {
   // Only hypotheses at `depths` of H1. `pencil`: of both views. The views and
   // the options must outlive it. With `appearance2`, of the edges of H2, edges
   // whose sides are not about as bright as those of the H1 edge, in the same
-  // order along the epipolar lines, are no candidates.
+  // order along the epipolar lines, are no candidates. Edges of unknown
+  // sharpness are.
   HypothesisViews(const EpipolarPencil& pencil,
                   const PosedView& h1,
                   const PosedView& h2,
@@ -71,7 +73,8 @@ class HypothesisViews {
   // The part of the epipolar line of `pixel1` that shows `depths_`, extended by
   // the longest slide of an edge. Pixels along the line.
   Interval SearchAlong(const Line2& line, const Eigen::Vector2d& pixel1) const;
-  // Of the angle from the epipolar line of an H1 edge to the edge.
+  // Of the angle between an H1 edge and its epipolar line; positive if the edge
+  // leads to the side to which, in H2, the normal of EpipolarLine() points.
   double CrossingSine(const ImageEdge& edge1) const;
 
   const PosedView *h1_, *h2_;

@@ -29,7 +29,8 @@ struct SketchInput {
   // SketchByViews: hypotheses are made for one in h1_step edges of each view.
   std::size_t h1_step = 1;
   // SketchByViews: the 3D edges are seeds of growing curves, so that a few on
-  // each contour are enough, and none on contours too weak for a curve.
+  // each contour are enough, none on contours too weak for a curve, and none of
+  // pairs of 2D edges that look unlike.
   bool finds_seeds = false;
 };
 

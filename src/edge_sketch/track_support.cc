@@ -6,7 +6,6 @@
 
 #include "base/infinity.h"
 #include "edge_sketch/visible_side.h"
-#include "geometry/detected_edge.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
 

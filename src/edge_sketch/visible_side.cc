@@ -69,7 +69,8 @@ VisibleSide FindVisibleSide(const SpaceEdge& edge,
       std::max(0.0, Evidence(votes, neighbors) + std::log(kPriorAllAround)),
       std::nullopt};
   double best_slack = 2 * kPi;
-  // Half turns that begin at another view hold no more of those in favour.
+  // Half turns that begin at another view hold no more of those in favour by
+  // their places.
   for (const double begin : in_favour) {
     const double slack = SlackBefore(begin, azimuths);
     const double middle = begin - slack / 2 + kPi / 2;

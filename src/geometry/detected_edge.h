@@ -4,6 +4,7 @@
 
 #include <curvix/edges.h>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -29,10 +30,11 @@ inline Eigen::Vector2d ToBrightSide(const Edge2d& edge) {
 }
 
 // Of the bright side over Edge2d::level, if the image is a blurred step; grey
-// levels. The sharpness must be positive.
+// levels, at most that between black and white. The sharpness must be positive.
 inline double HalfContrast(const Edge2d& edge) {
-  return static_cast<double>(edge.strength) *
-         std::sqrt(kPi / 2 / static_cast<double>(edge.sharpness));
+  return std::min(127.5,
+                  static_cast<double>(edge.strength) *
+                      std::sqrt(kPi / 2 / static_cast<double>(edge.sharpness)));
 }
 
 // `edge_maps` by view.

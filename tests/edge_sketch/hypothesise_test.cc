@@ -12,9 +12,9 @@ namespace curvix {
 namespace {
 
 // Two views of a line that is bright on one side.
-class TwoViews {
+class LineInTwoViews {
  public:
-  TwoViews() {
+  LineInTwoViews() {
     for (EdgeMap& map : maps_) {
       for (Edge2d& edge : map.edges) {
         edge.level = Eigen::half(120);
@@ -56,7 +56,7 @@ void SwapSides(std::vector<Edge2d>& edges) {
 }
 
 TEST(Hypothesise, PairsEdgesThatLookAlike) {
-  TwoViews views;
+  LineInTwoViews views;
   EXPECT_EQ(views.NumHypotheses(false), 1u);
   EXPECT_EQ(views.NumHypotheses(true), 1u);
   SwapSides(views.edges1());
@@ -65,14 +65,22 @@ TEST(Hypothesise, PairsEdgesThatLookAlike) {
 }
 
 TEST(Hypothesise, DoesNotPairEdgesThatAreBrightOnOtherSides) {
-  TwoViews views;
+  LineInTwoViews views;
   SwapSides(views.edges2());
   EXPECT_EQ(views.NumHypotheses(false), 1u);
   EXPECT_EQ(views.NumHypotheses(true), 0u);
 }
 
+TEST(Hypothesise, PairsEdgesAlikeHoweverSoft) {
+  LineInTwoViews views;
+  for (auto* edges : {&views.edges1(), &views.edges2()}) {
+    for (Edge2d& edge : *edges) edge.sharpness = 0.001f;
+  }
+  EXPECT_EQ(views.NumHypotheses(true), 1u);
+}
+
 TEST(Hypothesise, PairsEdgesOfUnknownSharpness) {
-  TwoViews views;
+  LineInTwoViews views;
   SwapSides(views.edges2());
   for (Edge2d& edge : views.edges2()) edge.sharpness = 0;
   EXPECT_EQ(views.NumHypotheses(true), 1u);
