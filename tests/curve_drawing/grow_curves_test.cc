@@ -124,6 +124,22 @@ class Seen {
   NeighborsByView neighbors_;
 };
 
+void MakeSharp(std::vector<EdgeMap>& maps) {
+  for (EdgeMap& map : maps) {
+    for (Edge2d& edge : map.edges) {
+      edge.level = Eigen::half(100);
+      edge.strength = 20;
+      edge.sharpness = 1;
+    }
+  }
+}
+
+void SwapSides(EdgeMap& map) {
+  for (Edge2d& edge : map.edges) {
+    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
+  }
+}
+
 const TestCurve kLine = LineCurve({-1, -1, -0.5}, {1, 0.5, 1});
 const TestCurve kCircle = CircleCurve({0, 0, -1}, 0.8);
 
@@ -230,8 +246,7 @@ TEST(GrowCurves, ParallelLinesStayTwo) {
 }
 
 // Seeds that get in each other's way, and more than grow side by side.
-TEST(GrowCurves, OneAfterTheOtherWhateverTheNumberOfThreads) {
-  const Seen seen({kLine, kCircle}, 0.1);
+void ExpectOneAfterTheOther(const Seen& seen) {
   std::vector<Edge3d> strongest;
   std::vector<Edge3d> seeds;
   for (const std::size_t curve_idx : {0u, 1u}) {
@@ -254,6 +269,14 @@ TEST(GrowCurves, OneAfterTheOtherWhateverTheNumberOfThreads) {
       }
     }
   }
+}
+
+TEST(GrowCurves, OneAfterTheOtherWhateverTheNumberOfThreads) {
+  Seen seen({kLine, kCircle}, 0.1);
+  ExpectOneAfterTheOther(seen);
+  MakeSharp(seen.maps());
+  SwapSides(seen.maps()[10]);
+  ExpectOneAfterTheOther(seen);
 }
 
 TEST(GrowCurves, EachEdgeSupportsOneCurve) {
@@ -331,13 +354,7 @@ TEST(GrowCurves, TakesEdgesAsNearAsTheOptionsOfValidationSay) {
 TEST(GrowCurves, EdgesThatAreBrightOnTheOtherSideDoNotSupport) {
   constexpr std::int32_t kOther = 10;
   Seen seen({kLine});
-  for (EdgeMap& map : seen.maps()) {
-    for (Edge2d& edge : map.edges) {
-      edge.level = Eigen::half(100);
-      edge.strength = 20;
-      edge.sharpness = 1;
-    }
-  }
+  MakeSharp(seen.maps());
   const auto num_supports_of_other = [&] {
     const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.3)});
     EXPECT_EQ(curves.size(), 1u);
@@ -348,9 +365,7 @@ TEST(GrowCurves, EdgesThatAreBrightOnTheOtherSideDoNotSupport) {
     return num;
   };
   EXPECT_GT(num_supports_of_other(), 100);
-  for (Edge2d& edge : seen.maps()[kOther].edges) {
-    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
-  }
+  SwapSides(seen.maps()[kOther]);
   EXPECT_EQ(num_supports_of_other(), 0);
 }
 

@@ -72,6 +72,21 @@ TEST(AppearanceOf, HasDensitiesThatIntegrateToOne) {
   EXPECT_NEAR(sum, 1, 0.05);
 }
 
+TEST(AppearanceOf, IsFiniteForAnyEdge) {
+  Edge2d soft = Step(0, 200);
+  soft.sharpness = 1e-6f;
+  Edge2d dark = Step(40, 100), light = Step(40, 100);
+  dark.level = Eigen::half(-300);
+  light.level = Eigen::half(900);
+  const AppearanceDensity density({soft, dark, light});
+  for (const Edge2d& edge : {soft, dark, light}) {
+    const auto look = density.AppearanceOf(edge, {1, 0});
+    EXPECT_LE(look->half_contrast, 127.5f);
+    EXPECT_GT(look->density, 0);
+    EXPECT_GT(LikelihoodRatio(*look, *look), 1);
+  }
+}
+
 TEST(LikelihoodRatio, FallsWithTheDifferenceAndTheDensity) {
   const Appearance look{100, 20, 1e-3f};
   const double same = LikelihoodRatio(look, look);

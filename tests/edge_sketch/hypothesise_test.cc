@@ -11,10 +11,20 @@
 namespace curvix {
 namespace {
 
-// Two views of a line that is bright on one side.
+// Two views, the second turned upside down about its axis.
+std::vector<PosedView> TwoViewsOneRolled() {
+  std::vector<PosedView> views = RingOfViews(16);
+  views.resize(2);
+  const Eigen::Matrix3d roll = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  views[1].rotation = roll * views[1].rotation;
+  views[1].translation = roll * views[1].translation;
+  return views;
+}
+
+// A line that is bright on one side.
 class LineInTwoViews {
  public:
-  LineInTwoViews() {
+  explicit LineInTwoViews(std::size_t h1 = 0) : h1_(h1), h2_(1 - h1) {
     for (EdgeMap& map : maps_) {
       for (Edge2d& edge : map.edges) {
         edge.level = Eigen::half(120);
@@ -24,27 +34,28 @@ class LineInTwoViews {
     }
   }
 
-  std::vector<Edge2d>& edges1() { return maps_[0].edges; }
-  std::vector<Edge2d>& edges2() { return maps_[1].edges; }
+  std::vector<Edge2d>& edges1() { return maps_[h1_].edges; }
+  std::vector<Edge2d>& edges2() { return maps_[h2_].edges; }
 
   // Of the edge in the middle of the line in H1.
   std::size_t NumHypotheses(bool compares_appearance) const {
-    const AppearanceDensity appearance2(maps_[1].edges);
-    const auto pencil = EpipolarPencil::Make(views_[0], views_[1]);
+    const AppearanceDensity appearance2(maps_[h2_].edges);
+    const auto pencil = EpipolarPencil::Make(views_[h1_], views_[h2_]);
     const HypothesisViews pair(*pencil,
-                               views_[0],
-                               views_[1],
-                               maps_[1].edges,
+                               views_[h1_],
+                               views_[h2_],
+                               maps_[h2_].edges,
                                DepthRange(),
                                options_,
                                compares_appearance ? &appearance2 : nullptr);
-    const std::vector<Edge2d>& edges = maps_[0].edges;
+    const std::vector<Edge2d>& edges = maps_[h1_].edges;
     return pair.Hypothesise(edges[edges.size() / 2]).hypotheses.size();
   }
 
  private:
+  std::size_t h1_, h2_;
   Options options_;
-  std::vector<PosedView> views_ = RingOfViews(16);
+  std::vector<PosedView> views_ = TwoViewsOneRolled();
   std::vector<EdgeMap> maps_ =
       ExactEdgeMaps({LineCurve({-1, -1, -0.5}, {1, 0.5, 1})}, views_, 1);
 };
@@ -56,19 +67,23 @@ void SwapSides(std::vector<Edge2d>& edges) {
 }
 
 TEST(Hypothesise, PairsEdgesThatLookAlike) {
-  LineInTwoViews views;
-  EXPECT_EQ(views.NumHypotheses(false), 1u);
-  EXPECT_EQ(views.NumHypotheses(true), 1u);
-  SwapSides(views.edges1());
-  SwapSides(views.edges2());
-  EXPECT_EQ(views.NumHypotheses(true), 1u);
+  for (const std::size_t h1 : {0u, 1u}) {
+    LineInTwoViews views(h1);
+    EXPECT_EQ(views.NumHypotheses(false), 1u);
+    EXPECT_EQ(views.NumHypotheses(true), 1u);
+    SwapSides(views.edges1());
+    SwapSides(views.edges2());
+    EXPECT_EQ(views.NumHypotheses(true), 1u);
+  }
 }
 
 TEST(Hypothesise, DoesNotPairEdgesThatAreBrightOnOtherSides) {
-  LineInTwoViews views;
-  SwapSides(views.edges2());
-  EXPECT_EQ(views.NumHypotheses(false), 1u);
-  EXPECT_EQ(views.NumHypotheses(true), 0u);
+  for (const std::size_t h1 : {0u, 1u}) {
+    LineInTwoViews views(h1);
+    SwapSides(views.edges2());
+    EXPECT_EQ(views.NumHypotheses(false), 1u);
+    EXPECT_EQ(views.NumHypotheses(true), 0u);
+  }
 }
 
 TEST(Hypothesise, PairsEdgesAlikeHoweverSoft) {

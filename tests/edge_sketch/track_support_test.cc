@@ -265,5 +265,31 @@ TEST_F(TrackSupportTest, FindsMoreInViewsThatWereNotAsked) {
   }
 }
 
+TEST_F(TrackSupportTest, ViewsThatShowTheEdgeAlikeAreStrongerEvidence) {
+  const double s = 0.5 * curves_[0].length;
+  const auto evidence = [&] {
+    const auto tracked = Track(Start(curves_[0], s, 0));
+    return tracked ? tracked->evidence : 0;
+  };
+  const double unknown = evidence();
+  for (std::size_t i = 0; i < maps_.size(); ++i) {
+    for (Edge2d& edge : maps_[i].edges) {
+      edge.level = Eigen::half(120);
+      edge.strength = 20;
+      edge.sharpness = 1;
+    }
+    indices_[i].appearance = AppearanceDensity(maps_[i].edges);
+  }
+  const double alike = evidence();
+  for (Edge2d& edge : maps_[5].edges) {
+    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
+  }
+  const double one_unlike = evidence();
+  EXPECT_GT(unknown, 0);
+  EXPECT_GT(alike, one_unlike);
+  EXPECT_LT(one_unlike, alike - 1);
+  EXPECT_NE(alike, unknown);
+}
+
 }  // namespace
 }  // namespace curvix
