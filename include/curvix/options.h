@@ -94,7 +94,7 @@ struct ValidationOptions {
   int min_num_support_views = 2;
   // With kEveryView: least log-likelihood ratio, see
   // docs/stages/sketch.md; natural logarithm, >= 0.
-  double min_log_likelihood_ratio = 12.0;
+  double min_log_likelihood_ratio = 10.0;
   // With kEveryView: fewest supporting edges, those of the hypothesis views
   // included, that show no stronger 3D edge at another place; >= 0.
   int min_num_exclusive_views = 3;
