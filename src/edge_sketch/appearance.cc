@@ -14,8 +14,8 @@ constexpr double kLevelScale = 7;
 constexpr double kContrastScale = 3.5;
 constexpr double kMaxRatio = 15;
 constexpr double kBinWidth = 16;  // grey levels
-constexpr double kShareOfUnlike =
-    0.1;  // of edges that look like none of the view
+// Of edges that look like none of the view.
+constexpr double kShareOfUnlike = 0.1;
 
 double Cauchy(double x, double scale) {
   return 1 / (kPi * scale * (1 + (x / scale) * (x / scale)));

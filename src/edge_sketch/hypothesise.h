@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: Sec. 3, Fig. 3(a), (b) and Sec. 4, Fig. 5. From an H1 edge to
-// hypotheses. Deviation: edges that look unlike may be left out, since they
-// make most wrong hypotheses; see docs/paper_map.md.
+// hypotheses. Deviation: edges that look unlike may be left out, which halves
+// the number of hypotheses of photographs; see docs/paper_map.md.
 #pragma once
 
 #include <curvix/edges.h>
