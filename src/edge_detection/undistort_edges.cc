@@ -130,32 +130,39 @@ UnseenCells FindUnseenCells(const Camera& camera,
   if (IsPinhole(camera) && !mask) return unseen;
   const PosedView view = MakePosedView(camera, {});
   unseen.margin_px = view.margin_px;
-  const auto num_half_cells = [&](int size) {
-    return 2 * static_cast<int>(std::ceil((size + 2 * view.margin_px) /
-                                          UnseenCells::kCellPx));
+  const auto num_cells = [&](int size) {
+    return static_cast<int>(
+        std::ceil((size + 2 * view.margin_px) / UnseenCells::kCellPx));
   };
-  const int num_columns = num_half_cells(view.width);
-  const int num_rows = num_half_cells(view.height);
-  unseen.num_columns = num_columns / 2;
-  unseen.cells.resize(static_cast<std::size_t>(num_columns / 2) *
-                      static_cast<std::size_t>(num_rows / 2));
+  const int num_columns = num_cells(view.width);
+  const int num_rows = num_cells(view.height);
+  unseen.num_columns = num_columns;
+  unseen.cells.resize(static_cast<std::size_t>(num_columns) *
+                      static_cast<std::size_t>(num_rows));
   const auto mark = [&](int column, int row) {
-    if (2 * column >= num_columns || 2 * row >= num_rows) return;
-    unseen.cells[static_cast<std::size_t>(row * unseen.num_columns + column)] =
-        1;
+    if (column < 0 || column >= num_columns || row < 0 || row >= num_rows) {
+      return;
+    }
+    unseen.cells[static_cast<std::size_t>(row * num_columns + column)] = 1;
   };
-  // Corners and middles of cells; each belongs to up to four.
-  for (int i = 0; i <= num_rows; ++i) {
-    for (int j = 0; j <= num_columns; ++j) {
+  // Each point belongs to up to four cells. Outlines of masks have details.
+  const int num_per_side = mask ? 2 : 1;
+  const double spacing_px = UnseenCells::kCellPx / num_per_side;
+  for (int i = 0; i <= num_per_side * num_rows; ++i) {
+    for (int j = 0; j <= num_per_side * num_columns; ++j) {
       // Of the last cells only what is in the image counts.
       const Eigen::Vector2d pixel =
-          (UnseenCells::kCellPx / 2 * Eigen::Vector2d(j, i) -
+          (spacing_px * Eigen::Vector2d(j, i) -
            Eigen::Vector2d::Constant(view.margin_px))
               .cwiseMin(Eigen::Vector2d(view.width + view.margin_px,
                                         view.height + view.margin_px));
       if (IsSeen(camera, view, mask, pixel)) continue;
-      for (const int row : {(i - 1) / 2, i / 2}) {
-        for (const int column : {(j - 1) / 2, j / 2}) mark(column, row);
+      for (const int row :
+           {(i + num_per_side - 1) / num_per_side - 1, i / num_per_side}) {
+        for (const int column :
+             {(j + num_per_side - 1) / num_per_side - 1, j / num_per_side}) {
+          mark(column, row);
+        }
       }
     }
   }

@@ -37,8 +37,8 @@ std::optional<EdgeMap> CarryEdges(const EdgeMap& edges,
 std::int32_t DropMaskedEdges(const GrayImage& mask,
                              std::vector<LocatedEdge>* edges);
 
-// A cell is unseen if a corner, the middle of a side, or its middle is; none of
-// a pinhole camera without a mask.
+// A cell is unseen if a corner is or, with a mask, the middle of a side or its
+// middle; none of a pinhole camera without a mask.
 UnseenCells FindUnseenCells(const Camera& camera,
                             const std::optional<GrayImage>& mask);
 

@@ -14,10 +14,9 @@
 
 namespace curvix {
 
-// The tangent of an Edge2d with this angle.
+// The tangent of an Edge2d with this angle, as exact as the angle is.
 inline Eigen::Vector2d TangentAt(float angle) {
-  const double radians = static_cast<double>(angle);
-  return {std::cos(radians), std::sin(radians)};
+  return Eigen::Vector2f(std::cos(angle), std::sin(angle)).cast<double>();
 }
 
 inline ImageEdge ToImageEdge(const Edge2d& edge) {
