@@ -211,12 +211,15 @@ class Grower {
   }
 
   // A step that is a pixel long in the view of `support` that sees it largest,
-  // in pixels of the tip.
+  // in pixels of the tip, which are those at the seed.
   double StepAlong(const CurveTip& tip,
                    const std::vector<EdgeRef>& support) const {
-    const double foreshortening =
+    const double across =
+        PixelSize(tip.edge().position, support, input_.views) / tip.pixel();
+    if (!(across > 0)) return kStepPx;
+    const double along =
         PixelSizeAlong(tip.edge(), support, input_.views) / tip.pixel();
-    return kStepPx * std::clamp(foreshortening, 1.0, kMaxForeshortening);
+    return kStepPx * std::clamp(along, across, kMaxForeshortening * across);
   }
 
   // What each view shows at the tip.

@@ -16,6 +16,7 @@
 #include "curve_kinds/blurred_images.h"
 #include "curve_kinds/nearby_points.h"
 #include "curve_kinds/strips.h"
+#include "geometry/directions.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 
@@ -254,11 +255,15 @@ class Classifier {
     };
     const double pixel = places_.pixels[curve_idx];
     std::vector<SurfaceEvidence> evidence;
-    Vector3d normal = Vector3d::Zero();
+    Vector3d tangent = Vector3d::Zero(), normal = Vector3d::Zero();
     for (std::size_t i : places_.samples[curve_idx]) {
       const CurveSample& sample = curve.samples[i];
       // A frame that turns no more than the curve does.
+      if (!evidence.empty()) {
+        normal = ShortestRotation(tangent, sample.tangent) * normal;
+      }
       normal = Across(sample.tangent, normal);
+      tangent = sample.tangent;
       std::vector<Vector3d> nearby = CurvesNearby(curve_idx, sample);
       const StripPlace place = {
           sample.position, sample.tangent, normal, sample.support};

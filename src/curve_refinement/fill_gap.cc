@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSpacingPx = 1.5;
 constexpr double kMinSupportShare = 0.5;    // of the usual support
+constexpr double kMinNumSupports = 3;       // of a sample, as of seeds
 constexpr double kMinSupportedShare = 0.8;  // of the samples
 constexpr std::size_t kNumEndSamples = 10;
 
@@ -70,9 +71,9 @@ bool IsGapShown(const CurveSample& from,
                 const ImageSupport& images) {
   const std::vector<CurveSample> filled =
       SamplesBetween(from, to, pixel, images);
+  const double least = std::max(kMinNumSupports, kMinSupportShare * usual);
   const auto num_shown = std::ranges::count_if(filled, [&](const auto& sample) {
-    return static_cast<double>(sample.support.size()) >=
-           kMinSupportShare * usual;
+    return static_cast<double>(sample.support.size()) >= least;
   });
   return static_cast<double>(num_shown) >=
          kMinSupportedShare * static_cast<double>(filled.size());

@@ -24,7 +24,7 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
 double SupportBefore(const Curve& curve, bool at_head);
 
 // Whether four fifths of the samples in such a gap have at least half of
-// `usual` 2D edges. `pixel`: its size, world units.
+// `usual` 2D edges, and three. `pixel`: its size, world units.
 bool IsGapShown(const CurveSample& from,
                 const CurveSample& to,
                 double pixel,

@@ -2,7 +2,6 @@
 #include "curve_refinement/filter_curves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -42,7 +41,7 @@ double Straightness(const Curve& curve, double distance) {
           (curve.samples[k + 1].position - curve.samples[k].position).norm();
     }
     if (along < distance) break;
-    sum += std::abs(curve.samples[i].tangent.dot(curve.samples[k].tangent));
+    sum += curve.samples[i].tangent.dot(curve.samples[k].tangent);
     ++num_compared;
     along -= (curve.samples[i + 1].position - curve.samples[i].position).norm();
   }

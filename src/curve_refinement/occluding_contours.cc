@@ -211,7 +211,7 @@ double ContourLogLikelihoodRatio(const Curve& curve,
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& sample = curve.samples[i];
     const double pixel = PixelSize(sample, views);
-    if (!(pixel > 0)) continue;
+    if (!(pixel > 0) || sample.support.empty()) continue;
     if (i > 0) {
       to_next -=
           (sample.position - curve.samples[i - 1].position).norm() / pixel;
