@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kSpacingPx = 1.5;
 constexpr double kMinSupportShare = 0.5;    // of the usual support
-constexpr double kMinNumSupports = 3;       // of a sample, as of seeds
 constexpr double kMinSupportedShare = 0.8;  // of the samples
 constexpr std::size_t kNumEndSamples = 10;
 
@@ -58,10 +57,11 @@ double SupportBefore(const Curve& curve, bool at_head) {
   std::vector<double> counts;
   for (std::size_t k = 0; k < std::min(kNumEndSamples, curve.samples.size());
        ++k) {
-    counts.push_back(
-        static_cast<double>(SampleFromEnd(curve, at_head, k).support.size()));
+    const CurveSample& sample = SampleFromEnd(curve, at_head, k);
+    if (sample.support.empty()) continue;
+    counts.push_back(static_cast<double>(sample.support.size()));
   }
-  return Median(std::move(counts));
+  return MedianOr(0, std::move(counts));
 }
 
 bool IsGapShown(const CurveSample& from,
@@ -71,7 +71,7 @@ bool IsGapShown(const CurveSample& from,
                 const ImageSupport& images) {
   const std::vector<CurveSample> filled =
       SamplesBetween(from, to, pixel, images);
-  const double least = std::max(kMinNumSupports, kMinSupportShare * usual);
+  const double least = std::max(1.0, kMinSupportShare * usual);
   const auto num_shown = std::ranges::count_if(filled, [&](const auto& sample) {
     return static_cast<double>(sample.support.size()) >= least;
   });

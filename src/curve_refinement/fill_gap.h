@@ -20,11 +20,12 @@ std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                                         const std::vector<PosedView>& views,
                                         const ImageSupport& images);
 
-// The median number of 2D edges of the last samples before an end.
+// The median number of 2D edges of the last samples before an end, of those
+// that have any; 0 if none has.
 double SupportBefore(const Curve& curve, bool at_head);
 
 // Whether four fifths of the samples in such a gap have at least half of
-// `usual` 2D edges, and three. `pixel`: its size, world units.
+// `usual` 2D edges, and one. `pixel`: its size, world units.
 bool IsGapShown(const CurveSample& from,
                 const CurveSample& to,
                 double pixel,

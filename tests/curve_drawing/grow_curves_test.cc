@@ -14,6 +14,7 @@
 #include "geometry/pixel_size.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
+#include "tests/support/test_views.h"
 
 namespace curvix {
 namespace {
@@ -28,9 +29,11 @@ constexpr int kNumViews = 16;
 // Curves as 16 views see them.
 class Seen {
  public:
-  explicit Seen(std::vector<TestCurve> curves, double noise_px = 0)
+  explicit Seen(std::vector<TestCurve> curves,
+                double noise_px = 0,
+                std::vector<PosedView> views = RingOfViews(kNumViews))
       : curves_(std::move(curves)),
-        views_(RingOfViews(kNumViews)),
+        views_(std::move(views)),
         maps_(ExactEdgeMaps(curves_, views_, 1)) {
     Random random(2);
     for (EdgeMap& map : maps_) {
@@ -160,6 +163,24 @@ TEST(GrowCurves, OneSeedGivesAWholeLine) {
     EXPECT_GE(sample.support.size(), is_end ? 3u : 6u) << k;
     EXPECT_GT(sample.sigma, 0);
   }
+}
+
+TEST(GrowCurves, StepsFollowTheDepth) {
+  // A rail beside a walk, 4 to 20 units ahead.
+  std::vector<PosedView> walk;
+  for (int i = 0; i < kNumViews; ++i) {
+    walk.push_back(
+        LookAt({0.8 * std::sin(1.3 * i), 0.12 * i - 6, 1.2}, {0, 10, 0.3}));
+  }
+  const Seen seen({LineCurve({-1, -2, 0}, {-1, 14, 0})}, 0, walk);
+  std::vector<double> num_samples;
+  for (const double share : {0.05, 0.5, 0.95}) {
+    const std::vector<Curve> curves = seen.Grow({seen.Seed(0, share)});
+    ASSERT_EQ(curves.size(), 1u) << share;
+    EXPECT_GT(Length(curves[0]), 15) << share;
+    num_samples.push_back(static_cast<double>(curves[0].samples.size()));
+  }
+  EXPECT_LT(std::ranges::max(num_samples), 1.1 * std::ranges::min(num_samples));
 }
 
 TEST(GrowCurves, OneSeedGivesAWholeCircleOnce) {
@@ -310,10 +331,9 @@ void HideMiddle(double hidden_px, std::vector<EdgeMap>* maps) {
 
 TEST(GrowCurves, GoesOverShortGapsOnly) {
   // Seen from the front, so that all views show it at the same size.
-  const TestCurve upright = LineCurve({0, 0, -0.5}, {0, 0, 0.5});
   for (const auto& [hidden_px, is_whole] :
        {std::pair(4.0, true), std::pair(40.0, false)}) {
-    Seen seen({upright});
+    Seen seen({LineCurve({0, 0, -0.5}, {0, 0, 0.5})});
     HideMiddle(hidden_px, &seen.maps());
     const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.2)});
     ASSERT_EQ(curves.size(), 1u);
@@ -346,7 +366,7 @@ TEST(GrowCurves, TakesEdgesAsNearAsTheOptionsOfValidationSay) {
 
   Seen rough({kLine}, 0.2);
   ValidationOptions near;
-  near.max_distance_px = 0.02;
+  near.max_distance_px = 0.005;
   EXPECT_EQ(rough.Grow({rough.Seed(0, 0.3)}).size(), 1u);
   EXPECT_TRUE(rough.Grow({rough.Seed(0, 0.3)}, {}, 1, near).empty());
 }

@@ -2,6 +2,7 @@
 #include "curve_refinement/bridge_gaps.h"
 
 #include <gtest/gtest.h>
+#include <iterator>
 
 #include "geometry/edge_geometry.h"
 #include "model/curve_chains.h"
@@ -120,6 +121,14 @@ TEST(BridgeGaps, LongGapsAreClosedWhereTheImagesShowThem) {
   EXPECT_EQ(
       BridgeIn(FrontalViews(), BrokenLine(25), kBridgeOptions, edges).size(),
       2u);
+}
+
+TEST(BridgeGaps, LongGapsWithoutEdgesStayBehindEndsWithoutEdges) {
+  std::vector<Curve> curves = BrokenLine(25);
+  for (int k = 1; k <= 7; ++k) {
+    std::prev(curves[0].samples.end(), k)->support.clear();
+  }
+  EXPECT_EQ(BridgeIn(FrontalViews(), curves).size(), 2u);
 }
 
 TEST(BridgeGaps, SmallRingsClose) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <cmath>
+#include <numbers>
 
 #include "tests/curve_refinement/drawn_curves.h"
 
@@ -44,6 +45,14 @@ TEST(FilterCurves, CirclesAreTheLessStraightTheSmallerTheyAre) {
     EXPECT_LE(circle.straightness, std::cos(10 / radius_px) + 1e-9);
     EXPECT_GE(circle.straightness, std::cos(11.1 / radius_px));
   }
+}
+
+TEST(FilterCurves, RingsThatTurnBackAreNotStraight) {
+  // Half the circumference is 10 pixels.
+  const double radius_px = 10 / std::numbers::pi;
+  const CurveQualities ring =
+      QualitiesOf(Arc(radius_px, 0, 2 * std::numbers::pi));
+  EXPECT_LT(ring.straightness, -0.9);
 }
 
 TEST(FilterCurves, KeepsAllByDefault) {
