@@ -234,7 +234,7 @@ void AddRows(CurveFilterOptions& o, Section row) {
       "least mean cosine of tangents 10 px apart: 1 for lines");
   row.Choice("kinds", &o.kinds,
       {"crease", "boundary", "marking", "occluding_contour"}, "",
-      "kinds to keep");
+      "kinds to keep; unknown ones stay");
 }
 
 void AddRows(CurveFittingOptions& o, Section row) {
