@@ -57,6 +57,7 @@ class Aligner {
 
  private:
   Status ReadScene();
+  void WarnOfCoordinates();
   Status TakeDistances();
   Status TakeMarkers();
   Status TakePositions();
@@ -89,7 +90,22 @@ Status Aligner::ReadScene() {
   Result<KnownStructures> structures = ReadStructures(workspace_.output_path);
   if (!structures.ok()) return structures.status();
   structures_ = *std::move(structures);
+  if (structures_.is_aligned) WarnOfCoordinates();
   return {};
+}
+
+// Nodes are the same whatever the frame; coordinates read from the model are
+// others in the results that are there now.
+void Aligner::WarnOfCoordinates() {
+  std::string options = HavePoints(settings_.distances) ? "--distance" : "";
+  if (!settings_.up.empty()) options += options.empty() ? "--up" : " and --up";
+  if (options.empty()) return;
+  const std::string path = (workspace_.output_path / kAlignmentName).string();
+  progress_.Note(
+      "WARNING: The results are aligned already: coordinates after " + options +
+      " are taken to be those of the aligned results. If they are "
+      "the model's, remove " +
+      path + ", repeat the run that wrote the results, then align again.");
 }
 
 Status Aligner::TakeDistances() {

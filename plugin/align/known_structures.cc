@@ -114,6 +114,7 @@ Result<KnownStructures> ReadStructures(const fs::path& folder) {
   KnownStructures result;
   if (file->alignment) {
     result.model_from_world = file->alignment->world_from_model.Inverse();
+    result.is_aligned = true;
   }
   result.fitted = MoveFits(result.model_from_world, std::move(file->fitted));
   return result;
@@ -121,6 +122,10 @@ Result<KnownStructures> ReadStructures(const fs::path& folder) {
 
 Status CheckDistances(const std::string& text) {
   return ReadDistances(text, nullptr).status();
+}
+
+bool HavePoints(std::string_view distances) {
+  return distances.find(',') != std::string_view::npos;
 }
 
 Result<std::vector<KnownDistance>> ParseDistances(

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/similarity.h"
@@ -18,6 +19,7 @@ struct KnownStructures {
   FittedCurves fitted;  // in the model's frame
   // Of the frame in which curves.json is; the identity without an alignment.
   Similarity3 model_from_world;
+  bool is_aligned = false;
 };
 
 // kNotFound: there is no curves.json in `folder`; kDataLoss: it is broken, or
@@ -33,6 +35,9 @@ Result<std::vector<KnownDistance>> ParseDistances(
 
 // kInvalidArgument as of ParseDistances, but for nodes that are not there.
 Status CheckDistances(const std::string& text);
+
+// Whether any is between points x,y,z.
+bool HavePoints(std::string_view distances);
 
 // "x,y,z" to three finite numbers. kInvalidArgument: `what` is no such.
 Result<Eigen::Vector3d> ParseVector(const std::string& what,

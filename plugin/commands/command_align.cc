@@ -66,9 +66,10 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
        {TextFlag(
             "distance",
             &s->distances,
-            "two nodes (by number) or points (x,y,z) and how far apart they "
-            "are: A B 1.250, or A B 1.250 0.001 with a standard deviation; "
-            "may be given several times"),
+            "two nodes (by number) or points (x,y,z, in the present "
+            "coordinates of curves.json) and how far apart they are: A B "
+            "1.250, or A B 1.250 0.001 with a standard deviation; may be given "
+            "several times"),
         MarkersFlag(s),
         RowFlag({.name = "marker_size",
                  .field = &s->marker_size,
@@ -83,11 +84,11 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
                    {"none", "auto"},
                    &s->axes,
                    "auto: z up and two horizontals along most lines"),
-        TextFlag(
-            "up",
-            &s->up,
-            "x,y,z: where up is, roughly, in the coordinates of curves.json; "
-            "default: up in the images")}});
+        TextFlag("up",
+                 &s->up,
+                 "x,y,z: where up is, roughly, in the present coordinates of "
+                 "curves.json; "
+                 "default: up in the images")}});
   sections.push_back(
       {"Output",
        {ChoiceFlag("unit",

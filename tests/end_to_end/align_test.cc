@@ -17,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -30,6 +31,13 @@ class Align : public BlockTest {
 
   // Switched to the frame of `known`.
   Outcome RunAlign(const std::string& known) { return Run("align " + known); }
+  // What it prints to stderr.
+  std::string ErrorsOfAlign(const std::string& known) {
+    return RunInShell("'" + std::string(CURVIX_PROGRAM) + "' align " + known +
+                      " --workspace_path " + Quoted(workspace_) +
+                      " 2>&1 >/dev/null")
+        .output;
+  }
 
   // A file of the centres of the cameras, after the similarity that is to be
   // found: three times as large, turned about z by 90 degrees, and moved.
@@ -105,6 +113,20 @@ TEST_F(Align, AKnownDistanceScalesAllResults) {
   fs::remove(results_ / "alignment.json");
   ASSERT_EQ(Run("").exit_code, 0);
   EXPECT_EQ(Curves(), before_);
+}
+
+TEST_F(Align, WarnsThatCoordinatesAreThoseOfTheLastAlignment) {
+  const std::string warning = "WARNING: The results are aligned already";
+  const std::string points = "--distance 0,0,0 0,1,0 5";
+  EXPECT_THAT(RunAlign(points).output, Not(HasSubstr(warning)));
+  EXPECT_THAT(RunAlign("--distance 0 1 5").output, Not(HasSubstr(warning)));
+  EXPECT_THAT(RunAlign("--axes auto").output, Not(HasSubstr(warning)));
+  EXPECT_THAT(RunAlign(points).output,
+              HasSubstr(warning + ": coordinates after --distance are taken"));
+  EXPECT_THAT(
+      ErrorsOfAlign("--axes auto --up 0,0,1"),
+      AllOf(HasSubstr(warning + ": coordinates after --up are taken"),
+            HasSubstr("remove " + (results_ / "alignment.json").string())));
 }
 
 TEST_F(Align, TheProjectFileOfARunServesAllThatFollow) {
