@@ -66,6 +66,7 @@ class Aligner {
   Status Write(const AlignmentResult& result);
   void DescribeScale(const AlignmentResult& result);
   void DescribePositions(const AlignmentResult& result);
+  void WarnOfMisfit(double misfit);
   void Say(const std::string& line) { text_ += line + "\n"; }
 
   const AlignSettings& settings_;
@@ -250,6 +251,19 @@ void Aligner::DescribePositions(const AlignmentResult& result) {
   }
 }
 
+void Aligner::WarnOfMisfit(double misfit) {
+  const bool may_mix_units =
+      !input_.positions.empty() &&
+      !(input_.distances.empty() && input_.scales.empty());
+  progress_.Note(
+      "WARNING: What is given contradicts itself: its errors are " +
+      SigmaText(misfit) +
+      " times what they should be (root mean square). Look for a wrong number, "
+      "a wrong node" +
+      (may_mix_units ? ", lengths in another unit than positions" : "") +
+      " or a moved marker.");
+}
+
 Status Aligner::Write(const AlignmentResult& result) {
   Json json = AlignmentJson(result.alignment);
   json["sources"] = sources_;
@@ -294,12 +308,7 @@ Result<std::string> Aligner::Run() {
   }
   if (alignment.has_scale) DescribeScale(*result);
   if (!input_.positions.empty()) DescribePositions(*result);
-  if (result->misfit > kLargeMisfit) {
-    Say("What is given contradicts itself: its errors are " +
-        SigmaText(result->misfit) +
-        " times what they should be (root mean square). Look for a wrong "
-        "number, a wrong node or a moved marker.");
-  }
+  if (result->misfit > kLargeMisfit) WarnOfMisfit(result->misfit);
   if (alignment.has_rotation) {
     const Eigen::Vector3d variances =
         alignment.covariance.diagonal().segment<3>(1);

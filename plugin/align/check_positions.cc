@@ -125,8 +125,9 @@ Status CheckPositions(const AlignmentInput& input,
       SigmaText(off) + " off (standard deviation), and the cameras are " +
       SigmaText(extent) + " from their middle. " + input.positions[worst].name +
       " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
-      ". Look for a wrong number, a wrong distance, degrees or a mirrored "
-      "axis; if positions are that uncertain, give a standard deviation after "
+      ". Look for a wrong number, a wrong distance or unit, degrees or a "
+      "mirrored axis; if positions are that uncertain, give a standard "
+      "deviation after "
       "each");
 }
 

@@ -214,8 +214,26 @@ TEST_F(Align, SaysThatDistancesContradictEachOther) {
                             line["end_node"].dump() + " ";
   EXPECT_THAT(RunAlign(known + "2 " + known + "2.001 0.01").output,
               Not(HasSubstr("contradicts itself")));
-  EXPECT_THAT(RunAlign(known + "2 0.01 " + known + "3 0.01").output,
-              HasSubstr("What is given contradicts itself"));
+  EXPECT_THAT(ErrorsOfAlign(known + "2 0.01 " + known + "3 0.01"),
+              AllOf(HasSubstr("WARNING: What is given contradicts itself"),
+                    Not(HasSubstr("another unit"))));
+}
+
+TEST_F(Align, SaysThatLengthsAndPositionsContradictEachOther) {
+  std::istringstream lines(Read(PositionsFrom(0)));
+  std::string with_sigmas;
+  for (std::string line; std::getline(lines, line);) {
+    with_sigmas += line + " 0.03\n";
+  }
+  const fs::path path = folder_.Write("positions.txt", with_sigmas);
+  const json line = FirstLine(before_);
+  const double length = 3 * line["length"].get<double>();
+  EXPECT_THAT(
+      ErrorsOfAlign("--positions " + Quoted(path) + " --distance " +
+                    line["start_node"].dump() + " " + line["end_node"].dump() +
+                    " " + std::to_string(1.2 * length)),
+      AllOf(HasSubstr("WARNING: What is given contradicts itself"),
+            HasSubstr("lengths in another unit than positions")));
 }
 
 TEST_F(Align, CamerasWhosePositionsAreKnownGiveEverything) {
