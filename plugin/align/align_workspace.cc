@@ -148,6 +148,8 @@ Status Aligner::TakePositions() {
       ReadPositions(settings_.positions_path, scene_);
   if (!read.ok()) return read.status();
   for (const std::string& note : read->notes) progress_.Note(note);
+  Status sigmas = CheckSigmas(read->positions, settings_.positions_path);
+  if (!sigmas.ok()) return sigmas;
   input_.positions = std::move(read->positions);
   return {};
 }

@@ -81,6 +81,10 @@ Result<KnownDistance> ReadDistance(const std::string& text,
   if (!a.ok()) return a.status();
   const Result<CurveNode> b = ReadPoint(second, text, structures);
   if (!b.ok()) return b.status();
+  if (first == second ||
+      (structures != nullptr && a->position == b->position)) {
+    return BadDistance(text, "its two points are the same");
+  }
   const double length = ParseNumber<double>(length_word).value_or(0);
   if (!(length > 0) || !std::isfinite(length)) {
     return BadDistance(text, "the distance is not a number above 0");

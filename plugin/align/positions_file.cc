@@ -5,7 +5,9 @@
 #include <cpl_conv.h>
 #include <ogr_srs_api.h>
 #endif
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -147,7 +149,8 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
     }
     const auto center = centers.find(position->name);
     if (center == centers.end()) {
-      unknown.push_back(position->name);
+      unknown.push_back(position->name + " (line " +
+                        std::to_string(reader.line_number()) + ")");
       continue;
     }
     position->model = center->second;
@@ -159,10 +162,23 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
         (scene.views.empty() ? "" : scene.views.front().name) + " is one");
   }
   if (!unknown.empty()) {
-    result.notes.push_back("no image of the model is called " +
-                           FirstNames(unknown));
+    result.notes.push_back(
+        path.string() +
+        " names what is no image of the model: " + FirstNames(unknown));
   }
   return result;
+}
+
+Status CheckSigmas(const std::vector<KnownPosition>& positions,
+                   const std::filesystem::path& path) {
+  constexpr std::size_t kFewest = 3;
+  const bool all_known = std::ranges::all_of(
+      positions, [](const KnownPosition& p) { return p.sigma > 0; });
+  if (all_known || positions.size() >= kFewest) return {};
+  return Status::InvalidArgument(
+      path.string() +
+      " has fewer than three positions, whose uncertainty cannot be estimated: "
+      "give a standard deviation in each line, \"name x y z sigma\"");
 }
 
 Status CheckEpsg(const std::string& code) {

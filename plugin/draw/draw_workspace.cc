@@ -224,14 +224,12 @@ Status Drafter::TakePhotograph() {
   for (std::size_t i = 0; i < scene_.views.size(); ++i) {
     if (scene_.views[i].name == settings_.photograph) chosen = i;
   }
-  if (!chosen) {
-    return Status::InvalidArgument("--photograph is " + settings_.photograph +
-                                   ", which is no image of the model");
-  }
-  if (!ShowsFront(scene_, scene_.views[*chosen], area)) {
+  if (!chosen || !ShowsFront(scene_, scene_.views[*chosen], area)) {
     return Status::InvalidArgument(
-        "--photograph is " + settings_.photograph +
-        ", which does not show the plane from this side");
+        "--photograph is " + settings_.photograph + ", which " +
+        (chosen ? "does not show the plane from this side"
+                : "is no image of the model") +
+        "; --photograph auto chooses one that shows it");
   }
   Result<RectifiedPhotograph> photograph =
       Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);

@@ -289,8 +289,12 @@ TEST_F(Align, TellsTheOffsetOfLargeCoordinatesWithAllDigits) {
 TEST_F(Align, ASinglePositionMakesNoMap) {
   const fs::path path = PositionsFrom(1000);
   const std::string all = Read(path);
-  std::ofstream(path) << all.substr(0, all.find('\n')) << " 0.1\n";
+  const std::string line = all.substr(0, all.find('\n'));
   const std::string position = "align --positions " + Quoted(path);
+  std::ofstream(path) << line << "\n";
+  ExpectError(position + " --axes auto",
+              path.string() + " has fewer than three positions");
+  std::ofstream(path) << line << " 0.1\n";
   ExpectError(position + " --axes auto --epsg 25832", "--epsg needs a scale");
   EXPECT_FALSE(fs::exists(results_ / "alignment.json"));
 }
@@ -347,6 +351,7 @@ TEST_F(Align, SaysWhatIsWrongAndChangesNothing) {
        {std::pair("", "something that is known"),
         std::pair("--distance 0 1", "three words"),
         std::pair("--distance 0 100000 3", "no node 100000"),
+        std::pair("--distance 1 1 3", "--distance 1 1 3: its two points"),
         std::pair("--markers 4x4_50", "--marker_size"),
         std::pair("--axes auto --marker_size 5", "needs --markers"),
         std::pair("--positions none.txt", "none.txt"),

@@ -289,7 +289,7 @@ TEST_F(Draw, APhotographFromBehindIsRefused) {
   const std::size_t name = sheet.find("photograph view_");
   ASSERT_NE(name, sheet.npos);
   ExpectError("draw --plane xz --photograph " + sheet.substr(name + 11, 12),
-              "does not show the plane from this side");
+              "from this side; --photograph auto chooses");
 }
 
 TEST_F(Draw, SeveralViewsAreDrawnWholeOnRequest) {
@@ -387,7 +387,7 @@ TEST_F(Draw, SaysWhatIsWrongAndWritesNothing) {
         std::pair("--plane xy --crop 1000,0,1001,1", "nothing to draw"),
         std::pair("--plane xy --crop 0,0,1", "left, bottom, right"),
         std::pair("--plane xy,xz --photograph auto", "a single --plane"),
-        std::pair("--photograph none.jpg", "no image of the model"),
+        std::pair("--photograph none.jpg", "of the model; --photograph auto"),
         std::pair("--name a/b", "--name"),
         std::pair("--name curves", "curves.dxf is a file of the curves")}) {
     ExpectError(std::string("draw ") + words, why);

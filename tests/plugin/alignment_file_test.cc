@@ -146,6 +146,8 @@ TEST(ParseDistances, SaysWhatIsWrong) {
                            "0 1 -1",
                            "0 1 inf",
                            "0 2 1",
+                           "0 0 1",
+                           "0,0,0 0 1",
                            "-1 1 1",
                            "0,1 1 1",
                            "0,1,2,3 1 1",
@@ -199,7 +201,8 @@ TEST_F(Positions, AreThoseOfTheCameras) {
   EXPECT_EQ(read->positions[0].sigma, 0);
   EXPECT_EQ(read->positions[1].sigma, 0.5);
   ASSERT_EQ(read->notes.size(), 1u);
-  EXPECT_THAT(read->notes[0], HasSubstr("other"));
+  EXPECT_THAT(read->notes[0], HasSubstr("positions.txt names "));
+  EXPECT_THAT(read->notes[0], HasSubstr("other (line 5)"));
 }
 
 TEST_F(Positions, NamesMayHoldWhatIsBetweenNumbers) {
