@@ -88,6 +88,24 @@ Result<T> RunStages::LoadOrMake(const StoredStage<T>& stage,
   return made;
 }
 
+// What COLMAP said stays beside its result, for the runs that resume from it.
+Result<BundleAdjustment> RunStages::LoadOrAdjust(
+    const Scene& scene,
+    const std::filesystem::path& program,
+    const std::function<Result<BundleAdjustment>()>& adjust,
+    const std::filesystem::path& log_path) {
+  bool is_new = false;
+  Result<BundleAdjustment> adjustment =
+      LoadOrMake(kRefinePoses, AdjustmentKey(scene, program), [&] {
+        is_new = true;
+        return adjust();
+      });
+  if (!adjustment.ok()) return adjustment;
+  if (!is_new) store_.FetchText(log_path);
+  if (is_new && !record_.settings.clean) store_.KeepText(log_path);
+  return adjustment;
+}
+
 Result<PoseRefinement> RunStages::AdjustPoses(
     const ColmapModel& model, const std::filesystem::path& log_path) {
   const Stopwatch stopwatch;
@@ -100,7 +118,7 @@ Result<PoseRefinement> RunStages::AdjustPoses(
       [&](const Scene& scene,
           const std::filesystem::path& program,
           const std::function<Result<BundleAdjustment>()>& adjust) {
-        return LoadOrMake(kRefinePoses, AdjustmentKey(scene, program), adjust);
+        return LoadOrAdjust(scene, program, adjust, log_path);
       });
   if (!refined.ok()) return KeptStages(refined.status());
   record_.poses = refined->record;

@@ -9,6 +9,7 @@
 #include <curvix/status.h>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,11 @@ class RunStages {
                           const std::vector<EdgeMap>* edges);
 
  private:
+  Result<BundleAdjustment> LoadOrAdjust(
+      const Scene& scene,
+      const std::filesystem::path& program,
+      const std::function<Result<BundleAdjustment>()>& adjust,
+      const std::filesystem::path& log_path);
   Result<std::vector<EdgeMap>> Detect(const Scene& scene);
   std::vector<EdgeMap> Link(std::vector<EdgeMap> edge_maps);
   Status RefinePoses(const ColmapModel& model, SceneStages& stages);

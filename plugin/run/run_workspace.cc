@@ -37,7 +37,7 @@ Result<bool> RunBundleAdjustment(const Workspace& workspace,
                                  RunStages& stages,
                                  RunRecord& record,
                                  WorkspaceScene& input) {
-  const fs::path log_path = staging / "bundle_adjuster.log";
+  const fs::path log_path = staging / kAdjustmentLog;
   Result<PoseRefinement> refined = stages.AdjustPoses(input.model, log_path);
   if (!refined.ok()) return refined.status();
   if (fs::exists(log_path)) {

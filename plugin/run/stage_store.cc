@@ -169,10 +169,25 @@ std::string StageStore::MakeFolder() const {
   return error ? "cannot make " + folder_.string() : "";
 }
 
+void StageStore::KeepText(const fs::path& path) const {
+  if (folder_.empty() || IsLink()) return;
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return;
+  const Status ignored = WriteFileAtomically(folder_ / path.filename(), *text);
+}
+
+void StageStore::FetchText(const fs::path& path) const {
+  if (folder_.empty()) return;
+  const Result<std::string> text = ReadFile(folder_ / path.filename());
+  if (!text.ok()) return;
+  const Status ignored = WriteFileAtomically(path, *text);
+}
+
 void StageStore::Clean() {
   if (folder_.empty() || IsLink()) return;
   std::error_code ignored;
   for (const char* file : {kRefinePoses.file,
+                           kAdjustmentLog,
                            kDetectEdges.file,
                            kSketchEdges.file,
                            kRefinePosesWithCurves.file}) {

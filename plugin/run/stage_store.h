@@ -51,6 +51,7 @@ struct StoredStage {
                   std::uint64_t key,
                   const T& result);
 };
+inline constexpr char kAdjustmentLog[] = "bundle_adjuster.log";
 inline constexpr StoredStage<BundleAdjustment> kRefinePoses = {
     "refine_poses",
     "adjustment.bin",
@@ -96,6 +97,11 @@ class StageStore {
     has_saved_ = has_saved_ || status.ok();
     return status.message();
   }
+
+  // Copies a file of a few pages, such as a log, into the folder under its own
+  // name, or back from there, if it is there. A run can do without.
+  void KeepText(const std::filesystem::path& path) const;
+  void FetchText(const std::filesystem::path& path) const;
 
   // Whether anything was saved.
   bool has_saved() const { return has_saved_; }

@@ -199,6 +199,7 @@ TEST_F(InstalledColmap, GivesBetterPosesInTheSameWorld) {
   EXPECT_THAT(nlohmann::json::parse(again)["run"]["resumed_stages"].dump(),
               HasSubstr("\"refine_poses\""));
   EXPECT_EQ(Read(output / "sparse/images.bin"), poses);
+  EXPECT_TRUE(fs::exists(output / "bundle_adjuster.log"));
 
   const fs::path broken =
       folder_.Write("broken/colmap", "#!/bin/sh\necho Aborted\nexit 134\n");

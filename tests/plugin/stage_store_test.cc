@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file_io.h"
 #include "tests/support/temporary_folder.h"
 
 namespace curvix {
@@ -35,6 +36,20 @@ TEST(StageStore, CleansUpAfterAKilledRun) {
   folder.Write("stages/edges.bin", "");
   folder.Write("stages/sketch.bin.tmp", "half");
   StageStore(folder.path() / "stages").Clean();
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "stages"));
+}
+
+TEST(StageStore, KeepsTheLogOfAnAdjustment) {
+  const TemporaryFolder folder;
+  const std::filesystem::path log =
+      folder.Write(kAdjustmentLog, "Iteration 1\n");
+  folder.Write("stages/adjustment.bin", "");
+  StageStore store(folder.path() / "stages");
+  store.KeepText(log);
+  std::filesystem::remove(log);
+  store.FetchText(log);
+  EXPECT_EQ(ReadFile(log).value(), "Iteration 1\n");
+  store.Clean();
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "stages"));
 }
 
