@@ -192,7 +192,7 @@ void StageStore::Clean() {
                            kSketchEdges.file,
                            kRefinePosesWithCurves.file}) {
     fs::remove(folder_ / file, ignored);
-    fs::remove(FileWriter::TemporaryPath(folder_ / file), ignored);
+    FileWriter::RemoveLeftovers(folder_ / file);
   }
   fs::remove(folder_, ignored);
 }

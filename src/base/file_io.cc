@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/file_io.h"
 
+#include <unistd.h>
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace curvix {
 namespace {
@@ -23,22 +27,65 @@ Status CannotWrite(const fs::path& path, int error) {
                           "; check the free space of the disk and its quota.");
 }
 
+constexpr std::string_view kTemporaryEnding = ".tmp";
+
+// Of this process.
+fs::path TemporaryPath(fs::path path, std::uintptr_t number) {
+  path += "." + std::to_string(getpid()) + "-" + std::to_string(number);
+  return path += kTemporaryEnding;
+}
+
+// Whether TemporaryPath, of any process, gives `name` for a file `target`.
+bool IsTemporaryName(std::string_view name, std::string_view target) {
+  if (!name.starts_with(target) || !name.ends_with(kTemporaryEnding) ||
+      name.size() <= target.size() + kTemporaryEnding.size()) {
+    return false;
+  }
+  name.remove_prefix(target.size());
+  name.remove_suffix(kTemporaryEnding.size());
+  const std::size_t dash = name.find('-');
+  const auto is_number = [](std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) {
+      return '0' <= c && c <= '9';
+    });
+  };
+  return name.front() == '.' && dash != name.npos &&
+         is_number(name.substr(1, dash - 1)) &&
+         is_number(name.substr(dash + 1));
+}
+
 }  // namespace
 
-fs::path FileWriter::TemporaryPath(fs::path path) { return path += ".tmp"; }
-
-FileWriter::FileWriter(fs::path path)
-    : path_(std::move(path)), temporary_(TemporaryPath(path_)) {
-  std::error_code error;
-  fs::remove(temporary_, error);  // of a program that was killed
-  errno = 0;
-  // "x": fails if anything is there, so that no link is followed.
-  file_.reset(std::fopen(temporary_.c_str(), "wbx"));
+FileWriter::FileWriter(fs::path path) : path_(std::move(path)) {
+  // No other writer of this process has this address.
+  auto number = reinterpret_cast<std::uintptr_t>(this);
+  do {
+    temporary_ = TemporaryPath(path_, number++);
+    errno = 0;
+    // "x": fails if anything is there, so that no link is followed and no other
+    // file touched, as that of a killed process with the same id.
+    file_.reset(std::fopen(temporary_.c_str(), "wbx"));
+  } while (file_ == nullptr && errno == EEXIST);
   if (file_ == nullptr) {
-    status_ = Status::NotFound(
-        "Cannot create " + temporary_.string() + Reason(errno) +
-        "; check that the folder exists and may be written.");
+    status_ =
+        Status::NotFound("Cannot create " + path_.string() + Reason(errno) +
+                         "; check that the folder exists and may be written.");
   }
+}
+
+void FileWriter::RemoveLeftovers(const fs::path& path) {
+  const std::string target = path.filename().string();
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
+    const fs::path& found = it->path();
+    if (IsTemporaryName(found.filename().string(), target)) {
+      leftovers.push_back(found);
+    }
+  }
+  for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
 }
 
 FileWriter::~FileWriter() {
@@ -52,7 +99,7 @@ void FileWriter::Append(std::string_view bytes) {
   if (!status_.ok()) return;
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    status_ = CannotWrite(temporary_, errno);
+    status_ = CannotWrite(path_, errno);
   }
 }
 
@@ -61,16 +108,15 @@ Status FileWriter::Finish() {
   errno = 0;
   // Closing fails when the last bytes do not fit.
   if (std::fclose(file_.release()) != 0 && status_.ok()) {
-    status_ = CannotWrite(temporary_, errno);
+    status_ = CannotWrite(path_, errno);
   }
   std::error_code error;
   if (status_.ok()) {
     fs::rename(temporary_, path_, error);
     if (!error) return {};
     status_ = Status::DataLoss(
-        "Cannot rename " + temporary_.string() + " to " + path_.string() +
-        " (" + error.message() +
-        "); check that the target is not a folder and may be replaced.");
+        "Cannot replace " + path_.string() + " (" + error.message() +
+        "); check that it is not a folder and may be replaced.");
   }
   fs::remove(temporary_, error);
   return status_;

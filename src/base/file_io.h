@@ -18,16 +18,18 @@ namespace curvix {
 // Takes the bytes of a file, piece by piece.
 using ByteSink = std::function<void(std::string_view bytes)>;
 
-// Writes to `path` with ".tmp" appended, in the same folder, and in the end
-// renames that to `path`, so that `path` holds either its old content or all of
-// the new one, also when the disk is full or the program is killed. After a
-// failure, or without Finish(), the temporary file is removed and `path` stays
-// as it was. The folder must exist.
+// Writes to a temporary file of its own in the same folder, `path` with
+// ".<process id>-<number>.tmp" appended, and in the end renames that to `path`,
+// so that `path` holds either its old content or all of the new one, also when
+// the disk is full, the program is killed or several write to `path` at once:
+// then the last that finishes stays. After a failure, or without Finish(), the
+// temporary file is removed and `path` stays as it was. The folder must exist.
 class FileWriter {
  public:
   explicit FileWriter(std::filesystem::path path);
-  // Where the file is until it is whole; a killed program leaves it there.
-  static std::filesystem::path TemporaryPath(std::filesystem::path path);
+  // Removes the temporary files that killed programs left beside `path`. A
+  // program that still writes one fails in Finish().
+  static void RemoveLeftovers(const std::filesystem::path& path);
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
   ~FileWriter();

@@ -4,8 +4,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <numeric>
+#include <optional>
+#include <set>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "base/file_io.h"
 #include "tests/support/temporary_folder.h"
@@ -18,13 +24,13 @@ using ::testing::HasSubstr;
 
 class FileIo : public ::testing::Test {
  protected:
-  // The names in the folder, one after the other.
+  // The sorted names in the folder, one after the other.
   std::string Names() const {
-    std::string names;
+    std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_.path())) {
-      names += entry.path().filename().string() + " ";
+      names.insert(entry.path().filename().string() + " ");
     }
-    return names;
+    return std::accumulate(names.begin(), names.end(), std::string());
   }
   fs::path Target() const { return folder_.path() / "target.bin"; }
 
@@ -43,12 +49,85 @@ TEST_F(FileIo, DoesNotWriteThroughLinks) {
   const TemporaryFolder outside;
   const fs::path victim = outside.Write("victim", "precious");
   fs::create_symlink(victim, Target());
-  fs::create_symlink(victim, folder_.path() / "target.bin.tmp");
   ASSERT_TRUE(WriteFileAtomically(Target(), "new").ok());
   EXPECT_EQ(*ReadFile(victim), "precious");
   EXPECT_EQ(*ReadFile(Target()), "new");
   EXPECT_FALSE(fs::is_symlink(Target()));
   EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, LeavesAloneWhatHasTheNameOfItsTemporaryFile) {
+  const TemporaryFolder outside;
+  const fs::path victim = outside.Write("victim", "precious");
+  // Twice at one place in memory, and so with one name.
+  std::optional<FileWriter> file;
+  file.emplace(Target());
+  const fs::path temporary = fs::directory_iterator(folder_.path())->path();
+  file.reset();
+  fs::create_symlink(victim, temporary);
+  file.emplace(Target());
+  file->Append("new");
+  ASSERT_TRUE(file->Finish().ok());
+  EXPECT_EQ(*ReadFile(victim), "precious");
+  EXPECT_TRUE(fs::is_symlink(temporary));
+  EXPECT_FALSE(fs::is_symlink(Target()));
+  EXPECT_EQ(*ReadFile(Target()), "new");
+  FileWriter::RemoveLeftovers(Target());
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, TwoWritersOfOnePathBothWriteAllOfIt) {
+  FileWriter first(Target());
+  first.Append("all of the ");
+  FileWriter second(Target());
+  second.Append("half");
+  first.Append("first");
+  EXPECT_TRUE(first.Finish().ok());
+  EXPECT_EQ(*ReadFile(Target()), "all of the first");
+  second.Append(" and half");
+  EXPECT_TRUE(second.Finish().ok());
+  EXPECT_EQ(*ReadFile(Target()), "half and half");
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, ManyWritersOfOnePathLeaveTheFileOfOne) {
+  constexpr int kNumWriters = 8;
+  const auto content = [](int i) {
+    return std::string(100000, static_cast<char>('a' + i));
+  };
+  std::atomic<int> num_written = 0;
+  std::vector<std::thread> writers;
+  for (int i = 0; i < kNumWriters; ++i) {
+    writers.emplace_back([&, i] {
+      for (int k = 0; k < 20; ++k) {
+        num_written += WriteFileAtomically(Target(), content(i)).ok() ? 1 : 0;
+      }
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(num_written, 20 * kNumWriters);
+  const std::string bytes = *ReadFile(Target());
+  ASSERT_FALSE(bytes.empty());
+  EXPECT_EQ(bytes, content(bytes[0] - 'a'));
+  EXPECT_EQ(Names(), "target.bin ");
+}
+
+TEST_F(FileIo, LeftoversOfKilledProgramsAreRemovedAndNothingElse) {
+  for (const char* name : {"target.bin",
+                           "target.bin.tmp",
+                           "target.bin.7.tmp",
+                           "target.bin.7-.tmp",
+                           "target.bin.7-x.tmp",
+                           "target.binary.7-1.tmp",
+                           "my.target.bin.7-1.tmp"}) {
+    folder_.Write(name, "kept");
+  }
+  const std::string names = Names();
+  folder_.Write("target.bin.7-1.tmp", "half");
+  folder_.Write("target.bin.1234567-0.tmp", "half");
+  FileWriter::RemoveLeftovers(Target());
+  EXPECT_EQ(Names(), names);
+  FileWriter::RemoveLeftovers(folder_.path() / "none" / "target.bin");
 }
 
 TEST_F(FileIo, AFullDiskLeavesTheTargetAsItWas) {

@@ -34,7 +34,7 @@ TEST(StageStore, KeepsNothingWithoutAFolder) {
 TEST(StageStore, CleansUpAfterAKilledRun) {
   const TemporaryFolder folder;
   folder.Write("stages/edges.bin", "");
-  folder.Write("stages/sketch.bin.tmp", "half");
+  folder.Write("stages/sketch.bin.4711-0.tmp", "half");
   StageStore(folder.path() / "stages").Clean();
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "stages"));
 }
