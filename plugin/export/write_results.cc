@@ -75,6 +75,16 @@ void AddSample(const CurveRecord& record,
   model.points.push_back(std::move(point));
 }
 
+// Whether the source of `curve`, which is being visited, has the 2D edges of
+// its support.
+bool HasEdges(const CurveSource& curves, const Curve& curve) {
+  return std::ranges::any_of(curve.samples, [&](const CurveSample& sample) {
+    return std::ranges::any_of(sample.support, [&](const EdgeRef& ref) {
+      return curves.EdgeOf(ref).position.allFinite();
+    });
+  });
+}
+
 // The cameras and poses of the scene; every sample of a curve with support in
 // two views or more is a point, numbered from 1, curve after curve, with the
 // colour of its curve, its mean reprojection error, and a track through the
@@ -82,13 +92,21 @@ void AddSample(const CurveRecord& record,
 // for programs that start from its points.
 Status WriteModel(const CurveRecord& record, const fs::path& path) {
   ColmapModel model = ModelOfViews(record.scene);
+  bool has_edges = record.curves.size() == 0;
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {
+    has_edges = has_edges || HasEdges(record.curves, curve);
     for (const CurveSample& sample : curve.samples) {
       AddSample(record, sample, CurveColor(id), model);
     }
   });
   Status read = record.curves.status();
   if (!read.ok()) return read;
+  if (!has_edges) {
+    return Status::InvalidArgument(
+        "the 2D edges behind the curves are not known, so that a COLMAP model "
+        "of them would have no points; write it from the run that makes the "
+        "curves: files of curves do not keep the edges");
+  }
   return WriteColmapModel(model, path);
 }
 

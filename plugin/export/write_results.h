@@ -42,7 +42,8 @@ FlagSection OutputFlags(OutputSettings* settings);
 Status CheckOutput(const OutputSettings& settings, const Scene& scene);
 
 // Writes one of OutputFormats(), by its name, to `path`. Errors as
-// WriteResults.
+// WriteResults, and kInvalidArgument: a COLMAP model is asked for, and the
+// source of the curves gives no edge behind them that is a number.
 Status WriteFormat(const CurveRecord& record,
                    const OutputSettings& settings,
                    int num_threads,

@@ -181,6 +181,9 @@ class Arrays(WorkspaceTest):
         edges = [support[1:] for sample in samples for support in sample['support']]
         self.assertGreater(len(edges), 10)
         self.assertEqual(edges, [[None, None, None]] * len(edges))
+        with self.assertRaisesRegex(pycurvix.ArgumentError, '2D edges behind the curves are not known'):
+            curves.write(self.folder / 'model', 'colmap')
+        self.assertFalse((self.folder / 'model').exists())
 
     def test_repr_tells_what_there_is(self):
         self.assertRegex(repr(self.curves), r'<pycurvix.Curves: \d+ curves, \d+ closed, \d+ samples, total length')

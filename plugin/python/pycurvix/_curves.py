@@ -218,8 +218,8 @@ class Curves:
         Raises
         ------
         ArgumentError
-            There is no such format, it needs views and the curves have none, or
-            the path has another ending.
+            There is no such format, it needs views (for 'colmap' also edges) and
+            the curves have none, or the path has another ending.
         NotFoundError, DataError
             The path cannot be written.
         """
