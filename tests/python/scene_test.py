@@ -156,7 +156,9 @@ class FromColmap(WorkspaceTest):
         truth = self.workspace / 'gt.txt'
         expected = pycurvix.evaluate(pycurvix.reconstruct(scene=self.scene, options=options), truth)
         self.assertAlmostEqual(pycurvix.evaluate(curves, truth)['F5'], expected['F5'], delta=1)
-        self.assertEqual(curves.scene.names, self.scene.image_paths)
+        self.assertEqual(curves.scene.names, self.scene.names)
+        curves.write(self.folder / 'model', 'colmap')
+        self.assertTrue((self.folder / 'model' / 'points3D.bin').exists())
 
 
 class FromImagesInMemory(WorkspaceTest):
@@ -211,6 +213,29 @@ class FromImagesInMemory(WorkspaceTest):
     def test_arrays_and_files_may_be_mixed(self):
         scene = self.make([self.scene.image_paths[0], *self.grey[1:]])
         self.assertEqual(scene.image_paths[:2], [self.scene.image_paths[0], ''])
+
+    def test_names_are_paths_from_the_common_folder(self):
+        pixels = self.grey[0]
+
+        def names(*images):
+            view = [np.eye(3)] * len(images), np.zeros((len(images), 3))
+            return pycurvix.Scene.from_arrays(self.scene.K[0], *view, images).names
+
+        for name in ('a/1.png', 'b/c/2.png', '3..png'):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            write_png(self.folder / name, pixels[:, :, np.newaxis])
+        folder = str(self.folder)
+        self.assertEqual(names(folder + '/a/1.png', self.folder / 'b/c/2.png'), ['a/1.png', 'b/c/2.png'])
+        self.assertEqual(names(folder + '/b/../a/1.png'), ['1.png'])
+        self.assertEqual(names(pixels, folder + '/3..png', folder + '/a/1.png'), ['view_00000', '3..png', 'a/1.png'])
+        was = os.getcwd()
+        self.addCleanup(os.chdir, was)
+        os.chdir(self.folder / 'a')
+        self.assertEqual(names('1.png', pixels), ['1.png', 'view_00001'])
+        self.assertEqual(names('1.png', '../b/c/2.png'), ['a/1.png', 'b/c/2.png'])
+        self.assertEqual(names('1.png', folder + '/3..png'), ['a/1.png', '3..png'])
+        os.chdir(self.folder)
+        self.assertEqual(names('a/1.png', '3..png'), ['a/1.png', '3..png'])
 
     def test_arrays_are_kept_not_copied(self):
         images = [grey.copy() for grey in self.grey]

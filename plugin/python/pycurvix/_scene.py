@@ -71,6 +71,15 @@ def _names(names: Sequence[str]) -> list[str]:
     return texts
 
 
+def _names_of_files(paths: Sequence[str]) -> list[str]:
+    """Relative paths without '..', as names of images are: those given, or from the common folder; '' stays."""
+    if not any(os.path.isabs(path) or '..' in path.replace('\\', '/').split('/') for path in paths):
+        return list(paths)
+    whole = [os.path.abspath(path) if path else '' for path in paths]
+    folder = os.path.commonpath([os.path.dirname(path) for path in whole if path])
+    return [os.path.relpath(path, folder) if path else '' for path in whole]
+
+
 def _is_path(image: Image) -> bool:
     return isinstance(image, (str, os.PathLike))
 
@@ -165,8 +174,9 @@ class Scene:
             Width and height in pixels. Needed with edges; else those of the
             images.
         names : sequence of N str, optional
-            Names of the views. By default the paths of the images as given, of
-            arrays and edges view_00000, view_00001 and so on.
+            Names of the views. By default the paths of the images as given, or
+            all from the folder that they share if one is absolute or holds
+            '..'; of arrays and edges view_00000, view_00001 and so on.
         edge_spacing_px : float
             How far the edges of a contour are apart.
 
@@ -193,7 +203,7 @@ class Scene:
         paths = [os.fspath(image) if _is_path(image) else '' for image in given]
         pixels = [None if _is_path(image) else _pixels(f'images[{i}]', image) for i, image in enumerate(given)]
         if names is None:
-            names = [path or f'view_{i:05d}' for i, path in enumerate(paths)]
+            names = [name or f'view_{i:05d}' for i, name in enumerate(_names_of_files(paths))]
         names = _names(names)
         cameras = _pinholes(calibrations, sizes, needs_sizes=images is None)
         quaternions = _quaternions(rotations)
