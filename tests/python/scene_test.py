@@ -122,6 +122,14 @@ class FromColmap(WorkspaceTest):
         scene = pycurvix.Scene.from_colmap(other)
         self.assertEqual(scene.names, sorted(os.listdir(other / 'images')))
         self.assertEqual(scene.view_idx(scene.names[4]), 4)
+        (self.folder / 'line.obj').write_text('v -1 0 0\nv 1 0.5 0\nl 1 2\n', encoding='ascii')
+        curves = pycurvix.read(self.folder / 'line.obj', scene)
+        for name in ('first', 'fifth'):
+            curves.write(self.folder / f'{name}.svg', svg_image='' if name == 'first' else scene.names[4])
+        self.assertNotEqual(contents(self.folder / 'first.svg'), contents(self.folder / 'fifth.svg'))
+        for name in ('n\xf6ne.png', os.fsdecode(b'n\xf6ne.png')):
+            with self.assertRaisesRegex(pycurvix.ArgumentError, 'no image of the model'):
+                curves.write(self.folder / 'none.svg', svg_image=name)
 
     def test_pycolmap_gives_the_same_scene_and_curves(self):
         self.scene_curves().write(self.folder / 'a.json')

@@ -227,7 +227,7 @@ class Curves:
         known = [known for known, _ in _core.FORMATS]
         if name not in known:
             raise _core.ArgumentError(f"there is no format '{name}'; curves are written as {', '.join(known)}")
-        _core.write(self._core, os.fspath(path), name, svg_image)
+        _core.write(self._core, os.fspath(path), name, os.fsencode(svg_image))
 
     def __repr__(self) -> str:
         if len(self) == 0:
