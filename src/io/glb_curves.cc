@@ -125,10 +125,20 @@ void PutPositions(const CurveSource& curves,
   });
 }
 
+// Linear, as colours of vertices are in glTF, of one that screens show.
+std::uint8_t LinearFromSrgb(std::uint8_t srgb) {
+  const double c = srgb / 255.0;
+  const double linear =
+      c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  return static_cast<std::uint8_t>(std::lround(255 * linear));
+}
+
 void PutColors(const CurveSource& curves, const ByteSink& sink) {
   curves.ForEach([&](std::size_t id, const Curve& curve) {
     std::string color;
-    for (const std::uint8_t c : CurveColor(id)) AppendLittleEndian(c, color);
+    for (const std::uint8_t c : CurveColor(id)) {
+      AppendLittleEndian(LinearFromSrgb(c), color);
+    }
     AppendLittleEndian(std::uint8_t{255}, color);
     std::string out;
     for (std::size_t i = 0; i < curve.samples.size(); ++i) out += color;
