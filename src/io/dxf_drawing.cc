@@ -110,6 +110,28 @@ void PutFit(const CurveFit& fit, bool dashed, DxfWriter& w) {
   }
 }
 
+// What shows all fits from above, with a margin.
+DxfView ViewOf(const FittedCurves& fitted) {
+  constexpr int kSteps = 64;
+  constexpr double kMargin = 1.1;
+  Eigen::AlignedBox2d box;
+  for (const FittedCurve& curve : fitted.curves) {
+    for (const CurveFit& fit : curve.fits) {
+      const int steps = fit.kind == FitKind::kLine ? 1 : kSteps;
+      for (int i = 0; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        box.extend(PointAt(fit, t).head<2>().eval());
+      }
+    }
+  }
+  DxfView view;
+  if (box.isEmpty()) return view;
+  view.center = box.center();
+  const double size = box.sizes().maxCoeff();
+  if (size > 0) view.height = kMargin * size;
+  return view;
+}
+
 // Appends a unit of UTF-16 as \U+00E4, which every code page has.
 void AppendEscape(unsigned unit, std::string& out) {
   std::array<char, 16> text;
@@ -255,7 +277,7 @@ void EncodeDxfDrawing(const FittedCurves& fitted,
                       std::string_view unit,
                       const ByteSink& sink) {
   DxfWriter w;
-  PutDxfTables(KindLayers(), {}, 1, {}, w);
+  PutDxfTables(KindLayers(), ViewOf(fitted), 1, {}, w);
   int next_handle = w.next_handle();
   for (const FittedCurve& curve : fitted.curves) {
     next_handle += static_cast<int>(curve.fits.size());
