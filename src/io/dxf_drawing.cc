@@ -139,13 +139,20 @@ void AppendEscape(unsigned unit, std::string& out) {
   out += text.data();
 }
 
-// With escapes for the characters beyond ASCII.
+// With escapes for the characters beyond ASCII, and for what would begin an
+// escape: "^" of control characters, "%%" of symbols.
 std::string DxfText(std::string_view utf8) {
   std::string out;
   for (std::size_t i = 0; i < utf8.size();) {
+    const bool follows_percent = i > 0 && utf8[i - 1] == '%';
     const auto first = static_cast<unsigned char>(utf8[i++]);
+    if (first == '%' && follows_percent) {
+      AppendEscape(first, out);
+      continue;
+    }
     if (first < 0x80) {
       out += first < 0x20 ? ' ' : static_cast<char>(first);
+      if (first == '^') out += ' ';
       continue;
     }
     const int num_more = first >= 0xf0 ? 3 : first >= 0xe0 ? 2 : 1;

@@ -25,13 +25,16 @@ std::string Number(double value) { return FixedText(value, 4); }
 // "a b"
 std::string Pair(double a, double b) { return Number(a) + ' ' + Number(b); }
 
+// Control characters, which XML cannot have, are blanks.
 std::string Escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    out += c == '&'   ? "&amp;"
-           : c == '<' ? "&lt;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
+    const bool is_control = static_cast<unsigned char>(c) < 0x20;
+    out += c == '&'     ? "&amp;"
+           : c == '<'   ? "&lt;"
+           : c == '"'   ? "&quot;"
+           : is_control ? " "
+                        : std::string(1, c);
   }
   return out;
 }
@@ -43,7 +46,7 @@ std::string UrlOf(std::string_view file) {
   std::string url;
   for (const char c : file) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80 && kReserved.find(c) == kReserved.npos) {
+    if (byte >= 0x20 && byte < 0x80 && kReserved.find(c) == kReserved.npos) {
       url += c;
     } else {
       url += {'%', kDigits[byte / 16], kDigits[byte % 16]};

@@ -152,6 +152,30 @@ TEST(Sheet, DxfHasRareCharactersAsTwoUnitsOfUtf16) {
   EXPECT_THAT(EncodeDxfSheet(*sheet), HasSubstr("\\U+D83D\\U+DE00 \\U+20AC"));
 }
 
+// "^A" and "%%c" would be a control character and a sign of diameter.
+TEST(Sheet, DxfHasTextsAsTheyAre) {
+  SheetSettings settings = InMetres();
+  settings.title = "^A 50% %%c %%%\t.";
+  const auto sheet = LaySheet(settings, Front(), std::nullopt);
+  ASSERT_TRUE(sheet.ok()) << sheet.status().message();
+  EXPECT_THAT(EncodeDxfSheet(*sheet),
+              HasSubstr("\n^ A 50% %\\U+0025c %\\U+0025\\U+0025 .\n"));
+}
+
+TEST(Sheet, SvgHasNoControlCharacters) {
+  SheetSettings settings = InMetres();
+  settings.title = "a";
+  for (char c = 1; c < 0x20; ++c) settings.title += c;
+  settings.title += "b";
+  auto sheet = LaySheet(settings, Front(), std::nullopt);
+  ASSERT_TRUE(sheet.ok()) << sheet.status().message();
+  sheet->picture = SheetPicture{"a\x01\n.jpg", {4, 2}, {0, 0}, 1};
+  const std::string svg = EncodeSvgSheet(*sheet);
+  for (const char c : svg) EXPECT_TRUE(c == '\n' || c < 0 || c >= 0x20);
+  EXPECT_THAT(svg, HasSubstr(">a" + std::string(31, ' ') + "b</text>"));
+  EXPECT_THAT(svg, HasSubstr("href=\"a%01%0A.jpg\""));
+}
+
 TEST(Sheet, SvgNamesItsPictureByAUrl) {
   auto sheet = LaySheet(InMetres(), Front(), std::nullopt);
   ASSERT_TRUE(sheet.ok());
