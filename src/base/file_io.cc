@@ -2,7 +2,6 @@
 #include "base/file_io.h"
 
 #include <unistd.h>
-#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -35,23 +34,9 @@ fs::path TemporaryPath(fs::path path, std::uintptr_t number) {
   return path += kTemporaryEnding;
 }
 
-// Whether TemporaryPath, of any process, gives `name` for a file `target`.
-bool IsTemporaryName(std::string_view name, std::string_view target) {
-  if (!name.starts_with(target) || !name.ends_with(kTemporaryEnding) ||
-      name.size() <= target.size() + kTemporaryEnding.size()) {
-    return false;
-  }
-  name.remove_prefix(target.size());
-  name.remove_suffix(kTemporaryEnding.size());
-  const std::size_t dash = name.find('-');
-  const auto is_number = [](std::string_view text) {
-    return !text.empty() && std::ranges::all_of(text, [](char c) {
-      return '0' <= c && c <= '9';
-    });
-  };
-  return name.front() == '.' && dash != name.npos &&
-         is_number(name.substr(1, dash - 1)) &&
-         is_number(name.substr(dash + 1));
+// Whether TemporaryPath(), of any process, may have named it for `target`.
+bool IsTemporaryName(std::string_view name, const std::string& target) {
+  return name.starts_with(target + ".") && name.ends_with(kTemporaryEnding);
 }
 
 }  // namespace
