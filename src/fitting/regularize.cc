@@ -7,11 +7,15 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
+#include "base/infinity.h"
 #include "fitting/end_covariance.h"
 #include "fitting/primitive.h"
 #include "fitting/regularize_costs.h"
@@ -28,6 +32,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // observations: relations are met to a millionth of what a fit moves.
 constexpr double kHard = 1e3;
 constexpr double kMaxAdjustmentSigmas = 3;
+// In so many rounds, only fits that move at least so far, of the farthest,
+// leave their groups.
+constexpr int kMaxCarefulRounds = 8;
+constexpr double kShareOfWorst = 0.5;
 
 // The inverse of the root of a covariance, for weights; 0 if it has none.
 Eigen::MatrixXd Whitening(Eigen::MatrixXd covariance) {
@@ -141,34 +149,27 @@ class Adjustment {
     ceres::Solve(options, &problem_, &summary);
   }
 
-  // Fits that are, or end in, what has moved too far.
-  std::set<FitIndex> MovedTooFar() const {
-    std::set<FitIndex> far;
-    const auto is_far = [](const auto& whitening, const auto& move) {
-      return !((whitening * move).norm() <= kMaxAdjustmentSigmas);
+  // How far each fit, or what it ends in, has moved, in standard deviations.
+  std::map<FitIndex, double> Moves() const {
+    const auto sigmas = [](const auto& covariance, const auto& move) {
+      const double norm = (Whitening(covariance) * move).norm();
+      return std::isnan(norm) ? kInfinity : norm;
     };
-    std::vector<bool> point_is_far;
+    std::vector<double> of_points;
     for (std::size_t k = 0; k < points_.size(); ++k) {
-      point_is_far.push_back(
-          is_far(Whitening(points_[k].covariance),
-                 (points_[k].position - before_[k].position).eval()));
+      const Vector3d move = points_[k].position - before_[k].position;
+      of_points.push_back(sigmas(points_[k].covariance, move));
     }
-    for (std::size_t c = 0; c < fitted_.curves.size(); ++c) {
-      for (std::size_t f = 0; f < fitted_.curves[c].fits.size(); ++f) {
-        const FitIndex index{c, f};
-        const auto arc = arcs_.find(index);
-        bool moved =
-            arc != arcs_.end() &&
-            is_far(Whitening(arc->second.covariance),
-                   (arc->second.values - arcs_before_.at(index).values).eval());
-        for (const bool at_end : {false, true}) {
-          const auto end = end_points_.find({index, at_end});
-          if (end != end_points_.end()) moved |= point_is_far[end->second];
-        }
-        if (moved) far.insert(index);
-      }
+    std::map<FitIndex, double> moves;
+    for (const auto& [end, point] : end_points_) {
+      double& move = moves[end.first];
+      move = std::max(move, of_points[point]);
     }
-    return far;
+    for (const auto& [index, arc] : arcs_) {
+      const Vector6 move = arc.values - arcs_before_.at(index).values;
+      moves[index] = std::max(moves[index], sigmas(arc.covariance, move));
+    }
+    return moves;
   }
 
   void WriteTo(FittedCurves& fitted) const {
@@ -350,17 +351,46 @@ bool Drop(const std::set<FitIndex>& fits, FitStructure& structure) {
   return any;
 }
 
+// Drops these fits; if none is in a group, those that they meet in nodes, and
+// so on. False: there was nothing to drop.
+bool DropOrNext(std::set<FitIndex> fits, FittedCurves& fitted) {
+  while (!Drop(fits, fitted.structure)) {
+    std::set<FitIndex> next = fits;
+    for (const FitIndex& index : fits) {
+      const CurveFit& fit = fitted.curves[index.curve_idx].fits[index.fit_idx];
+      for (const int node : {fit.start_node, fit.end_node}) {
+        if (node < 0) continue;
+        const auto n = static_cast<std::size_t>(node);
+        for (const CurveNode::End& end : fitted.nodes[n].ends) {
+          next.insert({end.curve_idx, end.fit_idx});
+        }
+      }
+    }
+    if (next.size() == fits.size()) return false;
+    fits = std::move(next);
+  }
+  return true;
+}
+
 }  // namespace
 
 void Regularize(FittedCurves& fitted) {
-  while (!fitted.structure.groups.empty()) {
+  for (int round = 0; !fitted.structure.groups.empty(); ++round) {
     Adjustment adjustment(fitted);
     adjustment.Solve();
-    const std::set<FitIndex> far = adjustment.MovedTooFar();
-    if (far.empty() || !Drop(far, fitted.structure)) {
-      if (far.empty()) adjustment.WriteTo(fitted);
+    const std::map<FitIndex, double> moves = adjustment.Moves();
+    const double worst = std::ranges::max(moves | std::views::values);
+    if (worst <= kMaxAdjustmentSigmas) {
+      adjustment.WriteTo(fitted);
       return;
     }
+    const double share = round < kMaxCarefulRounds ? kShareOfWorst : 0;
+    const double limit = std::max(kMaxAdjustmentSigmas, share * worst);
+    std::set<FitIndex> far;
+    for (const auto& [index, move] : moves) {
+      if (move >= limit) far.insert(index);
+    }
+    if (!DropOrNext(std::move(far), fitted)) fitted.structure = {};
   }
 }
 

@@ -71,10 +71,12 @@ void AddPlanes(const std::vector<LineOrArc>& features,
 // standard deviation.
 //
 // Nothing moves by more than three standard deviations: fits that would, or end
-// where a node would, leave their groups, and all is solved again. Groups that
-// are left with one fit are dropped, but for directions that are perpendicular
-// to others. Covariances, and those of ellipses and splines, which the caller
-// fits to their nodes again, stay.
+// where a node would, leave their groups, and all is solved again. In the first
+// eight rounds only those leave that move at least half as far as the worst,
+// since others may only follow it. If none of them is in a group, those that
+// they meet in nodes leave. Groups that are left with one fit are dropped, but
+// for directions that are perpendicular to others. Covariances, and those of
+// ellipses and splines, which the caller fits to their nodes again, stay.
 void Regularize(FittedCurves& fitted);
 
 }  // namespace curvix
