@@ -169,14 +169,15 @@ struct FittedCurves {
 //
 // Ends of curves in the same place are one node, joints of a chain too. A node
 // lies where its lines and arcs, fitted alone, come nearest to each other, at
-// most ten standard deviations from where the curves meet. An end whose line or
-// arc misses it by more than three is not in the node. Then each primitive is
-// fitted again with its ends in the nodes. With options.regularize, nodes,
-// free ends of lines, and arcs then move, by at most three standard deviations,
-// so that `structure` holds exactly; fits that do not are left out of it, and
-// its chi_squared and degrees_of_freedom are those of before. Same result for
-// any number of threads. If curves.status() is not ok in the end, the result
-// means nothing.
+// most ten standard deviations from where the curves meet; there itself, if a
+// line or arc would get longer or shorter by more than a quarter at this end.
+// An end whose line or arc misses it by more than three standard deviations is
+// not in the node. Then each primitive is fitted again with its ends in the
+// nodes. With options.regularize, nodes, free ends of lines, and arcs then
+// move, by at most three standard deviations, so that `structure` holds
+// exactly; fits that do not are left out of it, and its chi_squared and
+// degrees_of_freedom are those of before. Same result for any number of
+// threads. If curves.status() is not ok in the end, the result means nothing.
 FittedCurves FitCurves(const CurveSource& curves,
                        const Scene& scene,
                        const CurveFittingOptions& options,

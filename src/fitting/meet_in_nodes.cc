@@ -4,7 +4,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <variant>
+
+#include "base/angles.h"
 
 namespace curvix {
 namespace {
@@ -12,6 +16,7 @@ namespace {
 constexpr int kNumSteps = 10;
 constexpr double kMaxMoveSigmas = 10;
 constexpr double kMaxMissSigmas = 3;
+constexpr double kMaxSlide = 0.25;  // along a line or arc, of its length
 
 using End = CurveNode::End;
 
@@ -79,6 +84,27 @@ double Miss(const Eigen::Vector3d& point,
   return (foot->position - point).norm() / EndAt(end, curves).sample.sigma;
 }
 
+// How far `point` is from the foot of an end's sample, along a line or arc, as
+// a share of what is between its first and last sample; 0 for splines.
+double Slide(const Eigen::Vector3d& point,
+             const End& end,
+             const std::vector<CurvePrimitives>& curves) {
+  const PrimitiveOfCurve& own = curves[end.curve_idx][end.fit_idx];
+  const Eigen::Vector3d& from = own.at_start.foot;
+  const Eigen::Vector3d& to = own.at_end.foot;
+  const Eigen::Vector3d& foot = EndAt(end, curves).foot;
+  if (const auto* line = std::get_if<FittedLine>(&own.primitive.shape)) {
+    return std::abs(line->direction().dot(point - foot)) / (to - from).norm();
+  }
+  const auto* conic = std::get_if<Conic>(&own.primitive.shape);
+  if (conic == nullptr) return 0;
+  const double start = NearestParameter(*conic, from);
+  const double sweep = NearestParameter(*conic, to) - start;
+  const double move =
+      NearestParameter(*conic, point) - NearestParameter(*conic, foot);
+  return std::abs(WrapDirected(move)) / (sweep > 0 ? sweep : sweep + 2 * kPi);
+}
+
 // Moves the node to where its lines and arcs meet. It loses those that miss
 // the others, the farthest first.
 void Meet(const std::vector<CurvePrimitives>& curves, CurveNode& node) {
@@ -90,7 +116,10 @@ void Meet(const std::vector<CurvePrimitives>& curves, CurveNode& node) {
       sigma = std::max(sigma, EndAt(end, curves).sample.sigma);
     }
     const double move = (node.position - place).norm();
-    if (move > kMaxMoveSigmas * sigma) node.position = place;
+    const bool is_far = std::ranges::any_of(node.ends, [&](const End& end) {
+      return !(Slide(node.position, end, curves) <= kMaxSlide);
+    });
+    if (is_far || move > kMaxMoveSigmas * sigma) node.position = place;
     std::vector<double> misses;
     for (const End& end : node.ends) {
       misses.push_back(Miss(node.position, end, curves));
