@@ -279,13 +279,7 @@ std::optional<Primitive> SingleArc(const FitSamples& curve, bool closed) {
   return OnCurve(FitCircle(curve), curve, closed);
 }
 std::optional<Primitive> SingleEllipse(const FitSamples& curve, bool closed) {
-  const std::optional<Conic> ellipse = FitEllipse(curve);
-  if (!ellipse) return std::nullopt;
-  double sigma = 0;
-  for (const FitSample& s : curve) sigma = std::max(sigma, s.sigma);
-  // So round that a circle leaves no outliers: a circle.
-  if (ellipse->a - ellipse->b < 2 * kOutlierSigmas * sigma) return std::nullopt;
-  return OnCurve(ellipse, curve, closed);
+  return OnCurve(FitEllipse(curve), curve, closed);
 }
 
 // Whether there are samples only at corners: most turn by more than 30 degrees,
