@@ -67,7 +67,8 @@ class Table {
 template <typename Takes, typename SizeOf>
 std::vector<Named> Largest(const FittedCurves& fitted,
                            const Takes& takes,
-                           const SizeOf& size_of) {
+                           const SizeOf& size_of,
+                           std::size_t max_count) {
   std::vector<Named> named;
   for (std::size_t c = 0; c < fitted.curves.size(); ++c) {
     const std::vector<CurveFit>& fits = fitted.curves[c].fits;
@@ -80,7 +81,7 @@ std::vector<Named> Largest(const FittedCurves& fitted,
     }
   }
   std::ranges::stable_sort(named, std::ranges::greater(), &Named::size);
-  named.resize(std::min(named.size(), kMaxRows));
+  named.resize(std::min(named.size(), max_count));
   return named;
 }
 
@@ -130,17 +131,16 @@ void AddPairsOfLines(const std::vector<Named>& lines, Table& table) {
   }
 }
 
-void AddCircles(const std::vector<Named>& arcs, Table& table) {
+void AddRadii(const std::vector<Named>& arcs, Table& table) {
   for (const Named& arc : arcs) {
     table.AddLength("radius", arc.name, "", arc.size, arc.fit->radius_sigma);
   }
-  std::vector<Named> circles;
-  for (const Named& arc : arcs) {
-    if (arc.fit->closed && circles.size() < kMaxPartners)
-      circles.push_back(arc);
-  }
-  for (std::size_t i = 0; i < circles.size(); ++i) {
-    for (std::size_t j = i + 1; j < circles.size(); ++j) {
+}
+
+void AddPairsOfCircles(const std::vector<Named>& circles, Table& table) {
+  const std::size_t n = std::min(circles.size(), kMaxPartners);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
       const CurveFit& a = *circles[i].fit;
       const CurveFit& b = *circles[j].fit;
       // A centre is known as well as the radius is.
@@ -196,17 +196,26 @@ void EncodeDimensions(const CurveRecord& record, const ByteSink& sink) {
   const std::vector<Named> lines = Largest(
       record.fitted,
       [](const FittedCurve&, const CurveFit& fit) {
-        return fit.kind == FitKind::kLine;
+        return fit.kind == FitKind::kLine && Length(fit) > 0;
       },
-      [](const CurveFit& fit) { return Length(fit); });
-  const std::vector<Named> arcs = Largest(
-      record.fitted,
-      [](const FittedCurve& curve, const CurveFit& fit) {
-        return fit.kind == FitKind::kArc && curve.fits.size() == 1;
-      },
-      [](const CurveFit& fit) { return fit.major.norm(); });
+      [](const CurveFit& fit) { return Length(fit); },
+      kMaxRows);
+  // Nearly straight arcs, which are the largest, leave room for circles.
+  const auto arcs = [&](bool closed, std::size_t max_count) {
+    return Largest(
+        record.fitted,
+        [&](const FittedCurve& curve, const CurveFit& fit) {
+          return fit.kind == FitKind::kArc && fit.closed == closed &&
+                 curve.fits.size() == 1 && Length(fit) > 0;
+        },
+        [](const CurveFit& fit) { return fit.major.norm(); },
+        max_count);
+  };
+  const std::vector<Named> circles = arcs(true, kMaxRows);
   AddLines(lines, table);
-  AddCircles(arcs, table);
+  AddRadii(circles, table);
+  AddRadii(arcs(false, kMaxRows - circles.size()), table);
+  AddPairsOfCircles(circles, table);
   AddPairsOfLines(lines, table);
   AddNodes(record.fitted.nodes, table);
 }

@@ -171,6 +171,11 @@ int PutFit(const CurveFit& fit, const std::string& name, Writer& w) {
   return PutSpline(fit, name, w);
 }
 
+// No direction may be of length 0.
+bool HasLength(const CurveFit& fit) {
+  return fit.kind == FitKind::kSpline || Length(fit) > 0;
+}
+
 // "LINES" for a line.
 std::string LayerOf(const CurveFit& fit) {
   std::string layer;
@@ -258,6 +263,7 @@ void EncodeStepDrawing(const FittedCurves& fitted, const ByteSink& sink) {
   for (std::size_t id = 0; id < fitted.curves.size(); ++id) {
     const std::string name = "'curve_" + std::to_string(id) + '\'';
     for (const CurveFit& fit : fitted.curves[id].fits) {
+      if (!HasLength(fit)) continue;
       curves_of_layer[LayerOf(fit)].push_back(PutFit(fit, name, w));
     }
     sink(w.Take());

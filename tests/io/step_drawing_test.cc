@@ -302,6 +302,17 @@ TEST(StepDrawing, WithoutCurvesThereIsNoWireframe) {
   EXPECT_EQ(text.find("WIREFRAME"), std::string::npos);
 }
 
+TEST(StepDrawing, LinesOfNoLengthAreLeftOut) {
+  CurveFit point = Line();
+  point.end = point.start;
+  const Entities entities = Written(Drawing({point, Line()}));
+  EXPECT_EQ(CurvesOf(entities, "LINES").size(), 1u);
+  for (const auto& [name, entity] : entities) {
+    if (entity.type != "DIRECTION") continue;
+    EXPECT_NEAR(Vector(entities, name).norm(), 1, 1e-9);
+  }
+}
+
 TEST(StepDrawing, ExtensionChoosesTheFormat) {
   const TemporaryFolder folder;
   const FittedCurves drawing = Drawing({Line(), Spline()});

@@ -174,6 +174,52 @@ TEST(Dimensions, NumberOfRowsIsBounded) {
   EXPECT_LE(rows.size(), 100u + 100 + 4 * 105);
 }
 
+std::string CsvOf(const FittedCurves& fitted) {
+  const Scene scene;
+  const CurveSet set;
+  const CurvesInMemory curves(set);
+  std::string csv;
+  EncodeDimensions({scene, curves, fitted},
+                   [&](std::string_view bytes) { csv += bytes; });
+  return csv;
+}
+
+CurveFit ArcOf(double radius, bool closed) {
+  CurveFit fit;
+  fit.kind = FitKind::kArc;
+  fit.closed = closed;
+  fit.major = {radius, 0, 0};
+  fit.minor = {0, radius, 0};
+  fit.end_angle = closed ? 6.28318530717958647692 : 0.1;
+  return fit;
+}
+
+TEST(Dimensions, CirclesComeBeforeLargerArcs) {
+  FittedCurves fitted;
+  for (int i = 0; i < 120; ++i) {
+    fitted.curves.push_back({{ArcOf(100 + i, false)}});
+  }
+  for (int i = 0; i < 3; ++i) fitted.curves.push_back({{ArcOf(1 + i, true)}});
+  std::map<std::string, int> counts;
+  for (const Row& row : Rows(CsvOf(fitted))) {
+    ++counts[row.dimension + " " + row.from.substr(0, row.from.find(' '))];
+  }
+  EXPECT_EQ(counts["radius circle"], 3);
+  EXPECT_EQ(counts["radius arc"], 97);
+  EXPECT_EQ(counts["distance circle"], 3);
+}
+
+TEST(Dimensions, LinesOfNoLengthHaveNone) {
+  FittedCurves fitted;
+  CurveFit line;
+  fitted.curves.push_back({{line}});
+  line.end = {1, 0, 0};
+  fitted.curves.push_back({{line}});
+  const std::vector<Row> rows = Rows(CsvOf(fitted));
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].from, "line 1.0");
+}
+
 TEST(Dimensions, OfNothingAreAHeader) {
   EXPECT_TRUE(Rows(Csv({}, nullptr)).empty());
 }
