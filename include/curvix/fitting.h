@@ -161,11 +161,14 @@ struct FittedCurves {
 //   sum of min(distance^2 / sigma^2, 9) + 2 (number of parameters) log(samples)
 // wins, ties go to the earlier kind. Samples further than three standard
 // deviations off, as at rounded corners, thus cost the same at any distance.
-// Sigma is that of each sample (the median where it is not known; where it is
-// known nowhere, 1 px, and at most a twentieth of the distance between samples)
-// together with the error that samples share, 0.1 px. For pixels, `scene` has
-// the views that samples name; without views these two are left out. Next to
-// open ends, which corners bend, the second is four times as large.
+// So do samples that lie as far beyond the ends of a line, arc or ellipse,
+// which are at the first and the last sample: a curve that goes back is two
+// lines. Sigma is that of each sample (the median where it is not known; where
+// it is known nowhere, 1 px, and at most a twentieth of the distance between
+// samples) together with the error that samples share, 0.1 px. For pixels,
+// `scene` has the views that samples name; without views these two are left
+// out. Next to open ends, which corners bend, the second is four times as
+// large.
 //
 // Ends of curves in the same place are one node, joints of a chain too. A node
 // lies where its lines and arcs, fitted alone, come nearest to each other, at

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "base/infinity.h"
 
@@ -46,12 +47,42 @@ struct Link {
   FitCost cost;
 };
 
+// How far the samples are along a line or conic, from anywhere; none: a spline.
+std::vector<double> PlacesAlong(const Shape& shape, FitSpan samples) {
+  std::vector<double> places;
+  if (const auto* conic = std::get_if<Conic>(&shape)) {
+    places = UnwrappedAngles(*conic, samples);
+    for (double& place : places) place *= conic->a;
+  } else if (const auto* line = std::get_if<FittedLine>(&shape)) {
+    for (const FitSample& s : samples) {
+      places.push_back(line->direction().dot(s.position - line->origin()));
+    }
+  }
+  return places;
+}
+
+// Squared distances from a shape that is drawn from its first to its last
+// sample. Samples may stick out beyond these ends by three standard deviations.
+std::vector<double> DistancesFromPart(const Shape& shape, FitSpan samples) {
+  std::vector<double> squared = SquaredDistances(shape, samples);
+  const std::vector<double> places = PlacesAlong(shape, samples);
+  if (places.empty()) return squared;
+  const auto [from, to] = std::minmax(places.front(), places.back());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double beyond = std::max(from - places[i], places[i] - to);
+    if (beyond > kOutlierSigmas * samples[i].sigma) {
+      squared[i] += beyond * beyond;
+    }
+  }
+  return squared;
+}
+
 // The better of a line and an arc. The search is content with rough arcs, which
 // may run against the samples.
 Link FitLink(FitSpan samples, double parameter_cost, bool is_rough) {
   Link best;
   if (const auto line = FitLine(samples)) {
-    const std::vector<double> squared = SquaredDistances(*line, samples);
+    const std::vector<double> squared = DistancesFromPart(*line, samples);
     best = {*line, {CostOf(squared, samples), kLineParameters}};
     if (Explains(squared, samples)) return best;
   }
@@ -64,6 +95,8 @@ Link FitLink(FitSpan samples, double parameter_cost, bool is_rough) {
   if (!(link.cost.Total(parameter_cost) < least) || GoesRound(*arc, samples)) {
     return best;
   }
+  link.cost.residual = CostOf(DistancesFromPart(*arc, samples), samples);
+  if (!(link.cost.Total(parameter_cost) < least)) return best;
   if (!is_rough) link.shape = Directed(*arc, samples);
   return link;
 }
@@ -336,7 +369,7 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
   for (const Single& single : kSingles) {
     const auto primitive = single.fit(curve, closed);
     if (!primitive) continue;
-    const auto squared = SquaredDistances(primitive->shape, curve);
+    const auto squared = DistancesFromPart(primitive->shape, curve);
     if (Explains(squared, curve)) return {*primitive};
     choice.Offer({{*primitive},
                   {CostOf(squared, curve),

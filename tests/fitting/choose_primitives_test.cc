@@ -31,5 +31,36 @@ TEST(ChoosePrimitives, SlightlyOvalCurvesAreEllipses) {
   }
 }
 
+// Along a line to `turn` and back.
+TEST(ChoosePrimitives, HairpinsAreTwoLines) {
+  for (const double turn : {0.5, 0.7, 0.8}) {
+    const FittedCurves fitted = Fit({Sample(
+        [&](double t) { return Vector3d(turn - std::abs(turn - t), 0, 0); },
+        80,
+        false,
+        0)});
+    ASSERT_THAT(Kinds(fitted.curves[0]), ElementsAre("line", "line")) << turn;
+    const std::vector<CurveFit>& fits = fitted.curves[0].fits;
+    EXPECT_NEAR(fits[0].start.x(), 0, 0.03);
+    EXPECT_NEAR(fits[0].end.x(), turn, 0.03);
+    EXPECT_EQ(fits[1].start, fits[0].end);
+    EXPECT_NEAR(fits[1].end.x(), 2 * turn - 1, 0.03);
+  }
+}
+
+// There and back along three quarters of a circle.
+TEST(ChoosePrimitives, HairpinsAlongACircleAreTwoArcs) {
+  const FittedCurves fitted = Fit({Sample(
+      [&](double t) {
+        const double angle = 1.5 * kPi * (1 - std::abs(1 - 2 * t));
+        return Vector3d(std::cos(angle), std::sin(angle), 0);
+      },
+      160)});
+  ASSERT_THAT(Kinds(fitted.curves[0]), ElementsAre("arc", "arc"));
+  for (const CurveFit& fit : fitted.curves[0].fits) {
+    EXPECT_NEAR(Length(fit), 1.5 * kPi, 0.2);
+  }
+}
+
 }  // namespace
 }  // namespace curvix
