@@ -352,10 +352,11 @@ std::vector<Primitive> LinesBetween(const FitSamples& curve, bool closed) {
 struct Single {
   SingleFit fit;
   std::size_t num_parameters;  // of the shape, without its ends
+  bool must_cost_less;         // than those before it
 };
 
 constexpr Single kSingles[] = {
-    {SingleLine, 4}, {SingleArc, 6}, {SingleEllipse, 8}};
+    {SingleLine, 4, false}, {SingleArc, 6, false}, {SingleEllipse, 8, true}};
 
 }  // namespace
 
@@ -370,10 +371,13 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
     const auto primitive = single.fit(curve, closed);
     if (!primitive) continue;
     const auto squared = DistancesFromPart(primitive->shape, curve);
-    if (Explains(squared, curve)) return {*primitive};
-    choice.Offer({{*primitive},
-                  {CostOf(squared, curve),
-                   single.num_parameters + (primitive->closed ? 0 : 2)}});
+    const FitCost cost = {CostOf(squared, curve),
+                          single.num_parameters + (primitive->closed ? 0 : 2)};
+    const bool may_win =
+        !single.must_cost_less ||
+        cost.Total(parameter_cost) < choice.best.cost.Total(parameter_cost);
+    if (may_win && Explains(squared, curve)) return {*primitive};
+    choice.Offer({{*primitive}, cost});
   }
   if (choice.CanWin(2 * kLineParameters - kNodeParameters)) {
     choice.Offer(ChainPrimitives(curve, closed, parameter_cost));

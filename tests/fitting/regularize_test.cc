@@ -61,7 +61,7 @@ TEST(Regularize, KeepsLinesThatOneBadLineMoves) {
 // by one standard deviation. The arc that goes on there is in no group and
 // would move by more than four of its own.
 FittedCurves ArcOnALine() {
-  constexpr double kSure = 1e-5, kArcSigma = 3e-4, kMove = 0.002;
+  constexpr double kSure = 1e-5, kEndArcSigma = 3e-4, kMove = 0.002;
   FittedCurves fitted;
   AddParallel(LineFit({0, 0, 0}, {1, 0, 0}, kSure), fitted);
   AddParallel(LineFit({0, 1, 0}, {1, 1, 0}, kSure), fitted);
@@ -75,9 +75,9 @@ FittedCurves ArcOnALine() {
   arc.start = line.end;
   arc.end = arc.center + Vector3d::UnitX();
   arc.start_angle = -kPi / 2;
-  arc.sigma = kArcSigma;
+  arc.sigma = kEndArcSigma;
   arc.start_node = 0;
-  arc.arc_covariance.diagonal().setConstant(kArcSigma * kArcSigma);
+  arc.arc_covariance.diagonal().setConstant(kEndArcSigma * kEndArcSigma);
   fitted.curves.push_back({{arc}});
   fitted.nodes.push_back(
       {line.end, {{2, 0, true}, {3, 0, false}}, line.end_covariance});
