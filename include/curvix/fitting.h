@@ -163,11 +163,12 @@ struct FittedCurves {
 // deviations off, as at rounded corners, thus cost the same at any distance.
 // So do samples that lie as far beyond the ends of a line, arc or ellipse,
 // which are at the first and the last sample: a curve that goes back is two
-// lines. Sigma is that of each sample (the median where it is not known; where
-// it is known nowhere, 1 px, and at most a twentieth of the distance between
-// samples) together with the error that samples share, 0.1 px. For pixels,
-// `scene` has the views that samples name; without views these two are left
-// out. Next to open ends, which corners bend, the second is four times as
+// lines. An ellipse so round that a circle is within three standard deviations
+// is a circle. Sigma is that of each sample (the median where it is not known;
+// where it is known nowhere, 1 px, and at most a twentieth of the distance
+// between samples) together with the error that samples share, 0.1 px. For
+// pixels, `scene` has the views that samples name; without views these two are
+// left out. Next to open ends, which corners bend, the second is four times as
 // large.
 //
 // Ends of curves in the same place are one node, joints of a chain too. A node

@@ -47,36 +47,6 @@ struct Link {
   FitCost cost;
 };
 
-// How far the samples are along a line or conic, from anywhere; none: a spline.
-std::vector<double> PlacesAlong(const Shape& shape, FitSpan samples) {
-  std::vector<double> places;
-  if (const auto* conic = std::get_if<Conic>(&shape)) {
-    places = UnwrappedAngles(*conic, samples);
-    for (double& place : places) place *= conic->a;
-  } else if (const auto* line = std::get_if<FittedLine>(&shape)) {
-    for (const FitSample& s : samples) {
-      places.push_back(line->direction().dot(s.position - line->origin()));
-    }
-  }
-  return places;
-}
-
-// Squared distances from a shape that is drawn from its first to its last
-// sample. Samples may stick out beyond these ends by three standard deviations.
-std::vector<double> DistancesFromPart(const Shape& shape, FitSpan samples) {
-  std::vector<double> squared = SquaredDistances(shape, samples);
-  const std::vector<double> places = PlacesAlong(shape, samples);
-  if (places.empty()) return squared;
-  const auto [from, to] = std::minmax(places.front(), places.back());
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double beyond = std::max(from - places[i], places[i] - to);
-    if (beyond > kOutlierSigmas * samples[i].sigma) {
-      squared[i] += beyond * beyond;
-    }
-  }
-  return squared;
-}
-
 // The better of a line and an arc. The search is content with rough arcs, which
 // may run against the samples.
 Link FitLink(FitSpan samples, double parameter_cost, bool is_rough) {
@@ -352,11 +322,22 @@ std::vector<Primitive> LinesBetween(const FitSamples& curve, bool closed) {
 struct Single {
   SingleFit fit;
   std::size_t num_parameters;  // of the shape, without its ends
-  bool must_cost_less;         // than those before it
 };
 
 constexpr Single kSingles[] = {
-    {SingleLine, 4, false}, {SingleArc, 6, false}, {SingleEllipse, 8, true}};
+    {SingleLine, 4}, {SingleArc, 6}, {SingleEllipse, 8}};
+
+// A circle instead of an ellipse so round that the circle leaves no outliers.
+Primitive WithoutSlightOvalness(const Primitive& primitive,
+                                const FitSamples& curve,
+                                bool closed) {
+  const auto* ellipse = std::get_if<Conic>(&primitive.shape);
+  if (ellipse == nullptr) return primitive;
+  double sigma = 0;
+  for (const FitSample& s : curve) sigma = std::max(sigma, s.sigma);
+  if (ellipse->a - ellipse->b >= 2 * kOutlierSigmas * sigma) return primitive;
+  return SingleArc(curve, closed).value_or(primitive);
+}
 
 }  // namespace
 
@@ -371,13 +352,12 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
     const auto primitive = single.fit(curve, closed);
     if (!primitive) continue;
     const auto squared = DistancesFromPart(primitive->shape, curve);
-    const FitCost cost = {CostOf(squared, curve),
-                          single.num_parameters + (primitive->closed ? 0 : 2)};
-    const bool may_win =
-        !single.must_cost_less ||
-        cost.Total(parameter_cost) < choice.best.cost.Total(parameter_cost);
-    if (may_win && Explains(squared, curve)) return {*primitive};
-    choice.Offer({{*primitive}, cost});
+    if (Explains(squared, curve)) {
+      return {WithoutSlightOvalness(*primitive, curve, closed)};
+    }
+    choice.Offer({{*primitive},
+                  {CostOf(squared, curve),
+                   single.num_parameters + (primitive->closed ? 0 : 2)}});
   }
   if (choice.CanWin(2 * kLineParameters - kNodeParameters)) {
     choice.Offer(ChainPrimitives(curve, closed, parameter_cost));

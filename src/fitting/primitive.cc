@@ -67,6 +67,38 @@ double CostOf(const std::vector<double>& squared_distances, FitSpan samples) {
   return cost;
 }
 
+namespace {
+
+// How far the samples are along a line or conic, from anywhere; none: a spline.
+std::vector<double> PlacesAlong(const Shape& shape, FitSpan samples) {
+  std::vector<double> places;
+  if (const auto* conic = std::get_if<Conic>(&shape)) {
+    places = UnwrappedAngles(*conic, samples);
+    for (double& place : places) place *= conic->a;
+  } else if (const auto* line = std::get_if<FittedLine>(&shape)) {
+    for (const FitSample& s : samples) {
+      places.push_back(line->direction().dot(s.position - line->origin()));
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+std::vector<double> DistancesFromPart(const Shape& shape, FitSpan samples) {
+  std::vector<double> squared = SquaredDistances(shape, samples);
+  const std::vector<double> places = PlacesAlong(shape, samples);
+  if (places.empty()) return squared;
+  const auto [from, to] = std::minmax(places.front(), places.back());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double beyond = std::max(from - places[i], places[i] - to);
+    if (beyond > kOutlierSigmas * samples[i].sigma) {
+      squared[i] += beyond * beyond;
+    }
+  }
+  return squared;
+}
+
 bool Explains(const std::vector<double>& squared_distances, FitSpan samples) {
   constexpr double kMinInlierShare = 0.9;
   constexpr double kAxesAcross = 2;  // sigma is that of each

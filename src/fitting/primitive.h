@@ -39,6 +39,10 @@ FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve);
 // Squared distances of the samples from the shape.
 std::vector<double> SquaredDistances(const Shape& shape, FitSpan samples);
 
+// Squared distances from a shape that is drawn from its first to its last
+// sample. Samples may stick out beyond these ends by three standard deviations.
+std::vector<double> DistancesFromPart(const Shape& shape, FitSpan samples);
+
 // The sum of squared distances in standard deviations, those of outliers cut
 // down to kOutlierSigmas.
 double CostOf(const std::vector<double>& squared_distances, FitSpan samples);

