@@ -219,7 +219,7 @@ struct CurveFilterOptions {
   // Largest standard deviation across it. Pixels, median; 0: any.
   double max_sigma_px = 0;
   // Mean cosine of the angle between tangents 10 pixels apart: 1 for a line,
-  // 1 - 50 / r^2 for a circle of r pixels; 0..1.
+  // 1 - 50 / r^2 for a large circle of r pixels, 0 for small ones; 0..1.
   double min_straightness = 0;
   // Kinds of curves: others are cut out. Where the images do not tell the kind,
   // curves stay.

@@ -127,8 +127,7 @@ Status CheckPositions(const AlignmentInput& input,
       " fits worst, by " + SigmaText(result.position_residuals[worst].norm()) +
       ". Look for a wrong number, a wrong distance or unit, degrees or a "
       "mirrored axis; if positions are that uncertain, give a standard "
-      "deviation after "
-      "each");
+      "deviation after each");
 }
 
 }  // namespace curvix

@@ -33,7 +33,8 @@ Result<KnownStructures> ReadStructures(const std::filesystem::path& folder);
 Result<std::vector<KnownDistance>> ParseDistances(
     const std::string& text, const KnownStructures& structures);
 
-// kInvalidArgument as of ParseDistances, but for nodes that are not there.
+// kInvalidArgument as of ParseDistances, but for nodes that are not there and
+// for one point that is written in two ways.
 Status CheckDistances(const std::string& text);
 
 // Whether any is between points x,y,z.

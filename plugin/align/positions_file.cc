@@ -172,13 +172,14 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
 Status CheckSigmas(const std::vector<KnownPosition>& positions,
                    const std::filesystem::path& path) {
   constexpr std::size_t kFewest = 3;
-  const bool all_known = std::ranges::all_of(
+  const bool any_known = std::ranges::any_of(
       positions, [](const KnownPosition& p) { return p.sigma > 0; });
-  if (all_known || positions.size() >= kFewest) return {};
-  return Status::InvalidArgument(
-      path.string() +
-      " has fewer than three positions, whose uncertainty cannot be estimated: "
-      "give a standard deviation in each line, \"name x y z sigma\"");
+  if (any_known || positions.size() >= kFewest) return {};
+  return Status::InvalidArgument(path.string() +
+                                 " gives fewer than three positions of images, "
+                                 "whose uncertainty cannot be "
+                                 "estimated: give a standard deviation in each "
+                                 "line, \"name x y z sigma\"");
 }
 
 Status CheckEpsg(const std::string& code) {

@@ -26,7 +26,7 @@ struct CameraPositions {
 Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                                       const Scene& scene);
 
-// kInvalidArgument: fewer than three positions, of which one has no sigma.
+// kInvalidArgument: fewer than three positions, none with a sigma.
 Status CheckSigmas(const std::vector<KnownPosition>& positions,
                    const std::filesystem::path& path);
 

@@ -87,8 +87,7 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
         TextFlag("up",
                  &s->up,
                  "x,y,z: where up is, roughly, in the present coordinates of "
-                 "curves.json; "
-                 "default: up in the images")}});
+                 "curves.json; default: up in the images")}});
   sections.push_back(
       {"Output",
        {ChoiceFlag("unit",

@@ -105,7 +105,7 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
     return Status::InvalidArgument(
         "the 2D edges behind the curves are not known, so that a COLMAP model "
         "of them would have no points; write it from the run that makes the "
-        "curves: files of curves do not keep the edges");
+        "curves, since curves that were read from a file have none");
   }
   return WriteColmapModel(model, path);
 }

@@ -101,8 +101,11 @@ Result<BundleAdjustment> RunStages::LoadOrAdjust(
         return adjust();
       });
   if (!adjustment.ok()) return adjustment;
-  if (!is_new) store_.FetchText(log_path);
-  if (is_new && !record_.settings.clean) store_.KeepText(log_path);
+  if (!is_new) {
+    store_.FetchText(log_path);
+  } else if (!record_.settings.clean) {
+    store_.KeepText(log_path);
+  }
   return adjustment;
 }
 

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_io.h"
 #include "io/stage_io.h"
 
 namespace curvix {
@@ -92,6 +93,7 @@ class StageStore {
                    const T& result) {
     if (folder_.empty()) return "";
     if (std::string why = MakeFolder(); !why.empty()) return why;
+    FileWriter::RemoveLeftovers(folder_ / stage.file);
     const Status status =
         stage.write(folder_ / stage.file, key ^ images_key_, result);
     has_saved_ = has_saved_ || status.ok();

@@ -29,7 +29,8 @@ double MedianContrast(const Curve& curve,
 }
 
 // The mean cosine of the angle between the tangents of each sample and the
-// first one `distance` further on; 1 for curves that are shorter.
+// first one `distance` further on; 1 for curves that are shorter, 0 for rings
+// that turn back.
 double Straightness(const Curve& curve, double distance) {
   double sum = 0;
   int num_compared = 0;
@@ -45,7 +46,7 @@ double Straightness(const Curve& curve, double distance) {
     ++num_compared;
     along -= (curve.samples[i + 1].position - curve.samples[i].position).norm();
   }
-  return num_compared == 0 ? 1 : sum / num_compared;
+  return num_compared == 0 ? 1 : std::max(0.0, sum / num_compared);
 }
 
 bool Passes(const CurveQualities& curve, const CurveFilterOptions& options) {

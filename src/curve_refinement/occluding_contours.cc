@@ -208,15 +208,20 @@ double ContourLogLikelihoodRatio(const Curve& curve,
   double sum = 0;
   double num_places = 0;
   double to_next = kPlaceSpacingPx / 2;
+  std::size_t last_supported = 0;
+  for (std::size_t i = 0; i < curve.samples.size(); ++i) {
+    if (!curve.samples[i].support.empty()) last_supported = i;
+  }
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& sample = curve.samples[i];
     const double pixel = PixelSize(sample, views);
-    if (!(pixel > 0) || sample.support.empty()) continue;
+    if (!(pixel > 0)) continue;
     if (i > 0) {
       to_next -=
           (sample.position - curve.samples[i - 1].position).norm() / pixel;
     }
-    const bool is_too_short = i + 1 == curve.samples.size() && num_places == 0;
+    if (sample.support.empty()) continue;
+    const bool is_too_short = i == last_supported && num_places == 0;
     if (to_next > 0 && !is_too_short) continue;
     to_next = kPlaceSpacingPx;
     sum += LogLikelihoodRatio(Look(sample, views, images), edge_sigma_px);

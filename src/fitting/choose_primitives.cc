@@ -367,7 +367,8 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
     const FittedLine line(curve.front().position, Eigen::Vector3d::UnitX());
     return {{line, 0, curve.size(), false}};
   }
-  return choice.best.primitives;
+  if (choice.best.primitives.size() > 1) return choice.best.primitives;
+  return {WithoutSlightOvalness(choice.best.primitives.front(), curve, closed)};
 }
 
 }  // namespace curvix

@@ -86,9 +86,9 @@ double Miss(const Eigen::Vector3d& point,
 
 // How far `point` is from the foot of an end's sample, along a line or arc, as
 // a share of what is between its first and last sample; 0 for splines.
-double Slide(const Eigen::Vector3d& point,
-             const End& end,
-             const std::vector<CurvePrimitives>& curves) {
+double SlideShare(const Eigen::Vector3d& point,
+                  const End& end,
+                  const std::vector<CurvePrimitives>& curves) {
   const PrimitiveOfCurve& own = curves[end.curve_idx][end.fit_idx];
   const Eigen::Vector3d& from = own.at_start.foot;
   const Eigen::Vector3d& to = own.at_end.foot;
@@ -117,7 +117,7 @@ void Meet(const std::vector<CurvePrimitives>& curves, CurveNode& node) {
     }
     const double move = (node.position - place).norm();
     const bool is_far = std::ranges::any_of(node.ends, [&](const End& end) {
-      return !(Slide(node.position, end, curves) <= kMaxSlide);
+      return !(SlideShare(node.position, end, curves) <= kMaxSlide);
     });
     if (is_far || move > kMaxMoveSigmas * sigma) node.position = place;
     std::vector<double> misses;

@@ -43,6 +43,21 @@ struct DistancesFrom {
   }
 };
 
+// How far the samples are along a line or conic, from anywhere; of ellipses, at
+// least so far. None: a spline.
+std::vector<double> PlacesAlong(const Shape& shape, FitSpan samples) {
+  std::vector<double> places;
+  if (const auto* conic = std::get_if<Conic>(&shape)) {
+    places = UnwrappedAngles(*conic, samples);
+    for (double& place : places) place *= conic->b;
+  } else if (const auto* line = std::get_if<FittedLine>(&shape)) {
+    for (const FitSample& s : samples) {
+      places.push_back(line->direction().dot(s.position - line->origin()));
+    }
+  }
+  return places;
+}
+
 }  // namespace
 
 FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve) {
@@ -66,24 +81,6 @@ double CostOf(const std::vector<double>& squared_distances, FitSpan samples) {
   }
   return cost;
 }
-
-namespace {
-
-// How far the samples are along a line or conic, from anywhere; none: a spline.
-std::vector<double> PlacesAlong(const Shape& shape, FitSpan samples) {
-  std::vector<double> places;
-  if (const auto* conic = std::get_if<Conic>(&shape)) {
-    places = UnwrappedAngles(*conic, samples);
-    for (double& place : places) place *= conic->a;
-  } else if (const auto* line = std::get_if<FittedLine>(&shape)) {
-    for (const FitSample& s : samples) {
-      places.push_back(line->direction().dot(s.position - line->origin()));
-    }
-  }
-  return places;
-}
-
-}  // namespace
 
 std::vector<double> DistancesFromPart(const Shape& shape, FitSpan samples) {
   std::vector<double> squared = SquaredDistances(shape, samples);

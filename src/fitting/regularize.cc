@@ -32,8 +32,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // observations: relations are met to a millionth of what a fit moves.
 constexpr double kHard = 1e3;
 constexpr double kMaxAdjustmentSigmas = 3;
-// In so many rounds, only fits that move at least so far, of the farthest,
-// leave their groups.
+// In the first rounds, only fits that move at least this share of the farthest
+// move leave their groups.
 constexpr int kMaxCarefulRounds = 8;
 constexpr double kShareOfWorst = 0.5;
 

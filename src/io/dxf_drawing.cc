@@ -139,8 +139,8 @@ void AppendEscape(unsigned unit, std::string& out) {
   out += text.data();
 }
 
-// With escapes for the characters beyond ASCII, and for what would begin an
-// escape: "^" of control characters, "%%" of symbols.
+// With escapes for the characters beyond ASCII, for "^", which begins control
+// characters, and for "%%", which begins symbols.
 std::string DxfText(std::string_view utf8) {
   std::string out;
   for (std::size_t i = 0; i < utf8.size();) {

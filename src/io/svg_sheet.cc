@@ -25,7 +25,7 @@ std::string Number(double value) { return FixedText(value, 4); }
 // "a b"
 std::string Pair(double a, double b) { return Number(a) + ' ' + Number(b); }
 
-// Control characters, which XML cannot have, are blanks.
+// Control characters, most of which XML cannot have, are blanks.
 std::string Escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

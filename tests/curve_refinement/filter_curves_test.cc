@@ -52,7 +52,7 @@ TEST(FilterCurves, RingsThatTurnBackAreNotStraight) {
   const double radius_px = 10 / std::numbers::pi;
   const CurveQualities ring =
       QualitiesOf(Arc(radius_px, 0, 2 * std::numbers::pi));
-  EXPECT_LT(ring.straightness, -0.9);
+  EXPECT_EQ(ring.straightness, 0);
 }
 
 TEST(FilterCurves, KeepsAllByDefault) {
@@ -62,6 +62,7 @@ TEST(FilterCurves, KeepsAllByDefault) {
     sample.sigma = 1;
   }
   EXPECT_TRUE(Passes(curve, {}));
+  EXPECT_TRUE(Passes(Arc(3, 0, 2 * std::numbers::pi), {}));
 }
 
 TEST(FilterCurves, EachFilterLetsPassWhatJustMeetsIt) {

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/angles.h"
 #include "base/file_io.h"
 #include "tests/io/test_curves.h"
 #include "tests/support/temporary_folder.h"
@@ -64,7 +65,7 @@ FittedCurves LineAndCircle(const Eigen::Vector3d& start,
   circle.center = end;
   circle.major = {2, 0, 0};
   circle.minor = {0, 2, 0};
-  circle.end_angle = 2 * std::acos(-1.0);
+  circle.end_angle = 2 * kPi;
   FittedCurves fitted;
   fitted.curves = {{{line}}, {{circle}}};
   return fitted;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/angles.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "measuring/moved_curves.h"
@@ -80,7 +81,7 @@ CurveSet Plate(std::uint64_t seed) {
   for (const auto& [x, radius] : {std::pair(0.5, 0.2), std::pair(1.5, 0.1)}) {
     std::vector<Vector3d> points;
     for (int i = 0; i < 90; ++i) {
-      const double t = 6.28318530717958647692 * i / 90;
+      const double t = 2 * kPi * i / 90;
       points.emplace_back(
           x + radius * std::cos(t), 0.5 + radius * std::sin(t), 0);
     }
@@ -190,7 +191,7 @@ CurveFit ArcOf(double radius, bool closed) {
   fit.closed = closed;
   fit.major = {radius, 0, 0};
   fit.minor = {0, radius, 0};
-  fit.end_angle = closed ? 6.28318530717958647692 : 0.1;
+  fit.end_angle = closed ? 2 * kPi : 0.1;
   return fit;
 }
 
