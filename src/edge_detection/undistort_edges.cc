@@ -17,10 +17,12 @@
 namespace curvix {
 namespace {
 
-// `edge` in another image, into which `carry` carries what it can.
+// `edge` in another image, into which `carry` carries what it can. In double
+// precision, so that a lens without distortion changes no angle.
 template <typename Carry>
 std::optional<Edge2d> Carried(const Edge2d& edge, const Carry& carry) {
-  ImageEdge place = ToImageEdge(edge);
+  const double angle = static_cast<double>(edge.angle);
+  ImageEdge place = {edge.position, {std::cos(angle), std::sin(angle)}};
   const std::optional<ImageEdge> to = carry(place);
   if (!to) return std::nullopt;
   Edge2d carried = edge;
