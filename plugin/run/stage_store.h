@@ -52,6 +52,7 @@ struct StoredStage {
                   std::uint64_t key,
                   const T& result);
 };
+// What COLMAP said when it made adjustment.bin.
 inline constexpr char kAdjustmentLog[] = "bundle_adjuster.log";
 inline constexpr StoredStage<BundleAdjustment> kRefinePoses = {
     "refine_poses",
