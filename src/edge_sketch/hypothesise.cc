@@ -18,12 +18,6 @@ constexpr double kMinEpipolarAngle = DegToRad(5);
 // Of the appearance of two edges that are paired.
 constexpr double kMinLikelihoodRatio = 0.1;
 
-// Of edges whose tangents cross their epipolar lines to the same side, or not.
-bool LookAlike(const Appearance& look1, Appearance look2, bool cross_alike) {
-  if (!cross_alike) look2.SwapSides();
-  return LikelihoodRatio(look2, look1) >= kMinLikelihoodRatio;
-}
-
 }  // namespace
 
 HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
@@ -35,28 +29,31 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
                                  const AppearanceDensity* appearance2)
     : h1_(&h1),
       h2_(&h2),
+      edges2_(&edges2),
+      appearance2_(appearance2),
       options_(&options),
-      pencil_(pencil),
+      baseline_(pencil.baseline()),
+      angles1_(pencil, h1),
       line_from_normal_(h1.calibration.inverse().transpose()),
       fundamental_(FundamentalMatrix(h1, h2)),
       depths_(depths),
       projection_(h1, h2),
-      sorted2_(pencil, h2, edges2, options.hypotheses.location_tolerance_px) {
-  candidates_.reserve(edges2.size());
-  for (const std::int32_t edge_idx : sorted2_.EdgeIdxs()) {
-    const Edge2d& edge = edges2[static_cast<std::size_t>(edge_idx)];
-    candidates_.push_back({edge.position, edge.angle, edge_idx});
-    if (appearance2) {
-      candidates_.back().appearance =
-          appearance2->AppearanceOf(edge, TangentAt(edge.angle));
-    }
-  }
+      sorted2_(EpipolarAngles(pencil, h2),
+               edges2,
+               options.hypotheses.location_tolerance_px) {}
+
+bool HypothesisViews::LookAlike(const Appearance& look1,
+                                const Edge2d& edge2,
+                                bool cross_alike) const {
+  auto look2 = appearance2_->AppearanceOf(edge2, TangentAt(edge2.angle));
+  if (!look2) return true;
+  if (!cross_alike) look2->SwapSides();
+  return LikelihoodRatio(*look2, look1) >= kMinLikelihoodRatio;
 }
 
 double HypothesisViews::CrossingSine(const ImageEdge& edge1) const {
   // The epipolar plane of the edge meets the image in its epipolar line.
-  const Eigen::Vector3d normal =
-      h1_->Ray(edge1.position).cross(pencil_.baseline());
+  const Eigen::Vector3d normal = h1_->Ray(edge1.position).cross(baseline_);
   const Eigen::Vector3d line = line_from_normal_ * (h1_->rotation * normal);
   return line.head<2>().dot(edge1.tangent) / line.head<2>().norm();
 }
@@ -76,9 +73,9 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   const ImageEdge image_edge1 = ToImageEdge(edge1);
   const double sine1 = CrossingSine(image_edge1);
   if (std::abs(sine1) < std::sin(kMinEpipolarAngle)) return result;
-  const std::optional<Appearance> look1 = AppearanceAlong(edge1);
+  const auto look1 = appearance2_ ? AppearanceAlong(edge1) : std::nullopt;
   const double tolerance_px = options_->hypotheses.location_tolerance_px;
-  const auto wedge = WedgeOf(pencil_, *h1_, edge1.position, tolerance_px);
+  const auto wedge = WedgeOf(angles1_, edge1.position, tolerance_px);
   if (!wedge) return result;
   const Line2 line = EpipolarLine(fundamental_, edge1.position);
 
@@ -86,21 +83,16 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
   const Eigen::Vector2d direction = line.Direction();
   std::vector<LineEdge> on_line;
   on_line.reserve(kUsualNumCandidates);
-  sorted2_.VisitMeeting(*wedge, [&](std::size_t i) {
-    const Candidate& candidate = candidates_[i];
-    if (!search.Contains(direction.dot(candidate.position))) return;
-    const Eigen::Vector2d tangent = TangentAt(candidate.angle);
+  sorted2_.VisitMeeting(*wedge, [&](std::int32_t edge_idx) {
+    const Edge2d& edge2 = (*edges2_)[static_cast<std::size_t>(edge_idx)];
+    if (!search.Contains(direction.dot(edge2.position))) return;
+    const ImageEdge image_edge2 = ToImageEdge(edge2);
     // The normals of both lines point to the same side of the epipolar plane.
-    const bool cross_alike = sine1 * line.normal.dot(tangent) > 0;
-    if (look1 && candidate.appearance &&
-        !LookAlike(*look1, *candidate.appearance, cross_alike)) {
-      return;
-    }
-    const auto moved = SlideToLine({candidate.position, tangent},
-                                   line,
-                                   tolerance_px,
-                                   options_->consolidation);
-    if (moved) on_line.push_back({*moved, candidate.edge_idx});
+    const bool cross_alike = sine1 * line.normal.dot(image_edge2.tangent) > 0;
+    if (look1 && !LookAlike(*look1, edge2, cross_alike)) return;
+    const auto moved =
+        SlideToLine(image_edge2, line, tolerance_px, options_->consolidation);
+    if (moved) on_line.push_back({*moved, edge_idx});
   });
   const double min_sine = std::sin(kMinEpipolarAngle);
   result.virtual_edges = ClusterEdges(on_line, line, options_->consolidation);

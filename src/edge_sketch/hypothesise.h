@@ -39,11 +39,11 @@ struct Hypotheses {
 // The edges of H2, indexed for pairing with those of H1.
 class HypothesisViews {
  public:
-  // Only hypotheses at `depths` of H1. `pencil`: of both views. The views and
-  // the options must outlive it. With `appearance2`, of the edges of H2, edges
-  // whose sides are not about as bright as those of the H1 edge, in the same
-  // order along the epipolar lines, are no candidates. Edges of unknown
-  // sharpness are.
+  // Only hypotheses at `depths` of H1. `pencil`: of both views. The views, the
+  // edges, the options and `appearance2` must outlive this. With `appearance2`,
+  // of the edges of H2, edges whose sides are not about as bright as those of
+  // the H1 edge, in the same order along the epipolar lines, are no candidates.
+  // Edges of unknown sharpness are.
   HypothesisViews(const EpipolarPencil& pencil,
                   const PosedView& h1,
                   const PosedView& h2,
@@ -62,14 +62,11 @@ class HypothesisViews {
   const PosedView& h2() const { return *h2_; }
 
  private:
-  // An edge of H2 with its tangent still as an angle: few need the vector.
-  struct Candidate {
-    Eigen::Vector2d position;
-    float angle = 0;
-    std::int32_t edge_idx = 0;
-    std::optional<Appearance> appearance = std::nullopt;  // along the edge
-  };
-
+  // Whether the sides of both edges are about as bright, as far as is known.
+  // `cross_alike`: they cross their epipolar lines to the same side.
+  bool LookAlike(const Appearance& look1,
+                 const Edge2d& edge2,
+                 bool cross_alike) const;
   // The part of the epipolar line of `pixel1` that shows `depths_`, extended by
   // the longest slide of an edge. Pixels along the line.
   Interval SearchAlong(const Line2& line, const Eigen::Vector2d& pixel1) const;
@@ -78,14 +75,16 @@ class HypothesisViews {
   double CrossingSine(const ImageEdge& edge1) const;
 
   const PosedView *h1_, *h2_;
+  const std::vector<Edge2d>* edges2_;
+  const AppearanceDensity* appearance2_;
   const Options* options_;
-  EpipolarPencil pencil_;
+  Eigen::Vector3d baseline_;  // unit, from h1 to h2, world
+  EpipolarAngles angles1_;
   Eigen::Matrix3d line_from_normal_;  // of a plane, in h1's camera frame
   Eigen::Matrix3d fundamental_;
   DepthRange depths_;
   RayProjection projection_;
   SortedByAngle sorted2_;
-  std::vector<Candidate> candidates_;  // in the order of sorted2_
 };
 
 }  // namespace curvix

@@ -23,21 +23,28 @@ std::optional<EpipolarPencil> EpipolarPencil::Make(const PosedView& view1,
   return pencil;
 }
 
-std::optional<EpipolarAngle> EpipolarPencil::AngleOf(
-    const PosedView& view, const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector3d ray = view.Ray(pixel);
-  const double x = ray.dot(u_);
-  const double y = ray.dot(v_);
+EpipolarAngles::EpipolarAngles(const EpipolarPencil& pencil,
+                               const PosedView& view) {
+  const Eigen::Matrix3d from_world =
+      view.calibration.inverse().transpose() * view.rotation;
+  along_u_ = from_world * pencil.u_;
+  along_v_ = from_world * pencil.v_;
+  along_baseline_ = from_world * pencil.baseline_;
+}
+
+std::optional<EpipolarAngle> EpipolarAngles::AngleOf(
+    const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector3d p = pixel.homogeneous();
+  const double x = along_u_.dot(p);
+  const double y = along_v_.dot(p);
+  const double z = along_baseline_.dot(p);
   const double radius2 = x * x + y * y;
   constexpr double kMinSine = 0.0087;  // of half a degree
-  if (radius2 < kMinSine * kMinSine * ray.squaredNorm()) return std::nullopt;
-  // d angle = (x dy - y dx) / radius^2, with ray a linear function of the
-  // pixel.
-  const Eigen::Vector3d d_angle = (x * v_ - y * u_) / radius2;
-  const Eigen::Vector3d in_camera = view.rotation * d_angle;
-  const Eigen::Vector2d per_px(in_camera.x() / view.calibration(0, 0),
-                               in_camera.y() / view.calibration(1, 1));
-  return EpipolarAngle{std::atan2(y, x), per_px.norm()};
+  if (radius2 < kMinSine * kMinSine * (radius2 + z * z)) return std::nullopt;
+  // d angle = (x dy - y dx) / radius^2.
+  const Eigen::Vector2d per_px =
+      x * along_v_.head<2>() - y * along_u_.head<2>();
+  return EpipolarAngle{std::atan2(y, x), per_px.norm() / radius2};
 }
 
 Eigen::Matrix3d FundamentalMatrix(const PosedView& view1,

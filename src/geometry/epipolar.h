@@ -28,17 +28,27 @@ class EpipolarPencil {
   static std::optional<EpipolarPencil> Make(const PosedView& view1,
                                             const PosedView& view2);
 
-  // The angle of the epipolar plane through `pixel` of `view`, which is one of
-  // the two views of the pencil. nullopt within half a degree of the baseline,
-  // where a ray has no depth.
-  std::optional<EpipolarAngle> AngleOf(const PosedView& view,
-                                       const Eigen::Vector2d& pixel) const;
-
   // Unit, from view1 to view2, world.
   const Eigen::Vector3d& baseline() const { return baseline_; }
 
  private:
+  friend class EpipolarAngles;
   Eigen::Vector3d baseline_, u_, v_;  // right-handed, orthonormal
+};
+
+// The angles of the pixels of one view.
+class EpipolarAngles {
+ public:
+  // `view`: one of the two views of the pencil.
+  EpipolarAngles(const EpipolarPencil& pencil, const PosedView& view);
+
+  // Of the epipolar plane through `pixel`. nullopt within half a degree of the
+  // baseline, where a ray has no depth.
+  std::optional<EpipolarAngle> AngleOf(const Eigen::Vector2d& pixel) const;
+
+ private:
+  // Components of the ray of a homogeneous pixel.
+  Eigen::Vector3d along_u_, along_v_, along_baseline_;
 };
 
 // F with x2^T F x1 = 0 for pixels x1, x2 of the two views.

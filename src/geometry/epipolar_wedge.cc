@@ -7,11 +7,10 @@
 
 namespace curvix {
 
-std::optional<Wedge> WedgeOf(const EpipolarPencil& pencil,
-                             const PosedView& view,
+std::optional<Wedge> WedgeOf(const EpipolarAngles& angles,
                              const Eigen::Vector2d& pixel,
                              double tolerance_px) {
-  const auto angle = pencil.AngleOf(view, pixel);
+  const auto angle = angles.AngleOf(pixel);
   if (!angle) return std::nullopt;
   return Wedge{angle->angle, tolerance_px * angle->rad_per_px};
 }
@@ -21,14 +20,13 @@ bool Meet(const Wedge& a, const Wedge& b) {
          a.half_width + b.half_width;
 }
 
-SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
-                             const PosedView& view,
+SortedByAngle::SortedByAngle(const EpipolarAngles& angles,
                              const std::vector<Edge2d>& edges,
                              double tolerance_px) {
   std::vector<Entry> entries;
   entries.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto wedge = WedgeOf(pencil, view, edges[i].position, tolerance_px);
+    const auto wedge = WedgeOf(angles, edges[i].position, tolerance_px);
     if (!wedge) continue;
     entries.push_back({*wedge, static_cast<std::int32_t>(i)});
     max_half_width_ = std::max(max_half_width_, wedge->half_width);
@@ -55,16 +53,9 @@ SortedByAngle::SortedByAngle(const EpipolarPencil& pencil,
 std::vector<std::int32_t> SortedByAngle::Meeting(const Wedge& wedge) const {
   std::vector<std::int32_t> found;
   VisitMeeting(wedge,
-               [&](std::size_t i) { found.push_back(entries_[i].edge_idx); });
+               [&](std::int32_t edge_idx) { found.push_back(edge_idx); });
   std::ranges::sort(found);
   return found;
-}
-
-std::vector<std::int32_t> SortedByAngle::EdgeIdxs() const {
-  std::vector<std::int32_t> edge_idxs;
-  edge_idxs.reserve(entries_.size());
-  for (const Entry& entry : entries_) edge_idxs.push_back(entry.edge_idx);
-  return edge_idxs;
 }
 
 }  // namespace curvix

@@ -23,23 +23,20 @@ struct Wedge {
   double half_width = 0;  // radians
 };
 
-// The wedge of the disc around `pixel` of `view`, one of the pencil's two
-// views. nullopt near the baseline, as EpipolarPencil::AngleOf().
-std::optional<Wedge> WedgeOf(const EpipolarPencil& pencil,
-                             const PosedView& view,
+// The wedge of the disc around `pixel`. nullopt near the baseline, as
+// EpipolarAngles::AngleOf().
+std::optional<Wedge> WedgeOf(const EpipolarAngles& angles,
                              const Eigen::Vector2d& pixel,
                              double tolerance_px);
 
 // Whether two wedges of one pencil have an epipolar plane in common.
 bool Meet(const Wedge& a, const Wedge& b);
 
-// The edges of one view in buckets by their epipolar angle with respect to a
-// pencil. Edges near the baseline, which have no depth, are left out. Building
-// takes O(edges).
+// The edges of one view in buckets by their epipolar angle. Edges near the
+// baseline, which have no depth, are left out. Building takes O(edges).
 class SortedByAngle {
  public:
-  SortedByAngle(const EpipolarPencil& pencil,
-                const PosedView& view,
+  SortedByAngle(const EpipolarAngles& angles,
                 const std::vector<Edge2d>& edges,
                 double tolerance_px);
 
@@ -47,15 +44,14 @@ class SortedByAngle {
   // ascending order of edge index.
   std::vector<std::int32_t> Meeting(const Wedge& wedge) const;
 
-  // Calls f(place) for each of these edges, in no useful order: `place` is the
-  // edge's in EdgeIdxs().
+  // Calls f(edge index) for each of these edges, in no useful order.
   template <typename F>
   void VisitMeeting(const Wedge& wedge, const F& f) const {
     if (entries_.empty()) return;
     const double reach = wedge.half_width + max_half_width_;
     if (reach >= kPi) {  // all around: nearly along the baseline
-      for (std::size_t i = 0; i < entries_.size(); ++i) {
-        if (Meet(wedge, entries_[i])) f(i);
+      for (const Entry& entry : entries_) {
+        if (Meet(wedge, entry)) f(entry.edge_idx);
       }
       return;
     }
@@ -63,9 +59,6 @@ class SortedByAngle {
     if (wedge.center + reach > kPi) Visit(wedge, -2 * kPi, f);
     if (wedge.center - reach < -kPi) Visit(wedge, 2 * kPi, f);
   }
-
-  // All edges, bucket by bucket.
-  std::vector<std::int32_t> EdgeIdxs() const;
 
  private:
   struct Entry : Wedge {
@@ -77,9 +70,10 @@ class SortedByAngle {
     const double reach = wedge.half_width + max_half_width_;
     const std::size_t end = begins_[Bucket(center + reach) + 1];
     for (std::size_t i = begins_[Bucket(center - reach)]; i < end; ++i) {
-      if (std::abs(entries_[i].center - center) <=
-          wedge.half_width + entries_[i].half_width) {
-        f(i);
+      const Entry& entry = entries_[i];
+      if (std::abs(entry.center - center) <=
+          wedge.half_width + entry.half_width) {
+        f(entry.edge_idx);
       }
     }
   }

@@ -14,21 +14,19 @@ WedgeSupport::WedgeSupport(const EpipolarPencil& pencil1,
                            const PosedView& view,
                            const std::vector<Edge2d>& edges,
                            double tolerance_px)
-    : pencil1_(pencil1),
-      pencil2_(pencil2),
-      h1_(&h1),
-      h2_(&h2),
-      view_(&view),
+    : angles1_(pencil1, h1),
+      angles2_(pencil2, h2),
+      view_angles2_(pencil2, view),
       edges_(&edges),
       tolerance_px_(tolerance_px),
-      sorted1_(pencil1, view, edges, tolerance_px) {}
+      sorted1_(EpipolarAngles(pencil1, view), edges, tolerance_px) {}
 
 std::optional<std::int32_t> WedgeSupport::Find(const ImageEdge& edge1,
                                                const ImageEdge& edge2,
                                                const ImageEdge& projected,
                                                double max_angle_rad) const {
-  const auto wedge1 = WedgeOf(pencil1_, *h1_, edge1.position, tolerance_px_);
-  const auto wedge2 = WedgeOf(pencil2_, *h2_, edge2.position, tolerance_px_);
+  const auto wedge1 = WedgeOf(angles1_, edge1.position, tolerance_px_);
+  const auto wedge2 = WedgeOf(angles2_, edge2.position, tolerance_px_);
   if (!wedge1 || !wedge2) return std::nullopt;
   std::optional<std::int32_t> nearest;
   double least = 0;
@@ -39,7 +37,7 @@ std::optional<std::int32_t> WedgeSupport::Find(const ImageEdge& edge1,
         max_angle_rad) {
       continue;
     }
-    const auto own = WedgeOf(pencil2_, *view_, edge.position, tolerance_px_);
+    const auto own = WedgeOf(view_angles2_, edge.position, tolerance_px_);
     if (!own || !Meet(*own, *wedge2)) continue;
     const double distance = (edge.position - projected.position).squaredNorm();
     if (!nearest || distance < least) {

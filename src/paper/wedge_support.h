@@ -19,8 +19,8 @@ namespace curvix {
 // validation view supports them.
 class WedgeSupport {
  public:
-  // `pencil1`: of H1 and `view`; `pencil2`: of H2 and `view`. The views and the
-  // edges must outlive it.
+  // `pencil1`: of H1 and `view`; `pencil2`: of H2 and `view`. The edges must
+  // outlive it.
   WedgeSupport(const EpipolarPencil& pencil1,
                const EpipolarPencil& pencil2,
                const PosedView& h1,
@@ -38,8 +38,8 @@ class WedgeSupport {
                                    double max_angle_rad) const;
 
  private:
-  EpipolarPencil pencil1_, pencil2_;
-  const PosedView *h1_, *h2_, *view_;
+  EpipolarAngles angles1_, angles2_;  // of H1 and H2
+  EpipolarAngles view_angles2_;       // of the view, with H2
   const std::vector<Edge2d>* edges_;
   double tolerance_px_;
   SortedByAngle sorted1_;

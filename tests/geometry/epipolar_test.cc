@@ -60,7 +60,7 @@ Vector3d RandomPoint(Random& random) {
                   random.Uniform(3, 7));
 }
 
-TEST(EpipolarPencil, GivesAPointTheSameAngleInBothViews) {
+TEST(EpipolarAngles, GivesAPointTheSameAngleInBothViews) {
   Random random(1);
   for (const Rig& rig : Rigs()) {
     const auto pencil = EpipolarPencil::Make(rig.view1, rig.view2);
@@ -68,8 +68,10 @@ TEST(EpipolarPencil, GivesAPointTheSameAngleInBothViews) {
     int compared = 0;
     for (int i = 0; i < 200; ++i) {
       const Vector3d x = RandomPoint(random);
-      const auto angle1 = pencil->AngleOf(rig.view1, PixelOf(rig.view1, x));
-      const auto angle2 = pencil->AngleOf(rig.view2, PixelOf(rig.view2, x));
+      const auto angle1 =
+          EpipolarAngles(*pencil, rig.view1).AngleOf(PixelOf(rig.view1, x));
+      const auto angle2 =
+          EpipolarAngles(*pencil, rig.view2).AngleOf(PixelOf(rig.view2, x));
       if (!angle1 || !angle2) continue;  // near an epipole
       ++compared;
       EXPECT_LT(
@@ -81,28 +83,29 @@ TEST(EpipolarPencil, GivesAPointTheSameAngleInBothViews) {
   }
 }
 
-TEST(EpipolarPencil, TellsTheTwoSidesOfTheEpipoleApart) {
+TEST(EpipolarAngles, TellsTheTwoSidesOfTheEpipoleApart) {
   const Rig rig = Rigs()[1];
   const auto pencil = EpipolarPencil::Make(rig.view1, rig.view2);
   const Vector2d epipole = PixelOf(rig.view1, rig.view2.center);
   const Vector2d offset(30, 40);
-  const auto one = pencil->AngleOf(rig.view1, epipole + offset);
-  const auto other = pencil->AngleOf(rig.view1, epipole - offset);
+  const auto one = EpipolarAngles(*pencil, rig.view1).AngleOf(epipole + offset);
+  const auto other =
+      EpipolarAngles(*pencil, rig.view1).AngleOf(epipole - offset);
   EXPECT_NEAR(
       std::abs(std::remainder(one->angle - other->angle, 2 * kPi)), kPi, 1e-12);
 }
 
-TEST(EpipolarPencil, HasNoAngleWithinHalfADegreeOfTheBaseline) {
+TEST(EpipolarAngles, HasNoAngleWithinHalfADegreeOfTheBaseline) {
   const Rig rig = Rigs()[1];
   const auto pencil = EpipolarPencil::Make(rig.view1, rig.view2);
   const Vector2d epipole = PixelOf(rig.view1, rig.view2.center);
   const double half_a_degree_px = 800 * std::tan(DegToRad(0.5));
   const Vector2d across(0, 1);
-  EXPECT_FALSE(pencil->AngleOf(rig.view1, epipole));
-  EXPECT_FALSE(
-      pencil->AngleOf(rig.view1, epipole + 0.9 * half_a_degree_px * across));
-  EXPECT_TRUE(
-      pencil->AngleOf(rig.view1, epipole + 1.1 * half_a_degree_px * across));
+  EXPECT_FALSE(EpipolarAngles(*pencil, rig.view1).AngleOf(epipole));
+  EXPECT_FALSE(EpipolarAngles(*pencil, rig.view1)
+                   .AngleOf(epipole + 0.9 * half_a_degree_px * across));
+  EXPECT_TRUE(EpipolarAngles(*pencil, rig.view1)
+                  .AngleOf(epipole + 1.1 * half_a_degree_px * across));
 }
 
 // By finite differences.
@@ -110,21 +113,21 @@ double RadPerPx(const EpipolarPencil& pencil,
                 const PosedView& view,
                 const Vector2d& pixel) {
   const auto slope = [&](const Vector2d& h) {
-    const double rise = pencil.AngleOf(view, pixel + h)->angle -
-                        pencil.AngleOf(view, pixel - h)->angle;
+    const double rise = EpipolarAngles(pencil, view).AngleOf(pixel + h)->angle -
+                        EpipolarAngles(pencil, view).AngleOf(pixel - h)->angle;
     return std::remainder(rise, 2 * kPi) / (2 * h.norm());
   };
   return std::hypot(slope({1e-4, 0}), slope({0, 1e-4}));
 }
 
-TEST(EpipolarPencil, MovesPerPixelAsFiniteDifferencesDo) {
+TEST(EpipolarAngles, MovesPerPixelAsFiniteDifferencesDo) {
   Random random(2);
   for (const Rig& rig : Rigs()) {
     const auto pencil = EpipolarPencil::Make(rig.view1, rig.view2);
     for (const PosedView* view : {&rig.view1, &rig.view2}) {
       for (int i = 0; i < 50; ++i) {
         const Vector2d pixel(random.Uniform(0, 800), random.Uniform(0, 800));
-        const auto angle = pencil->AngleOf(*view, pixel);
+        const auto angle = EpipolarAngles(*pencil, *view).AngleOf(pixel);
         if (!angle) continue;
         EXPECT_NEAR(
             RadPerPx(*pencil, *view, pixel) / angle->rad_per_px, 1, 1e-5)

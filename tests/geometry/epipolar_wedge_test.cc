@@ -21,6 +21,10 @@ const PosedView kView1 = MakeView(Matrix3d::Identity(), {0, 0, 0});
 // Moved forwards: the epipole is in the image, so angles take all values.
 const PosedView kView2 = MakeView(Matrix3d::Identity(), {0.1, 0.2, 1});
 
+EpipolarAngles Angles2() {
+  return {*EpipolarPencil::Make(kView1, kView2), kView2};
+}
+
 double Difference(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * kPi));
 }
@@ -35,12 +39,11 @@ std::vector<Edge2d> RandomEdges(int count, std::uint64_t seed) {
 }
 
 std::vector<std::int32_t> AllThatMeet(const Wedge& wanted,
-                                      const EpipolarPencil& pencil,
                                       const std::vector<Edge2d>& edges,
                                       double tolerance_px) {
   std::vector<std::int32_t> meeting;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const auto wedge = WedgeOf(pencil, kView2, edges[i].position, tolerance_px);
+    const auto wedge = WedgeOf(Angles2(), edges[i].position, tolerance_px);
     if (wedge && Meet(*wedge, wanted)) {
       meeting.push_back(static_cast<std::int32_t>(i));
     }
@@ -49,10 +52,9 @@ std::vector<std::int32_t> AllThatMeet(const Wedge& wanted,
 }
 
 TEST(WedgeOf, HoldsTheEpipolarAnglesOfTheDiscAndNoMore) {
-  const auto pencil = EpipolarPencil::Make(kView1, kView2);
   for (const Edge2d& edge : RandomEdges(300, 1)) {
     const double radius_px = 0.3;
-    const auto wedge = WedgeOf(*pencil, kView2, edge.position, radius_px);
+    const auto wedge = WedgeOf(Angles2(), edge.position, radius_px);
     if (!wedge) continue;
     double widest = 0;
     for (int k = 0; k < 64; ++k) {
@@ -60,8 +62,7 @@ TEST(WedgeOf, HoldsTheEpipolarAnglesOfTheDiscAndNoMore) {
       const Vector2d contour =
           edge.position + radius_px * Vector2d(std::cos(a), std::sin(a));
       widest = std::max(
-          widest,
-          Difference(pencil->AngleOf(kView2, contour)->angle, wedge->center));
+          widest, Difference(Angles2().AngleOf(contour)->angle, wedge->center));
     }
     // The half-width is that of a disc of small angle; the rest is of second
     // order in it.
@@ -70,9 +71,11 @@ TEST(WedgeOf, HoldsTheEpipolarAnglesOfTheDiscAndNoMore) {
 }
 
 TEST(WedgeOf, DoesNotExistNearTheBaseline) {
-  const auto pencil = EpipolarPencil::Make(kView1, kView2);
   const Vector2d epipole = kView1.Pixel(kView1.InCamera(kView2.center));
-  EXPECT_FALSE(WedgeOf(*pencil, kView1, epipole, 0.3));
+  EXPECT_FALSE(
+      WedgeOf(EpipolarAngles(*EpipolarPencil::Make(kView1, kView2), kView1),
+              epipole,
+              0.3));
 }
 
 TEST(Meet, ComparesIntervalsAcrossTheWrap) {
@@ -84,16 +87,15 @@ TEST(Meet, ComparesIntervalsAcrossTheWrap) {
 }
 
 TEST(SortedByAngle, FindsTheEdgesThatBruteForceFinds) {
-  const auto pencil = EpipolarPencil::Make(kView1, kView2);
   const std::vector<Edge2d> edges = RandomEdges(3000, 2);
   for (const double tolerance_px : {0.3, 5.0}) {
-    const SortedByAngle sorted(*pencil, kView2, edges, tolerance_px);
+    const SortedByAngle sorted(Angles2(), edges, tolerance_px);
     for (const double center :
          {-3.1415, -3.1, -1.0, 0.0, 0.5, 2.0, 3.12, 3.14159, kPi}) {
       for (const double half_width : {0.0, 0.002, 0.2}) {
         const Wedge wanted{center, half_width};
         EXPECT_EQ(sorted.Meeting(wanted),
-                  AllThatMeet(wanted, *pencil, edges, tolerance_px))
+                  AllThatMeet(wanted, edges, tolerance_px))
             << center << " +- " << half_width;
       }
     }
@@ -101,8 +103,7 @@ TEST(SortedByAngle, FindsTheEdgesThatBruteForceFinds) {
 }
 
 TEST(SortedByAngle, FindsNothingAmongNoEdges) {
-  const auto pencil = EpipolarPencil::Make(kView1, kView2);
-  EXPECT_THAT(SortedByAngle(*pencil, kView2, {}, 0.3).Meeting({0, 4}),
+  EXPECT_THAT(SortedByAngle(Angles2(), {}, 0.3).Meeting({0, 4}),
               ::testing::IsEmpty());
 }
 
