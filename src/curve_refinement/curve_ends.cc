@@ -104,8 +104,10 @@ constexpr double kMaxRmsRatio = 1.5;  // of the shortest
 
 struct Placed {
   double along = 0;  // arc length, negative inside the curve
-  Eigen::Vector3d offset;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   double weight = 1;
+  // Of arcs of some curvature, see ArcBasis().
+  Eigen::Vector2d basis = Eigen::Vector2d::Zero();
 };
 
 // sin(k s) / k and (1 - cos(k s)) / k^2, also for k = 0.
@@ -129,18 +131,25 @@ std::vector<Placed> Take(const Curve& curve,
     if (k > 0) along += (position(k) - position(k - 1)).norm();
     if (along > segment.end_px * pixel) break;
     if (along < segment.begin_px * pixel) continue;
-    placed.push_back({-along, position(k) - position(0), 1});
+    Placed& sample = placed.emplace_back();
+    sample.along = -along;
+    sample.offset = position(k) - position(0);
   }
   return placed;
 }
 
-// Rows: place, direction and bend at arc length 0.
-Eigen::Matrix3d SolveArc(const std::vector<Placed>& placed, double curvature) {
+void SetBases(double curvature, std::vector<Placed>& placed) {
+  for (Placed& p : placed) p.basis = ArcBasis(curvature, p.along);
+}
+
+// Rows: place, direction and bend at arc length 0 of the best arc, the bases
+// being about right.
+Eigen::Matrix3d SolveArc(const std::vector<Placed>& placed) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
   for (const Placed& p : placed) {
     Eigen::Vector3d basis;
-    basis << 1, ArcBasis(curvature, p.along);
+    basis << 1, p.basis;
     normal += p.weight * basis * basis.transpose();
     right += p.weight * basis * p.offset.transpose();
   }
@@ -160,14 +169,21 @@ Eigen::Matrix3d SolveLine(const std::vector<Placed>& placed) {
   return rows;
 }
 
+// To the fit, whose curvature the basis is for.
+Eigen::Vector3d Miss(const EndFit& fit,
+                     const Eigen::Vector3d& last,
+                     const Placed& p) {
+  return fit.position + p.basis.x() * fit.outward + p.basis.y() * fit.bend -
+         last - p.offset;
+}
+
 // Samples further off than `scale` count little (Cauchy).
 void Reweight(const EndFit& fit,
               const Eigen::Vector3d& last,
               double scale,
               std::vector<Placed>& placed) {
   for (Placed& p : placed) {
-    p.weight =
-        CauchyWeight((fit.PointAt(p.along) - last - p.offset).norm(), scale);
+    p.weight = CauchyWeight(Miss(fit, last, p).norm(), scale);
   }
 }
 
@@ -177,7 +193,7 @@ double MeanSquare(const EndFit& fit,
                   const std::vector<Placed>& placed) {
   double sum = 0, weights = 0;
   for (const Placed& p : placed) {
-    sum += p.weight * (fit.PointAt(p.along) - last - p.offset).squaredNorm();
+    sum += p.weight * Miss(fit, last, p).squaredNorm();
     weights += p.weight;
   }
   return sum / weights;
@@ -232,17 +248,18 @@ EndFit FitEnd(const Curve& curve,
   std::vector<Placed> placed = Take(curve, at_head, segment, fit.pixel);
   if (placed.size() < kMinNumFitted) return fit;
   EndFit arc = fit;
+  SetBases(0, placed);
   for (int round = 0; round < kNumFitRounds; ++round) {
-    if (!SetFrom(SolveArc(placed, arc.bend.norm()), last.position, arc)) {
-      return fit;
-    }
+    if (!SetFrom(SolveArc(placed), last.position, arc)) return fit;
+    SetBases(arc.bend.norm(), placed);
     // Strong bends look like outliers at first.
     if (round < kNumFitRounds / 2) continue;
     Reweight(arc, last.position, kScalePx * fit.pixel, placed);
   }
+  const double arc_square = MeanSquare(arc, last.position, placed);
   EndFit line = fit;
   if (!SetFrom(SolveLine(placed), last.position, line)) return fit;
-  const double arc_square = MeanSquare(arc, last.position, placed);
+  SetBases(0, placed);
   const double line_square = MeanSquare(line, last.position, placed);
   // An arc has a parameter more.
   const auto size = static_cast<double>(placed.size());
