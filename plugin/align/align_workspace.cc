@@ -148,8 +148,11 @@ Status Aligner::TakePositions() {
       ReadPositions(settings_.positions_path, scene_);
   if (!read.ok()) return read.status();
   for (const std::string& note : read->notes) progress_.Note(note);
-  Status sigmas = CheckSigmas(read->positions, settings_.positions_path);
-  if (!sigmas.ok()) return sigmas;
+  const Status sigmas = CheckSigmas(read->positions);
+  if (!sigmas.ok()) {
+    return {sigmas.code(),
+            settings_.positions_path.string() + ": " + sigmas.message()};
+  }
   input_.positions = std::move(read->positions);
   return {};
 }

@@ -169,19 +169,6 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
   return result;
 }
 
-Status CheckSigmas(const std::vector<KnownPosition>& positions,
-                   const std::filesystem::path& path) {
-  constexpr std::size_t kFewest = 3;
-  const bool any_known = std::ranges::any_of(
-      positions, [](const KnownPosition& p) { return p.sigma > 0; });
-  if (any_known || positions.size() >= kFewest) return {};
-  return Status::InvalidArgument(path.string() +
-                                 " gives fewer than three positions of images, "
-                                 "whose uncertainty cannot be "
-                                 "estimated: give a standard deviation in each "
-                                 "line, \"name x y z sigma\"");
-}
-
 Status CheckEpsg(const std::string& code) {
   const std::optional<int> number = ParseNumber<int>(code);
   const std::string why = number && *number >= 1024 && *number <= 32767

@@ -26,10 +26,6 @@ struct CameraPositions {
 Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                                       const Scene& scene);
 
-// kInvalidArgument: fewer than three positions, none with a sigma.
-Status CheckSigmas(const std::vector<KnownPosition>& positions,
-                   const std::filesystem::path& path);
-
 // kInvalidArgument unless `code` is the number of a coordinate system of EPSG
 // whose coordinates are metres, as far as GDAL knows; without GDAL, unless it
 // is a number of one.

@@ -128,7 +128,7 @@ class Estimator {
       if (a.has_scale || a.has_rotation) return {};
       return Status::InvalidArgument("Nothing is given to align to");
     }
-    Status sigmas = CheckSigmas();
+    Status sigmas = CheckSigmas(input_.positions);
     if (!sigmas.ok()) return sigmas;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const KnownPosition& p : input_.positions) mean += p.world;
@@ -138,25 +138,6 @@ class Estimator {
       a.offset[axis] = kOffsetStep * std::round(mean[axis] / kOffsetStep);
     }
     return StartAtPositions();
-  }
-
-  // A common sigma is estimated from the residuals of three positions or more.
-  // Beside others with a sigma, those without could be fitted exactly.
-  Status CheckSigmas() const {
-    constexpr std::ptrdiff_t kFewest = 3;
-    const auto num_known = std::ranges::count_if(
-        input_.positions, [](const KnownPosition& p) { return p.sigma > 0; });
-    const auto size = std::ssize(input_.positions);
-    if (num_known == size) return {};
-    if (num_known > 0) {
-      return Status::InvalidArgument(
-          "Some positions have a standard deviation and others have none: give "
-          "it for all or for none");
-    }
-    if (size >= kFewest) return {};
-    return Status::InvalidArgument(
-        "The uncertainty of fewer than three positions cannot be estimated: "
-        "give a standard deviation after each");
   }
 
   Status StartAtPositions() {
@@ -332,6 +313,24 @@ std::optional<double> MillimetresPer(std::string_view unit) {
     if (name == unit) return millimetres;
   }
   return std::nullopt;
+}
+
+// A common sigma is estimated from the residuals of three positions or more.
+// Beside others with a sigma, those without could be fitted exactly.
+Status CheckSigmas(const std::vector<KnownPosition>& positions) {
+  constexpr std::ptrdiff_t kFewest = 3;
+  const auto num_known = std::ranges::count_if(
+      positions, [](const KnownPosition& p) { return p.sigma > 0; });
+  if (num_known == std::ssize(positions)) return {};
+  if (num_known > 0) {
+    return Status::InvalidArgument(
+        "Some positions have a standard deviation and others have none: give "
+        "it for all or for none");
+  }
+  if (std::ssize(positions) >= kFewest) return {};
+  return Status::InvalidArgument(
+      "The uncertainty of fewer than three positions cannot be estimated: give "
+      "a standard deviation after each");
 }
 
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input) {

@@ -96,6 +96,10 @@ struct AlignmentResult {
   double misfit = 0;
 };
 
+// kInvalidArgument, with a sentence: positions have no sigma and are fewer than
+// three, or only some have one.
+Status CheckSigmas(const std::vector<KnownPosition>& positions);
+
 // The least squares estimate from all of `input`: the scale from distances,
 // scales and two positions or more; the rotation from three positions or more
 // that are not on a line, else from axes, whose heading positions on a line
@@ -105,8 +109,7 @@ struct AlignmentResult {
 // scale, which nothing else depends on. Positions without a sigma all have the
 // same, estimated from their residuals. kInvalidArgument, with a sentence:
 // nothing is given, points of a distance coincide, or positions do not fix the
-// rotation and no axes are given, or positions have no sigma and are fewer than
-// three, or only some have one.
+// rotation and no axes are given, or CheckSigmas() says so.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

@@ -127,22 +127,6 @@ class Seen {
   NeighborsByView neighbors_;
 };
 
-void MakeSharp(std::vector<EdgeMap>& maps) {
-  for (EdgeMap& map : maps) {
-    for (Edge2d& edge : map.edges) {
-      edge.level = Eigen::half(100);
-      edge.strength = 20;
-      edge.sharpness = 1;
-    }
-  }
-}
-
-void SwapSides(EdgeMap& map) {
-  for (Edge2d& edge : map.edges) {
-    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
-  }
-}
-
 const TestCurve kLine = LineCurve({-1, -1, -0.5}, {1, 0.5, 1});
 const TestCurve kCircle = CircleCurve({0, 0, -1}, 0.8);
 
@@ -296,7 +280,7 @@ TEST(GrowCurves, OneAfterTheOtherWhateverTheNumberOfThreads) {
   Seen seen({kLine, kCircle}, 0.1);
   ExpectOneAfterTheOther(seen);
   MakeSharp(seen.maps());
-  SwapSides(seen.maps()[10]);
+  SwapSides(seen.maps()[10].edges);
   ExpectOneAfterTheOther(seen);
 }
 
@@ -353,39 +337,44 @@ TEST(GrowCurves, WhatIsTooShortLeavesItsEdgesToOthers) {
   EXPECT_NEAR(Length(curves[0]), kLine.length, 4 * kPixel);
 }
 
-TEST(GrowCurves, TakesEdgesAsNearAsTheOptionsOfValidationSay) {
-  Seen seen({kLine});
-  for (EdgeMap& map : seen.maps()) {
-    for (Edge2d& edge : map.edges) edge.angle += 0.2f;  // 11 degrees
-  }
-  ValidationOptions strict;
-  strict.max_angle_deg = 5;
-  EXPECT_EQ(seen.Grow({seen.Seed(0, 0.3)}).size(), 1u);
-  EXPECT_TRUE(seen.Grow({seen.Seed(0, 0.3)}, {}, 1, strict).empty());
+constexpr std::int32_t kOther = 10;
 
-  Seen rough({kLine}, 0.2);
+// Of the only curve that grows.
+std::ptrdiff_t NumSupportsOfOther(const Seen& seen,
+                                  const ValidationOptions& validation = {}) {
+  const std::vector<Curve> curves =
+      seen.Grow({seen.Seed(0, 0.3)}, {}, 1, validation);
+  EXPECT_EQ(curves.size(), 1u);
+  std::ptrdiff_t num = 0;
+  for (const CurveSample& sample : curves.at(0).samples) {
+    num += std::ranges::count(sample.support, kOther, &EdgeRef::view_idx);
+  }
+  return num;
+}
+
+TEST(GrowCurves, TakesEdgesAsNearAsTheOptionsOfValidationSay) {
+  Seen shifted({kLine}), turned({kLine});
+  for (Edge2d& edge : shifted.maps()[kOther].edges) {
+    edge.position += 0.4 * ToBrightSide(edge);
+  }
+  for (Edge2d& edge : turned.maps()[kOther].edges) {
+    edge.angle += 0.2f;  // 11 degrees
+  }
   ValidationOptions near;
-  near.max_distance_px = 0.005;
-  EXPECT_EQ(rough.Grow({rough.Seed(0, 0.3)}).size(), 1u);
-  EXPECT_TRUE(rough.Grow({rough.Seed(0, 0.3)}, {}, 1, near).empty());
+  near.max_distance_px = 0.3;
+  near.max_angle_deg = 5;
+  for (const Seen* seen : {&shifted, &turned}) {
+    EXPECT_GT(NumSupportsOfOther(*seen), 100);
+    EXPECT_EQ(NumSupportsOfOther(*seen, near), 0);
+  }
 }
 
 TEST(GrowCurves, EdgesThatAreBrightOnTheOtherSideDoNotSupport) {
-  constexpr std::int32_t kOther = 10;
   Seen seen({kLine});
   MakeSharp(seen.maps());
-  const auto num_supports_of_other = [&] {
-    const std::vector<Curve> curves = seen.Grow({seen.Seed(0, 0.3)});
-    EXPECT_EQ(curves.size(), 1u);
-    std::ptrdiff_t num = 0;
-    for (const CurveSample& sample : curves.at(0).samples) {
-      num += std::ranges::count(sample.support, kOther, &EdgeRef::view_idx);
-    }
-    return num;
-  };
-  EXPECT_GT(num_supports_of_other(), 100);
-  SwapSides(seen.maps()[kOther]);
-  EXPECT_EQ(num_supports_of_other(), 0);
+  EXPECT_GT(NumSupportsOfOther(seen), 100);
+  SwapSides(seen.maps()[kOther].edges);
+  EXPECT_EQ(NumSupportsOfOther(seen), 0);
 }
 
 TEST(GrowCurves, AsksForThreeViews) {

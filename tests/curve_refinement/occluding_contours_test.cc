@@ -20,10 +20,13 @@ class ThickCylinder : public UprightLines {
 
   // Of an upright curve.
   double Ratio(const Eigen::Vector3d& foot, double scale = 1) const {
+    return Ratio(CurveAt(foot), scale);
+  }
+  double Ratio(const Curve& curve, double scale = 1) const {
     const std::vector<PosedView> scaled = Scaled(views(), scale);
     const ImageSupport images(scaled, edge_maps(), 1);
     return ContourLogLikelihoodRatio(
-        Scaled({CurveAt(foot)}, scale).front(), scaled, images, kEdgeSigmaPx);
+        Scaled({curve}, scale).front(), scaled, images, kEdgeSigmaPx);
   }
 };
 
@@ -50,6 +53,22 @@ TEST(ContourLogLikelihoodRatio, TakesNoParallelEdgeForAContour) {
       EXPECT_LT(scene.Ratio(foot), 1) << distance << ", " << direction;
     }
   }
+}
+
+TEST(ContourLogLikelihoodRatio, LooksAtSamplesWithSupportOnly) {
+  ThickCylinder scene;
+  scene.DrawCylinder();
+  const Curve curve = scene.CurveAt(scene.Side());
+  Curve carried_on = curve;
+  for (int k = 1; k <= 40; ++k) {  // 50 pixels further, where no edge is
+    CurveSample& sample = carried_on.samples.emplace_back(curve.samples.back());
+    sample.position += (0.4 + 0.01 * k) * ThickCylinder::Up();
+    sample.support.clear();
+  }
+  EXPECT_GT(scene.Ratio(curve), 4);
+  EXPECT_EQ(scene.Ratio(carried_on), scene.Ratio(curve));
+  for (CurveSample& sample : carried_on.samples) sample.support.clear();
+  EXPECT_EQ(scene.Ratio(carried_on), 0);
 }
 
 TEST(ContourLogLikelihoodRatio, DoesNotDependOnTheUnit) {

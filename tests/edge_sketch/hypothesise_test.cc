@@ -25,13 +25,7 @@ std::vector<PosedView> TwoViewsOneRolled() {
 class LineInTwoViews {
  public:
   explicit LineInTwoViews(std::size_t h1 = 0) : h1_(h1), h2_(1 - h1) {
-    for (EdgeMap& map : maps_) {
-      for (Edge2d& edge : map.edges) {
-        edge.level = Eigen::half(120);
-        edge.strength = 20;
-        edge.sharpness = 1;
-      }
-    }
+    MakeSharp(maps_);
   }
 
   std::vector<Edge2d>& edges1() { return maps_[h1_].edges; }
@@ -59,12 +53,6 @@ class LineInTwoViews {
   std::vector<EdgeMap> maps_ =
       ExactEdgeMaps({LineCurve({-1, -1, -0.5}, {1, 0.5, 1})}, views_, 1);
 };
-
-void SwapSides(std::vector<Edge2d>& edges) {
-  for (Edge2d& edge : edges) {
-    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
-  }
-}
 
 TEST(Hypothesise, PairsEdgesThatLookAlike) {
   for (const std::size_t h1 : {0u, 1u}) {

@@ -272,18 +272,12 @@ TEST_F(TrackSupportTest, ViewsThatShowTheEdgeAlikeAreStrongerEvidence) {
     return tracked ? tracked->evidence : 0;
   };
   const double unknown = evidence();
+  MakeSharp(maps_);
   for (std::size_t i = 0; i < maps_.size(); ++i) {
-    for (Edge2d& edge : maps_[i].edges) {
-      edge.level = Eigen::half(120);
-      edge.strength = 20;
-      edge.sharpness = 1;
-    }
     indices_[i].appearance = AppearanceDensity(maps_[i].edges);
   }
   const double alike = evidence();
-  for (Edge2d& edge : maps_[5].edges) {
-    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
-  }
+  SwapSides(maps_[5].edges);
   const double one_unlike = evidence();
   EXPECT_GT(unknown, 0);
   EXPECT_GT(alike, one_unlike);

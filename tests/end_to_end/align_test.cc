@@ -292,8 +292,9 @@ TEST_F(Align, ASinglePositionMakesNoMap) {
   const std::string line = all.substr(0, all.find('\n'));
   const std::string position = "align --positions " + Quoted(path);
   std::ofstream(path) << line << "\n";
-  ExpectError(position + " --axes auto",
-              path.string() + " gives fewer than three positions");
+  ExpectError(
+      position + " --axes auto",
+      path.string() + ": The uncertainty of fewer than three positions");
   std::ofstream(path) << line << " 0.1\n";
   ExpectError(position + " --axes auto --epsg 25832", "--epsg needs a scale");
   EXPECT_FALSE(fs::exists(results_ / "alignment.json"));

@@ -2,6 +2,8 @@
 #include "plugin/run/stage_store.h"
 
 #include <gtest/gtest.h>
+#include <filesystem>
+#include <string>
 
 #include "base/file_io.h"
 #include "tests/support/temporary_folder.h"
@@ -73,6 +75,19 @@ TEST(StageStore, LoadsNothingOfOtherImages) {
   EXPECT_FALSE(StageStore(folder.path(), kImages).Load(kDetectEdges, 2));
   EXPECT_FALSE(StageStore(folder.path(), kImages + 1).Load(kDetectEdges, 1));
   EXPECT_FALSE(StageStore(folder.path()).Load(kDetectEdges, 1));
+}
+
+TEST(StageStore, RemovesWhatAKilledRunLeftOfTheStageThatItSaves) {
+  const TemporaryFolder folder;
+  const std::filesystem::path left =
+      folder.Write(std::string(kDetectEdges.file) + ".123-4.tmp", "half");
+  const std::filesystem::path other =
+      folder.Write(std::string(kSketchEdges.file) + ".123-4.tmp", "half");
+  StageStore store(folder.path());
+  EXPECT_EQ(store.Save(kDetectEdges, 1, std::vector<EdgeMap>(2)), "");
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(other));
+  EXPECT_TRUE(store.Load(kDetectEdges, 1));
 }
 
 }  // namespace

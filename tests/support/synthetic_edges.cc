@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/angles.h"
 #include "tests/support/random.h"
 #include "tests/support/test_views.h"
 
@@ -192,6 +193,22 @@ std::vector<EdgeMap> ExactEdgeMaps(const std::vector<TestCurve>& curves,
     }
   }
   return edge_maps;
+}
+
+void MakeSharp(std::vector<EdgeMap>& maps) {
+  for (EdgeMap& map : maps) {
+    for (Edge2d& edge : map.edges) {
+      edge.level = Eigen::half(120);
+      edge.strength = 20;
+      edge.sharpness = 1;
+    }
+  }
+}
+
+void SwapSides(std::vector<Edge2d>& edges) {
+  for (Edge2d& edge : edges) {
+    edge.angle += static_cast<float>(edge.angle > 0 ? -kPi : kPi);
+  }
 }
 
 SyntheticEdges MakeSyntheticEdges(const std::vector<TestCurve>& curves,

@@ -47,6 +47,12 @@ std::vector<EdgeMap> ExactEdgeMaps(const std::vector<TestCurve>& curves,
                                    const std::vector<PosedView>& views,
                                    std::uint64_t seed);
 
+// As of sharp images, with the same grey levels beside every edge.
+void MakeSharp(std::vector<EdgeMap>& maps);
+
+// Turns edges by half a turn: the other side is the bright one.
+void SwapSides(std::vector<Edge2d>& edges);
+
 struct SyntheticEdgeOptions {
   int num_views = 12;
   double spacing = 0.008;      // between edges of a track, world units
