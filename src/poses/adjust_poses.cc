@@ -6,6 +6,7 @@
 #include <curvix/scene.h>
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <deque>
@@ -216,18 +217,20 @@ class PoseAdjuster {
       const PoseObservation& seen = equations_.observations()[i];
       const PoseEquation& equation = equations_.equations()[i];
       if (!std::isfinite(start_costs_[seen.sample_idx])) continue;
-      std::vector<double*> unknowns = {
-          unknowns_.offsets[seen.sample_idx].data(),
-          unknowns_.increments[seen.view_idx].data()};
-      int num_lens_params = 0;
-      if (is_free_[seen.camera_idx]) {
-        unknowns.push_back(unknowns_.lenses[seen.camera_idx].data());
-        num_lens_params = equations_.lenses()[seen.camera_idx].num_used();
-      }
+      const std::array unknowns = {unknowns_.offsets[seen.sample_idx].data(),
+                                   unknowns_.increments[seen.view_idx].data(),
+                                   unknowns_.lenses[seen.camera_idx].data()};
+      const bool is_free = is_free_[seen.camera_idx];
+      const int num_lens_params =
+          is_free ? equations_.lenses()[seen.camera_idx].num_used() : 0;
       ceres_.AddResidualBlock(&costs_.emplace_back(equation, num_lens_params),
                               &losses_.emplace_back(equation),
-                              unknowns);
-      ordering_->AddElementToGroup(unknowns.front(), kSamples);
+                              unknowns.data(),
+                              is_free ? 3 : 2);
+    }
+    for (Eigen::Vector3d& offset : unknowns_.offsets) {
+      if (!ceres_.HasParameterBlock(offset.data())) continue;
+      ordering_->AddElementToGroup(offset.data(), kSamples);
     }
   }
 
