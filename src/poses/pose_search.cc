@@ -159,6 +159,7 @@ void PoseSearch::AdjustInTurns(PoseObservationSet* observations) {
     FindEdges(&observations->places);
     UpdateSigmas(observations->places);
     Adjust(observations);
+    if (turn == 0) continue;
     const double previous = std::exchange(
         error_px,
         MedianOr(0, Concatenate(DistancesByView(observations->places))));
@@ -196,10 +197,16 @@ double PoseSearch::PriorFor(const PoseObservationSet& observations) const {
   return observations.points.empty() ? prior_px_ : kFirstPriorPx;
 }
 
-void PoseSearch::Adjust(PoseObservationSet* observations) {
-  const AdjustedPoses adjusted =
-      Solve(*observations, PriorFor(*observations), free_lenses_);
+AdjustedPoses PoseSearch::AdjustCameras(
+    const PoseObservationSet& observations) {
+  AdjustedPoses adjusted =
+      Solve(observations, PriorFor(observations), free_lenses_);
   edges_.Move(adjusted.moved);
+  return adjusted;
+}
+
+void PoseSearch::Adjust(PoseObservationSet* observations) {
+  const AdjustedPoses adjusted = AdjustCameras(*observations);
   for (std::size_t i = 0; i < observations->points.size(); ++i) {
     observations->points[i].position = adjusted.points[i];
   }
@@ -209,7 +216,8 @@ void PoseSearch::Adjust(PoseObservationSet* observations) {
         place.contour = adjusted.contours[i];
         place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
       });
-  if (!free_lenses_.empty()) return;  // another prior
+  // Else another prior.
+  if (!free_lenses_.empty() || !observations->points.empty()) return;
   prior_px_ = std::clamp(
       MedianShift(*observations, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);
 }

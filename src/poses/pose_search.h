@@ -54,7 +54,9 @@ class PoseSearch {
   // Whether any camera rotated.
   bool ShiftViews(const std::vector<CurvePlace>& places);
 
-  // Adjusts poses, free cameras, places and points jointly.
+  // Adjusts poses, free cameras, places and points jointly. The first moves
+  // only the poses and cameras.
+  AdjustedPoses AdjustCameras(const PoseObservationSet& observations);
   void Adjust(PoseObservationSet* observations);
 
   // Alternates FindEdges() and Adjust() until edges come no nearer.

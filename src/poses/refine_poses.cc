@@ -74,8 +74,6 @@ class Refiner {
     after_ = Measure();
     // Before views are restored, which are chosen by the same errors.
     gains_ = CompareErrors(held_out_, cells_, before_, after_);
-    FindWorseViews();
-    if (RestoreWorseViews()) after_ = Measure();
   }
 
   const SpaceCells& cells() const { return cells_; }
@@ -95,6 +93,8 @@ class Refiner {
   }
 
   CurvePoses Finish() {
+    FindWorseViews();
+    if (RestoreWorseViews()) after_ = Measure();
     CurvePoses result = Judge();
     if (result.accepted) AdjustToAll(&result);
     return result;
@@ -160,6 +160,9 @@ class Refiner {
     PoseObservationSet training = observations_;
     PoseObservationSet test =
         HoldOutMore(cells_, {last_held_out_, held_out_.points}, &training);
+    const std::vector<bool> free_lenses =
+        LensesToFree(training, {&observations_, &held_out_}, scene_);
+    if (std::ranges::find(free_lenses, true) == free_lenses.end()) return false;
     const MovedCameras before = search_.edges().moved();
     // The same edges for all, since more edges have a larger loss.
     search_.Fit(&test);
@@ -167,13 +170,10 @@ class Refiner {
     std::vector<double> best_losses = search_.LossesOf(test);
     MovedCameras best = before;
     std::vector<Camera> cameras = before.cameras;
-    const std::vector<bool> free_lenses =
-        LensesToFree(training, {&observations_, &held_out_}, scene_);
     search_.FreeLenses(free_lenses);
     while (!search_.is_stopped()) {
-      PoseObservationSet adjusted = training;
       search_.Move({before.new_cam_from_cam, cameras});
-      search_.Adjust(&adjusted);
+      search_.AdjustCameras(training);
       std::vector<double> losses = search_.LossesOf(test);
       const SignificanceOfGain gain =
           Together(CompareLosses(test, cells_, best_losses, losses));
@@ -198,7 +198,7 @@ class Refiner {
   }
 
   // Whether new cameras shift the image too far for the fall of the errors. Not
-  // without points. Moves the search to `after`.
+  // without points. May move the search to `after`.
   bool BendsScene(const MovedCameras& before, const MovedCameras& after) {
     if (observations_.points.empty()) return false;
     std::vector<double> shifts_px;
@@ -207,6 +207,7 @@ class Refiner {
       shifts_px.push_back(ShiftOfImage(before.cameras[i], after.cameras[i]));
     }
     const double shift_px = Median(std::move(shifts_px));
+    if (!IsShiftTooLarge(shift_px, 0)) return false;
     search_.Move(after);
     const double fall_px = FallOfErrors(before_, Measure());
     if (!IsShiftTooLarge(shift_px, fall_px)) return false;
