@@ -18,7 +18,9 @@ class Collector {
   using DistanceType = double;
   using IndexType = std::size_t;
 
-  explicit Collector(double max_squared) : max_squared_(max_squared) {}
+  explicit Collector(double max_squared)
+      : max_squared_(max_squared),
+        worst_(std::nextafter(max_squared, HUGE_VAL)) {}
 
   std::size_t size() const { return indices_.size(); }
   bool empty() const { return indices_.empty(); }
@@ -28,7 +30,7 @@ class Collector {
     return true;
   }
   // Nodes at exactly this distance are not searched, hence the next number.
-  double worstDist() const { return std::nextafter(max_squared_, HUGE_VAL); }
+  double worstDist() const { return worst_; }
   void sort() { std::ranges::sort(indices_); }
 
   std::vector<std::size_t> Take() {
@@ -37,7 +39,7 @@ class Collector {
   }
 
  private:
-  double max_squared_;
+  double max_squared_, worst_;
   std::vector<std::size_t> indices_;
 };
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -122,6 +122,7 @@ KindProbability Judge(const SurfaceEvidence& evidence) {
         static_cast<double>(left[static_cast<std::size_t>(a)]);
     boundary.push_back(on_left);
     boundary.push_back(static_cast<double>(right[static_cast<std::size_t>(a)]));
+    if (!std::isfinite(on_left)) continue;
     for (int b = 0; b < kNumDirections; ++b) {
       const double both =
           on_left + static_cast<double>(right[static_cast<std::size_t>(b)]);
@@ -152,7 +153,7 @@ struct Places {
   // Of all curves, one after the other: curve and position.
   std::vector<std::size_t> curves;
   std::vector<Vector3d> positions;
-  std::vector<std::vector<int>> views;  // that see them, ascending
+  std::vector<std::vector<int>> views;  // that see them
 };
 
 std::vector<int> ViewsOf(const CurveSample& sample) {
@@ -161,26 +162,42 @@ std::vector<int> ViewsOf(const CurveSample& sample) {
   return views;
 }
 
-// Whether a point nearby is on what the views of a place see: of the views of
-// either, ascending, at least a third of the fewer see both. Other points may
-// be behind a surface.
-bool IsSeenBy(const std::vector<int>& views, const std::vector<int>& of_point) {
-  std::vector<int> common;
-  std::ranges::set_intersection(views, of_point, std::back_inserter(common));
-  return 3 * common.size() >= std::min(views.size(), of_point.size());
-}
+// The views of a place.
+class ViewSet {
+ public:
+  ViewSet(const CurveSample& sample, std::size_t num_views)
+      : size_(sample.support.size()), holds_(num_views) {
+    for (const EdgeRef& ref : sample.support) {
+      holds_[static_cast<std::size_t>(ref.view_idx)] = 1;
+    }
+  }
 
-// The points within `radius` that the views of the sample see. `views_of(i)`
-// are those of point i, ascending.
+  // Whether a point nearby is on what these views see: of the views of either,
+  // at least a third of the fewer see both. Other points may be behind a
+  // surface.
+  bool Sees(const std::vector<int>& of_point) const {
+    std::size_t num_common = 0;
+    for (const int view : of_point) {
+      num_common += holds_[static_cast<std::size_t>(view)];
+    }
+    return 3 * num_common >= std::min(size_, of_point.size());
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<std::uint8_t> holds_;  // per view of the scene: 1 or 0
+};
+
+// The points within `radius` that the `views` of a place see. `views_of(i)` are
+// those of point i.
 template <typename F>
 std::vector<std::size_t> SeenNear(const PointTree& points,
                                   const F& views_of,
-                                  const CurveSample& sample,
+                                  const Vector3d& position,
+                                  const ViewSet& views,
                                   double radius) {
-  const std::vector<int> views = ViewsOf(sample);
-  std::vector<std::size_t> seen = points.Within(sample.position, radius);
-  std::erase_if(seen,
-                [&](std::size_t i) { return !IsSeenBy(views, views_of(i)); });
+  std::vector<std::size_t> seen = points.Within(position, radius);
+  std::erase_if(seen, [&](std::size_t i) { return !views.Sees(views_of(i)); });
   return seen;
 }
 
@@ -264,7 +281,9 @@ class Classifier {
       }
       normal = Across(sample.tangent, normal);
       tangent = sample.tangent;
-      std::vector<Vector3d> nearby = CurvesNearby(curve_idx, sample);
+      const ViewSet views(sample, views_.size());
+      std::vector<Vector3d> nearby =
+          CurvesNearby(curve_idx, sample.position, views);
       const StripPlace place = {
           sample.position, sample.tangent, normal, sample.support};
       evidence.push_back(
@@ -273,8 +292,11 @@ class Classifier {
                         scene_,
                         views_,
                         images_));
-      for (std::size_t k : SeenNear(
-               points_tree_, views_of_point, sample, kNearbyPointPx * pixel)) {
+      for (std::size_t k : SeenNear(points_tree_,
+                                    views_of_point,
+                                    sample.position,
+                                    views,
+                                    kNearbyPointPx * pixel)) {
         nearby.push_back(scene_.points[k].position);
       }
       AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
@@ -282,15 +304,17 @@ class Classifier {
     return evidence;
   }
 
-  // Places on other curves that the views of the sample see.
+  // Places on other curves that the views of a place on this one see.
   std::vector<Vector3d> CurvesNearby(std::size_t curve_idx,
-                                     const CurveSample& sample) const {
+                                     const Vector3d& position,
+                                     const ViewSet& views) const {
     const auto views_of = [&](std::size_t i) -> const std::vector<int>& {
       return places_.views[i];
     };
     const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
     std::vector<Vector3d> nearby;
-    for (std::size_t i : SeenNear(places_tree_, views_of, sample, radius)) {
+    for (std::size_t i :
+         SeenNear(places_tree_, views_of, position, views, radius)) {
       if (places_.curves[i] != curve_idx) {
         nearby.push_back(places_.positions[i]);
       }

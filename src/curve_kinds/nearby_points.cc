@@ -11,6 +11,7 @@
 namespace curvix {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Nearer points may be of the same edge.
@@ -36,21 +37,30 @@ double DistanceAcross(const Vector3d& offset, const StripPlace& place) {
 struct Direction {
   double angle = 0;  // about the tangent, from the normal, radians
   double sigma = 0;
+  double peak = 0;  // largest Ratio()
 };
 
-// Whether most cameras see the direction on side 0.
-bool IsOnFirstSide(double angle, const std::vector<double>& azimuths) {
-  const auto num = std::ranges::count_if(
-      azimuths, [&](double azimuth) { return std::sin(angle - azimuth) > 0; });
-  return 2 * num > static_cast<std::ptrdiff_t>(azimuths.size());
+Direction DirectionOf(double angle, double distance_px) {
+  const double sigma = std::hypot(kDirectionSigma, kPointSigmaPx / distance_px);
+  return {angle, sigma, kPi / (sigma * std::sqrt(2 * kPi))};
+}
+
+// Whether most cameras see the direction on side 0; all of StripPlace::Across.
+bool IsOnFirstSide(const Vector2d& direction,
+                   const std::vector<Vector2d>& cameras) {
+  const auto num = std::ranges::count_if(cameras, [&](const Vector2d& camera) {
+    return camera.x() * direction.y() > camera.y() * direction.x();
+  });
+  return 2 * num > static_cast<std::ptrdiff_t>(cameras.size());
 }
 
 // The density of the direction of a point on a surface that leads in direction
-// `angle`, over that of any direction on this side.
+// `angle`, from 0 to 2 pi, over that of any direction on this side.
 double Ratio(const Direction& point, double angle) {
-  const double apart = std::remainder(point.angle - angle, 2 * kPi);
+  double apart = point.angle - angle;
+  if (apart < -kPi) apart += 2 * kPi;
   const double z = apart / point.sigma;
-  return kPi / (point.sigma * std::sqrt(2 * kPi)) * std::exp(-z * z / 2);
+  return point.peak * std::exp(-z * z / 2);
 }
 
 }  // namespace
@@ -84,32 +94,32 @@ void AddNearbyPoints(const StripPlace& place,
                      const std::vector<PosedView>& views,
                      const std::vector<Vector3d>& points,
                      SurfaceEvidence* evidence) {
-  std::vector<double> azimuths;
+  std::vector<Vector2d> cameras;
   for (const EdgeRef& ref : place.support) {
     const PosedView& view = views[static_cast<std::size_t>(ref.view_idx)];
-    azimuths.push_back(place.AngleOf(view.center - place.position));
+    cameras.push_back(place.Across(view.center - place.position));
   }
   std::array<std::vector<Direction>, 2> sides;
   for (const Vector3d& point : points) {
     const Vector3d offset = point - place.position;
     const double distance_px = DistanceAcross(offset, place) / pixel;
     if (distance_px < kMinDistancePx) continue;
-    const double angle = place.AngleOf(offset);
-    sides[IsOnFirstSide(angle, azimuths) ? 0 : 1].push_back(
-        {angle, std::hypot(kDirectionSigma, kPointSigmaPx / distance_px)});
+    sides[IsOnFirstSide(place.Across(offset), cameras) ? 0 : 1].push_back(
+        DirectionOf(place.AngleOf(offset), distance_px));
   }
   for (std::size_t side = 0; side < 2; ++side) {
     if (sides[side].empty()) continue;
     const auto num = static_cast<double>(sides[side].size());
     const double weight = std::min(1.0, kMaxPoints / num);
     for (int d = 0; d < kNumDirections; ++d) {
+      float& log_bayes = evidence->log_bayes[side][static_cast<std::size_t>(d)];
+      if (!std::isfinite(log_bayes)) continue;
       const double angle = d * 2 * kPi / kNumDirections;
       double sum = 0;
       for (const Direction& point : sides[side]) {
         sum += std::log(kElsewhere + (1 - kElsewhere) * Ratio(point, angle));
       }
-      evidence->log_bayes[side][static_cast<std::size_t>(d)] +=
-          static_cast<float>(weight * sum);
+      log_bayes += static_cast<float>(weight * sum);
     }
   }
 }

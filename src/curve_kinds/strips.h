@@ -27,9 +27,14 @@ struct StripPlace {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();   // unit, across it
   std::vector<EdgeRef> support;
 
+  // Of an offset from the place, along `normal` and tangent x normal.
+  Eigen::Vector2d Across(const Eigen::Vector3d& offset) const {
+    return {offset.dot(normal), offset.dot(tangent.cross(normal))};
+  }
   // About the tangent, from `normal`, of an offset from the place; radians.
   double AngleOf(const Eigen::Vector3d& offset) const {
-    return std::atan2(offset.dot(tangent.cross(normal)), offset.dot(normal));
+    const Eigen::Vector2d across = Across(offset);
+    return std::atan2(across.y(), across.x());
   }
 };
 
