@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_kinds/blurred_images.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -9,6 +12,7 @@
 #include "base/angles.h"
 #include "base/median.h"
 #include "base/parallel.h"
+#include "base/wide_vectors.h"
 #include "edge_detection/load_image.h"
 
 namespace curvix {
@@ -35,6 +39,7 @@ std::int64_t Bytes(const Scene& scene, int shrink) {
 double FineNoise(const GrayImage& gray) {
   constexpr int kStride = 3;
   std::vector<double> responses;
+  responses.reserve(gray.pixels.size() / (kStride * kStride));
   for (int y = 1; y + 1 < gray.height; y += kStride) {
     for (int x = 1; x + 1 < gray.width; x += kStride) {
       const auto row = [&](int v) {
@@ -64,18 +69,52 @@ BlurredImage Blur(GrayImage gray, int shrink) {
   }
   // Of white noise, the sum of the squared weights is left.
   const double gain = 1 / (4 * kPi * kBlurPx * kBlurPx) / (shrink * shrink);
-  cv::Mat blurred, bytes;
+  cv::Mat blurred;
   cv::GaussianBlur(small, blurred, cv::Size(), kBlurPx);
-  blurred.convertTo(bytes, CV_8U);
-  return {bytes.cols,
-          bytes.rows,
+  std::vector<std::uint8_t> pixels(blurred.total());
+  blurred.convertTo(cv::Mat(blurred.size(), CV_8U, pixels.data()), CV_8U);
+  return {blurred.cols,
+          blurred.rows,
           1.0 / shrink,
-          std::vector<std::uint8_t>(bytes.begin<std::uint8_t>(),
-                                    bytes.end<std::uint8_t>()),
+          std::move(pixels),
           gain * noise * noise};
 }
 
 }  // namespace
+
+// Step by step, block by block: all but the look-up itself is vectorised.
+CURVIX_WIDE_VECTORS
+void BlurredImage::LookUp(std::span<const float> x,
+                          std::span<const float> y,
+                          float* values) const {
+  constexpr std::size_t kBlock = 64;
+  std::array<int, kBlock> first, p00, p01, p10, p11;
+  std::array<float, kBlock> right, below;
+  for (std::size_t begin = 0; begin < x.size(); begin += kBlock) {
+    const std::size_t num = std::min(kBlock, x.size() - begin);
+    for (std::size_t i = 0; i < num; ++i) {
+      const int column = std::min(static_cast<int>(x[begin + i]), width - 2);
+      const int row = std::min(static_cast<int>(y[begin + i]), height - 2);
+      right[i] = x[begin + i] - static_cast<float>(column);
+      below[i] = y[begin + i] - static_cast<float>(row);
+      first[i] = row * width + column;
+    }
+    for (std::size_t i = 0; i < num; ++i) {
+      const std::uint8_t* const p = pixels.data() + first[i];
+      p00[i] = p[0];
+      p01[i] = p[1];
+      p10[i] = p[width];
+      p11[i] = p[width + 1];
+    }
+    for (std::size_t i = 0; i < num; ++i) {
+      const float upper = static_cast<float>(p00[i]) +
+                          right[i] * static_cast<float>(p01[i] - p00[i]);
+      const float lower = static_cast<float>(p10[i]) +
+                          right[i] * static_cast<float>(p11[i] - p10[i]);
+      values[begin + i] = upper + below[i] * (lower - upper);
+    }
+  }
+}
 
 std::vector<BlurredImage> LoadBlurredImages(const Scene& scene,
                                             int num_threads) {

@@ -5,9 +5,8 @@
 #include <curvix/scene.h>
 
 #include <Eigen/Core>
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace curvix {
@@ -29,22 +28,12 @@ struct BlurredImage {
            at.y() < height - margin;
   }
 
-  // Grey level, 0..255, bilinear, at (x, y) in pixels here, of which the first
-  // has its centre at (0, 0); from 0 to width - 1 and height - 1. Of at least
-  // two pixels either way.
-  float At(float x, float y) const {
-    const int column = std::min(static_cast<int>(x), width - 2);
-    const int row = std::min(static_cast<int>(y), height - 2);
-    const float right = x - static_cast<float>(column);
-    const float below = y - static_cast<float>(row);
-    const std::uint8_t* const p = &pixels[static_cast<std::size_t>(row) *
-                                              static_cast<std::size_t>(width) +
-                                          static_cast<std::size_t>(column)];
-    const float above_value = p[0] + right * static_cast<float>(p[1] - p[0]);
-    const float below_value =
-        p[width] + right * static_cast<float>(p[width + 1] - p[width]);
-    return above_value + below * (below_value - above_value);
-  }
+  // Grey levels, 0..255, bilinear, at (x[i], y[i]) in pixels here, of which the
+  // first has its centre at (0, 0); from 0 to width - 1 and height - 1. Of at
+  // least two pixels either way. As many `values` as `x` and `y`.
+  void LookUp(std::span<const float> x,
+              std::span<const float> y,
+              float* values) const;
 };
 
 // One per view, in order; empty where the image cannot be read. If all of them

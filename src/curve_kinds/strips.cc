@@ -129,14 +129,16 @@ bool Sample(const LocalView& view,
       return false;
     }
   }
-  int i = 0;
+  std::array<float, kNumPixels> x, y;
+  std::size_t i = 0;
   for (int a = 0; a < kNumAcross; ++a) {
     Vector2d at = view.pixel + (kFirstAcrossPx + a) * across - side;
-    for (int b = 0; b < kNumAlong; ++b, at += kAlongStepPx * along) {
-      (*strip)[i++] = view.image->At(static_cast<float>(at.x()),
-                                     static_cast<float>(at.y()));
+    for (int b = 0; b < kNumAlong; ++b, ++i, at += kAlongStepPx * along) {
+      x[i] = static_cast<float>(at.x());
+      y[i] = static_cast<float>(at.y());
     }
   }
+  view.image->LookUp(x, y, strip->data());
   strip->array() -= strip->mean();
   return true;
 }
@@ -164,7 +166,7 @@ class StripSet {
 };
 
 StripSet::Gram StripSet::InnerProducts(int num_pixels) const {
-  Gram gram;
+  Gram gram = Gram::Zero();
   std::array<float, kMaxViews> means;
   for (int i = 0; i < num_; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -189,20 +191,24 @@ double DropWorst(const Gram& gram, int num, std::vector<int>* left) {
   std::iota(left->begin(), left->end(), 0);
   const auto num_agreeing = static_cast<std::size_t>(
       std::max(kMinViews, static_cast<int>(std::ceil(kAgreeingShare * num))));
+  Eigen::Array<double, kMaxViews, kMaxViews> squares;
+  for (int j = 0; j < num; ++j) {
+    squares.col(j) =
+        (gram.diagonal().array() + gram(j, j) - 2 * gram.col(j).array())
+            .template cast<double>();
+  }
   while (true) {
-    std::vector<double> sums;
-    for (const int i : *left) {
-      double sum = 0;
-      for (const int j : *left) {
-        sum += static_cast<double>(gram(i, i) + gram(j, j) - 2 * gram(i, j));
-      }
-      sums.push_back(sum);
+    Eigen::Array<double, kMaxViews, 1> sums = squares.col(left->front());
+    for (std::size_t k = 1; k < left->size(); ++k) {
+      sums += squares.col((*left)[k]);
     }
     if (left->size() <= num_agreeing) {
-      return std::accumulate(sums.begin(), sums.end(), 0.0);
+      double sum = 0;
+      for (const int i : *left) sum += sums[i];
+      return sum;
     }
-    left->erase(left->begin() +
-                (std::ranges::max_element(sums) - sums.begin()));
+    left->erase(
+        std::ranges::max_element(*left, {}, [&](int i) { return sums[i]; }));
   }
 }
 
@@ -284,13 +290,14 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
   std::array<StripSet, 2> sides;
   for (int d = 0; d < kNumDirections; ++d) {
     const double angle = d * 2 * kPi / kNumDirections;
+    const double cosine = std::cos(angle), sine = std::sin(angle);
     for (StripSet& side : sides) side.Clear();
     for (const LocalView& view : seen) {
-      const double sine = std::sin(angle - view.azimuth);
-      if (std::abs(sine) < kMinSine) continue;
-      StripSet& side = sides[sine > 0 ? 0 : 1];
-      const Vector2d across = step * (std::cos(angle) * view.normal +
-                                      std::sin(angle) * view.binormal);
+      const double facing = std::sin(angle - view.azimuth);
+      if (std::abs(facing) < kMinSine) continue;
+      StripSet& side = sides[facing > 0 ? 0 : 1];
+      const Vector2d across =
+          step * (cosine * view.normal + sine * view.binormal);
       if (Sample(view, across, step * view.along, side.Next())) side.Keep();
     }
     for (std::size_t side = 0; side < 2; ++side) {
