@@ -35,24 +35,33 @@ class GridIndex {
   // edges lie so far apart that this takes too many buckets, cells are larger.
   GridIndex(const std::vector<Edge2d>& edges, double cell_size_px);
 
-  // Calls f(edge) for each edge in buckets that meet the axis-aligned square of
-  // half-width `radius_px` around `center`: all edges inside the square and
-  // some around it; bucket by bucket in row order, always the same order.
+  // Calls f(edge) for each edge in buckets that meet the axis-aligned rectangle
+  // of half-widths `reach_px` around `center`: all edges inside it and some
+  // around it; bucket by bucket in row order, always the same order.
   template <typename F>
   void VisitAround(const Eigen::Vector2d& center,
-                   double radius_px,
+                   const Eigen::Vector2d& reach_px,
                    const F& f) const {
     if (edges_.empty()) return;
-    const int column_begin =
-        Cell(center.x() - radius_px - origin_.x(), columns_);
-    const int column_end = Cell(center.x() + radius_px - origin_.x(), columns_);
-    const int row_begin = Cell(center.y() - radius_px - origin_.y(), rows_);
-    const int row_end = Cell(center.y() + radius_px - origin_.y(), rows_);
+    const Eigen::Vector2d first = center - reach_px - origin_;
+    const Eigen::Vector2d last = center + reach_px - origin_;
+    const int column_begin = Cell(first.x(), columns_);
+    const int column_end = Cell(last.x(), columns_);
+    const int row_begin = Cell(first.y(), rows_);
+    const int row_end = Cell(last.y(), rows_);
     for (int row = row_begin; row <= row_end; ++row) {
       const IndexedEdge* edge = BucketBegin(Bucket(column_begin, row));
       const IndexedEdge* end = BucketBegin(Bucket(column_end, row) + 1);
       for (; edge != end; ++edge) f(*edge);
     }
+  }
+
+  // The same of a square.
+  template <typename F>
+  void VisitAround(const Eigen::Vector2d& center,
+                   double reach_px,
+                   const F& f) const {
+    VisitAround(center, Eigen::Vector2d::Constant(reach_px).eval(), f);
   }
 
   // Visits pairs of neighbouring edges: f(edge, begin, end) stands for the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_refinement/image_support.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -52,9 +53,18 @@ std::vector<double> ImageSupport::Beside(std::size_t view_idx,
                                          const ImageEdge& projected,
                                          double max_distance_px) const {
   const Gate gate{max_distance_px};
+  // Around all places of such edges: how far along the projected edge, and the
+  // rectangle.
+  const double along_px =
+      gate.tangential_px +
+      max_distance_px * std::sqrt(1 - gate.min_cosine * gate.min_cosine);
+  const Eigen::Vector2d direction = projected.tangent.cwiseAbs();
+  const Eigen::Vector2d reach_px =
+      (along_px * direction + max_distance_px * direction.reverse())
+          .cwiseMin(max_distance_px);
   std::vector<double> distances;
   grids_[view_idx].VisitAround(
-      projected.position, max_distance_px, [&](const IndexedEdge& edge) {
+      projected.position, reach_px, [&](const IndexedEdge& edge) {
         Eigen::Vector2d tangent = edge.tangent.cast<double>();
         const double cosine = tangent.dot(projected.tangent);
         if (std::abs(cosine) < gate.min_cosine) return;
@@ -69,6 +79,7 @@ std::vector<double> ImageSupport::Beside(std::size_t view_idx,
         }
         distances.push_back(across);
       });
+  std::ranges::sort(distances);
   return distances;
 }
 

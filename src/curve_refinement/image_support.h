@@ -33,7 +33,7 @@ class ImageSupport {
 
   // The edges of a view that run along a projected edge, at most 15 degrees
   // off, and pass it at most `max_distance_px` beside: their signed distances,
-  // positive on the side to which (-tangent.y, tangent.x) points.
+  // positive on the side to which (-tangent.y, tangent.x) points; ascending.
   std::vector<double> Beside(std::size_t view_idx,
                              const ImageEdge& projected,
                              double max_distance_px) const;

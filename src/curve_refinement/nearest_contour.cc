@@ -22,11 +22,10 @@ constexpr double kFarSigmas = 12;
 }  // namespace
 
 double NearestResidual(const std::vector<double>& edges_px, double at_px) {
-  double nearest = kInfinity;
-  for (const double edge_px : edges_px) {
-    if (std::abs(edge_px - at_px) < std::abs(nearest)) {
-      nearest = edge_px - at_px;
-    }
+  const auto above = std::ranges::lower_bound(edges_px, at_px);
+  double nearest = above == edges_px.end() ? kInfinity : *above - at_px;
+  if (above != edges_px.begin() && at_px - *(above - 1) < nearest) {
+    nearest = *(above - 1) - at_px;
   }
   return nearest;
 }

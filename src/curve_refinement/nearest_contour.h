@@ -11,7 +11,7 @@ namespace curvix {
 constexpr double kPlaceSpacingPx = 15;
 
 // From a contour `at_px` beside the curve to the nearest of `edges_px`, signed
-// distances from the curve; infinite without any.
+// distances from the curve, ascending; infinite without any.
 double NearestResidual(const std::vector<double>& edges_px, double at_px);
 
 // Of an edge this far from where a contour is expected, over that of other

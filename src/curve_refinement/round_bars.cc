@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -192,14 +193,40 @@ Vector2d FitEdge(const BarPlace& place, const Vector2d& start) {
   return at;
 }
 
+// From where a view shows the contours of a bar to the nearest edges.
+std::array<double, 2> ResidualsOfSides(const BarPlaceInView& seen,
+                                       const Vector2d& axis,
+                                       double radius_px) {
+  const double middle_px = seen.slope.dot(axis);
+  const double half_px = seen.slope_of_radius * radius_px;
+  return {NearestResidual(seen.edges_px, middle_px + half_px),
+          NearestResidual(seen.edges_px, middle_px - half_px)};
+}
+
+// Whether enough views show both contours.
+bool ShowsBoth(const std::vector<BarPlace>& places,
+               const Bar& bar,
+               double edge_sigma_px) {
+  double num_views = 0, num_both = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const BarPlaceInView& seen : places[i].views) {
+      const auto [side1, side2] =
+          ResidualsOfSides(seen, bar.axis[i], bar.radius_px);
+      num_both += std::max(std::abs(side1), std::abs(side2)) <
+                  kSeenSigmas * edge_sigma_px;
+      ++num_views;
+    }
+  }
+  return num_both >= kMinShareOfBoth * num_views;
+}
+
 // Log-likelihood ratio of a bar, whose contour on `side` is the curve, to edges
 // in space, mean over places: one edge by each contour, and the curve itself.
-// Minus infinity if too few views show both contours.
 double RatioOfBar(const std::vector<BarPlace>& places,
                   const Bar& bar,
                   double side,
                   double edge_sigma_px) {
-  double ratio = 0, num_views = 0, num_both = 0;
+  double ratio = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const BarPlace& place = places[i];
     const Vector2d to_side = bar.radius_px * place.outward;
@@ -213,22 +240,16 @@ double RatioOfBar(const std::vector<BarPlace>& places,
         return LogLikelihoodOfContour(
             residual_px, edge_sigma_px, place.density);
       };
-      const double middle_px = seen.slope.dot(bar.axis[i]);
-      const double half_px = seen.slope_of_radius * bar.radius_px;
-      const double side1 = residual(middle_px + half_px);
-      const double side2 = residual(middle_px - half_px);
+      const auto [side1, side2] =
+          ResidualsOfSides(seen, bar.axis[i], bar.radius_px);
       double of_edge1 = log_likelihood(residual(seen.slope.dot(edge1)));
       double of_edge2 = log_likelihood(residual(seen.slope.dot(edge2)));
       double& of_own_edge = side > 0 ? of_edge1 : of_edge2;
       of_own_edge = std::max(of_own_edge, log_likelihood(residual(0)));
       ratio +=
           log_likelihood(side1) + log_likelihood(side2) - of_edge1 - of_edge2;
-      num_both += std::max(std::abs(side1), std::abs(side2)) <
-                  kSeenSigmas * edge_sigma_px;
-      ++num_views;
     }
   }
-  if (num_both < kMinShareOfBoth * num_views) return -kInfinity;
   return ratio / static_cast<double>(places.size());
 }
 
@@ -253,7 +274,8 @@ double RatioNear(const std::vector<BarPlace>& places,
     distance_px +=
         (bar.axis[i] + side * bar.radius_px * places[i].outward).norm();
   }
-  if (distance_px > kMaxDistancePx * static_cast<double>(places.size())) {
+  if (distance_px > kMaxDistancePx * static_cast<double>(places.size()) ||
+      !ShowsBoth(places, bar, edge_sigma_px)) {
     return -kInfinity;
   }
   return RatioOfBar(places, bar, side, edge_sigma_px);
