@@ -70,44 +70,50 @@ Json FitJson(const CurveFit& fit) {
   return json;
 }
 
-// `edge` is the first of the sample's edges; it is moved behind the last.
-Json SupportJson(const Scene& scene,
-                 const CurveSample& sample,
-                 std::vector<Edge2d>::const_iterator& edge) {
-  Json::array_t support;
-  support.reserve(sample.support.size());
-  for (const EdgeRef& ref : sample.support) {
-    const auto shown = FindSupportingEdge(scene, sample, ref, *edge++);
-    const auto [pixel, residual_px] = shown.value_or(SupportingEdge());
-    Json::array_t row;
-    row.reserve(4);
-    row.emplace_back(
-        scene.views[static_cast<std::size_t>(ref.view_idx)].image_id);
-    for (const double value : {pixel.x(), pixel.y(), residual_px}) {
-      row.push_back(shown ? Json(Rounded(value, kPixelDecimals)) : Json());
-    }
-    support.emplace_back(std::move(row));
+// `edge` is that of `ref`.
+void AppendSupport(const Scene& scene,
+                   const CurveSample& sample,
+                   const EdgeRef& ref,
+                   const Edge2d& edge,
+                   std::string& out) {
+  const auto shown = FindSupportingEdge(scene, sample, ref, edge);
+  out += '[';
+  AppendJson(scene.views[static_cast<std::size_t>(ref.view_idx)].image_id, out);
+  const auto [pixel, residual_px] = shown.value_or(SupportingEdge());
+  for (const double value : {pixel.x(), pixel.y(), residual_px}) {
+    out += ',';
+    AppendJson(shown ? Rounded(value, kPixelDecimals) : std::nan(""), out);
   }
-  return support;
+  out += ']';
 }
 
-Json SampleJson(const Scene& scene,
-                const CurveSample& sample,
-                std::vector<Edge2d>::const_iterator& edge) {
-  Json tangent = Json::array();
-  for (const double x : sample.tangent) {
-    tangent.push_back(Rounded(x, kTangentDecimals));
-  }
-  // Most of the file: without the temporaries of an initializer list.
-  Json json;
-  json["position"] = VectorJson(sample.position);
-  json["tangent"] = std::move(tangent);
-  json["sigma"] = RoundedToDigits(sample.sigma, kCovarianceDigits);
-  json["covariance"] = CovarianceJson(sample.covariance, kCovarianceDigits);
-  json["kind_probability"] =
-      Rounded(sample.kind_probability, kProbabilityDecimals);
-  json["support"] = SupportJson(scene, sample, edge);
-  return json;
+// `edge` is the first of the sample's edges; it is moved behind the last.
+void AppendSample(const Scene& scene,
+                  const CurveSample& sample,
+                  std::vector<Edge2d>::const_iterator& edge,
+                  std::string& out) {
+  const auto tangent = [](double x, std::string& text) {
+    AppendJson(Rounded(x, kTangentDecimals), text);
+  };
+  const auto digits = [](double x, std::string& text) {
+    AppendJson(RoundedToDigits(x, kCovarianceDigits), text);
+  };
+  out += "{\"position\":";
+  AppendJsonList(sample.position, AppendJson<double>, out);
+  out += ",\"tangent\":";
+  AppendJsonList(sample.tangent, tangent, out);
+  out += ",\"sigma\":";
+  digits(sample.sigma, out);
+  out += ",\"covariance\":";
+  AppendJsonList(Triangle(sample.covariance), digits, out);
+  out += ",\"kind_probability\":";
+  AppendJson(Rounded(sample.kind_probability, kProbabilityDecimals), out);
+  out += ",\"support\":";
+  const auto support = [&](const EdgeRef& ref, std::string& text) {
+    AppendSupport(scene, sample, ref, *edge++, text);
+  };
+  AppendJsonList(sample.support, support, out);
+  out += '}';
 }
 
 // The runs of samples of one kind.
@@ -126,26 +132,30 @@ Json KindsJson(const Curve& curve) {
   return kinds;
 }
 
-// `edges` are the support of the samples, one after the other.
-Json CurveJson(const CurveRecord& record,
-               std::size_t id,
-               const Curve& curve,
-               const std::vector<Edge2d>& edges) {
+// `edges` are the support of the samples, one after the other. The samples,
+// most of the file, are written without a Json of them.
+std::string CurveText(const CurveRecord& record,
+                      std::size_t id,
+                      const Curve& curve,
+                      const std::vector<Edge2d>& edges) {
   Json json = {{"id", id},
                {"closed", curve.closed},
                {"length", Length(curve)},
                {"kind", KindName(MainKind(curve))},
                {"kinds", KindsJson(curve)},
-               {"fits", Json::array()},
-               {"samples", Json::array()}};
+               {"fits", Json::array()}};
   for (const CurveFit& fit : record.fitted.curves[id].fits) {
     json["fits"].push_back(FitJson(fit));
   }
+  std::string text = JsonText(json);
+  text.pop_back();
+  text += ",\"samples\":";
   auto edge = edges.begin();
-  for (const CurveSample& sample : curve.samples) {
-    json["samples"].push_back(SampleJson(record.scene, sample, edge));
-  }
-  return json;
+  const auto append = [&](const CurveSample& sample, std::string& out) {
+    AppendSample(record.scene, sample, edge, out);
+  };
+  AppendJsonList(curve.samples, append, text);
+  return text += '}';
 }
 
 std::vector<Edge2d> SupportOf(const CurveSource& curves, const Curve& curve) {
@@ -232,12 +242,6 @@ std::optional<SupportingEdge> FindSupportingEdge(const Scene& scene,
 
 Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-double Rounded(double value, int num_decimals) {
-  const double scale = std::pow(10.0, num_decimals);
-  const double scaled = std::round(value * scale);
-  return scaled == 0 ? 0.0 : scaled / scale;
-}
-
 double RoundedToDigits(double value, int num_digits) {
   return ParseNumber<double>(ShortText(value, num_digits)).value_or(value);
 }
@@ -255,23 +259,23 @@ std::string JsonText(const Json& json) {
   return text;
 }
 
-void JsonLines::Add(std::function<Json()> value) {
+void JsonLines::Add(std::function<std::string()> text) {
   constexpr std::size_t kNumAtATime = 256;
-  values_.push_back(std::move(value));
-  if (values_.size() == kNumAtATime) Flush();
+  texts_.push_back(std::move(text));
+  if (texts_.size() == kNumAtATime) Flush();
 }
 
 void JsonLines::Flush() {
-  std::vector<std::string> lines(values_.size());
+  std::vector<std::string> lines(texts_.size());
   ParallelFor(lines.size(), num_threads_, [&](std::size_t i) {
-    lines[i] = JsonText(values_[i]());
+    lines[i] = texts_[i]();
   });
   for (const std::string& line : lines) {
     sink_(is_first_ ? "\n" : ",\n");
     sink_(line);
     is_first_ = false;
   }
-  values_.clear();
+  texts_.clear();
 }
 
 void EncodeCurvesJson(const CurveRecord& record,
@@ -280,7 +284,7 @@ void EncodeCurvesJson(const CurveRecord& record,
   const auto put = [&](const auto& items, const auto& json_of) {
     JsonLines lines(num_threads, sink);
     for (const auto& item : items) {
-      lines.Add([&] { return json_of(item); });
+      lines.Add([&] { return JsonText(json_of(item)); });
     }
     lines.Flush();
   };
@@ -299,7 +303,7 @@ void EncodeCurvesJson(const CurveRecord& record,
   JsonLines lines(num_threads, sink);
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {
     lines.Add([&record, id, curve, edges = SupportOf(record.curves, curve)] {
-      return CurveJson(record, id, curve, edges);
+      return CurveText(record, id, curve, edges);
     });
   });
   lines.Flush();

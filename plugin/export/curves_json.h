@@ -7,12 +7,16 @@
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "measuring/world_alignment.h"
 #include "plugin/base/json.h"
 
@@ -50,15 +54,15 @@ void EncodeCurvesJson(const CurveRecord& record,
                       int num_threads,
                       const ByteSink& sink);
 
-// JSON values on a line each, with commas between, which are encoded on several
-// threads, some hundred at a time. `sink` must outlive it.
+// Texts of JSON values on a line each, with commas between, which are made on
+// several threads, some hundred at a time. `sink` must outlive it.
 class JsonLines {
  public:
   JsonLines(int num_threads, const ByteSink& sink)
       : num_threads_(num_threads), sink_(sink) {}
 
-  // `value` is called later, on any thread.
-  void Add(std::function<Json()> value);
+  // `text` is called later, on any thread.
+  void Add(std::function<std::string()> text);
   // Writes what has been added.
   void Flush();
 
@@ -66,17 +70,50 @@ class JsonLines {
   int num_threads_;
   const ByteSink& sink_;
   bool is_first_ = true;
-  std::vector<std::function<Json()>> values_;
+  std::vector<std::function<std::string()>> texts_;
 };
 
 // `json` on one line, safe within an HTML <script> element too. Numbers that
 // are not finite are null.
 std::string JsonText(const Json& json);
 
+// Appends a number as JsonText writes it.
+template <typename T>
+void AppendJson(T value, std::string& out) {
+  if constexpr (std::is_integral_v<T>) {
+    AppendNumber(value, out);
+  } else if (std::isfinite(value)) {
+    std::array<char, 64> text;
+    out.append(text.data(),
+               nlohmann::detail::to_chars(
+                   text.data(), text.data() + text.size(), value));
+  } else {
+    out += "null";
+  }
+}
+
+// Appends a JSON array of what `append`(item, out) appends for each item.
+template <typename Items, typename Append>
+void AppendJsonList(const Items& items,
+                    const Append& append,
+                    std::string& out) {
+  out += '[';
+  for (const auto& item : items) {
+    append(item, out);
+    out += ',';
+  }
+  if (out.back() == ',') out.pop_back();
+  out += ']';
+}
+
 Json VectorJson(const Eigen::Vector3d& v);
 
 // `value`, finite, with so many digits behind the point at most.
-double Rounded(double value, int num_decimals);
+inline double Rounded(double value, int num_decimals) {
+  const double scale = std::pow(10.0, num_decimals);
+  const double scaled = std::round(value * scale);
+  return scaled == 0 ? 0.0 : scaled / scale;
+}
 
 // The double nearest to `value` in so many significant digits, at most 17.
 double RoundedToDigits(double value, int num_digits);

@@ -110,9 +110,9 @@ Json FitsJson(const FittedCurve& fitted) {
   return fits;
 }
 
-Json CurveJson(const Curve& curve,
-               const FittedCurve& fitted,
-               int num_decimals) {
+std::string ShortCurveText(const Curve& curve,
+                           const FittedCurve& fitted,
+                           int num_decimals) {
   std::vector<double> coordinates;
   std::vector<std::size_t> support;
   for (const CurveSample& sample : curve.samples) {
@@ -121,15 +121,19 @@ Json CurveJson(const Curve& curve,
       coordinates.push_back(Rounded(x, num_decimals));
     }
   }
-  return {{"c", curve.closed},
-          {"p", coordinates},
-          {"s", support},
-          {"g", MedianSigma(curve)},
-          {"l", Length(curve)},
-          {"k", KindOf(fitted)},
-          {"w", KindName(MainKind(curve))},
-          {"f", FitsJson(fitted)},
-          {"v", SupportingViews(curve)}};
+  // The long lists are written without a Json of them.
+  std::string text = curve.closed ? "{\"c\":true" : "{\"c\":false";
+  text += ",\"p\":";
+  AppendJsonList(coordinates, AppendJson<double>, text);
+  text += ",\"s\":";
+  AppendJsonList(support, AppendJson<std::size_t>, text);
+  const Json rest = {{"g", MedianSigma(curve)},
+                     {"l", Length(curve)},
+                     {"k", KindOf(fitted)},
+                     {"w", KindName(MainKind(curve))},
+                     {"f", FitsJson(fitted)},
+                     {"v", SupportingViews(curve)}};
+  return text + ',' + JsonText(rest).substr(1);
 }
 
 // So many that the size of the curves has kNumCoordinateDigits.
@@ -242,7 +246,7 @@ void EncodeViewerHtml(const CurveRecord& record,
   JsonLines lines(num_threads, sink);
   record.curves.ForEach([&](std::size_t id, const Curve& curve) {
     lines.Add([&record, num_decimals, id, curve] {
-      return CurveJson(curve, record.fitted.curves[id], num_decimals);
+      return ShortCurveText(curve, record.fitted.curves[id], num_decimals);
     });
   });
   lines.Flush();
