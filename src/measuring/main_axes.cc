@@ -50,9 +50,26 @@ int AxisOf(const KnownDirection& d, const Frame& frame) {
   return -1;
 }
 
-double LengthAlong(const Directions& directions, const Frame& frame) {
+// Of each direction and all that come after it: no less than their length.
+std::vector<double> LengthsLeft(const Directions& directions) {
+  constexpr double kRounding = 1 + 1e-9;
+  std::vector<double> left(directions.size());
   double sum = 0;
-  for (const KnownDirection& d : directions) {
+  for (std::size_t i = left.size(); i-- > 0;) {
+    sum += kRounding * directions[i].length;
+    left[i] = sum;
+  }
+  return left;
+}
+
+// Exact only if it is more than `most`. `left`: LengthsLeft.
+double LengthAlong(const Directions& directions,
+                   const std::vector<double>& left,
+                   const Frame& frame,
+                   double most) {
+  double sum = 0;
+  for (std::size_t i = 0; i < left.size() && sum + left[i] > most; ++i) {
+    const KnownDirection& d = directions[i];
     const int axis = AxisOf(d, frame);
     if (axis < 0) continue;
     sum +=
@@ -64,6 +81,7 @@ double LengthAlong(const Directions& directions, const Frame& frame) {
 std::optional<Frame> BestFrame(const Directions& directions) {
   const std::size_t n = std::min(directions.size(), kMaxCandidates);
   const double limit = std::sin(DegToRad(kPerpendicularDeg));
+  const std::vector<double> left = LengthsLeft(directions);
   std::optional<Frame> best;
   double most = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -75,7 +93,7 @@ std::optional<Frame> BestFrame(const Directions& directions) {
       frame.col(0) = first;
       frame.col(1) = (second - first.dot(second) * first).normalized();
       frame.col(2) = frame.col(0).cross(frame.col(1));
-      const double length = LengthAlong(directions, frame);
+      const double length = LengthAlong(directions, left, frame, most);
       if (length > most) best = frame;
       most = std::max(most, length);
     }
