@@ -21,16 +21,14 @@ void AppendSegment(std::size_t a, std::size_t b, std::string& out) {
   out += '\n';
 }
 
-void AppendVertex(const Eigen::Vector3d& position,
-                  const Rgb& color,
-                  std::string& out) {
-  out += "v ";
-  AppendNumbers(position, ' ', out);
+// The end of the line of a vertex.
+std::string ColorText(const Rgb& color) {
+  std::string text;
   for (const std::uint8_t channel : color) {
-    out += ' ';
-    AppendNumber(std::round(channel / 0.255) / 1000, out);
+    text += ' ';
+    AppendNumber(std::round(channel / 0.255) / 1000, text);
   }
-  out += '\n';
+  return text += '\n';
 }
 
 // Adds the vertices and edges of one line; false if it is broken.
@@ -72,8 +70,11 @@ void EncodeObjLines(const CurveSource& curves, const ByteSink& sink) {
     std::string out = "o curve_";
     AppendNumber(id, out);
     out += '\n';
+    const std::string color = ColorText(CurveColor(id));
     for (const CurveSample& sample : curve.samples) {
-      AppendVertex(sample.position, CurveColor(id), out);
+      out += "v ";
+      AppendNumbers(sample.position, ' ', out);
+      out += color;
     }
     for (std::size_t i = 1; i < n; ++i) {
       AppendSegment(first + i - 1, first + i, out);
