@@ -44,10 +44,10 @@ double SquaredTolerance(const KnownDirection& d) {
 
 // The axis that a direction shares, or -1.
 int AxisOf(const KnownDirection& d, const Frame& frame) {
-  for (int i = 0; i < 3; ++i) {
-    if (SquaredSine(d, frame.col(i)) < SquaredTolerance(d)) return i;
-  }
-  return -1;
+  int nearest = 0;
+  (frame.transpose() * d.along).cwiseAbs().maxCoeff(&nearest);
+  return SquaredSine(d, frame.col(nearest)) < SquaredTolerance(d) ? nearest
+                                                                  : -1;
 }
 
 // Of each direction and all that come after it: no less than their length.
