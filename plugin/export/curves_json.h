@@ -7,12 +7,10 @@
 #include <curvix/fitting.h>
 #include <curvix/scene.h>
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "base/file_io.h"
@@ -77,16 +75,11 @@ class JsonLines {
 // are not finite are null.
 std::string JsonText(const Json& json);
 
-// Appends a number as JsonText writes it.
+// Appends a number, null if it is not finite.
 template <typename T>
 void AppendJson(T value, std::string& out) {
-  if constexpr (std::is_integral_v<T>) {
+  if (std::isfinite(value)) {
     AppendNumber(value, out);
-  } else if (std::isfinite(value)) {
-    std::array<char, 64> text;
-    out.append(text.data(),
-               nlohmann::detail::to_chars(
-                   text.data(), text.data() + text.size(), value));
   } else {
     out += "null";
   }
