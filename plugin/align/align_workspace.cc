@@ -11,6 +11,7 @@
 #include "base/count_text.h"
 #include "base/file_io.h"
 #include "base/text_fields.h"
+#include "measuring/world_alignment.h"
 #include "plugin/align/check_positions.h"
 #include "plugin/align/find_markers.h"
 #include "plugin/align/known_structures.h"

@@ -5,7 +5,6 @@
 #include <cpl_conv.h>
 #include <ogr_srs_api.h>
 #endif
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>

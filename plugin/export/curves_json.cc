@@ -133,7 +133,7 @@ Json KindsJson(const Curve& curve) {
 }
 
 // `edges` are the support of the samples, one after the other. The samples,
-// most of the file, are written without a Json of them.
+// most of the file, are written without Json values, which take time.
 std::string CurveText(const CurveRecord& record,
                       std::size_t id,
                       const Curve& curve,
@@ -244,12 +244,6 @@ Json VectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 double RoundedToDigits(double value, int num_digits) {
   return ParseNumber<double>(ShortText(value, num_digits)).value_or(value);
-}
-
-Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits) {
-  std::array<double, 6> values = Triangle(covariance);
-  for (double& value : values) value = RoundedToDigits(value, num_digits);
-  return values;
 }
 
 std::string JsonText(const Json& json) {

@@ -8,9 +8,11 @@
 #include <curvix/scene.h>
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/file_io.h"
@@ -75,13 +77,19 @@ class JsonLines {
 // are not finite are null.
 std::string JsonText(const Json& json);
 
-// Appends a number, null if it is not finite.
+// Appends a number, of type double with a point or an exponent; null if it is
+// not finite.
 template <typename T>
 void AppendJson(T value, std::string& out) {
-  if (std::isfinite(value)) {
-    AppendNumber(value, out);
-  } else {
+  if (!std::isfinite(value)) {
     out += "null";
+    return;
+  }
+  const std::size_t begin = out.size();
+  AppendNumber(value, out);
+  if (std::is_floating_point_v<T> &&
+      out.find_first_of(".e", begin) == std::string::npos) {
+    out += ".0";
   }
 }
 
@@ -101,7 +109,7 @@ void AppendJsonList(const Items& items,
 
 Json VectorJson(const Eigen::Vector3d& v);
 
-// `value`, finite, with so many digits behind the point at most.
+// `value` with so many digits behind the point at most; NaN and infinity stay.
 inline double Rounded(double value, int num_decimals) {
   const double scale = std::pow(10.0, num_decimals);
   const double scaled = std::round(value * scale);
@@ -110,8 +118,5 @@ inline double Rounded(double value, int num_decimals) {
 
 // The double nearest to `value` in so many significant digits, at most 17.
 double RoundedToDigits(double value, int num_digits);
-
-// The upper triangle of a covariance matrix, by rows, with so many digits.
-Json CovarianceJson(const Eigen::Matrix3d& covariance, int num_digits);
 
 }  // namespace curvix

@@ -4,6 +4,7 @@
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -84,6 +85,15 @@ std::string_view KindOf(const FittedCurve& fitted) {
   return fitted.fits.size() > 1 ? "chain" : KindName(fitted.fits.front());
 }
 
+// The upper triangle, by rows.
+Json CovarianceJson(const Eigen::Matrix3d& covariance) {
+  std::array<double, 6> values = Triangle(covariance);
+  for (double& value : values) {
+    value = RoundedToDigits(value, kNumCovarianceDigits);
+  }
+  return values;
+}
+
 Json ShortFitJson(const CurveFit& fit) {
   Json json = {{"k", KindName(fit)},
                {"i", {fit.first_sample, fit.num_samples}},
@@ -93,8 +103,8 @@ Json ShortFitJson(const CurveFit& fit) {
   if (fit.kind == FitKind::kLine) {
     json["a"] = VectorJson(fit.start);
     json["b"] = VectorJson(fit.end);
-    json["qa"] = CovarianceJson(fit.start_covariance, kNumCovarianceDigits);
-    json["qb"] = CovarianceJson(fit.end_covariance, kNumCovarianceDigits);
+    json["qa"] = CovarianceJson(fit.start_covariance);
+    json["qb"] = CovarianceJson(fit.end_covariance);
   } else if (fit.kind == FitKind::kArc) {
     json["r"] = fit.major.norm();
     json["rs"] = fit.radius_sigma;
@@ -121,7 +131,7 @@ std::string ShortCurveText(const Curve& curve,
       coordinates.push_back(Rounded(x, num_decimals));
     }
   }
-  // The long lists are written without a Json of them.
+  // The long lists are written without Json values, which take time.
   std::string text = curve.closed ? "{\"c\":true" : "{\"c\":false";
   text += ",\"p\":";
   AppendJsonList(coordinates, AppendJson<double>, text);
@@ -153,8 +163,8 @@ int NumDecimals(const CurveSource& curves) {
 Json NodesJson(const std::vector<CurveNode>& nodes) {
   Json json = Json::array();
   for (const CurveNode& node : nodes) {
-    json.push_back({VectorJson(node.position),
-                    CovarianceJson(node.covariance, kNumCovarianceDigits)});
+    json.push_back(
+        {VectorJson(node.position), CovarianceJson(node.covariance)});
   }
   return json;
 }
@@ -186,8 +196,7 @@ Json PointsJson(const Scene& scene, int num_decimals) {
     for (const double x : point.position) {
       position.push_back(Rounded(x, num_decimals));
     }
-    json.push_back(
-        {position, CovarianceJson(covariance, kNumCovarianceDigits)});
+    json.push_back({position, CovarianceJson(covariance)});
   }
   return json;
 }

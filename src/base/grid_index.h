@@ -27,7 +27,7 @@ struct IndexedEdge {
 
 // Edges of one image in square buckets, each bucket in edge order. Building
 // takes O(edges + buckets); a visit touches only the buckets that meet its
-// square.
+// rectangle.
 class GridIndex {
  public:
   GridIndex() = default;

@@ -45,7 +45,8 @@ Direction DirectionOf(double angle, double distance_px) {
   return {angle, sigma, kPi / (sigma * std::sqrt(2 * kPi))};
 }
 
-// Whether most cameras see the direction on side 0; all of StripPlace::Across.
+// Whether most cameras see the direction on side 0. All as StripPlace::Across()
+// gives them.
 bool IsOnFirstSide(const Vector2d& direction,
                    const std::vector<Vector2d>& cameras) {
   const auto num = std::ranges::count_if(cameras, [&](const Vector2d& camera) {

@@ -166,7 +166,7 @@ class StripSet {
 };
 
 StripSet::Gram StripSet::InnerProducts(int num_pixels) const {
-  Gram gram = Gram::Zero();
+  Gram gram = Gram::Zero();  // DropWorst() reads whole columns
   std::array<float, kMaxViews> means;
   for (int i = 0; i < num_; ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -142,8 +142,8 @@ void SetBases(double curvature, std::vector<Placed>& placed) {
   for (Placed& p : placed) p.basis = ArcBasis(curvature, p.along);
 }
 
-// Rows: place, direction and bend at arc length 0 of the best arc, the bases
-// being about right.
+// Rows: place, direction and bend at arc length 0 of the arc that fits best, if
+// its curvature is that of the bases.
 Eigen::Matrix3d SolveArc(const std::vector<Placed>& placed) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
@@ -169,12 +169,15 @@ Eigen::Matrix3d SolveLine(const std::vector<Placed>& placed) {
   return rows;
 }
 
-// To the fit, whose curvature the basis is for.
-Eigen::Vector3d Miss(const EndFit& fit,
-                     const Eigen::Vector3d& last,
-                     const Placed& p) {
-  return fit.position + p.basis.x() * fit.outward + p.basis.y() * fit.bend -
-         last - p.offset;
+Eigen::Vector3d PointOf(const EndFit& fit, const Eigen::Vector2d& basis) {
+  return fit.position + basis.x() * fit.outward + basis.y() * fit.bend;
+}
+
+// From a sample to the fit; its basis must be of the fit's curvature.
+Eigen::Vector3d OffsetToFit(const EndFit& fit,
+                            const Eigen::Vector3d& last,
+                            const Placed& p) {
+  return PointOf(fit, p.basis) - last - p.offset;
 }
 
 // Samples further off than `scale` count little (Cauchy).
@@ -183,7 +186,7 @@ void Reweight(const EndFit& fit,
               double scale,
               std::vector<Placed>& placed) {
   for (Placed& p : placed) {
-    p.weight = CauchyWeight(Miss(fit, last, p).norm(), scale);
+    p.weight = CauchyWeight(OffsetToFit(fit, last, p).norm(), scale);
   }
 }
 
@@ -193,7 +196,7 @@ double MeanSquare(const EndFit& fit,
                   const std::vector<Placed>& placed) {
   double sum = 0, weights = 0;
   for (const Placed& p : placed) {
-    sum += p.weight * Miss(fit, last, p).squaredNorm();
+    sum += p.weight * OffsetToFit(fit, last, p).squaredNorm();
     weights += p.weight;
   }
   return sum / weights;
@@ -214,8 +217,7 @@ bool SetFrom(const Eigen::Matrix3d& rows,
 }  // namespace
 
 Eigen::Vector3d EndFit::PointAt(double arc_length) const {
-  const Eigen::Vector2d basis = ArcBasis(bend.norm(), arc_length);
-  return position + basis.x() * outward + basis.y() * bend;
+  return PointOf(*this, ArcBasis(bend.norm(), arc_length));
 }
 
 Eigen::Vector3d EndFit::DirectionAt(double arc_length) const {

@@ -53,8 +53,8 @@ std::vector<double> ImageSupport::Beside(std::size_t view_idx,
                                          const ImageEdge& projected,
                                          double max_distance_px) const {
   const Gate gate{max_distance_px};
-  // Around all places of such edges: how far along the projected edge, and the
-  // rectangle.
+  // How far along the projected edge such edges are, and half the rectangle
+  // around them, at most the square of max_distance_px.
   const double along_px =
       gate.tangential_px +
       max_distance_px * std::sqrt(1 - gate.min_cosine * gate.min_cosine);

@@ -150,7 +150,7 @@ void Adjust(const std::vector<BarPlace>& places, Bar* bar) {
         const double residual = NearestResidual(
             seen.edges_px,
             seen.slope.dot(bar->axis[i]) + slope_of_radius * bar->radius_px);
-        if (std::abs(residual) > kGatePx) continue;
+        if (!(std::abs(residual) <= kGatePx)) continue;
         const double weight = CauchyWeight(residual, kRobustSigmaPx);
         matrix += weight * seen.slope * seen.slope.transpose();
         of_radius += weight * slope_of_radius * seen.slope;
@@ -183,7 +183,7 @@ Vector2d FitEdge(const BarPlace& place, const Vector2d& start) {
     for (const BarPlaceInView& seen : place.views) {
       const double residual =
           NearestResidual(seen.edges_px, seen.slope.dot(at));
-      if (std::abs(residual) > kGatePx) continue;
+      if (!(std::abs(residual) <= kGatePx)) continue;
       const double weight = CauchyWeight(residual, kRobustSigmaPx);
       matrix += weight * seen.slope * seen.slope.transpose();
       gradient += weight * residual * seen.slope;

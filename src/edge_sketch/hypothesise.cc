@@ -2,6 +2,10 @@
 #include "edge_sketch/hypothesise.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "base/angles.h"
 #include "edge_sketch/slide_to_line.h"
@@ -44,8 +48,9 @@ HypothesisViews::HypothesisViews(const EpipolarPencil& pencil,
 
 bool HypothesisViews::LookAlike(const Appearance& look1,
                                 const Edge2d& edge2,
+                                const Eigen::Vector2d& tangent2,
                                 bool cross_alike) const {
-  auto look2 = appearance2_->AppearanceOf(edge2, TangentAt(edge2.angle));
+  auto look2 = appearance2_->AppearanceOf(edge2, tangent2);
   if (!look2) return true;
   if (!cross_alike) look2->SwapSides();
   return LikelihoodRatio(*look2, look1) >= kMinLikelihoodRatio;
@@ -89,7 +94,8 @@ Hypotheses HypothesisViews::Hypothesise(const Edge2d& edge1) const {
     const ImageEdge image_edge2 = ToImageEdge(edge2);
     // The normals of both lines point to the same side of the epipolar plane.
     const bool cross_alike = sine1 * line.normal.dot(image_edge2.tangent) > 0;
-    if (look1 && !LookAlike(*look1, edge2, cross_alike)) return;
+    if (look1 && !LookAlike(*look1, edge2, image_edge2.tangent, cross_alike))
+      return;
     const auto moved =
         SlideToLine(image_edge2, line, tolerance_px, options_->consolidation);
     if (moved) on_line.push_back({*moved, edge_idx});

@@ -6,7 +6,6 @@
 
 #include <curvix/edges.h>
 #include <curvix/options.h>
-#include <optional>
 #include <vector>
 
 #include "edge_sketch/appearance.h"
@@ -66,6 +65,7 @@ class HypothesisViews {
   // `cross_alike`: they cross their epipolar lines to the same side.
   bool LookAlike(const Appearance& look1,
                  const Edge2d& edge2,
+                 const Eigen::Vector2d& tangent2,
                  bool cross_alike) const;
   // The part of the epipolar line of `pixel1` that shows `depths_`, extended by
   // the longest slide of an edge. Pixels along the line.

@@ -47,7 +47,7 @@ class EpipolarAngles {
   std::optional<EpipolarAngle> AngleOf(const Eigen::Vector2d& pixel) const;
 
  private:
-  // Components of the ray of a homogeneous pixel.
+  // Their products with a homogeneous pixel are the components of its ray.
   Eigen::Vector3d along_u_, along_v_, along_baseline_;
 };
 

@@ -12,7 +12,6 @@
 
 #include "base/angles.h"
 #include "geometry/epipolar.h"
-#include "model/posed_view.h"
 
 namespace curvix {
 

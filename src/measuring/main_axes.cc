@@ -50,7 +50,7 @@ int AxisOf(const KnownDirection& d, const Frame& frame) {
                                                                   : -1;
 }
 
-// Of each direction and all that come after it: no less than their length.
+// Of each direction: the length of it and of all after it, rounded up.
 std::vector<double> LengthsLeft(const Directions& directions) {
   constexpr double kRounding = 1 + 1e-9;
   std::vector<double> left(directions.size());
@@ -62,7 +62,7 @@ std::vector<double> LengthsLeft(const Directions& directions) {
   return left;
 }
 
-// Exact only if it is more than `most`. `left`: LengthsLeft.
+// Exact only if it is more than `most`. `left`: LengthsLeft().
 double LengthAlong(const Directions& directions,
                    const std::vector<double>& left,
                    const Frame& frame,

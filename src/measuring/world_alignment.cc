@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "geometry/directions.h"
@@ -330,7 +332,7 @@ Status CheckSigmas(const std::vector<KnownPosition>& positions) {
   if (std::ssize(positions) >= kFewest) return {};
   return Status::InvalidArgument(
       "The uncertainty of fewer than three positions cannot be estimated: give "
-      "a standard deviation after each");
+      "a standard deviation after each, \"name x y z sigma\" in a file");
 }
 
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input) {

@@ -216,7 +216,7 @@ void PoseSearch::Adjust(PoseObservationSet* observations) {
         place.contour = adjusted.contours[i];
         place.contour = edges_.Adjusted(place, kPlaceSigmaPx);
       });
-  // Else another prior.
+  // Only used without free cameras and points, see PriorFor().
   if (!free_lenses_.empty() || !observations->points.empty()) return;
   prior_px_ = std::clamp(
       MedianShift(*observations, edges_.Unmoved()), kMinPriorPx, kFirstPriorPx);

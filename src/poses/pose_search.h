@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "poses/adjust_poses.h"
 #include "poses/pose_observation_set.h"
 #include "poses/posed_edges.h"
 
@@ -54,9 +55,10 @@ class PoseSearch {
   // Whether any camera rotated.
   bool ShiftViews(const std::vector<CurvePlace>& places);
 
-  // Adjusts poses, free cameras, places and points jointly. The first moves
-  // only the poses and cameras.
+  // Adjusts poses, free cameras, places and points jointly. Moves the poses and
+  // cameras only, and returns all.
   AdjustedPoses AdjustCameras(const PoseObservationSet& observations);
+  // The same; moves all.
   void Adjust(PoseObservationSet* observations);
 
   // Alternates FindEdges() and Adjust() until edges come no nearer.

@@ -29,11 +29,13 @@ std::vector<Edge2d> RandomEdges(int count, std::uint64_t seed) {
   return edges;
 }
 
+// `reach_px`: of a square or a rectangle.
+template <typename Reach>
 std::vector<std::int32_t> Visited(const GridIndex& index,
                                   const Eigen::Vector2d& center,
-                                  double radius_px) {
+                                  const Reach& reach_px) {
   std::vector<std::int32_t> visited;
-  index.VisitAround(center, radius_px, [&](const IndexedEdge& edge) {
+  index.VisitAround(center, reach_px, [&](const IndexedEdge& edge) {
     visited.push_back(edge.edge_idx);
   });
   return visited;
@@ -78,6 +80,23 @@ TEST(GridIndex, VisitsOnlyTheBucketsAroundTheSquare) {
     EXPECT_LE(
         (edge.position - Eigen::Vector2d(150, 100)).lpNorm<Eigen::Infinity>(),
         6 + 4);
+  }
+}
+
+TEST(GridIndex, VisitsTheBucketsOfARectangle) {
+  const std::vector<Edge2d> edges = RandomEdges(5000, 3);
+  const Eigen::Vector2d center(150, 100), reach_px(20, 3);
+  const std::vector<std::int32_t> visited =
+      Visited(GridIndex(edges, 4), center, reach_px);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Eigen::Array2d off = (edges[i].position - center).cwiseAbs();
+    const bool is_visited =
+        std::ranges::count(visited, static_cast<std::int32_t>(i)) == 1;
+    if (is_visited) {
+      EXPECT_TRUE((off <= reach_px.array() + 4).all());
+    } else {
+      EXPECT_TRUE((off > reach_px.array()).any());
+    }
   }
 }
 

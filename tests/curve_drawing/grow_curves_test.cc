@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/angles.h"
 #include "geometry/detected_edge.h"
 #include "geometry/pixel_size.h"
 #include "tests/support/random.h"

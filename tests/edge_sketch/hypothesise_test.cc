@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-#include "base/angles.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {

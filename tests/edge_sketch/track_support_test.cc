@@ -9,7 +9,6 @@
 #include <set>
 #include <vector>
 
-#include "base/angles.h"
 #include "geometry/detected_edge.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"

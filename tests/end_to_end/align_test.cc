@@ -295,6 +295,8 @@ TEST_F(Align, ASinglePositionMakesNoMap) {
   ExpectError(
       position + " --axes auto",
       path.string() + ": The uncertainty of fewer than three positions");
+  std::ofstream(path) << line << " 0.1\n" << all.substr(line.size() + 1);
+  ExpectError(position + " --axes auto", path.string() + ": Some positions");
   std::ofstream(path) << line << " 0.1\n";
   ExpectError(position + " --axes auto --epsg 25832", "--epsg needs a scale");
   EXPECT_FALSE(fs::exists(results_ / "alignment.json"));

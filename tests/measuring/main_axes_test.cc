@@ -145,6 +145,24 @@ TEST(FindMainAxes, LinesOfNoKnownDirectionDoNotCount) {
   EXPECT_EQ(with->num_directions, without->num_directions);
 }
 
+TEST(FindMainAxes, ManyShortLinesCountMoreThanTwoLongOnes) {
+  Random random(11);
+  const Matrix3d decoy = random.Rotation();
+  FittedCurves lines;
+  for (int i = 0; i < 2; ++i) {
+    AddLine({0, 0, 0}, 10 * decoy.col(i), 1e-3, lines);
+  }
+  for (int i = 0; i < 30; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3d start = random.UnitVector();
+      AddLine(start, start + 0.5 * Vector3d::Unit(axis), 1e-3, lines);
+    }
+  }
+  const auto axes = FindMainAxes(lines, {0, 0, 1}, {0, 1, 0});
+  ASSERT_TRUE(axes.ok()) << axes.status().message();
+  EXPECT_LT((FrameOf(*axes).cwiseAbs() - Matrix3d::Identity()).norm(), 1e-3);
+}
+
 // A turned part with a ring of six holes, and a short line across nothing.
 TEST(FindMainAxes, FlangesHaveAnAxisAndRowsOfHoles) {
   Random random(10);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace curvix {
 namespace {
@@ -27,6 +28,37 @@ TEST(JsonLines, PutsCommasBetweenAnyNumberOfValues) {
       }
     }
   }
+}
+
+TEST(AppendJsonList, WritesWhatReadsBack) {
+  const std::vector<std::vector<double>> rows = {
+      {}, {0, -0.0, 1}, {0.1, 1e5, 1e300, -1e-9}, {std::nan(""), HUGE_VAL}};
+  std::string text;
+  AppendJsonList(
+      rows,
+      [](const std::vector<double>& row, std::string& out) {
+        AppendJsonList(row, AppendJson<double>, out);
+      },
+      text);
+  const Json read = Json::parse(text);
+  ASSERT_EQ(read.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(read[i].size(), rows[i].size());
+    for (std::size_t k = 0; k < rows[i].size(); ++k) {
+      if (std::isfinite(rows[i][k])) {
+        EXPECT_TRUE(read[i][k].is_number_float()) << text;
+        EXPECT_EQ(read[i][k], rows[i][k]);
+      } else {
+        EXPECT_TRUE(read[i][k].is_null());
+      }
+    }
+  }
+}
+
+TEST(AppendJson, WritesIntegersWithoutAPoint) {
+  std::string text;
+  AppendJson(17, text);
+  EXPECT_EQ(text, "17");
 }
 
 TEST(RoundedToDigits, KeepsThemForAllMagnitudes) {
