@@ -169,7 +169,7 @@ class PoseAdjuster {
         ceres_.NumParameters() - 3 * ordering_->GroupSize(kSamples);
     options.linear_solver_type = num_exact > kMaxExactUnknowns
                                      ? ceres::ITERATIVE_SCHUR
-                                     : ceres::SPARSE_SCHUR;
+                                     : ceres::DENSE_SCHUR;
     options.preconditioner_type = ceres::SCHUR_JACOBI;
     options.max_linear_solver_iterations = kMaxNumGradients;
     options.eta = kGradientsTolerance;
