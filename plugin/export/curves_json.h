@@ -77,8 +77,8 @@ class JsonLines {
 // are not finite are null.
 std::string JsonText(const Json& json);
 
-// Appends a number, of type double with a point or an exponent; null if it is
-// not finite.
+// Appends a number, "null" if it is not finite. Numbers of floating-point types
+// have a decimal point or an exponent.
 template <typename T>
 void AppendJson(T value, std::string& out) {
   if (!std::isfinite(value)) {

@@ -82,7 +82,8 @@ BlurredImage Blur(GrayImage gray, int shrink) {
 
 }  // namespace
 
-// Step by step, block by block: all but the look-up itself is vectorised.
+// In blocks, each in three loops: the first and the last are vectorised, the
+// one that reads pixels cannot be.
 CURVIX_WIDE_VECTORS
 void BlurredImage::LookUp(std::span<const float> x,
                           std::span<const float> y,

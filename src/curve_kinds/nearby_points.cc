@@ -45,8 +45,8 @@ Direction DirectionOf(double angle, double distance_px) {
   return {angle, sigma, kPi / (sigma * std::sqrt(2 * kPi))};
 }
 
-// Whether most cameras see the direction on side 0. All as StripPlace::Across()
-// gives them.
+// Whether most cameras see the direction on side 0. Directions are those of
+// StripPlace::Across(), to the cameras too.
 bool IsOnFirstSide(const Vector2d& direction,
                    const std::vector<Vector2d>& cameras) {
   const auto num = std::ranges::count_if(cameras, [&](const Vector2d& camera) {

@@ -123,9 +123,9 @@ Eigen::Matrix4d ImageDerivatives::At(const Eigen::Vector2d& position) {
     for (const Weights* along : far_x_)
       far += pixels[along->pixel] * along->far;
     add(across.all, all);
-    if (far_x_.empty() && !across.is_far) continue;
     // Grid points that are pixel centres, on a pixel along both axes, have the
     // shorter filters: what they have beyond is taken off.
+    if (far_x_.empty() && !across.is_far) continue;
     if (!across.is_far) {
       add(across.on_pixel, -far);
       continue;

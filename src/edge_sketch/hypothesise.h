@@ -61,8 +61,9 @@ class HypothesisViews {
   const PosedView& h2() const { return *h2_; }
 
  private:
-  // Whether the sides of both edges are about as bright, as far as is known.
-  // `cross_alike`: they cross their epipolar lines to the same side.
+  // Whether the sides of both edges are about as bright; true where that is not
+  // known. `tangent2`: of `edge2`. `cross_alike`: the tangents of both cross
+  // their epipolar lines to the same side.
   bool LookAlike(const Appearance& look1,
                  const Edge2d& edge2,
                  const Eigen::Vector2d& tangent2,

@@ -36,7 +36,7 @@ class EpipolarPencil {
   Eigen::Vector3d baseline_, u_, v_;  // right-handed, orthonormal
 };
 
-// The angles of the pixels of one view.
+// The epipolar angles of the pixels of one view.
 class EpipolarAngles {
  public:
   // `view`: one of the two views of the pencil.

@@ -62,7 +62,9 @@ std::vector<double> LengthsLeft(const Directions& directions) {
   return left;
 }
 
-// Exact only if it is more than `most`. `left`: LengthsLeft().
+// The length of the directions that share an axis, those further off less.
+// Stops early, with any smaller result, if it is at most `most`. `left`:
+// LengthsLeft().
 double LengthAlong(const Directions& directions,
                    const std::vector<double>& left,
                    const Frame& frame,

@@ -58,7 +58,7 @@ class PoseSearch {
   // Adjusts poses, free cameras, places and points jointly. Moves the poses and
   // cameras only, and returns all.
   AdjustedPoses AdjustCameras(const PoseObservationSet& observations);
-  // The same; moves all.
+  // The same, but moves places and points, too.
   void Adjust(PoseObservationSet* observations);
 
   // Alternates FindEdges() and Adjust() until edges come no nearer.
