@@ -150,26 +150,19 @@ struct Places {
   // Per curve, of images of reduced size; world units.
   std::vector<double> pixels;
   std::vector<std::vector<std::size_t>> samples;  // per curve
-  // Of all curves, one after the other: curve and position.
+  std::vector<std::size_t> first;                 // place per curve
+  // Of all curves, one after the other.
   std::vector<std::size_t> curves;
-  std::vector<Vector3d> positions;
-  std::vector<std::vector<int>> views;  // that see them
+  std::vector<StripPlace> strips;
+  std::vector<StripViews> strip_views;
 };
-
-std::vector<int> ViewsOf(const CurveSample& sample) {
-  std::vector<int> views;
-  for (const EdgeRef& ref : sample.support) views.push_back(ref.view_idx);
-  return views;
-}
 
 // The views of a place.
 class ViewSet {
  public:
-  ViewSet(const CurveSample& sample, std::size_t num_views)
-      : size_(sample.support.size()), holds_(num_views) {
-    for (const EdgeRef& ref : sample.support) {
-      holds_[static_cast<std::size_t>(ref.view_idx)] = 1;
-    }
+  ViewSet(const std::vector<int>& views, std::size_t num_views)
+      : size_(views.size()), holds_(num_views) {
+    for (const int view : views) holds_[static_cast<std::size_t>(view)] = 1;
   }
 
   // Whether a point nearby is on what these views see: of the views of either,
@@ -201,13 +194,25 @@ std::vector<std::size_t> SeenNear(const PointTree& points,
   return seen;
 }
 
-// All images that are read have the same.
-double LeastScale(const std::vector<BlurredImage>& images) {
-  double least = 1;
-  for (const BlurredImage& image : images) {
-    least = std::min(least, image.scale);
+// The places of a curve, at some samples of it.
+std::vector<StripPlace> PlacesOn(const Curve& curve,
+                                 const std::vector<std::size_t>& samples) {
+  std::vector<StripPlace> places;
+  Vector3d tangent = Vector3d::Zero(), normal = Vector3d::Zero();
+  for (const std::size_t i : samples) {
+    const CurveSample& sample = curve.samples[i];
+    // A frame that turns no more than the curve does.
+    if (!places.empty()) {
+      normal = ShortestRotation(tangent, sample.tangent) * normal;
+    }
+    normal = Across(sample.tangent, normal);
+    tangent = sample.tangent;
+    places.push_back({sample.position, tangent, normal, {}});
+    for (const EdgeRef& ref : sample.support) {
+      places.back().views.push_back(ref.view_idx);
+    }
   }
-  return least;
+  return places;
 }
 
 // `scale`: that of the images.
@@ -218,16 +223,42 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
   for (std::size_t i = 0; i < curves.size(); ++i) {
     places.pixels.push_back(PixelSize(curves[i], views) / scale);
     places.samples.emplace_back();
+    places.first.push_back(places.strips.size());
     if (!(places.pixels.back() > 0)) continue;
     places.samples.back() =
         SamplesAlong(curves[i], kStepPx * places.pixels.back());
-    for (std::size_t sample : places.samples.back()) {
+    for (StripPlace& place : PlacesOn(curves[i], places.samples.back())) {
       places.curves.push_back(i);
-      places.positions.push_back(curves[i].samples[sample].position);
-      places.views.push_back(ViewsOf(curves[i].samples[sample]));
+      places.strips.push_back(std::move(place));
     }
   }
   return places;
+}
+
+// Chooses the views of the places of curves to classify, and reads the parts of
+// the `images` with their strips.
+void ReadStrips(const Scene& scene,
+                const std::vector<PosedView>& views,
+                const std::vector<Curve>& curves,
+                int num_threads,
+                Places* places,
+                std::vector<BlurredImage>* images) {
+  places->strip_views.resize(places->strips.size());
+  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+    if (MainKind(curves[i]) == CurveKind::kOccludingContour) return;
+    const std::size_t end = places->first[i] + places->samples[i].size();
+    for (std::size_t k = places->first[i]; k < end; ++k) {
+      places->strip_views[k] =
+          ChooseStripViews(places->strips[k], scene, views, *images);
+    }
+  });
+  for (const StripViews& chosen : places->strip_views) {
+    for (std::size_t i = 0; i < chosen.views.size(); ++i) {
+      (*images)[static_cast<std::size_t>(chosen.views[i])].AskFor(
+          chosen.pixels[i]);
+    }
+  }
+  ReadTiles(scene, num_threads, images);
 }
 
 class Classifier {
@@ -235,19 +266,18 @@ class Classifier {
   Classifier(const Scene& scene,
              const std::vector<PosedView>& views,
              const std::vector<BlurredImage>& images,
-             const std::vector<Curve>& curves)
+             const Places& places)
       : scene_(scene),
         views_(views),
         images_(images),
-        places_(ChoosePlaces(curves, views, LeastScale(images))),
-        places_tree_(places_.positions),
+        places_(places),
+        places_tree_(places.strips, &StripPlace::position),
         points_tree_(scene.points, &ScenePoint::position) {}
 
   void Classify(std::size_t curve_idx, Curve* curve) const {
     const std::vector<std::size_t>& chosen = places_.samples[curve_idx];
     if (chosen.empty()) return;
-    const std::vector<SurfaceEvidence> evidence =
-        EvidenceAlong(curve_idx, *curve);
+    const std::vector<SurfaceEvidence> evidence = EvidenceAlong(curve_idx);
     const auto judge = [&](std::size_t at) {
       return Judge(
           SumOver(PlacesAround(at, evidence.size(), curve->closed), evidence));
@@ -265,39 +295,31 @@ class Classifier {
   }
 
  private:
-  std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx,
-                                             const Curve& curve) const {
+  std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx) const {
     const auto views_of_point = [&](std::size_t k) -> const std::vector<int>& {
       return scene_.points[k].view_idxs;
     };
     const double pixel = places_.pixels[curve_idx];
     std::vector<SurfaceEvidence> evidence;
-    Vector3d tangent = Vector3d::Zero(), normal = Vector3d::Zero();
-    for (std::size_t i : places_.samples[curve_idx]) {
-      const CurveSample& sample = curve.samples[i];
-      // A frame that turns no more than the curve does.
-      if (!evidence.empty()) {
-        normal = ShortestRotation(tangent, sample.tangent) * normal;
-      }
-      normal = Across(sample.tangent, normal);
-      tangent = sample.tangent;
-      const ViewSet views(sample, views_.size());
+    for (std::size_t k = 0; k < places_.samples[curve_idx].size(); ++k) {
+      const std::size_t at = places_.first[curve_idx] + k;
+      const StripPlace& place = places_.strips[at];
+      const ViewSet views(place.views, views_.size());
       std::vector<Vector3d> nearby =
-          CurvesNearby(curve_idx, sample.position, views);
-      const StripPlace place = {
-          sample.position, sample.tangent, normal, sample.support};
+          CurvesNearby(curve_idx, place.position, views);
       evidence.push_back(
           CompareStrips(place,
+                        places_.strip_views[at],
                         DistancesByDirection(place, pixel, nearby),
                         scene_,
                         views_,
                         images_));
-      for (std::size_t k : SeenNear(points_tree_,
+      for (std::size_t i : SeenNear(points_tree_,
                                     views_of_point,
-                                    sample.position,
+                                    place.position,
                                     views,
                                     kNearbyPointPx * pixel)) {
-        nearby.push_back(scene_.points[k].position);
+        nearby.push_back(scene_.points[i].position);
       }
       AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
     }
@@ -309,14 +331,14 @@ class Classifier {
                                      const Vector3d& position,
                                      const ViewSet& views) const {
     const auto views_of = [&](std::size_t i) -> const std::vector<int>& {
-      return places_.views[i];
+      return places_.strips[i].views;
     };
     const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
     std::vector<Vector3d> nearby;
     for (std::size_t i :
          SeenNear(places_tree_, views_of, position, views, radius)) {
       if (places_.curves[i] != curve_idx) {
-        nearby.push_back(places_.positions[i]);
+        nearby.push_back(places_.strips[i].position);
       }
     }
     return nearby;
@@ -325,7 +347,7 @@ class Classifier {
   const Scene& scene_;
   const std::vector<PosedView>& views_;
   const std::vector<BlurredImage>& images_;
-  Places places_;
+  const Places& places_;
   PointTree places_tree_;
   PointTree points_tree_;
 };
@@ -343,14 +365,12 @@ void ClassifyCurves(const Scene& scene,
            step_done(static_cast<int>(done), static_cast<int>(num_curves));
   };
   if (!keep_going(0)) return;
-  const std::vector<BlurredImage> images =
-      LoadBlurredImages(scene, num_threads);
-  if (std::ranges::all_of(images, [](const BlurredImage& image) {
-        return image.pixels.empty();
-      })) {
-    return;
-  }
-  const Classifier classifier(scene, views, images, *curves);
+  std::vector<BlurredImage> images = PlanBlurredImages(scene, num_threads);
+  if (images.empty()) return;
+  Places places = ChoosePlaces(*curves, views, images.front().scale());
+  ReadStrips(scene, views, *curves, num_threads, &places, &images);
+  if (std::ranges::none_of(images, &BlurredImage::IsAskedFor)) return;
+  const Classifier classifier(scene, views, images, places);
   const auto classify = [&](std::size_t i) {
     Curve& curve = (*curves)[i];
     if (MainKind(curve) != CurveKind::kOccludingContour) {

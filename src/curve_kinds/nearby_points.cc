@@ -96,9 +96,9 @@ void AddNearbyPoints(const StripPlace& place,
                      const std::vector<Vector3d>& points,
                      SurfaceEvidence* evidence) {
   std::vector<Vector2d> cameras;
-  for (const EdgeRef& ref : place.support) {
-    const PosedView& view = views[static_cast<std::size_t>(ref.view_idx)];
-    cameras.push_back(place.Across(view.center - place.position));
+  for (const int view : place.views) {
+    const Vector3d& center = views[static_cast<std::size_t>(view)].center;
+    cameras.push_back(place.Across(center - place.position));
   }
   std::array<std::vector<Direction>, 2> sides;
   for (const Vector3d& point : points) {

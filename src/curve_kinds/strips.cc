@@ -26,6 +26,8 @@ constexpr int kNumAcross = 11;
 constexpr int kNumAlong = 5;
 constexpr double kFirstAcrossPx = 2.5;
 constexpr double kAlongStepPx = 2;
+constexpr double kLastAcrossPx = kFirstAcrossPx + kNumAcross - 1;
+constexpr double kSidePx = kNumAlong / 2 * kAlongStepPx;
 constexpr int kNumPixels = kNumAcross * kNumAlong;
 constexpr double kReachPx = 15;
 // With this probability a surface does not reach as far, but to 6.5 px from the
@@ -64,6 +66,7 @@ using Strip = Eigen::Matrix<float, kNumPixels, 1>;
 // How one view sees the surroundings of a place: the pixel of the place and
 // what a step of one pixel of the place in space does to it.
 struct LocalView {
+  int view = 0;
   const BlurredImage* image = nullptr;
   double azimuth = 0;  // of the camera about the tangent, radians
   double pixel_size = 0;
@@ -72,24 +75,42 @@ struct LocalView {
 };
 
 std::optional<LocalView> Locate(const StripPlace& place,
-                                const PosedView& view,
-                                const Camera& camera,
-                                const BlurredImage& image) {
-  if (image.pixels.empty()) return std::nullopt;
+                                int view_idx,
+                                const Scene& scene,
+                                const std::vector<PosedView>& views,
+                                const std::vector<BlurredImage>& images) {
+  const auto v = static_cast<std::size_t>(view_idx);
+  const PosedView& view = views[v];
+  const Camera& camera = CameraOf(scene, scene.views[v]);
+  const BlurredImage& image = images[v];
   const Vector3d x = view.InCamera(place.position);
   if (!(x.z() > 0)) return std::nullopt;
   const Vector2d pixel = ImageFromIdeal(camera, x.hnormalized());
   if (!pixel.allFinite() || !image.Covers(pixel, kReachPx)) return std::nullopt;
   const Eigen::Matrix<double, 2, 3> jacobian =
-      image.scale * PixelJacobian(camera, x) * view.rotation;
+      image.scale() * PixelJacobian(camera, x) * view.rotation;
   const Vector3d binormal = place.tangent.cross(place.normal);
-  return LocalView{&image,
+  return LocalView{view_idx,
+                   &image,
                    place.AngleOf(view.center - place.position),
                    x.z() / view.calibration(0, 0),
-                   pixel * image.scale - Vector2d(0.5, 0.5),
+                   pixel * image.scale() - Vector2d(0.5, 0.5),
                    jacobian * place.tangent,
                    jacobian * place.normal,
                    jacobian * binormal};
+}
+
+std::vector<LocalView> LocateAll(const StripPlace& place,
+                                 const std::vector<int>& view_idxs,
+                                 const Scene& scene,
+                                 const std::vector<PosedView>& views,
+                                 const std::vector<BlurredImage>& images) {
+  std::vector<LocalView> located;
+  for (const int view : view_idxs) {
+    const auto local = Locate(place, view, scene, views, images);
+    if (local) located.push_back(*local);
+  }
+  return located;
 }
 
 // At most kMaxViews of the views, spread over their azimuths, without those
@@ -109,6 +130,19 @@ std::vector<LocalView> ChooseViews(std::vector<LocalView> seen) {
   return chosen;
 }
 
+// The pixels that strips in any direction are interpolated from, and one more
+// for rounding. `step`: that of StripViews.
+Eigen::AlignedBox2i PixelsOfStrips(const LocalView& view, double step) {
+  const Eigen::Array2d across =
+      (view.normal.cwiseAbs2() + view.binormal.cwiseAbs2()).cwiseSqrt();
+  const Eigen::Array2d reach =
+      step * (kLastAcrossPx * across + kSidePx * view.along.array().abs());
+  const Eigen::Array2d size(view.image->width(), view.image->height());
+  const Eigen::Array2d first = (view.pixel.array() - reach - 1).max(0);
+  const Eigen::Array2d last = (view.pixel.array() + reach + 1).min(size - 1);
+  return {first.cast<int>().matrix(), last.cast<int>().matrix()};
+}
+
 // The grey levels of a strip less their mean; false if the image does not hold
 // all of it. `across` is the image of a step of one pixel away from the curve,
 // `along` of one along it.
@@ -117,15 +151,15 @@ bool Sample(const LocalView& view,
             const Vector2d& along,
             Strip* strip) {
   const Vector2d near = kFirstAcrossPx * across;
-  const Vector2d far = (kFirstAcrossPx + kNumAcross - 1) * across;
-  const Vector2d side = (kNumAlong / 2 * kAlongStepPx) * along;
+  const Vector2d far = kLastAcrossPx * across;
+  const Vector2d side = kSidePx * along;
   for (const Vector2d& corner : {Vector2d(near - side),
                                  Vector2d(near + side),
                                  Vector2d(far - side),
                                  Vector2d(far + side)}) {
     const Vector2d at = view.pixel + corner;
-    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < view.image->width - 1 &&
-          at.y() < view.image->height - 1)) {
+    if (!(at.x() >= 0 && at.y() >= 0 && at.x() < view.image->width() - 1 &&
+          at.y() < view.image->height() - 1)) {
       return false;
     }
   }
@@ -258,19 +292,32 @@ double StripSet::LogBayesOfRows(int num_rows, double noise_variance) const {
 
 }  // namespace
 
+StripViews ChooseStripViews(const StripPlace& place,
+                            const Scene& scene,
+                            const std::vector<PosedView>& views,
+                            const std::vector<BlurredImage>& images) {
+  const std::vector<LocalView> seen =
+      ChooseViews(LocateAll(place, place.views, scene, views, images));
+  StripViews chosen;
+  if (seen.size() < kMinViews) return chosen;
+  std::vector<double> sizes;
+  for (const LocalView& view : seen) sizes.push_back(view.pixel_size);
+  chosen.step = Median(std::move(sizes)) / seen.front().image->scale();
+  for (const LocalView& view : seen) {
+    chosen.views.push_back(view.view);
+    chosen.pixels.push_back(PixelsOfStrips(view, chosen.step));
+  }
+  return chosen;
+}
+
 SurfaceEvidence CompareStrips(const StripPlace& place,
+                              const StripViews& chosen,
                               const CurveDistances& other_curves,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images) {
-  std::vector<LocalView> seen;
-  for (const EdgeRef& ref : place.support) {
-    const auto v = static_cast<std::size_t>(ref.view_idx);
-    const Camera& camera = CameraOf(scene, scene.views[v]);
-    const auto local = Locate(place, views[v], camera, images[v]);
-    if (local) seen.push_back(*local);
-  }
-  seen = ChooseViews(std::move(seen));
+  const std::vector<LocalView> seen =
+      LocateAll(place, chosen.views, scene, views, images);
   SurfaceEvidence evidence;
   if (seen.size() < kMinViews) {
     for (auto& side : evidence.log_bayes) {
@@ -278,15 +325,13 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
     }
     return evidence;
   }
-  std::vector<double> sizes;
   double noise_variance = 0;
   for (const LocalView& view : seen) {
-    sizes.push_back(view.pixel_size);
     noise_variance +=
-        view.image->noise_variance / static_cast<double>(seen.size());
+        view.image->noise_variance() / static_cast<double>(seen.size());
   }
   noise_variance = std::max(kLeastVariance, kAddedVariance + noise_variance);
-  const double step = Median(std::move(sizes)) / seen.front().image->scale;
+  const double step = chosen.step;
   std::array<StripSet, 2> sides;
   for (int d = 0; d < kNumDirections; ++d) {
     const double angle = d * 2 * kPi / kNumDirections;

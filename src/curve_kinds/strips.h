@@ -3,10 +3,9 @@
 // curve.
 #pragma once
 
-#include <curvix/curves.h>
 #include <curvix/scene.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -25,7 +24,7 @@ struct StripPlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world
   Eigen::Vector3d tangent = Eigen::Vector3d::UnitX();  // unit
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();   // unit, across it
-  std::vector<EdgeRef> support;
+  std::vector<int> views;                              // that see it
 
   // Of an offset from the place, along `normal` and tangent x normal.
   Eigen::Vector2d Across(const Eigen::Vector3d& offset) const {
@@ -53,9 +52,25 @@ struct SurfaceEvidence {
 // none is near.
 using CurveDistances = std::array<double, kNumDirections>;
 
-// One of `views` and `images` per view of the scene. A surface may end at the
-// nearest other curve.
+// Views whose strips are compared.
+struct StripViews {
+  std::vector<int> views;
+  std::vector<Eigen::AlignedBox2i> pixels;  // of each image, with the strips
+  double step = 0;  // in space, of a pixel of the images; world units
+};
+
+// Some of the views that see the place; none if they are too few. One of
+// `views` and `images` per view of the scene, here and below; the images need
+// no pixels yet.
+StripViews ChooseStripViews(const StripPlace& place,
+                            const Scene& scene,
+                            const std::vector<PosedView>& views,
+                            const std::vector<BlurredImage>& images);
+
+// The strips of the `chosen` views, whose pixels have been read. A surface may
+// end at the nearest other curve.
 SurfaceEvidence CompareStrips(const StripPlace& place,
+                              const StripViews& chosen,
                               const CurveDistances& other_curves,
                               const Scene& scene,
                               const std::vector<PosedView>& views,

@@ -11,28 +11,37 @@
 namespace curvix {
 namespace {
 
+using Eigen::Vector2i;
+
+// The grey level at one place.
+float At(const BlurredImage& image, float x, float y) {
+  float value = 0;
+  image.LookUp({&x, 1}, {&y, 1}, &value);
+  return value;
+}
+
 TEST(BlurredImage, InterpolatesUpToTheLastColumnAndRow) {
-  const BlurredImage image = {3, 2, 1, {10, 20, 40, 110, 120, 140}};
-  const auto at = [&](float x, float y) {
-    float value = 0;
-    image.LookUp({&x, 1}, {&y, 1}, &value);
-    return value;
-  };
-  EXPECT_EQ(at(0, 0), 10);
-  EXPECT_EQ(at(1.5F, 0), 30);
-  EXPECT_EQ(at(1.5F, 0.5F), 80);
-  EXPECT_EQ(at(2, 0), 40);
-  EXPECT_EQ(at(0, 1), 110);
-  EXPECT_EQ(at(1.5F, 1), 130);
-  EXPECT_EQ(at(2, 0.5F), 90);
-  EXPECT_EQ(at(2, 1), 140);
+  BlurredImage image(3, 2, 1);
+  image.AskFor({Vector2i(0, 0), Vector2i(2, 1)});
+  image.Keep(std::vector<std::uint8_t>{10, 20, 40, 110, 120, 140}, 0);
+  EXPECT_EQ(At(image, 0, 0), 10);
+  EXPECT_EQ(At(image, 1.5F, 0), 30);
+  EXPECT_EQ(At(image, 1.5F, 0.5F), 80);
+  EXPECT_EQ(At(image, 2, 0), 40);
+  EXPECT_EQ(At(image, 0, 1), 110);
+  EXPECT_EQ(At(image, 1.5F, 1), 130);
+  EXPECT_EQ(At(image, 2, 0.5F), 90);
+  EXPECT_EQ(At(image, 2, 1), 140);
 }
 
 TEST(BlurredImage, LooksUpAnyNumberOfPlaces) {
-  BlurredImage image = {50, 40, 1, {}};
+  std::vector<std::uint8_t> pixels;
   for (int i = 0; i < 50 * 40; ++i) {
-    image.pixels.push_back(static_cast<std::uint8_t>(i * i % 251));
+    pixels.push_back(static_cast<std::uint8_t>(i * i % 251));
   }
+  BlurredImage image(50, 40, 1);
+  image.AskFor({Vector2i(0, 0), Vector2i(49, 39)});
+  image.Keep(pixels, 0);
   Random random(1);
   std::vector<float> x, y;
   for (int i = 0; i < 150; ++i) {
@@ -42,11 +51,10 @@ TEST(BlurredImage, LooksUpAnyNumberOfPlaces) {
   std::vector<float> values(x.size());
   image.LookUp(x, y, values.data());
   for (std::size_t i = 0; i < x.size(); ++i) {
-    float value = 0;
-    image.LookUp({&x[i], 1}, {&y[i], 1}, &value);
+    const float value = At(image, x[i], y[i]);
     EXPECT_EQ(values[i], value);
     const auto pixel = [&](int column, int row) {
-      return image.pixels[static_cast<std::size_t>(row * 50 + column)];
+      return pixels[static_cast<std::size_t>(row * 50 + column)];
     };
     const int column = static_cast<int>(x[i]), row = static_cast<int>(y[i]);
     const float right = x[i] - static_cast<float>(column);
@@ -57,6 +65,38 @@ TEST(BlurredImage, LooksUpAnyNumberOfPlaces) {
                     below * ((1 - right) * pixel(column, row + 1) +
                              right * pixel(column + 1, row + 1)),
                 1e-3);
+  }
+}
+
+TEST(BlurredImage, HoldsAllBoxesAskedForAndNotMuchMore) {
+  constexpr int kWidth = 1000, kHeight = 700;
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    pixels.push_back(static_cast<std::uint8_t>(i % 241));
+  }
+  BlurredImage some(kWidth, kHeight, 1), all(kWidth, kHeight, 1);
+  EXPECT_FALSE(some.IsAskedFor());
+  const std::vector<Eigen::AlignedBox2i> boxes = {
+      {Vector2i(15, 15), Vector2i(16, 16)},
+      {Vector2i(20, 10), Vector2i(70, 40)},
+      {Vector2i(960, 680), Vector2i(999, 699)}};
+  for (const auto& box : boxes) some.AskFor(box);
+  EXPECT_TRUE(some.IsAskedFor());
+  all.AskFor({Vector2i(0, 0), Vector2i(kWidth - 1, kHeight - 1)});
+  some.Keep(pixels, 2);
+  all.Keep(pixels, 2);
+  EXPECT_EQ(some.noise_variance(), 2);
+  EXPECT_LT(some.NumKept(), 40 * 20 * 20);
+  EXPECT_LT(all.NumKept(), kWidth * kHeight * 6 / 5);
+  Random random(1);
+  for (const auto& box : boxes) {
+    for (int i = 0; i < 100; ++i) {
+      const auto x =
+          static_cast<float>(random.Uniform(box.min().x(), box.max().x()));
+      const auto y =
+          static_cast<float>(random.Uniform(box.min().y(), box.max().y()));
+      EXPECT_EQ(At(some, x, y), At(all, x, y)) << x << " " << y;
+    }
   }
 }
 
