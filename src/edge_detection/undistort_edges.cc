@@ -87,6 +87,7 @@ EdgeMap UndistortEdges(EdgeMap distorted, const Camera& camera) {
   const std::vector<EdgeNeighbors> neighbors =
       std::exchange(ideal.neighbors, {});
   NewIndices new_idx(edges.size());
+  ideal.edges.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto edge = Carried(edges[i], [&](const ImageEdge& in_image) {
       return EdgeInIdealImage(in_image, camera);
