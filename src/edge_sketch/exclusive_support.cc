@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "edge_sketch/evidence.h"
 #include "geometry/pixel_size.h"
@@ -94,11 +93,10 @@ std::vector<Edge3d> DropWithoutExclusiveSupport(
     keeps[i] = claims.NumOwnSupports(i) >= min_num_exclusive_views;
     if (keeps[i]) claims.Claim(i);
   }
-  std::vector<Edge3d> kept;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (keeps[i]) kept.push_back(std::move(edges[i]));
-  }
-  return kept;
+  std::erase_if(edges, [&](const Edge3d& edge) {
+    return !keeps[static_cast<std::size_t>(&edge - edges.data())];
+  });
+  return edges;
 }
 
 }  // namespace curvix
