@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // tell: at once, where edges would be sought only after minutes.
 Status CheckImages(const Scene& scene) {
   for (const View& view : scene.views) {
-    Status status = CheckImageFiles(view, CameraOf(scene, view));
+    Status status = CheckImageAndMask(view, CameraOf(scene, view));
     if (!status.ok()) return status;
   }
   return {};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "base/check.h"
 #include "base/median.h"
 #include "base/parallel.h"
 #include "base/wide_vectors.h"
@@ -18,8 +19,8 @@
 namespace curvix {
 namespace {
 
-// Of all images together.
-constexpr std::int64_t kMaxImageBytes = std::int64_t{1} << 30;
+// Of all images together, so that what is kept of them is bounded.
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 30;
 // Against noise and aliasing.
 constexpr double kBlurPx = 0.7;
 
@@ -28,14 +29,14 @@ constexpr double kBlurPx = 0.7;
 constexpr int kTile = 16;
 constexpr int kStride = kTile + 1;
 
-std::int64_t Bytes(const Scene& scene, int shrink) {
-  std::int64_t bytes = 0;
+std::int64_t NumPixels(const Scene& scene, int shrink) {
+  std::int64_t pixels = 0;
   for (const View& view : scene.views) {
     const Camera& camera = CameraOf(scene, view);
-    bytes += static_cast<std::int64_t>(camera.width / shrink) *
-             (camera.height / shrink);
+    pixels += static_cast<std::int64_t>(camera.width / shrink) *
+              (camera.height / shrink);
   }
-  return bytes;
+  return pixels;
 }
 
 // The standard deviation of white noise, grey levels, by Immerkaer's (1996)
@@ -57,7 +58,7 @@ double FineNoise(const GrayImage& gray) {
   return kSigmasPerMedian * MedianOr(0, std::move(responses));
 }
 
-// Of the whole image.
+// Blurs the whole image and keeps the tiles asked for.
 void KeepTiles(GrayImage gray, BlurredImage* kept) {
   const double noise = FineNoise(gray);
   const int shrink = static_cast<int>(std::lround(1 / kept->scale()));
@@ -95,6 +96,9 @@ void BlurredImage::AskFor(const Eigen::AlignedBox2i& box) {
     tiles_.resize(static_cast<std::size_t>(TilesPerRow()) *
                   static_cast<std::size_t>((height_ - 1) / kTile + 1));
   }
+  CURVIX_CHECK(box.min().minCoeff() >= 0 && box.max().x() < width_ &&
+                   box.max().y() < height_,
+               "box up to " << box.max().transpose());
   const Eigen::Vector2i first = box.min() / kTile;
   const Eigen::Vector2i last = box.max() / kTile;
   for (int row = first.y(); row <= last.y(); ++row) {
@@ -106,6 +110,9 @@ void BlurredImage::AskFor(const Eigen::AlignedBox2i& box) {
 
 void BlurredImage::Keep(std::span<const std::uint8_t> pixels,
                         double noise_variance) {
+  CURVIX_CHECK(pixels.size() == static_cast<std::size_t>(width_) *
+                                    static_cast<std::size_t>(height_),
+               pixels.size() << " pixels");
   noise_variance_ = noise_variance;
   const auto num = std::ranges::count(tiles_, 1);
   pixels_.resize(static_cast<std::size_t>(num * kStride * kStride));
@@ -165,11 +172,11 @@ void BlurredImage::LookUp(std::span<const float> x,
 std::vector<BlurredImage> PlanBlurredImages(const Scene& scene,
                                             int num_threads) {
   int shrink = 1;
-  while (Bytes(scene, shrink) > kMaxImageBytes) shrink *= 2;
+  while (NumPixels(scene, shrink) > kMaxPixels) shrink *= 2;
   std::vector<BlurredImage> images(scene.views.size());
   ParallelFor(images.size(), num_threads, [&](std::size_t i) {
     const Camera& camera = CameraOf(scene, scene.views[i]);
-    const bool is_there = CheckImageFiles(scene.views[i], camera).ok();
+    const bool is_there = CheckImage(scene.views[i], camera).ok();
     images[i] = BlurredImage(is_there ? camera.width / shrink : 0,
                              is_there ? camera.height / shrink : 0,
                              1.0 / shrink);

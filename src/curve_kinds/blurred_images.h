@@ -22,11 +22,11 @@ class BlurredImage {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  // Pixels here per pixel of the file, in (0, 1].
+  // Pixels here per pixel of the view's image, in (0, 1].
   double scale() const { return scale_; }
 
-  // Whether `pixel`, one of the file, is `reach` of its pixels from the border
-  // or more.
+  // Whether all within `reach` pixels of `pixel` and one pixel here around it
+  // is in the image. Both are of the view's image.
   bool Covers(const Eigen::Vector2d& pixel, double reach) const {
     const Eigen::Vector2d at = pixel * scale_;
     const double margin = reach * scale_ + 1;
@@ -36,6 +36,7 @@ class BlurredImage {
 
   // Asks for the tiles with the pixels of `box`, which are all in the image.
   void AskFor(const Eigen::AlignedBox2i& box);
+  // Whether any tile is.
   bool IsAskedFor() const { return !tiles_.empty(); }
   // Keeps the tiles asked for. All `pixels` are given, row by row.
   void Keep(std::span<const std::uint8_t> pixels, double noise_variance);
@@ -65,13 +66,14 @@ class BlurredImage {
   std::vector<std::uint8_t> pixels_;
 };
 
-// One per view, in order, of no tiles yet; of no pixels where the file cannot
-// be read, as far as its header tells. If all of them would have more than a
-// gigabyte of pixels, they are halved until they have not.
+// One per view, in order, of no tiles yet; of no pixels where there is no image
+// to read (CheckImage). If all of them would have more than 2^30 pixels, the
+// width and height of each are halved until they have not.
 std::vector<BlurredImage> PlanBlurredImages(const Scene& scene,
                                             int num_threads);
 
-// Reads the tiles asked for. An image that cannot be read has no pixels then.
+// Reads the tiles asked for. An image that turns out to be broken has no pixels
+// then, so places that chose it have a view fewer.
 void ReadTiles(const Scene& scene,
                int num_threads,
                std::vector<BlurredImage>* images);

@@ -150,10 +150,10 @@ struct Places {
   // Per curve, of images of reduced size; world units.
   std::vector<double> pixels;
   std::vector<std::vector<std::size_t>> samples;  // per curve
-  std::vector<std::size_t> first;                 // place per curve
+  std::vector<std::size_t> first;                 // place of each curve
   // Of all curves, one after the other.
   std::vector<std::size_t> curves;
-  std::vector<StripPlace> strips;
+  std::vector<StripPlace> all;
   std::vector<StripViews> strip_views;
 };
 
@@ -223,13 +223,13 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
   for (std::size_t i = 0; i < curves.size(); ++i) {
     places.pixels.push_back(PixelSize(curves[i], views) / scale);
     places.samples.emplace_back();
-    places.first.push_back(places.strips.size());
+    places.first.push_back(places.all.size());
     if (!(places.pixels.back() > 0)) continue;
     places.samples.back() =
         SamplesAlong(curves[i], kStepPx * places.pixels.back());
     for (StripPlace& place : PlacesOn(curves[i], places.samples.back())) {
       places.curves.push_back(i);
-      places.strips.push_back(std::move(place));
+      places.all.push_back(std::move(place));
     }
   }
   return places;
@@ -237,26 +237,27 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
 
 // Chooses the views of the places of curves to classify, and reads the parts of
 // the `images` with their strips.
-void ReadStrips(const Scene& scene,
-                const std::vector<PosedView>& views,
-                const std::vector<Curve>& curves,
-                int num_threads,
-                Places* places,
-                std::vector<BlurredImage>* images) {
-  places->strip_views.resize(places->strips.size());
+void ReadTilesOfPlaces(const Scene& scene,
+                       const std::vector<PosedView>& views,
+                       const std::vector<Curve>& curves,
+                       int num_threads,
+                       Places* places,
+                       std::vector<BlurredImage>* images) {
+  places->strip_views.resize(places->all.size());
   ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
     if (MainKind(curves[i]) == CurveKind::kOccludingContour) return;
     const std::size_t end = places->first[i] + places->samples[i].size();
     for (std::size_t k = places->first[i]; k < end; ++k) {
       places->strip_views[k] =
-          ChooseStripViews(places->strips[k], scene, views, *images);
+          ChooseStripViews(places->all[k], scene, views, *images);
     }
   });
-  for (const StripViews& chosen : places->strip_views) {
+  for (StripViews& chosen : places->strip_views) {
     for (std::size_t i = 0; i < chosen.views.size(); ++i) {
       (*images)[static_cast<std::size_t>(chosen.views[i])].AskFor(
-          chosen.pixels[i]);
+          chosen.boxes[i]);
     }
+    chosen.boxes = {};
   }
   ReadTiles(scene, num_threads, images);
 }
@@ -271,7 +272,7 @@ class Classifier {
         views_(views),
         images_(images),
         places_(places),
-        places_tree_(places.strips, &StripPlace::position),
+        places_tree_(places.all, &StripPlace::position),
         points_tree_(scene.points, &ScenePoint::position) {}
 
   void Classify(std::size_t curve_idx, Curve* curve) const {
@@ -303,7 +304,7 @@ class Classifier {
     std::vector<SurfaceEvidence> evidence;
     for (std::size_t k = 0; k < places_.samples[curve_idx].size(); ++k) {
       const std::size_t at = places_.first[curve_idx] + k;
-      const StripPlace& place = places_.strips[at];
+      const StripPlace& place = places_.all[at];
       const ViewSet views(place.views, views_.size());
       std::vector<Vector3d> nearby =
           CurvesNearby(curve_idx, place.position, views);
@@ -331,14 +332,14 @@ class Classifier {
                                      const Vector3d& position,
                                      const ViewSet& views) const {
     const auto views_of = [&](std::size_t i) -> const std::vector<int>& {
-      return places_.strips[i].views;
+      return places_.all[i].views;
     };
     const double radius = kNearbyCurvePx * places_.pixels[curve_idx];
     std::vector<Vector3d> nearby;
     for (std::size_t i :
          SeenNear(places_tree_, views_of, position, views, radius)) {
       if (places_.curves[i] != curve_idx) {
-        nearby.push_back(places_.strips[i].position);
+        nearby.push_back(places_.all[i].position);
       }
     }
     return nearby;
@@ -364,12 +365,11 @@ void ClassifyCurves(const Scene& scene,
     return !step_done ||
            step_done(static_cast<int>(done), static_cast<int>(num_curves));
   };
-  if (!keep_going(0)) return;
+  if (!keep_going(0) || curves->empty()) return;
   std::vector<BlurredImage> images = PlanBlurredImages(scene, num_threads);
   if (images.empty()) return;
   Places places = ChoosePlaces(*curves, views, images.front().scale());
-  ReadStrips(scene, views, *curves, num_threads, &places, &images);
-  if (std::ranges::none_of(images, &BlurredImage::IsAskedFor)) return;
+  ReadTilesOfPlaces(scene, views, *curves, num_threads, &places, &images);
   const Classifier classifier(scene, views, images, places);
   const auto classify = [&](std::size_t i) {
     Curve& curve = (*curves)[i];

@@ -89,6 +89,7 @@ std::optional<LocalView> Locate(const StripPlace& place,
   if (!pixel.allFinite() || !image.Covers(pixel, kReachPx)) return std::nullopt;
   const Eigen::Matrix<double, 2, 3> jacobian =
       image.scale() * PixelJacobian(camera, x) * view.rotation;
+  if (!jacobian.allFinite()) return std::nullopt;
   const Vector3d binormal = place.tangent.cross(place.normal);
   return LocalView{view_idx,
                    &image,
@@ -305,7 +306,7 @@ StripViews ChooseStripViews(const StripPlace& place,
   chosen.step = Median(std::move(sizes)) / seen.front().image->scale();
   for (const LocalView& view : seen) {
     chosen.views.push_back(view.view);
-    chosen.pixels.push_back(PixelsOfStrips(view, chosen.step));
+    chosen.boxes.push_back(PixelsOfStrips(view, chosen.step));
   }
   return chosen;
 }

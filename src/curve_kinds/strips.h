@@ -55,8 +55,8 @@ using CurveDistances = std::array<double, kNumDirections>;
 // Views whose strips are compared.
 struct StripViews {
   std::vector<int> views;
-  std::vector<Eigen::AlignedBox2i> pixels;  // of each image, with the strips
-  double step = 0;  // in space, of a pixel of the images; world units
+  std::vector<Eigen::AlignedBox2i> boxes;  // of their pixels, with the strips
+  double step = 0;  // a pixel of the images at the place, world units
 };
 
 // Some of the views that see the place; none if they are too few. One of

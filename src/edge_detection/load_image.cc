@@ -236,16 +236,22 @@ Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
   return ImageSize{image.cols, image.rows};
 }
 
-Status CheckImageFiles(const View& view, const Camera& camera) {
+Status CheckImage(const View& view, const Camera& camera) {
   const ImageSize expected = {camera.width, camera.height};
-  if (!view.image) {
-    const std::string name = ImageNamed(view.image_path);
-    Status status = CheckFile(view.image_path, name, IsOfSize(name, expected));
-    if (!status.ok()) return status;
+  if (view.image) {
+    return IsOfSize("Image " + view.name,
+                    expected)({view.image->width, view.image->height});
   }
-  if (view.mask_path.empty()) return {};
+  const std::string name = ImageNamed(view.image_path);
+  return CheckFile(view.image_path, name, IsOfSize(name, expected));
+}
+
+Status CheckImageAndMask(const View& view, const Camera& camera) {
+  Status status = CheckImage(view, camera);
+  if (!status.ok() || view.mask_path.empty()) return status;
   const std::string name = MaskNamed(view.mask_path);
-  return CheckFile(view.mask_path, name, IsOfShape(name, expected));
+  return CheckFile(
+      view.mask_path, name, IsOfShape(name, {camera.width, camera.height}));
 }
 
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
@@ -256,7 +262,8 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   }
   const ImageInMemory& image = *view.image;
   const ImageSize size = {image.width, image.height};
-  if (size != expected) return WrongSize("Image " + view.name, size, expected);
+  Status status = CheckImage(view, camera);
+  if (!status.ok()) return status;
   constexpr int kRed = 0;
   std::optional<GrayImage> gray = std::visit(
       [&](const auto& values) -> std::optional<GrayImage> {

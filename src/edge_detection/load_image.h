@@ -17,10 +17,12 @@ namespace curvix {
 // kNotFound: no such file. kDataLoss: not an image.
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path);
 
-// Whether LoadGrayImage() and LoadMask() take the files of a view, as far as
-// the headers tell, of which a few kilobytes are read: their format and, of all
-// but WebP files, size and bits. Their errors.
-Status CheckImageFiles(const View& view, const Camera& camera);
+// Whether LoadGrayImage() takes the image of a view, as far as its size and the
+// header of its file tell, of which a few kilobytes are read: the format and,
+// of all but WebP files, size and bits. Its errors.
+Status CheckImage(const View& view, const Camera& camera);
+// The same of the image and of the mask, LoadMask().
+Status CheckImageAndMask(const View& view, const Camera& camera);
 
 // The image of a view: that in memory, if there is one, else that in the file,
 // as stored: an EXIF rotation is ignored, as COLMAP does. Grey, colour

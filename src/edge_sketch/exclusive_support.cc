@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "edge_sketch/evidence.h"
 #include "geometry/pixel_size.h"
@@ -93,9 +94,14 @@ std::vector<Edge3d> DropWithoutExclusiveSupport(
     keeps[i] = claims.NumOwnSupports(i) >= min_num_exclusive_views;
     if (keeps[i]) claims.Claim(i);
   }
-  std::erase_if(edges, [&](const Edge3d& edge) {
-    return !keeps[static_cast<std::size_t>(&edge - edges.data())];
-  });
+  // In place: there may be many.
+  std::size_t num_kept = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!keeps[i]) continue;
+    if (i != num_kept) edges[num_kept] = std::move(edges[i]);
+    ++num_kept;
+  }
+  edges.resize(num_kept);
   return edges;
 }
 

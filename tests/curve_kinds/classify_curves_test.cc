@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -94,6 +95,7 @@ class ClassifyCurvesTest : public ::testing::Test {
       scene.views[i].image_path =
           folder_.path() / (scene.views[i].name + ".png");
       EXPECT_TRUE(cv::imwrite(scene.views[i].image_path.string(), image));
+      scene.views[i].mask_path = bad_mask_;
     }
     return MiddleOf(scene);
   }
@@ -109,6 +111,7 @@ class ClassifyCurvesTest : public ::testing::Test {
   int first_view_ = 0;                // of those that support the curves
   std::vector<double> other_curves_;  // x of curves parallel to the edge
   StepDone step_done_;
+  std::filesystem::path bad_mask_;  // of all views; empty: none
 
  private:
   Curve CurveAt(double x, const Scene& scene) const {
@@ -238,6 +241,11 @@ TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {
                         LookAt({-1, -2, 0}, Vector3d::Zero())}));
   EXPECT_EQ(sample.kind, CurveKind::kUnknown);
   EXPECT_EQ(sample.kind_probability, 0);
+}
+
+TEST_F(ClassifyCurvesTest, MasksDoNotMatter) {
+  bad_mask_ = "missing.png";
+  EXPECT_EQ(Classified({{0, 1}, {180, 2}}).kind, CurveKind::kMarking);
 }
 
 }  // namespace

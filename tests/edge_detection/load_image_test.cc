@@ -319,14 +319,14 @@ TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
       {"wide.pgm", cv::Mat(60, 81, CV_8U, cv::Scalar(7))}};
   for (const auto& [name, image] : images) {
     view.image_path = Written(name, image);
-    EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+    EXPECT_EQ(CheckImageAndMask(view, camera_).message(),
               LoadGrayImage(view, camera_).status().message());
-    EXPECT_EQ(CheckImageFiles(view, camera_).ok(), name[0] == 'a') << name;
+    EXPECT_EQ(CheckImageAndMask(view, camera_).ok(), name[0] == 'a') << name;
   }
   for (const std::string start : {"", "hello", "GIF89a\x50", "....ftypheic"}) {
     view.image_path = Written("a.gif", Bytes(start.begin(), start.end()));
-    EXPECT_FALSE(CheckImageFiles(view, camera_).ok()) << start;
-    EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+    EXPECT_FALSE(CheckImageAndMask(view, camera_).ok()) << start;
+    EXPECT_EQ(CheckImageAndMask(view, camera_).message(),
               LoadGrayImage(view, camera_).status().message());
   }
   // No more than the header is looked at, and formats without one pass.
@@ -334,10 +334,10 @@ TEST_F(LoadGrayImageTest, ChecksHeadersWithTheSameWords) {
     Bytes head = Contents(folder_.path() / name);
     head.resize(head.size() / 2);
     view.image_path = Written(std::string("cut_") + name, head);
-    EXPECT_TRUE(CheckImageFiles(view, camera_).ok()) << name;
+    EXPECT_TRUE(CheckImageAndMask(view, camera_).ok()) << name;
   }
   view.image_path = Written("b.webp", Texture(CV_8UC3));
-  EXPECT_TRUE(CheckImageFiles(view, camera_).ok());
+  EXPECT_TRUE(CheckImageAndMask(view, camera_).ok());
 }
 
 TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
@@ -348,8 +348,8 @@ TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
   for (const int height : {60, 59}) {
     bmp[22] = static_cast<char>(-height);
     view.image_path = Written("down.bmp", bmp);
-    EXPECT_EQ(CheckImageFiles(view, camera_).ok(), height == 60);
-    EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+    EXPECT_EQ(CheckImageAndMask(view, camera_).ok(), height == 60);
+    EXPECT_EQ(CheckImageAndMask(view, camera_).message(),
               LoadGrayImage(view, camera_).status().message());
   }
   for (const auto& [text, is_right] :
@@ -361,7 +361,7 @@ TEST_F(LoadGrayImageTest, ChecksHeadersOfEveryKindOfBmpAndPnm) {
     const std::string start = text;
     view.image_path = Written("a.pnm", Bytes(start.begin(), start.end()));
     EXPECT_EQ(ReadImageHeader(view.image_path).has_value() &&
-                  CheckImageFiles(view, camera_).ok(),
+                  CheckImageAndMask(view, camera_).ok(),
               is_right)
         << start;
   }
@@ -378,20 +378,21 @@ Bytes TiffHeader(char bits) {
 TEST_F(LoadGrayImageTest, ChecksTheBitsOfColours) {
   View view;
   view.image_path = Written("short.tiff", TiffHeader(16));
-  EXPECT_TRUE(CheckImageFiles(view, camera_).ok());
+  EXPECT_TRUE(CheckImageAndMask(view, camera_).ok());
   view.image_path = Written("float.tiff", TiffHeader(32));
-  EXPECT_EQ(CheckImageFiles(view, camera_).code(), StatusCode::kUnsupported);
+  EXPECT_EQ(CheckImageAndMask(view, camera_).code(), StatusCode::kUnsupported);
 }
 
 TEST_F(LoadGrayImageTest, ChecksTheShapeOfMasks) {
   View view;
   view.image_path = Written("a.png", Texture(CV_8UC1));
   view.mask_path = Written("half.png", cv::Mat(30, 40, CV_8U, cv::Scalar(7)));
-  EXPECT_TRUE(CheckImageFiles(view, camera_).ok());
+  EXPECT_TRUE(CheckImageAndMask(view, camera_).ok());
   view.mask_path = Written("flat.png", cv::Mat(20, 40, CV_8U, cv::Scalar(7)));
-  EXPECT_EQ(CheckImageFiles(view, camera_).message(),
+  EXPECT_EQ(CheckImageAndMask(view, camera_).message(),
             LoadMask(view, camera_).status().message());
-  EXPECT_THAT(CheckImageFiles(view, camera_).message(), HasSubstr("flat.png"));
+  EXPECT_THAT(CheckImageAndMask(view, camera_).message(),
+              HasSubstr("flat.png"));
 }
 
 }  // namespace
