@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <system_error>
 
 #include "base/file_io.h"
@@ -52,6 +54,27 @@ void SortById(ColmapModel* model) {
   std::ranges::stable_sort(model->cameras, {}, &ColmapCamera::camera_id);
   std::ranges::stable_sort(model->images, {}, &ColmapImage::image_id);
   std::ranges::stable_sort(model->points, {}, &ColmapPoint3D::point3D_id);
+}
+
+// Programs that split or filter models leave cameras without images, which may
+// be broken: nobody looks at them.
+CamerasOrError ReadUsableCameras(const fs::path& path,
+                                 ColmapFormat format,
+                                 const std::vector<ColmapImage>& images) {
+  std::set<std::uint32_t> used;
+  for (const ColmapImage& image : images) used.insert(image.camera_id);
+  const auto is_used = [&](std::uint32_t id) { return used.contains(id); };
+  CamerasOrError cameras = ReadList<std::vector<ColmapCamera>>(
+      path, [&](std::string_view bytes, const std::string& file) {
+        return format == ColmapFormat::kBinary
+                   ? ParseCamerasBinary(bytes, file)
+                   : ParseUsedCamerasText(bytes, file, is_used);
+      });
+  if (!cameras.ok()) return cameras;
+  std::erase_if(*cameras, [&](const ColmapCamera& item) {
+    return !is_used(item.camera_id) && !Validate(item.camera).ok();
+  });
+  return cameras;
 }
 
 // Files in `folder` that COLMAP or we would read instead of, or together with,
@@ -158,13 +181,11 @@ std::size_t CountColmapImages(const fs::path& folder) {
 Result<ColmapModel> ReadColmapModel(const fs::path& folder) {
   const Result<ColmapFormat> format = FindColmapFormat(folder);
   if (!format.ok()) return format.status();
-  const bool binary = *format == ColmapFormat::kBinary;
-  CamerasOrError cameras = ReadList<std::vector<ColmapCamera>>(
-      FilePath(folder, "cameras", *format),
-      binary ? ParseCamerasBinary : ParseCamerasText);
-  if (!cameras.ok()) return cameras.status();
   ImagesOrError images = ReadImages(folder, *format);
   if (!images.ok()) return images.status();
+  CamerasOrError cameras =
+      ReadUsableCameras(FilePath(folder, "cameras", *format), *format, *images);
+  if (!cameras.ok()) return cameras.status();
   PointsOrError points =
       ReadPoints(FilePath(folder, "points3D", *format), *format);
   if (!points.ok()) return points.status();

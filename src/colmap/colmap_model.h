@@ -78,9 +78,11 @@ Result<ColmapFormat> FindColmapFormat(const std::filesystem::path& folder);
 std::size_t CountColmapImages(const std::filesystem::path& folder);
 
 // Reads the model in `folder`. A missing points3D file, or an empty
-// points3D.txt, means no points. Quaternions are normalised. The result
-// satisfies ValidateColmapModel. Errors name the file: kNotFound (no model),
-// kDataLoss (truncated, malformed, inconsistent), kUnsupported (camera model).
+// points3D.txt, means no points. Quaternions are normalised. Broken cameras
+// that no image uses are left out, in text those of unknown models, too. The
+// result satisfies ValidateColmapModel. Errors name the file: kNotFound (no
+// model), kDataLoss (truncated, malformed, inconsistent), kUnsupported (camera
+// model).
 Result<ColmapModel> ReadColmapModel(const std::filesystem::path& folder);
 
 // Writes `model` into `folder`, which is made if needed, as .bin, each file

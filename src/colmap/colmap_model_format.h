@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,12 @@ std::string FormatPointsBinary(const std::vector<ColmapPoint3D>& points);
 // the rest of its line.
 CamerasOrError ParseCamerasText(std::string_view bytes,
                                 const std::string& file);
+// Leaves out cameras of unknown models that are not used. Not so in binary,
+// where the model tells how long a camera is.
+CamerasOrError ParseUsedCamerasText(
+    std::string_view bytes,
+    const std::string& file,
+    const std::function<bool(std::uint32_t camera_id)>& is_used);
 ImagesOrError ParseImagesText(std::string_view bytes, const std::string& file);
 PointsOrError ParsePointsText(std::string_view bytes, const std::string& file);
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 #include <curvix/scene.h>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 
 #include "base/line_reader.h"
@@ -89,12 +93,23 @@ bool ParsePoint(std::string_view line, ColmapPoint3D* point) {
 
 CamerasOrError ParseCamerasText(std::string_view bytes,
                                 const std::string& file) {
+  return ParseUsedCamerasText(bytes, file, [](std::uint32_t) { return true; });
+}
+
+CamerasOrError ParseUsedCamerasText(
+    std::string_view bytes,
+    const std::string& file,
+    const std::function<bool(std::uint32_t)>& is_used) {
   LineReader lines(bytes);
   std::vector<ColmapCamera> cameras;
   while (const auto line = lines.NextFilled()) {
     Result<ColmapCamera> camera = ParseCamera(*line, lines, file);
-    if (!camera.ok()) return camera.status();
-    cameras.push_back(std::move(camera).value());
+    if (camera.ok()) {
+      cameras.push_back(std::move(camera).value());
+    } else if (camera.status().code() != StatusCode::kUnsupported ||
+               is_used(WordReader(*line).Number<std::uint32_t>())) {
+      return camera.status();
+    }
   }
   return cameras;
 }

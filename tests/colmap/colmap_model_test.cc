@@ -233,6 +233,27 @@ TEST(ColmapModel, ValidationSaysWhatIsBroken) {
   }
 }
 
+TEST(ColmapModel, BrokenCamerasWithoutImagesAreLeftOut) {
+  const TemporaryFolder folder;
+  folder.Write("cameras.txt",
+               "1 SIMPLE_PINHOLE 9 9 5 4 4\n"
+               "2 SIMPLE_PINHOLE 9 9 0 4 4\n"
+               "3 SIMPLE_PINHOLE 9 9 5 4 4\n"
+               "4 FISHEYE9 9 9 5 4 4 1 2\n");
+  folder.Write("images.txt", "7 1 0 0 0 1 2 3 1 a.png\n\n");
+  const Result<ColmapModel> model = ReadColmapModel(folder.path());
+  ASSERT_TRUE(model.ok()) << model.status().message();
+  ASSERT_EQ(model->cameras.size(), 2u);
+  EXPECT_EQ(model->cameras[0].camera_id, 1u);
+  EXPECT_EQ(model->cameras[1].camera_id, 3u);
+  folder.Write("images.txt", "7 1 0 0 0 1 2 3 2 a.png\n\n");
+  EXPECT_THAT(ReadColmapModel(folder.path()).status().message(),
+              HasSubstr("camera 2 is not usable"));
+  folder.Write("images.txt", "7 1 0 0 0 1 2 3 4 a.png\n\n");
+  EXPECT_THAT(ReadColmapModel(folder.path()).status().message(),
+              HasSubstr("camera 4 has the camera model FISHEYE9"));
+}
+
 TEST(ColmapModel, IsNotWrittenWhereOtherFilesWouldShadowIt) {
   const ColmapModel model = RandomModel(1);
   for (const std::string name : {"rigs.bin", "frames.txt", "cameras.txt"}) {
