@@ -2,9 +2,9 @@
 // Paper: none (engineering).
 // The six files of a COLMAP model as bytes: parsing and formatting, without
 // file access, and the checks of their content. `file` is the path that error
-// messages name. The parsers check the layout only, ValidateColmapModel the
-// content; every count is checked against the bytes that are left before
-// anything is allocated.
+// messages name. The parsers check the layout, and in text that the ids of
+// images differ, ValidateColmapModel the other content; every count is checked
+// against the bytes that are left before anything is allocated.
 #pragma once
 
 #include <array>

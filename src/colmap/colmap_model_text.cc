@@ -21,6 +21,18 @@ Status Malformed(const std::string& file,
       expected + "\"; correct it or export the model again.");
 }
 
+// Here, where the lines are known.
+Status SameId(const std::string& file,
+              const LineReader& lines,
+              std::uint32_t image_id,
+              std::size_t first_line) {
+  return Status::DataLoss(
+      file + ", line " + std::to_string(lines.line_number()) +
+      " has the image id " + std::to_string(image_id) + " of line " +
+      std::to_string(first_line) +
+      "; give one of the two images another id or export the model again.");
+}
+
 Result<ColmapCamera> ParseCamera(std::string_view line,
                                  const LineReader& lines,
                                  const std::string& file) {
@@ -117,12 +129,16 @@ CamerasOrError ParseUsedCamerasText(
 ImagesOrError ParseImagesText(std::string_view bytes, const std::string& file) {
   LineReader lines(bytes);
   std::vector<ColmapImage> images;
+  std::map<std::uint32_t, std::size_t> line_numbers;  // by image_id
   while (const auto line = lines.NextFilled()) {
     ColmapImage& image = images.emplace_back();
     if (!ParsePose(*line, &image)) {
       return Malformed(
           file, lines, "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
     }
+    const auto [first, is_new] =
+        line_numbers.emplace(image.image_id, lines.line_number());
+    if (!is_new) return SameId(file, lines, image.image_id, first->second);
     const auto points = lines.Next();
     if (points && !ParsePoints2D(*points, &image)) {
       return Malformed(file,

@@ -234,6 +234,8 @@ TEST(ColmapText, MalformedLinesAreNamed) {
            {image(pose + "1 2\n"), "images.txt, line 2"},
            {image(pose + "1 2 -2\n"), "images.txt, line 2"},
            {image(pose + pose), "an image takes two lines"},
+           {image("# x\n" + pose + "\n" + pose + "\n"),
+            "images.txt, line 4 has the image id 1 of line 2; give one"},
            {point("1 2 3 4 256 0 0 1"), "points3D.txt, line 1"},
            {point("1 2 3 4 5 0 0"), "points3D.txt, line 1"},
            {point("1 2 3 4 5 0 0 1 1"), "points3D.txt, line 1"}}) {
