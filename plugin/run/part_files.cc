@@ -22,7 +22,6 @@
 #include "plugin/export/curves_json.h"
 #include "plugin/run/file_hashes.h"
 #include "plugin/run/part_models.h"
-#include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"
 
 namespace curvix {
@@ -31,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPlanName = "plan.json";
+constexpr const char* kInputName = "input.json";
 
 std::size_t Idx(int idx) { return static_cast<std::size_t>(idx); }
 
@@ -143,6 +143,11 @@ std::string PartsText(const std::string& what, const std::vector<int>& idxs) {
   return text;
 }
 
+Status BrokenPlan(const fs::path& path) {
+  return Status::DataLoss(path.string() +
+                          " is broken; run 'colmap_curvix partition' again");
+}
+
 Status PartsNotDone(const std::vector<int>& missing,
                     const std::vector<int>& other) {
   std::string text = PartsText("these parts are not there", missing);
@@ -204,6 +209,32 @@ Status CheckModelIsThere(const fs::path& folder) {
   return {};
 }
 
+Status WriteInputOfPlan(const InputSummary& input, const fs::path& folder) {
+  Json json;
+  json["missing_images"] = input.missing_images;
+  json["notes"] = input.notes;
+  return WriteFileAtomically(
+      folder / kInputName,
+      json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Result<InputSummary> ReadInputOfPlan(const fs::path& folder) {
+  InputSummary input;
+  const fs::path path = folder / kInputName;
+  std::error_code error;
+  if (!fs::exists(path, error)) return input;
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) return text.status();
+  try {
+    const Json json = Json::parse(*text);
+    json.at("missing_images").get_to(input.missing_images);
+    json.at("notes").get_to(input.notes);
+  } catch (const Json::exception&) {
+    return BrokenPlan(path);
+  }
+  return input;
+}
+
 Result<PartPlan> ReadPlan(const fs::path& folder) {
   Result<std::string> text = ReadFile(folder / kPlanName);
   if (!text.ok()) {
@@ -222,10 +253,7 @@ Result<PartPlan> ReadPlan(const fs::path& folder) {
   } catch (const std::exception&) {
     is_sound = false;
   }
-  if (!is_sound) {
-    return Status::DataLoss((folder / kPlanName).string() +
-                            " is broken; run 'colmap_curvix partition' again");
-  }
+  if (!is_sound) return BrokenPlan(folder / kPlanName);
   plan.text = *std::move(text);
   return plan;
 }

@@ -3,6 +3,7 @@
 //
 //   plan.json         the partition, for people too
 //   model_hash.txt    hash of the files of the model that was divided
+//   input.json        the notes on that model, and the images that it lacks
 //   scene/*.bin       the model of the scene without its points
 //   <k>/sparse/*.bin  the model of part k: its views, and the points they see
 //   <k>/part.bin      what part k gave (io/stage_io.h)
@@ -24,6 +25,7 @@
 #include "io/stage_io.h"
 #include "parts/scene_parts.h"
 #include "plugin/base/progress.h"
+#include "plugin/run/run_report.h"
 
 namespace curvix {
 
@@ -35,6 +37,13 @@ Status WritePlan(const ScenePartition& partition,
                  const std::filesystem::path& folder);
 // kNotFound if a model of WritePlan() is not there, or not whole.
 Status CheckModelIsThere(const std::filesystem::path& folder);
+
+// input.json, and what it gives back: all but notes and missing images is left
+// out. Nothing without the file, as plans of earlier versions are; kDataLoss if
+// it is broken.
+Status WriteInputOfPlan(const InputSummary& input,
+                        const std::filesystem::path& folder);
+Result<InputSummary> ReadInputOfPlan(const std::filesystem::path& folder);
 
 // The text of plan.json.
 std::string PlanJson(const ScenePartition& partition, const Scene& scene);

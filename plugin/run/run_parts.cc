@@ -15,6 +15,7 @@
 #include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "colmap/files.h"
+#include "colmap/inconsistent_points.h"
 #include "io/curve_formats.h"
 #include "io/stage_io.h"
 #include "parts/joined_curves.h"
@@ -57,6 +58,16 @@ void NoteOverlap(const ScenePartition& partition, RunProgress& progress) {
                 std::to_string(num_views / num_own_views) +
                 " parts, and costs as many times as much; larger parts share "
                 "less (--max_views_per_part)");
+}
+
+// For the merge, which has no points.
+void NoteLargeErrors(const Scene& scene,
+                     RunProgress& progress,
+                     RunRecord& record) {
+  const std::string note = LargeErrorsNote(scene);
+  if (note.empty()) return;
+  progress.Note(note);
+  record.input.notes.push_back(note);
 }
 
 // Whether any part is done, of whatever plan.
@@ -109,6 +120,22 @@ Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
       "partition' again");
 }
 
+// The model that was divided has more to say than that of the merge, which is
+// without its points and the images that it lacks.
+Status TakeInputOfPlan(const fs::path& folder,
+                       RunProgress& progress,
+                       InputSummary& input) {
+  Result<InputSummary> divided = ReadInputOfPlan(folder);
+  if (!divided.ok()) return divided.status();
+  input.missing_images = std::move(divided->missing_images);
+  for (const std::string& note : divided->notes) {
+    if (std::ranges::find(input.notes, note) != input.notes.end()) continue;
+    progress.Note(note);
+    input.notes.push_back(note);
+  }
+  return {};
+}
+
 // What a merge needs besides the parts.
 Status CheckScene(const WorkspaceScene& input,
                   const PartPlan& plan,
@@ -159,6 +186,7 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
       PartitionScene(input->scene, max_views_per_part);
   if (!partition.ok()) return partition;
   progress.Finish(Plural(partition->parts.size(), "part"));
+  NoteLargeErrors(input->scene, progress, record);
   NoteOverlap(*partition, progress);
 
   const fs::path folder = workspace->output_path / kPartsName;
@@ -185,6 +213,7 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
   if (status.ok()) {
     status = WriteFileAtomically(written / kModelHashName, hash_text);
   }
+  if (status.ok()) status = WriteInputOfPlan(record.input, written);
   if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
   if (status.ok() && !in_place) status = output->Publish();
   if (!status.ok()) return status;
@@ -265,6 +294,7 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
   if (!input.ok()) return input.status();
   status = CheckScene(*input, *plan, model_path, folder);
+  if (status.ok()) status = TakeInputOfPlan(folder, progress, record.input);
   if (!status.ok()) return status;
   record.settings.input_path = fs::absolute(model_path);
   record.settings.command = "merge";

@@ -195,6 +195,24 @@ TEST_F(RunParts, NeedTheModelAndTheImagesThatWereDivided) {
   MergeAll();
 }
 
+TEST_F(RunParts, MergesReportWhatTheModelLacked) {
+  MakeStreet(80);
+  fs::remove(street_ / "images/view_047.png");
+  Plan();
+  ReconstructAll();
+  MergeAll();
+  EXPECT_THAT(*ReadFile(parts_ / "report.json"),
+              AllOf(HasSubstr("\"missing_images\": [\n"),
+                    HasSubstr("\"view_047.png\""),
+                    HasSubstr("1 of 48 images is not in ")));
+  const fs::path path = parts_ / "parts/input.json";
+  ASSERT_TRUE(WriteFileAtomically(path, "{").ok());
+  EXPECT_EQ(MergeStatus().code(), StatusCode::kDataLoss);
+  EXPECT_THAT(MergeStatus().message(), HasSubstr("input.json is broken"));
+  fs::remove(path);  // as earlier versions left it
+  MergeAll();
+}
+
 TEST_F(RunParts, NeedNotHaveTheImageOfTheSvg) {
   MakeStreet(80);
   settings_.output.formats = {"svg"};
