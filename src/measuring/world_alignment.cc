@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <string>
 #include <utility>
 
+#include "base/text_fields.h"
 #include "geometry/directions.h"
 #include "measuring/known_directions.h"
 
@@ -18,6 +20,7 @@ namespace {
 constexpr int kNumSteps = 20;
 constexpr double kLargeCoordinate = 10000;
 constexpr double kOffsetStep = 100;
+constexpr double kLargestScale = 1e24;
 // Positions are on a line if their extent across it is a smaller share of that
 // along it.
 constexpr double kOnALine = 1e-3;
@@ -61,6 +64,20 @@ bool SpanAPlane(const Eigen::Matrix3Xd& points) {
   return values(1) > kOnALine * kOnALine * values(2);
 }
 
+// Coordinates and their variances are to stay within floating-point numbers,
+// also in files of 32 bits.
+Status CheckScale(double scale) {
+  if (scale >= 1 / kLargestScale && scale <= kLargestScale) return {};
+  const std::string scale_is =
+      std::isfinite(scale)
+          ? "makes the scale " + NumberText(scale) + ", beyond what files hold"
+          : "does not fix the scale";
+  return Status::InvalidArgument(
+      "What is given " + scale_is +
+      ": look for a wrong distance, standard deviation, marker size, point or "
+      "position");
+}
+
 class Estimator {
  public:
   explicit Estimator(const AlignmentInput& input) : input_(input) {}
@@ -91,6 +108,8 @@ class Estimator {
       a.covariance.topLeftCorner(num_affected, num_affected) *=
           std::max(1.0, mean_square);
     }
+    const Status scale = CheckScale(a.world_from_model.scale);
+    if (!scale.ok()) return scale;
     if (!a.covariance.allFinite() ||
         !a.world_from_model.translation.allFinite()) {
       return Status::InvalidArgument(

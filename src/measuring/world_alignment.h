@@ -109,7 +109,8 @@ Status CheckSigmas(const std::vector<KnownPosition>& positions);
 // scale, which nothing else depends on. Positions without a sigma all have the
 // same, estimated from their residuals. kInvalidArgument, with a sentence:
 // nothing is given, points of a distance coincide, or positions do not fix the
-// rotation and no axes are given, or CheckSigmas() says so.
+// rotation and no axes are given, the scale is below 1e-24 or above 1e24, or
+// CheckSigmas() says so.
 Result<AlignmentResult> EstimateAlignment(const AlignmentInput& input);
 
 }  // namespace curvix

@@ -307,5 +307,24 @@ TEST(EstimateAlignment, SaysWhatIsMissing) {
   EXPECT_FALSE(EstimateAlignment(one_place).ok());
 }
 
+TEST(EstimateAlignment, RefusesAbsurdScales) {
+  for (const double length : {1e300, 1e-300, 5e-324, 1e26, 1e-26}) {
+    AlignmentInput input;
+    input.distances.push_back(DistanceOf({1, 1, 1}, {1, 1, 2}, length));
+    const Status status = EstimateAlignment(input).status();
+    EXPECT_EQ(status.code(), StatusCode::kInvalidArgument) << length;
+    EXPECT_THAT(status.message(), HasSubstr("wrong distance")) << length;
+  }
+  AlignmentInput far;
+  far.distances.push_back(DistanceOf({1e300, 0, 0}, {0, 0, 0}, 1));
+  EXPECT_THAT(EstimateAlignment(far).status().message(),
+              HasSubstr("does not fix the scale: look"));
+  for (const double length : {1e20, 1e-20}) {
+    AlignmentInput input;
+    input.distances.push_back(DistanceOf({1, 1, 1}, {1, 1, 2}, length));
+    EXPECT_TRUE(EstimateAlignment(input).ok()) << length;
+  }
+}
+
 }  // namespace
 }  // namespace curvix
