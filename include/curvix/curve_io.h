@@ -19,9 +19,11 @@ namespace curvix {
 // `scene` must hold every view that a sample names, for .txt to list the ids of
 // the images that support it; it lists none for an empty scene. `frame`: the
 // line by which .ply tells of the frame; "": that of the model.
-// kInvalidArgument for another extension, kNotFound or kDataLoss if the path
-// cannot be written, kUnsupported for more curves than the format can hold, and
-// curves.status().
+// kInvalidArgument for another extension, or if a curve has fewer than two
+// samples, or a position, tangent or sigma that is not finite, or a coordinate
+// beyond the floats of 32 bits, in all formats alike; kNotFound or kDataLoss if
+// the path cannot be written, kUnsupported for more curves than the format can
+// hold, and curves.status().
 Status WriteCurves(const std::filesystem::path& path,
                    const CurveSource& curves,
                    const Scene& scene = {},

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Chooses the format by the extension.
 #include <curvix/curve_io.h>
+#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 
+#include "base/count_text.h"
 #include "base/file_io.h"
 #include "io/curve_formats.h"
 #include "io/pcl_lines.h"
@@ -49,6 +53,63 @@ Result<CurveSet> Decode(const std::string& extension,
       "\"");
 }
 
+// What no format can hold; "": nothing.
+std::string WrongIn(const CurveSample& sample) {
+  // Files of 32 bits have no others.
+  const auto is_in_range = [](double x) {
+    return std::abs(x) <= std::numeric_limits<float>::max();
+  };
+  const Eigen::Vector3d& p = sample.position;
+  if (!is_in_range(p.x()) || !is_in_range(p.y()) || !is_in_range(p.z())) {
+    return "a position that is not finite or too large for files";
+  }
+  if (!sample.tangent.allFinite()) return "a tangent that is not finite";
+  if (!std::isfinite(sample.sigma)) return "a sigma that is not finite";
+  return "";
+}
+
+Status CheckCurve(std::size_t id, const Curve& curve) {
+  const std::string name = "curve " + std::to_string(id);
+  if (curve.samples.size() < 2) {
+    return Status::InvalidArgument(
+        name + " has " + Plural(curve.samples.size(), "sample") +
+        ", and lines need two or more; leave it out");
+  }
+  for (std::size_t i = 0; i < curve.samples.size(); ++i) {
+    const std::string wrong = WrongIn(curve.samples[i]);
+    if (wrong.empty()) continue;
+    return Status::InvalidArgument("sample " + std::to_string(i) + " of " +
+                                   name + " has " + wrong +
+                                   "; correct it or leave it out");
+  }
+  return {};
+}
+
+// The curves up to the first that no file can hold; status() says why.
+class CheckedCurves : public CurveSource {
+ public:
+  explicit CheckedCurves(const CurveSource& curves) : curves_(curves) {}
+
+  std::size_t size() const override { return curves_.size(); }
+  void ForEach(const Visit& visit) const override {
+    wrong_ = {};  // each time the same curves
+    curves_.ForEach([&](std::size_t id, const Curve& curve) {
+      if (wrong_.ok()) wrong_ = CheckCurve(id, curve);
+      if (wrong_.ok()) visit(id, curve);
+    });
+  }
+  Status status() const override {
+    return curves_.status().ok() ? wrong_ : curves_.status();
+  }
+  Edge2d EdgeOf(const EdgeRef& ref) const override {
+    return curves_.EdgeOf(ref);
+  }
+
+ private:
+  const CurveSource& curves_;
+  mutable Status wrong_;
+};
+
 // A file of what `encode` gives for its extension; of `curves`, if there are
 // any, all of which can be read.
 using Encoder =
@@ -68,12 +129,13 @@ Status WriteCurves(const fs::path& path,
                    const CurveSource& curves,
                    const Scene& scene,
                    std::string_view frame) {
+  const CheckedCurves checked(curves);
   return Write(
       path,
       [&](const std::string& extension, const ByteSink& sink) {
-        return Encode(extension, curves, scene, frame, sink);
+        return Encode(extension, checked, scene, frame, sink);
       },
-      &curves);
+      &checked);
 }
 
 Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
@@ -113,6 +175,7 @@ Status WriteProjection(const fs::path& path,
                        const CurveSource& curves,
                        const Scene& scene,
                        int view_idx) {
+  const CheckedCurves checked(curves);
   return Write(
       path,
       [&](const std::string& extension, const ByteSink& sink) {
@@ -125,10 +188,10 @@ Status WriteProjection(const fs::path& path,
           return Status::InvalidArgument("there is no view " +
                                          std::to_string(view_idx));
         }
-        EncodeSvgCurves(curves, scene, view_idx, sink);
+        EncodeSvgCurves(checked, scene, view_idx, sink);
         return Status();
       },
-      &curves);
+      &checked);
 }
 
 }  // namespace curvix

@@ -2,6 +2,11 @@
 #include <curvix/curve_io.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/file_io.h"
 #include "io/curve_style.h"
@@ -78,6 +83,39 @@ TEST(CurveIo, WritesNothingOfCurvesThatCannotBeRead) {
   EXPECT_FALSE(
       WriteProjection(folder.path() / "a.svg", curves, MakeTestScene(), 0)
           .ok());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(CurveIo, WritesNothingOfCurvesThatNoFormatCanHold) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  using Damage = std::function<void(Curve&)>;
+  const std::vector<std::pair<Damage, std::string>> cases = {
+      {[](Curve& c) { c.samples.resize(1); }, "curve 1 has 1 sample, "},
+      {[](Curve& c) { c.samples.clear(); }, "curve 1 has 0 samples, "},
+      {[](Curve& c) { c.samples[1].position.y() = kNan; },
+       "sample 1 of curve 1 has a position"},
+      {[](Curve& c) { c.samples[0].position.z() = -kInf; },
+       "sample 0 of curve 1 has a position"},
+      {[](Curve& c) { c.samples[0].position.x() = 1e39; }, "too large"},
+      {[](Curve& c) { c.samples[0].tangent.x() = kNan; }, "a tangent"},
+      {[](Curve& c) { c.samples[0].sigma = kInf; }, "a sigma"}};
+  const TemporaryFolder folder;
+  for (const auto& [damage, sentence] : cases) {
+    CurveSet curves = MakeTestCurves();
+    ASSERT_GT(curves.curves.size(), 2u);
+    damage(curves.curves[1]);
+    for (const char* name : {"ply", "obj", "pcd", "txt", "vtp", "glb"}) {
+      const Status status = WriteCurves(
+          folder.path() / (std::string("a.") + name), curves, MakeTestScene());
+      EXPECT_EQ(status.code(), StatusCode::kInvalidArgument) << name;
+      EXPECT_THAT(status.message(), HasSubstr(sentence)) << name;
+    }
+    EXPECT_FALSE(
+        WriteProjection(
+            folder.path() / "a.svg", CurvesInMemory(curves), MakeTestScene(), 0)
+            .ok());
+  }
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
