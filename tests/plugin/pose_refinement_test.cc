@@ -148,7 +148,7 @@ TEST_F(FakeColmap, WritingNothingIsTold) {
 TEST_F(FakeColmap, WritingNonsenseIsTold) {
   ExpectKept(Run("for f in cameras images points3D; do head -c 5000 "
                  "/dev/urandom > \"$5\"/$f.bin; done"),
-             "it wrote a model that cannot be read: cameras.bin");
+             "it wrote a model that cannot be read: images.bin");
 }
 
 TEST_F(FakeColmap, WritingAnotherModelIsTold) {
