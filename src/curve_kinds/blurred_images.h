@@ -25,8 +25,8 @@ class BlurredImage {
   // Pixels here per pixel of the view's image, in (0, 1].
   double scale() const { return scale_; }
 
-  // Whether all within `reach` pixels of `pixel` and one pixel here around it
-  // is in the image. Both are of the view's image.
+  // Whether the image holds all places within `reach` of `pixel`, both in
+  // pixels of the view's image, and one more pixel here around them.
   bool Covers(const Eigen::Vector2d& pixel, double reach) const {
     const Eigen::Vector2d at = pixel * scale_;
     const double margin = reach * scale_ + 1;
@@ -36,7 +36,7 @@ class BlurredImage {
 
   // Asks for the tiles with the pixels of `box`, which are all in the image.
   void AskFor(const Eigen::AlignedBox2i& box);
-  // Whether any tile is.
+  // Whether any tile is asked for.
   bool IsAskedFor() const { return !tiles_.empty(); }
   // Keeps the tiles asked for. All `pixels` are given, row by row.
   void Keep(std::span<const std::uint8_t> pixels, double noise_variance);
@@ -60,8 +60,9 @@ class BlurredImage {
   int height_ = 0;
   double scale_ = 1;
   double noise_variance_ = 0;
-  // Row by row, where the pixels of each begin; before Keep(), 1 if it is asked
-  // for, else 0. Empty if none are.
+  // Row by row. Before Keep(): 1 if the tile is asked for, else 0. Afterwards:
+  // where its pixels begin in `pixels_`; 0 also if it is not kept. Empty if no
+  // tile is asked for.
   std::vector<int> tiles_;
   std::vector<std::uint8_t> pixels_;
 };
@@ -73,7 +74,7 @@ std::vector<BlurredImage> PlanBlurredImages(const Scene& scene,
                                             int num_threads);
 
 // Reads the tiles asked for. An image that turns out to be broken has no pixels
-// then, so places that chose it have a view fewer.
+// then, and places that chose it have one view fewer.
 void ReadTiles(const Scene& scene,
                int num_threads,
                std::vector<BlurredImage>* images);

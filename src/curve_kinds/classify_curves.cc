@@ -150,7 +150,7 @@ struct Places {
   // Per curve, of images of reduced size; world units.
   std::vector<double> pixels;
   std::vector<std::vector<std::size_t>> samples;  // per curve
-  std::vector<std::size_t> first;                 // place of each curve
+  std::vector<std::size_t> first;  // per curve, the index of its first place
   // Of all curves, one after the other.
   std::vector<std::size_t> curves;
   std::vector<StripPlace> all;
@@ -235,8 +235,8 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
   return places;
 }
 
-// Chooses the views of the places of curves to classify, and reads the parts of
-// the `images` with their strips.
+// Chooses the views of places on curves to classify, and reads the tiles of the
+// `images` that their strips need.
 void ReadTilesOfPlaces(const Scene& scene,
                        const std::vector<PosedView>& views,
                        const std::vector<Curve>& curves,

@@ -131,8 +131,8 @@ std::vector<LocalView> ChooseViews(std::vector<LocalView> seen) {
   return chosen;
 }
 
-// The pixels that strips in any direction are interpolated from, and one more
-// for rounding. `step`: that of StripViews.
+// The box of the pixels from which strips in any direction are interpolated,
+// with a margin of one pixel for rounding. `step`: that of StripViews.
 Eigen::AlignedBox2i PixelsOfStrips(const LocalView& view, double step) {
   const Eigen::Array2d across =
       (view.normal.cwiseAbs2() + view.binormal.cwiseAbs2()).cwiseSqrt();

@@ -55,7 +55,8 @@ using CurveDistances = std::array<double, kNumDirections>;
 // Views whose strips are compared.
 struct StripViews {
   std::vector<int> views;
-  std::vector<Eigen::AlignedBox2i> boxes;  // of their pixels, with the strips
+  // Of the pixels of each of these images, with the strips.
+  std::vector<Eigen::AlignedBox2i> boxes;
   double step = 0;  // a pixel of the images at the place, world units
 };
 

@@ -53,7 +53,7 @@ Result<CurveSet> Decode(const std::string& extension,
       "\"");
 }
 
-// What no format can hold; "": nothing.
+// What of a sample no format can hold; "": nothing.
 std::string WrongIn(const CurveSample& sample) {
   // Files of 32 bits have no others.
   const auto is_in_range = [](double x) {
@@ -92,7 +92,7 @@ class CheckedCurves : public CurveSource {
 
   std::size_t size() const override { return curves_.size(); }
   void ForEach(const Visit& visit) const override {
-    wrong_ = {};  // each time the same curves
+    wrong_ = {};  // a writer may go through the curves more than once
     curves_.ForEach([&](std::size_t id, const Curve& curve) {
       if (wrong_.ok()) wrong_ = CheckCurve(id, curve);
       if (wrong_.ok()) visit(id, curve);
