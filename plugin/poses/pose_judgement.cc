@@ -11,6 +11,7 @@
 #include "base/text_fields.h"
 #include "colmap/inconsistent_points.h"
 #include "plugin/poses/adjustable_scene.h"
+#include "poses/held_out.h"
 
 namespace curvix {
 namespace {
@@ -138,6 +139,19 @@ std::vector<ScenePoint> TakeCheckPoints(Scene* scene) {
   }
   scene->points = std::move(kept);
   return taken;
+}
+
+bool PosesFit(const Scene& poses, const std::vector<ScenePoint>& check_points) {
+  std::vector<std::vector<double>> by_view(poses.views.size());
+  for (ScenePoint point : check_points) {
+    point.position = FitPoint(poses, point);
+    const std::vector<double> errors = ReprojectionErrors(poses, point);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const auto view_idx = static_cast<std::size_t>(point.view_idxs[i]);
+      by_view[view_idx].push_back(errors[i]);
+    }
+  }
+  return PointsFit(std::move(by_view));
 }
 
 PoseJudgement JudgePoses(const Scene& before,

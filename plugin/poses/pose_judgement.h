@@ -54,6 +54,10 @@ struct PoseJudgement {
 // are removed from it.
 std::vector<ScenePoint> TakeCheckPoints(Scene* scene);
 
+// Whether the views of `poses` see `check_points`, fitted anew, where the poses
+// put them, so that there is nothing to gain.
+bool PosesFit(const Scene& poses, const std::vector<ScenePoint>& check_points);
+
 // Compares `after`, aligned to `before`, with it: two adjustable scenes of the
 // same views. The errors are those of `check_points`, each fitted anew under
 // either poses, so that neither side has seen them.

@@ -15,6 +15,7 @@ namespace curvix {
 namespace {
 
 constexpr char kStage[] = "refine_poses";
+constexpr char kLeftOut[] = "Bundle adjustment is left out: ";
 
 std::vector<Rigid3> Poses(const Scene& scene) {
   std::vector<Rigid3> poses;
@@ -64,6 +65,14 @@ bool AlignTo(const Scene& input, Scene* refined, double* scale_removed) {
 std::string RefinerName(const PoseRefinementRecord& record) {
   return record.colmap_version == "unknown" ? "COLMAP"
                                             : "COLMAP " + record.colmap_version;
+}
+
+std::string TooFewPoints(const ColmapModel& model, const Scene& usable) {
+  return "of the model's " + Plural(model.points.size(), "point") + ", " +
+         GroupDigits(usable.points.size()) + " can be used (in front of " +
+         "their cameras, in images with at least " +
+         std::to_string(kMinObservationsPerView) + " of them), and at least " +
+         std::to_string(kMinPointsToRefine) + " in 3 views are needed";
 }
 
 // The input poses stay, for `reason`.
@@ -176,14 +185,12 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
   record.num_views = input.views.size();
   record.num_points = input.points.size();
   if (record.num_points < kMinPointsToRefine || record.num_views < 3) {
-    Keep("of the model's " + Plural(model.points.size(), "point") + ", " +
-             GroupDigits(record.num_points) + " can be used (in front of " +
-             "their cameras, in images with at least " +
-             std::to_string(kMinObservationsPerView) +
-             " of them), and at least " + std::to_string(kMinPointsToRefine) +
-             " in 3 views are needed",
-         "Bundle adjustment is left out: ",
-         &result);
+    Keep(TooFewPoints(model, input), kLeftOut, &result);
+    return result;
+  }
+  std::vector<ScenePoint> check_points = TakeCheckPoints(&input);
+  if (PosesFit(input, check_points)) {
+    Keep("the points are where the poses put them", kLeftOut, &result);
     return result;
   }
   const Result<std::filesystem::path> program =
@@ -193,7 +200,6 @@ Result<PoseRefinement> RefinePoses(const ColmapModel& model,
         program.status().message(), settings.refine_poses_with_curves, &result);
     return result;
   }
-  std::vector<ScenePoint> check_points = TakeCheckPoints(&input);
   Result<Scene> refined =
       RunColmap(input,
                 {*program, settings.refiner_timeout_s, log_path},

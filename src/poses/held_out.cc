@@ -128,6 +128,12 @@ bool IsShiftTooLarge(double shift_px, double fall_px) {
   return shift_px > std::max(kHarmlessShiftPx, kMaxShiftPerFall * fall_px);
 }
 
+bool PointsFit(std::vector<std::vector<double>> errors_by_view) {
+  return std::ranges::all_of(errors_by_view, [](auto& of_view) {
+    return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
+  });
+}
+
 bool PointsFit(const PoseObservationSet& held_out,
                const HeldOutErrors& errors,
                std::size_t num_views) {
@@ -139,9 +145,7 @@ bool PointsFit(const PoseObservationSet& held_out,
           errors.points[i][k]);
     }
   }
-  return std::ranges::all_of(by_view, [](auto& of_view) {
-    return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
-  });
+  return PointsFit(std::move(by_view));
 }
 
 bool EdgesFit(const HeldOutErrors& errors) {

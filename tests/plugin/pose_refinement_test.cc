@@ -172,6 +172,20 @@ TEST_F(FakeColmap, WorsePosesThanGoodOnesAreRefused) {
   ExpectKept(Solve(disturbed), "nothing to gain", "is refused: ");
 }
 
+TEST_F(FakeColmap, IsNotRunOnPointsThatFit) {
+  PosedPointsOptions options;
+  options.noise_px = 0.03;
+  model_ = PosedPoints(options);
+  const PoseRefinement result = Run("touch ran");
+  EXPECT_FALSE(result.model);
+  EXPECT_EQ(result.record.refiner, "none");
+  EXPECT_THAT(
+      result.notes,
+      ElementsAre(HasSubstr("the points are where the poses put them")));
+  DisturbPoses(0.1, 5, &model_);
+  EXPECT_EQ(Run("exit 1").record.refiner, "colmap");
+}
+
 TEST_F(FakeColmap, LowersTheErrorsOfPointsThatWereHeldOut) {
   const PoseRefinement result = Solve(PosedPoints({}));
   ASSERT_TRUE(result.record.judgement);
