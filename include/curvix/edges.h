@@ -20,8 +20,9 @@ namespace curvix {
 // turned a quarter from +x towards +y. Where `sharpness` is known, views are
 // matched by the bright side, too; other code treats angles as equal mod pi.
 struct Edge2d {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  // pixels
-  float angle = 0;                                     // radians
+  // Pixels. Not aligned, for there may be millions: 40 bytes each.
+  Eigen::Matrix<double, 2, 1, Eigen::DontAlign> position = {0, 0};
+  float angle = 0;     // radians
   float strength = 0;  // gradient magnitude >= 0, grey levels per pixel
   // How sharp the edge is: 1 / w^2 if across it the image is a step blurred by
   // a Gaussian of standard deviation w pixels, the detector's own included; <=

@@ -94,7 +94,7 @@ class Linker {
     distance = candidate_distance;
   }
 
-  const Eigen::Vector2d& Position(const IndexedEdge& edge) const {
+  Eigen::Vector2d Position(const IndexedEdge& edge) const {
     return edges_[static_cast<std::size_t>(edge.edge_idx)].position;
   }
 

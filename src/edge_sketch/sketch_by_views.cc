@@ -332,7 +332,7 @@ void Add(H1Result result,
 
 }  // namespace
 
-EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
+EdgeSketch TrackByViews(const SketchInput& input, const StepDone& step_done) {
   UsedEdges used(input.edge_maps);
   EdgeSketch sketch;
   sketch.edge_sigma_px = input.sigma_px;
@@ -349,6 +349,10 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
     }
   }
   sketch.counts.used_edges = used.total();
+  return sketch;
+}
+
+void DropExplained(const SketchInput& input, EdgeSketch& sketch) {
   const std::size_t num_confirmed = sketch.edges.size();
   sketch.edges = DropWithoutExclusiveSupport(
       std::move(sketch.edges),
@@ -357,6 +361,11 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
       input.options.validation.min_num_exclusive_views);
   sketch.counts.rivals +=
       static_cast<std::int64_t>(num_confirmed - sketch.edges.size());
+}
+
+EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
+  EdgeSketch sketch = TrackByViews(input, step_done);
+  DropExplained(input, sketch);
   return sketch;
 }
 

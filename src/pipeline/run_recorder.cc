@@ -58,6 +58,8 @@ bool RunRecorder::Begin(const std::string& stage) {
 
 void RunRecorder::End(StageCounts counts) {
   report_.stages.push_back(stopwatch_.Read(stage_, std::move(counts)));
+  // Before the result of the stage is saved, which takes memory.
+  ReleaseFreeMemory();
 }
 
 bool RunRecorder::Tell(int done, int total) {

@@ -24,7 +24,7 @@ class RunRecorder {
  public:
   explicit RunRecorder(const Progress& progress) : progress_(progress) {}
 
-  // Releases what earlier stages have freed. False: the run is cancelled.
+  // Both release what has been freed. False: the run is cancelled.
   [[nodiscard]] bool Begin(const std::string& stage);
   void End(StageCounts counts);
 

@@ -43,7 +43,9 @@ EdgeSketch SketchViews(const std::vector<PosedView>& views,
       AddPresence(options.validation, options.runtime.num_threads, indices);
       input.sigma_px = EstimateEdgeSigma(input, step_done);
       input.finds_seeds = CurvesGrow(edge_maps, options);
-      EdgeSketch sketch = SketchByViews(input, step_done);
+      EdgeSketch sketch = TrackByViews(input, step_done);
+      indices.clear();  // frees memory that the next step can use
+      DropExplained(input, sketch);
       sketch.counts.repeated_views =
           std::ranges::count(distinct.are_repeated, true);
       return sketch;

@@ -225,5 +225,8 @@ TEST(ThirdOrderEdges, WidensWithSigma) {
   }
 }
 
+// Those of hundreds of images are in memory at once.
+TEST(ThirdOrderEdges, TakeFortyBytesEach) { EXPECT_EQ(sizeof(Edge2d), 40u); }
+
 }  // namespace
 }  // namespace curvix
