@@ -249,13 +249,15 @@ std::vector<std::string> MissingImages(const ColmapModel& model,
   return missing;
 }
 
-// "" if there is none.
-fs::path MaskOf(const fs::path& folder, const std::string& image_name) {
-  const fs::path mask = ImageFile(folder, image_name + ".png");
+// "" if there is none. An image is no mask of itself.
+fs::path MaskOf(const Workspace& workspace, const std::string& image_name) {
+  const fs::path mask = ImageFile(workspace.mask_path, image_name + ".png");
   if (IsFile(mask)) return mask;
-  const fs::path same_name = ImageFile(folder, image_name);
-  const bool is_png = same_name.extension() == ".png";
-  return is_png && IsFile(same_name) ? same_name : fs::path();
+  const fs::path same_name = ImageFile(workspace.mask_path, image_name);
+  if (same_name.extension() != ".png" || !IsFile(same_name)) return {};
+  std::error_code error;
+  const fs::path image = ImageFile(workspace.image_path, image_name);
+  return fs::equivalent(same_name, image, error) ? fs::path() : same_name;
 }
 
 Status FindMasks(const WorkspacePaths& paths, Workspace* found) {
@@ -386,7 +388,7 @@ Scene MakeScene(const Workspace& workspace,
   Scene scene = SceneFromColmapModel(model, workspace.image_path, left_out);
   if (workspace.mask_path.empty()) return scene;
   for (View& view : scene.views) {
-    view.mask_path = MaskOf(workspace.mask_path, view.name);
+    view.mask_path = MaskOf(workspace, view.name);
   }
   return scene;
 }

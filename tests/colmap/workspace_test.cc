@@ -344,6 +344,12 @@ TEST_F(WorkspaceTest, FindsMasksAsColmapNamesThem) {
   EXPECT_THAT(scene->notes[0], HasSubstr("image_3.png, image_4.png"));
   EXPECT_THAT(scene->notes[0], HasSubstr("would be called image_3.png.png"));
 
+  paths.mask_path = At("proj/images");
+  const Result<WorkspaceScene> without =
+      LoadWorkspaceScene(*FindWorkspace(paths));
+  ASSERT_TRUE(without.ok()) << without.status().message();
+  EXPECT_THAT(without->notes[0], HasSubstr("4 of 4 images have no mask"));
+
   paths.mask_path = At("no_masks");
   const Status status = FindWorkspace(paths).status();
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
