@@ -135,8 +135,10 @@ std::string ReadUpTo(std::istream& stream, std::size_t num_bytes) {
 Result<std::string> ReadFile(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
-    return Status::NotFound("There is no file " + path.string() +
-                            "; check the path.");
+    const bool is_folder = fs::is_directory(path, error);
+    return Status::NotFound(
+        is_folder ? path.string() + " is a folder; name a file."
+                  : "There is no file " + path.string() + "; check the path.");
   }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);

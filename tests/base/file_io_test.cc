@@ -144,6 +144,13 @@ TEST_F(FileIo, AFullDiskLeavesTheTargetAsItWas) {
   EXPECT_EQ(Names(), "target.bin ");
 }
 
+TEST_F(FileIo, AFolderIsNoFile) {
+  EXPECT_THAT(ReadFile(folder_.path()).status().message(),
+              HasSubstr(" is a folder; name a file."));
+  EXPECT_THAT(ReadFile(Target()).status().message(),
+              HasSubstr("There is no file"));
+}
+
 TEST_F(FileIo, WritesPieceByPiece) {
   FileWriter file(Target());
   const ByteSink sink = file.Sink();
