@@ -50,11 +50,15 @@ std::string SetText(const OptionRow& row, const CurveKindSet& kinds) {
 }
 
 Status OutOfRange(const OptionRow& row, const std::string& text) {
-  const bool is_part =
-      std::holds_alternative<int*>(row.field) && !ParseNumber<int>(text);
+  std::string what;
+  if (std::holds_alternative<int*>(row.field) && !ParseNumber<int>(text)) {
+    what = "a whole number ";
+  } else if (std::holds_alternative<double*>(row.field) &&
+             !ParseNumber<double>(text)) {
+    what = "a number ";
+  }
   return Status::InvalidArgument(row.name + " is " + text + "; it must be " +
-                                 (is_part ? "a whole number " : "") +
-                                 RangeText(row));
+                                 what + RangeText(row));
 }
 
 // Also catches NaN.

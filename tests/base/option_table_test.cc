@@ -205,6 +205,12 @@ TEST(OptionTable, ErrorsNameTheFieldItsValueAndTheRange) {
   }
   EXPECT_EQ(SetFromText(Find(rows, "num_threads"), "-2").message(),
             "num_threads is -2; it must be >= -1 and <= 4096");
+  const OptionRow& sigma = Find(rows, "EdgeDetection.sigma_px");
+  for (const char* text : {"1,5", "one"}) {
+    EXPECT_EQ(SetFromText(sigma, text).message(),
+              std::string("EdgeDetection.sigma_px is ") + text +
+                  "; it must be a number >= 0.3 and <= 10");
+  }
 
   options.validation.max_angle_deg = std::numeric_limits<double>::quiet_NaN();
   const Status status = Validate(options);
