@@ -73,11 +73,14 @@ std::vector<FlagSection> Sections(EvaluateSettings* settings) {
 }
 
 // The curves with all digits, if they are there; curves.ply has 32-bit floats.
-std::filesystem::path CurvesIn(const std::filesystem::path& folder) {
-  for (const char* name : {"curves.txt", "curves.obj"}) {
+Result<std::filesystem::path> CurvesIn(const std::filesystem::path& folder) {
+  for (const char* name : {"curves.txt", "curves.obj", "curves.ply"}) {
     if (std::filesystem::exists(folder / name)) return folder / name;
   }
-  return folder / "curves.ply";
+  return Status::NotFound(
+      "There is no curves.txt, curves.obj or curves.ply in " + folder.string() +
+      "; run 'colmap_curvix reconstruct' first, with one of them among its "
+      "--output_formats.");
 }
 
 Result<std::string> EvaluateWithTruth(const EvaluateSettings& settings) {
@@ -86,7 +89,10 @@ Result<std::string> EvaluateWithTruth(const EvaluateSettings& settings) {
     const Result<Workspace> workspace =
         CatchFileErrors([&] { return FindWorkspace(settings.run); });
     if (!workspace.ok()) return workspace.status();
-    curves_path = CurvesIn(workspace->output_path);
+    const Result<std::filesystem::path> found =
+        CurvesIn(workspace->output_path);
+    if (!found.ok()) return found.status();
+    curves_path = *found;
   }
   if (std::filesystem::exists(curves_path.parent_path() / kAlignmentName)) {
     std::cerr << "The curves are in the frame of " << kAlignmentName
