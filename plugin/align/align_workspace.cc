@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 
 // Two axes that no more directions share may be those of a detail.
 constexpr int kFewDirections = 3;
+constexpr double kLargeScaleSigma = 0.1;
 
 // One position is suspect if the others, without it, are off by less than this
 // share of what all are.
@@ -210,6 +211,11 @@ void Aligner::DescribeScale(const AlignmentResult& result) {
   const double scale = result.alignment.world_from_model.scale;
   Say("Scale " + Text(scale) + ", to " +
       SigmaText(100 * result.alignment.scale_sigma()) + " %");
+  if (result.alignment.scale_sigma() > kLargeScaleSigma) {
+    progress_.Note(
+        "WARNING: The scale is hardly known. Look for a wrong coordinate or "
+        "standard deviation, or measure between places further apart.");
+  }
   for (std::size_t i = 0; i < input_.distances.size(); ++i) {
     const KnownDistance& d = input_.distances[i];
     const double now = scale * (d.a - d.b).norm();

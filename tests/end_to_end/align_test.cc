@@ -129,6 +129,13 @@ TEST_F(Align, WarnsThatCoordinatesAreThoseOfTheLastAlignment) {
             HasSubstr("remove " + (results_ / "alignment.json").string())));
 }
 
+TEST_F(Align, WarnsOfAScaleThatIsHardlyKnown) {
+  const std::string warning = "WARNING: The scale is hardly known";
+  EXPECT_THAT(RunAlign("--distance 0,0,0 0,0.000001,0 5").output,
+              HasSubstr(warning));
+  EXPECT_THAT(RunAlign("--distance 0 1 5").output, Not(HasSubstr(warning)));
+}
+
 TEST_F(Align, TheProjectFileOfARunServesAllThatFollow) {
   const std::string project =
       " --project_path " + Quoted(results_ / "project.ini");
