@@ -33,8 +33,9 @@ Result<int> ViewOfSvg(const std::string& image,
     return image.empty() || candidate.name == image;
   });
   if (view != views.end()) return static_cast<int>(view - views.begin());
-  return Status::InvalidArgument("svg_image is " + image +
-                                 ", which is no image of the model");
+  return Status::InvalidArgument(
+      "svg_image is " + image + ", which is no image of the model" +
+      (views.empty() ? "" : "; " + views.front().name + " is one"));
 }
 
 Status WriteSvg(const CurveRecord& record,

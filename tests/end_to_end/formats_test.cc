@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 bool IsInstalled(const std::string& program) {
@@ -126,7 +127,11 @@ TEST_F(Formats, AWrongImageOfTheSvgIsFoundBeforeTheRun) {
                             " --svg_image none.png --refiner none";
   const Outcome outcome = RunProgram(words + " --output_formats ply,svg");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.output, HasSubstr("svg_image is none.png"));
+  EXPECT_THAT(
+      outcome.output,
+      AllOf(
+          HasSubstr("svg_image is none.png, which is no image of the model; "),
+          HasSubstr(" is one.")));
   EXPECT_FALSE(fs::exists(output)) << "stages/ of a run";
   EXPECT_EQ(RunProgram(words + " --output_formats ply").exit_code, 0);
 }
