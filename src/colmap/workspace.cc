@@ -146,17 +146,18 @@ Status CheckModelFiles(const fs::path& workspace, const fs::path& model) {
 }
 
 Status FindModel(const WorkspacePaths& paths, Workspace* found) {
-  if (!paths.input_path.empty()) {
-    const Result<ColmapFormat> format = FindColmapFormat(paths.input_path);
-    found->model_path = paths.input_path;
-    return format.status();
-  }
-  const std::vector<fs::path> places = ModelCandidates(paths.workspace_path);
+  const bool is_named = !paths.input_path.empty();
+  const fs::path& folder = is_named ? paths.input_path : paths.workspace_path;
+  std::vector<fs::path> places = is_named
+                                     ? MostImagesFirst(NumberedFolders(folder))
+                                     : ModelCandidates(folder);
+  if (is_named) places.insert(places.begin(), folder);
   const auto place = std::ranges::find_if(places, IsModel);
   if (place == places.end()) {
-    for (const fs::path& folder : places) {
-      if (!IsForbidden(folder / "cameras.bin")) continue;
-      return MayNotBeRead(folder, "--input_path");
+    if (is_named) return FindColmapFormat(folder).status();
+    for (const fs::path& tried : places) {
+      if (!IsForbidden(tried / "cameras.bin")) continue;
+      return MayNotBeRead(tried, "--input_path");
     }
     return Status::NotFound(
         "No COLMAP model (cameras and images, as .bin or .txt) in " +
@@ -164,9 +165,11 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
         " Name its folder with --input_path.");
   }
   found->model_path = *place;
-  Status status = CheckModelFiles(paths.workspace_path, *place);
-  if (!status.ok()) return status;
-  if (*place != paths.workspace_path && IsNumber(place->filename().string())) {
+  if (!is_named) {
+    Status status = CheckModelFiles(folder, *place);
+    if (!status.ok()) return status;
+  }
+  if (*place != folder && IsNumber(place->filename().string())) {
     const std::string note = OtherModelsNote(*place);
     if (!note.empty()) found->notes.push_back(note);
   }

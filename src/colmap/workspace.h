@@ -21,7 +21,7 @@ namespace curvix {
 // The paths of the command line; an empty one is not given.
 struct WorkspacePaths {
   std::filesystem::path workspace_path;  // must be given
-  std::filesystem::path input_path;      // the folder of the model
+  std::filesystem::path input_path;      // the folder of the model, or models
   std::filesystem::path image_path;      // the folder of the images
   std::filesystem::path output_path;     // the folder of the results
   std::filesystem::path mask_path;       // the folder of the masks

@@ -121,11 +121,15 @@ TEST_F(WorkspaceTest, TakesTheModelWithMostImagesAndSaysSo) {
   MakeModel("proj/sparse/1", 4);
   MakeModel("proj/sparse/2", 4);
   MakeImages("proj/images");
-  Expect(Root(), "proj/sparse/1", "proj/images", "proj/curvix/1");
-  const Result<Workspace> found = FindWorkspace(Root());
-  ASSERT_EQ(found->notes.size(), 1u);
-  EXPECT_THAT(found->notes[0], HasSubstr("the most images (4)"));
-  EXPECT_THAT(found->notes[0], HasSubstr("(0, 2), which --input_path"));
+  for (const fs::path& named : {fs::path(), At("proj/sparse")}) {
+    WorkspacePaths paths = Root();
+    paths.input_path = named;
+    Expect(paths, "proj/sparse/1", "proj/images", "proj/curvix/1");
+    const Result<Workspace> found = FindWorkspace(paths);
+    ASSERT_EQ(found->notes.size(), 1u);
+    EXPECT_THAT(found->notes[0], HasSubstr("the most images (4)"));
+    EXPECT_THAT(found->notes[0], HasSubstr("(0, 2), which --input_path"));
+  }
 }
 
 TEST_F(WorkspaceTest, SaysNothingOfTheModelThatIsNamed) {
@@ -260,8 +264,8 @@ TEST_F(WorkspaceTest, ErrorsListThePlacesThatWereTried) {
   expect(Root(), At("proj/gone").string());
   expect(Root(), "--image_path");
   WorkspacePaths given = Root();
-  given.input_path = At("proj/sparse");
-  expect(given, "sparse holds no COLMAP model");
+  given.input_path = At("proj");
+  expect(given, "proj holds no COLMAP model");
   given = Root();
   given.image_path = At("proj/none");
   expect(given, "none is not a folder");
