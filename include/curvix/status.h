@@ -84,3 +84,24 @@ class [[nodiscard]] Result {
 };
 
 }  // namespace curvix
+
+// In a function that returns a Status or a Result: returns the Status that is
+// given if it is a failure.
+#define CURVIX_RETURN_IF_ERROR(...)                 \
+  do {                                              \
+    ::curvix::Status curvix_status = (__VA_ARGS__); \
+    if (!curvix_status.ok()) return curvix_status;  \
+  } while (false)
+
+// The same of a Result, whose value `target` gets, which may be declared here:
+// CURVIX_ASSIGN_OR_RETURN(const Scene scene, ReadColmapScene("proj"));
+#define CURVIX_ASSIGN_OR_RETURN(target, ...) \
+  CURVIX_ASSIGN_OR_RETURN_IN(__LINE__, target, __VA_ARGS__)
+#define CURVIX_ASSIGN_OR_RETURN_IN(line, target, ...) \
+  CURVIX_ASSIGN_OR_RETURN_AT(line, target, __VA_ARGS__)
+#define CURVIX_ASSIGN_OR_RETURN_AT(line, target, ...) \
+  CURVIX_ASSIGN_OR_RETURN_BY(curvix_result_##line, target, __VA_ARGS__)
+#define CURVIX_ASSIGN_OR_RETURN_BY(result, target, ...) \
+  auto result = (__VA_ARGS__);                          \
+  if (!result.ok()) return result.status();             \
+  target = *std::move(result)

@@ -83,16 +83,10 @@ class Aligner {
 };
 
 Status Aligner::ReadScene() {
-  Result<Workspace> workspace = FindInput(settings_.run);
-  if (!workspace.ok()) return workspace.status();
-  workspace_ = *std::move(workspace);
-  Result<Scene> scene = ReadRefinedScene(workspace_, progress_);
-  if (!scene.ok()) return scene.status();
-  scene_ = *std::move(scene);
+  CURVIX_ASSIGN_OR_RETURN(workspace_, FindInput(settings_.run));
+  CURVIX_ASSIGN_OR_RETURN(scene_, ReadRefinedScene(workspace_, progress_));
   if (settings_.distances.empty() && settings_.axes == "none") return {};
-  Result<KnownStructures> structures = ReadStructures(workspace_.output_path);
-  if (!structures.ok()) return structures.status();
-  structures_ = *std::move(structures);
+  CURVIX_ASSIGN_OR_RETURN(structures_, ReadStructures(workspace_.output_path));
   if (structures_.is_aligned) WarnOfCoordinates();
   return {};
 }
@@ -113,49 +107,46 @@ void Aligner::WarnOfCoordinates() {
 
 Status Aligner::TakeDistances() {
   if (settings_.distances.empty()) return {};
-  Result<std::vector<KnownDistance>> distances =
-      ParseDistances(settings_.distances, structures_);
-  if (!distances.ok()) return distances.status();
-  input_.distances = *std::move(distances);
+  CURVIX_ASSIGN_OR_RETURN(input_.distances,
+                          ParseDistances(settings_.distances, structures_));
   return {};
 }
 
 Status Aligner::TakeMarkers() {
   if (settings_.markers.empty()) return {};
   progress_.Update("find_markers", 0, 0);
-  Result<FoundMarkers> found = FindMarkers(scene_,
-                                           settings_.markers,
-                                           settings_.marker_size,
-                                           settings_.run.options.runtime);
-  if (!found.ok()) return found.status();
-  progress_.Finish(Plural(found->markers.size(), "marker"));
-  for (const std::string& note : found->notes) progress_.Note(note);
-  for (const FoundMarker& marker : found->markers) {
+  CURVIX_ASSIGN_OR_RETURN(FoundMarkers found,
+                          FindMarkers(scene_,
+                                      settings_.markers,
+                                      settings_.marker_size,
+                                      settings_.run.options.runtime));
+  progress_.Finish(Plural(found.markers.size(), "marker"));
+  for (const std::string& note : found.notes) progress_.Note(note);
+  for (const FoundMarker& marker : found.markers) {
     // Their mean divides each variance by their number, which must not lower
     // what they have in common.
     KnownScale scale = marker.scale;
-    const auto num_others = static_cast<double>(found->markers.size() - 1);
+    const auto num_others = static_cast<double>(found.markers.size() - 1);
     scale.sigma =
         std::hypot(scale.sigma, marker.common_sigma * std::sqrt(num_others));
     input_.scales.push_back(scale);
   }
-  sources_["corner_sigma_px"] = found->corner_sigma_px;
-  markers_ = std::move(found->markers);
+  sources_["corner_sigma_px"] = found.corner_sigma_px;
+  markers_ = std::move(found.markers);
   return {};
 }
 
 Status Aligner::TakePositions() {
   if (settings_.positions_path.empty()) return {};
-  Result<CameraPositions> read =
-      ReadPositions(settings_.positions_path, scene_);
-  if (!read.ok()) return read.status();
-  for (const std::string& note : read->notes) progress_.Note(note);
-  const Status sigmas = CheckSigmas(read->positions);
+  CURVIX_ASSIGN_OR_RETURN(CameraPositions read,
+                          ReadPositions(settings_.positions_path, scene_));
+  for (const std::string& note : read.notes) progress_.Note(note);
+  const Status sigmas = CheckSigmas(read.positions);
   if (!sigmas.ok()) {
     return {sigmas.code(),
             settings_.positions_path.string() + ": " + sigmas.message()};
   }
-  input_.positions = std::move(read->positions);
+  input_.positions = std::move(read.positions);
   return {};
 }
 
@@ -166,25 +157,25 @@ Status Aligner::TakeAxes() {
     up = structures_.model_from_world.rotation *
          *ParseVector("--up", settings_.up);
   }
-  const Result<MainAxes> axes =
-      FindMainAxes(structures_.fitted, up, MeanViewDirection(scene_.views));
-  if (!axes.ok()) return axes.status();
-  input_.axes = axes->axes;
+  CURVIX_ASSIGN_OR_RETURN(
+      const MainAxes axes,
+      FindMainAxes(structures_.fitted, up, MeanViewDirection(scene_.views)));
+  input_.axes = axes.axes;
   const char* const names[3] = {"y to z", "z to x", "x to y"};
   Json& json = sources_["axes"];
   std::string counts, angles;
   for (std::size_t i = 0; i < 3; ++i) {
-    counts += (i > 0 ? ", " : "") + std::to_string(axes->num_directions[i]);
-    if (std::isnan(axes->angle_deg[i])) continue;
+    counts += (i > 0 ? ", " : "") + std::to_string(axes.num_directions[i]);
+    if (std::isnan(axes.angle_deg[i])) continue;
     angles += (angles.empty() ? "" : ", ") + std::string(names[i]) + " " +
-              WithSigma(axes->angle_deg[i], axes->angle_sigma_deg[i]);
+              WithSigma(axes.angle_deg[i], axes.angle_sigma_deg[i]);
   }
-  json["num_directions"] = axes->num_directions;
-  json["angle_deg"] = axes->angle_deg;
-  json["angle_sigma_deg"] = axes->angle_sigma_deg;
+  json["num_directions"] = axes.num_directions;
+  json["angle_deg"] = axes.angle_deg;
+  json["angle_sigma_deg"] = axes.angle_sigma_deg;
   Say("Axes shared by " + counts +
       " lines, axes of arcs and rows of circles (x, y, z)");
-  const auto& num = axes->num_directions;
+  const auto& num = axes.num_directions;
   const int num_others = std::accumulate(num.begin(), num.end(), 0) -
                          *std::ranges::max_element(num);
   if (num_others <= kFewDirections) {
@@ -201,8 +192,7 @@ Status Aligner::TakeAll() {
                           &Aligner::TakeMarkers,
                           &Aligner::TakePositions,
                           &Aligner::TakeAxes}) {
-    Status status = (this->*step)();
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR((this->*step)());
   }
   return {};
 }
@@ -287,14 +277,11 @@ Status Aligner::Write(const AlignmentResult& result) {
 }
 
 Result<std::string> Aligner::Run() {
-  Status taken = TakeAll();
-  if (!taken.ok()) return taken;
-  Result<AlignmentResult> result = EstimateAlignment(input_);
-  if (!result.ok()) return result.status();
-  Status fits = CheckPositions(
-      input_, *result, DirectionsOf(scene_), !settings_.epsg.empty());
-  if (!fits.ok()) return fits;
-  WorldAlignment& alignment = result->alignment;
+  CURVIX_RETURN_IF_ERROR(TakeAll());
+  CURVIX_ASSIGN_OR_RETURN(AlignmentResult result, EstimateAlignment(input_));
+  CURVIX_RETURN_IF_ERROR(CheckPositions(
+      input_, result, DirectionsOf(scene_), !settings_.epsg.empty()));
+  WorldAlignment& alignment = result.alignment;
   if (settings_.unit != "none" && !alignment.has_scale) {
     return Status::InvalidArgument(
         "--unit needs a scale, which nothing that is given tells: add "
@@ -305,7 +292,7 @@ Result<std::string> Aligner::Run() {
         "--epsg needs a scale, which a single position does not tell: add "
         "--distance, --markers or more positions");
   }
-  if (!settings_.epsg.empty() && !result->has_heading) {
+  if (!settings_.epsg.empty() && !result.has_heading) {
     return Status::InvalidArgument(
         "--epsg needs to know where north is, which one position, or positions "
         "above each other, do not tell: add another to the side");
@@ -315,12 +302,12 @@ Result<std::string> Aligner::Run() {
     alignment.crs = "EPSG:" + settings_.epsg;
     alignment.unit = "m";
   }
-  if (input_.axes && result->has_rotation_of_positions) {
+  if (input_.axes && result.has_rotation_of_positions) {
     Say("  The positions tell the axes; those of the lines are not used.");
   }
-  if (alignment.has_scale) DescribeScale(*result);
-  if (!input_.positions.empty()) DescribePositions(*result);
-  if (result->misfit > kLargeMisfit) WarnOfMisfit(result->misfit);
+  if (alignment.has_scale) DescribeScale(result);
+  if (!input_.positions.empty()) DescribePositions(result);
+  if (result.misfit > kLargeMisfit) WarnOfMisfit(result.misfit);
   if (alignment.has_rotation) {
     const Eigen::Vector3d variances =
         alignment.covariance.diagonal().segment<3>(1);
@@ -336,8 +323,7 @@ Result<std::string> Aligner::Run() {
         ShortText(alignment.offset.y(), kAllDigits) + " " +
         ShortText(alignment.offset.z(), kAllDigits));
   }
-  Status written = Write(*result);
-  if (!written.ok()) return written;
+  CURVIX_RETURN_IF_ERROR(Write(result));
   Say("Written to " + (workspace_.output_path / kAlignmentName).string());
   return std::move(text_);
 }

@@ -105,8 +105,7 @@ Status CheckPositions(const AlignmentInput& input,
                       const MeanDirections& cameras,
                       bool z_is_up) {
   if (input.positions.empty()) return {};
-  Status swapped = CheckSwapped(input, result);
-  if (!swapped.ok()) return swapped;
+  CURVIX_RETURN_IF_ERROR(CheckSwapped(input, result));
   if (z_is_up && AreUpsideDown(result, cameras)) {
     return Status::InvalidArgument(
         "By the positions the cameras are upside down. Give x (east) before y "

@@ -127,9 +127,7 @@ Result<CurvesFile> CurvesOf(const Json& json, bool with_samples) {
     Json alignment = json["alignment"];
     alignment["format"] = "curvix alignment";
     alignment["version"] = 1;
-    Result<WorldAlignment> read = AlignmentFromJson(alignment);
-    if (!read.ok()) return read.status();
-    file.alignment = *std::move(read);
+    CURVIX_ASSIGN_OR_RETURN(file.alignment, AlignmentFromJson(alignment));
   }
   for (const Json& node : json.at("nodes")) {
     CurveNode& added = file.fitted.nodes.emplace_back();

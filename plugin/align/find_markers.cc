@@ -255,21 +255,21 @@ using SightingsById = std::map<int, Sightings>;
 Result<SightingsById> Detect(const Scene& scene,
                              const std::string& dictionary,
                              const RuntimeOptions& runtime) {
-  auto seen = DetectInViews(scene, dictionary, runtime.num_threads);
-  if (!seen.ok()) return seen.status();
-  const Scene chosen = ViewsWithMarkers(scene, *seen);
+  CURVIX_ASSIGN_OR_RETURN(
+      auto seen, DetectInViews(scene, dictionary, runtime.num_threads));
+  const Scene chosen = ViewsWithMarkers(scene, seen);
   if (chosen.views.size() < kMinViews) return SightingsById();
   Options options;
   options.runtime = runtime;
-  const Result<std::vector<EdgeMap>> edges = DetectEdges(chosen, options);
-  if (!edges.ok()) return edges.status();
+  CURVIX_ASSIGN_OR_RETURN(const std::vector<EdgeMap> edges,
+                          DetectEdges(chosen, options));
   SightingsById by_id;
   for (std::size_t i = 0; i < chosen.views.size(); ++i) {
     const View& view = chosen.views[i];
     const Camera& camera = CameraOf(scene, view);
-    for (const SeenMarker& marker : (*seen)[i]) {
+    for (const SeenMarker& marker : seen[i]) {
       const std::optional<SeenMarker> refined =
-          CornersFromSides(marker, camera, (*edges)[i].edges);
+          CornersFromSides(marker, camera, edges[i].edges);
       if (!refined) continue;
       for (std::size_t k = 0; k < 4; ++k) {
         by_id[marker.id][k].push_back(
@@ -330,11 +330,11 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
                                  const std::string& dictionary,
                                  double size,
                                  const RuntimeOptions& runtime) {
-  const Result<SightingsById> by_id = Detect(scene, dictionary, runtime);
-  if (!by_id.ok()) return by_id.status();
+  CURVIX_ASSIGN_OR_RETURN(const SightingsById by_id,
+                          Detect(scene, dictionary, runtime));
   FoundMarkers found;
   std::vector<double> errors, variances;
-  for (const auto& [id, sightings] : *by_id) {
+  for (const auto& [id, sightings] : by_id) {
     Triangulated t = TriangulateMarker(id, sightings, size);
     if (!t.marker) {
       found.notes.push_back(t.problem);

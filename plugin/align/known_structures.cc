@@ -77,12 +77,11 @@ Result<KnownDistance> ReadDistance(const std::string& text,
                        "it is not three words, or four with a standard "
                        "deviation");
   }
-  const Result<CurveNode> a = ReadPoint(first, text, structures);
-  if (!a.ok()) return a.status();
-  const Result<CurveNode> b = ReadPoint(second, text, structures);
-  if (!b.ok()) return b.status();
-  if (first == second ||
-      (structures != nullptr && a->position == b->position)) {
+  CURVIX_ASSIGN_OR_RETURN(const CurveNode a,
+                          ReadPoint(first, text, structures));
+  CURVIX_ASSIGN_OR_RETURN(const CurveNode b,
+                          ReadPoint(second, text, structures));
+  if (first == second || (structures != nullptr && a.position == b.position)) {
     return BadDistance(text, "its two points are the same");
   }
   const double length = ParseNumber<double>(length_word).value_or(0);
@@ -95,17 +94,16 @@ Result<KnownDistance> ReadDistance(const std::string& text,
     return BadDistance(text, "the standard deviation is not a number from 0");
   }
   return KnownDistance{
-      a->position, b->position, a->covariance, b->covariance, length, sigma};
+      a.position, b.position, a.covariance, b.covariance, length, sigma};
 }
 
 Result<std::vector<KnownDistance>> ReadDistances(
     const std::string& text, const KnownStructures* structures) {
   std::vector<KnownDistance> distances;
   for (const std::string_view part : SplitAt(text, ';')) {
-    const Result<KnownDistance> distance =
-        ReadDistance(std::string(part), structures);
-    if (!distance.ok()) return distance.status();
-    distances.push_back(*distance);
+    CURVIX_ASSIGN_OR_RETURN(const KnownDistance distance,
+                            ReadDistance(std::string(part), structures));
+    distances.push_back(distance);
   }
   return distances;
 }
@@ -113,14 +111,13 @@ Result<std::vector<KnownDistance>> ReadDistances(
 }  // namespace
 
 Result<KnownStructures> ReadStructures(const fs::path& folder) {
-  Result<CurvesFile> file = ReadCurvesFile(folder);
-  if (!file.ok()) return file.status();
+  CURVIX_ASSIGN_OR_RETURN(CurvesFile file, ReadCurvesFile(folder));
   KnownStructures result;
-  if (file->alignment) {
-    result.model_from_world = file->alignment->world_from_model.Inverse();
+  if (file.alignment) {
+    result.model_from_world = file.alignment->world_from_model.Inverse();
     result.is_aligned = true;
   }
-  result.fitted = MoveFits(result.model_from_world, std::move(file->fitted));
+  result.fitted = MoveFits(result.model_from_world, std::move(file.fitted));
   return result;
 }
 

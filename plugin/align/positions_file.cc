@@ -125,9 +125,8 @@ std::string WhyNotInMetres(int) { return ""; }
 
 Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
                                       const Scene& scene) {
-  Result<std::string> file = ReadFile(path);
-  if (!file.ok()) return file.status();
-  LineReader reader(*file);
+  CURVIX_ASSIGN_OR_RETURN(std::string file, ReadFile(path));
+  LineReader reader(file);
   const auto broken = [&](const std::string& why) {
     return Status::DataLoss("line " + std::to_string(reader.line_number()) +
                             " of " + path.string() + " " + why);

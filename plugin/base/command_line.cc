@@ -142,9 +142,8 @@ Result<Values> Collect(std::vector<ProjectEntry> entries,
 Result<Values> ReadProjectFile(const fs::path& path,
                                const std::vector<Flag>& flags,
                                const std::vector<Flag>& of_others) {
-  const Result<std::string> text = ReadFile(path);
-  if (!text.ok()) return text.status();
-  Result<std::vector<ProjectEntry>> entries = ParseProjectFile(*text);
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  Result<std::vector<ProjectEntry>> entries = ParseProjectFile(text);
   Result<Values> values = entries.ok()
                               ? Collect(*std::move(entries), flags, of_others)
                               : Result<Values>(entries.status());
@@ -189,8 +188,7 @@ Status SetFlags(const std::vector<Flag>& flags, const Values& values) {
   for (const Flag& flag : flags) {
     const auto value = values.find(flag.name);
     if (value == values.end()) continue;
-    Status status = flag.set(value->second);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(flag.set(value->second));
   }
   return {};
 }
@@ -358,24 +356,21 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
     if (token == "-h" || token == "--help") return Request::kHelp;
   }
   const std::vector<Flag> flags = AllFlags(sections);
-  Result<Values> values = ReadArguments(arguments, flags);
-  if (!values.ok()) return values.status();
-  const auto project = values->find("project_path");
-  if (project != values->end()) {
-    Result<Values> more =
-        ReadProjectFile(project->second, flags, AllFlags(of_others));
-    if (!more.ok()) return more.status();
-    const Status usable = CheckPreset(*values, *more);
-    if (!usable.ok()) return usable;
-    const auto workspace = values->find("workspace_path");
-    if (workspace != values->end()) {
-      MoveIntoWorkspace(workspace->second, &*more);
+  CURVIX_ASSIGN_OR_RETURN(Values values, ReadArguments(arguments, flags));
+  const auto project = values.find("project_path");
+  if (project != values.end()) {
+    CURVIX_ASSIGN_OR_RETURN(
+        Values more,
+        ReadProjectFile(project->second, flags, AllFlags(of_others)));
+    CURVIX_RETURN_IF_ERROR(CheckPreset(values, more));
+    const auto workspace = values.find("workspace_path");
+    if (workspace != values.end()) {
+      MoveIntoWorkspace(workspace->second, &more);
     }
-    values->merge(*more);  // keeps what is there already
+    values.merge(more);  // keeps what is there already
   }
-  Status status = CheckRequired(flags, *values);
-  if (status.ok()) status = SetFlags(flags, *values);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckRequired(flags, values));
+  CURVIX_RETURN_IF_ERROR(SetFlags(flags, values));
   return Request::kRun;
 }
 

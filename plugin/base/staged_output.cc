@@ -141,8 +141,7 @@ Status FinishOlderRuns(const fs::path& output, const std::string& flag) {
       continue;
     }
     if (IsThere(folder / kOlder)) {
-      Status status = MoveIntoPlace(folder, output);
-      if (!status.ok()) return status;
+      CURVIX_RETURN_IF_ERROR(MoveIntoPlace(folder, output));
     }
     fs::remove_all(folder, error);
     if (error) return CannotWrite(output, error.message(), flag);
@@ -169,9 +168,8 @@ Result<StagedOutput> StagedOutput::Create(const fs::path& output_path,
         "; wait for its end, or choose another folder with " + flag);
   }
   StagedOutput staged(output, first_created, *std::move(lock));
-  Status status = FinishOlderRuns(output, flag);
-  if (status.ok()) status = staged.MakeFolder(flag);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(FinishOlderRuns(output, flag));
+  CURVIX_RETURN_IF_ERROR(staged.MakeFolder(flag));
   return staged;
 }
 

@@ -155,7 +155,7 @@ struct AlignmentGuard {
 
 }  // namespace
 
-ExitCode RunAlign(const Arguments& arguments) {
+Result<ExitCode> RunAlign(const Arguments& arguments) {
   AlignSettings settings;
   bool write_results = true;
   const std::optional<ExitCode> code =
@@ -165,25 +165,23 @@ ExitCode RunAlign(const Arguments& arguments) {
   if (code) return *code;
   const Status valid = Check(settings);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto workspace =
-      CatchFileErrors([&] { return FindInput(settings.run); });
-  if (!workspace.ok()) return Fail(workspace.status());
-  const fs::path path = workspace->output_path / kAlignmentName;
+  CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, CatchFileErrors([&] {
+                            return FindInput(settings.run);
+                          }));
+  const fs::path path = workspace.output_path / kAlignmentName;
   std::optional<std::string> older;
   std::error_code error;
   if (fs::exists(path, error)) {
-    Result<std::string> read = ReadFile(path);
-    if (!read.ok()) return Fail(read.status());
-    older = *std::move(read);
+    CURVIX_ASSIGN_OR_RETURN(older, ReadFile(path));
   }
-  const auto text = WithProgress([&](RunProgress& progress) {
-    return AlignWorkspace(settings, progress);
-  });
-  if (!text.ok()) return Fail(text.status());
-  std::cout << *text << std::flush;
+  CURVIX_ASSIGN_OR_RETURN(const std::string text,
+                          WithProgress([&](RunProgress& progress) {
+                            return AlignWorkspace(settings, progress);
+                          }));
+  std::cout << text << std::flush;
   if (!write_results) return kExitSuccess;
   AlignmentGuard guard{path, std::move(older)};
-  const ExitCode written = WriteResultsAgain(settings, workspace->output_path);
+  const ExitCode written = WriteResultsAgain(settings, workspace.output_path);
   guard.is_kept = written == kExitSuccess;
   return written;
 }

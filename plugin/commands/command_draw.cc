@@ -60,17 +60,18 @@ std::vector<FlagSection> Sections(DrawSettings* s) {
 
 }  // namespace
 
-ExitCode RunDraw(const Arguments& arguments) {
+Result<ExitCode> RunDraw(const Arguments& arguments) {
   DrawSettings settings;
   const std::optional<ExitCode> code =
       ParseCommand("draw", arguments, Sections(&settings));
   if (code) return *code;
   const Status valid = Check(settings);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto summary = WithProgress(
-      [&](RunProgress& progress) { return DrawWorkspace(settings, progress); });
-  if (!summary.ok()) return Fail(summary.status());
-  std::cout << *summary << std::flush;
+  CURVIX_ASSIGN_OR_RETURN(const std::string summary,
+                          WithProgress([&](RunProgress& progress) {
+                            return DrawWorkspace(settings, progress);
+                          }));
+  std::cout << summary << std::flush;
   return kExitSuccess;
 }
 

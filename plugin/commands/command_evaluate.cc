@@ -86,13 +86,10 @@ Result<std::filesystem::path> CurvesIn(const std::filesystem::path& folder) {
 Result<std::string> EvaluateWithTruth(const EvaluateSettings& settings) {
   std::filesystem::path curves_path = settings.curves_path;
   if (curves_path.empty()) {
-    const Result<Workspace> workspace =
-        CatchFileErrors([&] { return FindWorkspace(settings.run); });
-    if (!workspace.ok()) return workspace.status();
-    const Result<std::filesystem::path> found =
-        CurvesIn(workspace->output_path);
-    if (!found.ok()) return found.status();
-    curves_path = *found;
+    CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, CatchFileErrors([&] {
+                              return FindWorkspace(settings.run);
+                            }));
+    CURVIX_ASSIGN_OR_RETURN(curves_path, CurvesIn(workspace.output_path));
   }
   if (std::filesystem::exists(curves_path.parent_path() / kAlignmentName)) {
     std::cerr << "The curves are in the frame of " << kAlignmentName
@@ -114,7 +111,7 @@ Result<std::string> EvaluateWorkspace(const EvaluateSettings& settings) {
 
 }  // namespace
 
-ExitCode RunEvaluate(const Arguments& arguments) {
+Result<ExitCode> RunEvaluate(const Arguments& arguments) {
   EvaluateSettings settings;
   const std::optional<ExitCode> code =
       ParseCommand("evaluate", arguments, Sections(&settings));
@@ -131,10 +128,10 @@ ExitCode RunEvaluate(const Arguments& arguments) {
   }
   const Status valid = holds_out ? Validate(settings.run.options) : Status();
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Result<std::string> text =
-      holds_out ? EvaluateWorkspace(settings) : EvaluateWithTruth(settings);
-  if (!text.ok()) return Fail(text.status());
-  std::cout << *text;
+  CURVIX_ASSIGN_OR_RETURN(
+      const std::string text,
+      holds_out ? EvaluateWorkspace(settings) : EvaluateWithTruth(settings));
+  std::cout << text;
   return kExitSuccess;
 }
 

@@ -164,16 +164,15 @@ Status CheckOutput(const ImportSettings& settings,
       "; choose another folder with --output_path");
 }
 
-ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
+Result<ExitCode> ImportLines(const ImportSettings& settings,
+                             const LineFormat& format) {
   RunSettings run = settings.run;
   run.image_path = settings.options.image_path;
   if (run.output_path.empty()) {
     run.output_path = run.workspace_path / format.name;
-    const Status no_link = CheckNoLink(run.output_path);
-    if (!no_link.ok()) return Fail(no_link);
+    CURVIX_RETURN_IF_ERROR(CheckNoLink(run.output_path));
   }
-  const Status usable = CheckOutput(settings, run.output_path);
-  if (!usable.ok()) return Fail(usable);
+  CURVIX_RETURN_IF_ERROR(CheckOutput(settings, run.output_path));
   run.poses.refiner = "none";
   return RunAndSummarize(run, [&](RunProgress& progress) {
     return RunLines(
@@ -183,27 +182,25 @@ ExitCode ImportLines(const ImportSettings& settings, const LineFormat& format) {
   });
 }
 
-ExitCode ImportDataSet(const ImportSettings& settings, const Format& format) {
-  Status status = CheckUnused(settings.run.workspace_path / "sparse");
-  if (!status.ok()) return Fail(status);
+Result<ExitCode> ImportDataSet(const ImportSettings& settings,
+                               const Format& format) {
+  CURVIX_RETURN_IF_ERROR(CheckUnused(settings.run.workspace_path / "sparse"));
   ImportOptions options = settings.options;
   if (settings.first_pixel != "auto") {
     options.first_pixel = ParseNumber<double>(settings.first_pixel);
   }
-  const Result<ImportedScene> scene = format.import(options);
-  if (!scene.ok()) return Fail(scene.status());
-  status = WriteNewWorkspace(scene->model,
-                             scene->image_files,
-                             settings.copy_policy,
-                             settings.run.workspace_path,
-                             [] { return !IsInterrupted(); });
-  if (!status.ok()) return Fail(status);
-  for (const std::string& note : scene->notes) std::cerr << note << std::endl;
+  CURVIX_ASSIGN_OR_RETURN(const ImportedScene scene, format.import(options));
+  CURVIX_RETURN_IF_ERROR(WriteNewWorkspace(scene.model,
+                                           scene.image_files,
+                                           settings.copy_policy,
+                                           settings.run.workspace_path,
+                                           [] { return !IsInterrupted(); }));
+  for (const std::string& note : scene.notes) std::cerr << note << std::endl;
   const std::string path = settings.run.workspace_path.string();
   const bool has_links = settings.copy_policy == CopyPolicy::kSoftLink;
-  std::cout << "Wrote " << Plural(std::ssize(scene->model.images), "image")
-            << ", " << Plural(std::ssize(scene->model.cameras), "camera")
-            << " and " << Plural(std::ssize(scene->model.points), "point")
+  std::cout << "Wrote " << Plural(std::ssize(scene.model.images), "image")
+            << ", " << Plural(std::ssize(scene.model.cameras), "camera")
+            << " and " << Plural(std::ssize(scene.model.points), "point")
             << " to " << path << "\nTry: colmap_curvix --workspace_path "
             << ShellWord(path)
             << (has_links ? " --image_path " + ShellWord(path + "/images") : "")
@@ -213,7 +210,7 @@ ExitCode ImportDataSet(const ImportSettings& settings, const Format& format) {
 
 }  // namespace
 
-ExitCode RunImport(const Arguments& arguments) {
+Result<ExitCode> RunImport(const Arguments& arguments) {
   ImportSettings settings;
   const std::optional<ExitCode> code = ParseCommand("import",
                                                     arguments,
@@ -221,10 +218,9 @@ ExitCode RunImport(const Arguments& arguments) {
                                                      WorkspaceFlags(&settings),
                                                      ResultFlags(&settings)});
   if (code) return *code;
-  Status status = CheckOptions(settings);
-  if (!status.ok()) return Fail(status, kExitCommandLine);
-  status = CheckInput(settings);
-  if (!status.ok()) return Fail(status);
+  const Status valid = CheckOptions(settings);
+  if (!valid.ok()) return Fail(valid, kExitCommandLine);
+  CURVIX_RETURN_IF_ERROR(CheckInput(settings));
   for (const LineFormat& format : kLineFormats) {
     if (settings.format == format.name) return ImportLines(settings, format);
   }

@@ -17,15 +17,14 @@ Flag PresetFlag(RunSettings* settings) {
                          &settings->preset,
                          "values that the options below start from: the best "
                          "known, or the method of the paper throughout");
-  flag.set = [settings, choose = flag.set](const std::string& text) {
-    Status status = choose(text);
-    if (!status.ok()) return status;
+  flag.set = [settings, choose = flag.set](const std::string& text) -> Status {
+    CURVIX_RETURN_IF_ERROR(choose(text));
     const RuntimeOptions runtime = settings->options.runtime;
     settings->options = text == "paper" ? PaperOptions() : Options();
     settings->poses.refiner = text == "paper" ? "none" : "colmap";
     settings->poses.refine_poses_with_curves = text != "paper";
     settings->options.runtime = runtime;
-    return status;
+    return Status();
   };
   return flag;
 }
@@ -33,14 +32,14 @@ Flag PresetFlag(RunSettings* settings) {
 constexpr int kNoPart = -1;
 
 // A part without curves is as good as any.
-ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
+Result<ExitCode> ReconstructPart(const RunSettings& settings, int part_idx) {
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const auto record = WithProgress([&](RunProgress& progress) {
-    return RunPart(settings, part_idx, progress);
-  });
-  if (!record.ok()) return Fail(record.status());
-  const ResultSummary& result = record->result;
+  CURVIX_ASSIGN_OR_RETURN(const RunRecord record,
+                          WithProgress([&](RunProgress& progress) {
+                            return RunPart(settings, part_idx, progress);
+                          }));
+  const ResultSummary& result = record.result;
   std::cout << "\npart " << part_idx << ": "
             << Plural(result.num_curves, "curve");
   if (result.num_curves == 0) std::cout << " (" << result.why_empty << ")";
@@ -50,13 +49,12 @@ ExitCode ReconstructPart(const RunSettings& settings, int part_idx) {
 
 }  // namespace
 
-ExitCode RunAndSummarize(const RunSettings& settings, const Job& job) {
+Result<ExitCode> RunAndSummarize(const RunSettings& settings, const Job& job) {
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Result<RunRecord> record = WithProgress(job);
-  if (!record.ok()) return Fail(record.status());
-  const bool is_empty = record->result.num_curves == 0;
-  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(*record);
+  CURVIX_ASSIGN_OR_RETURN(const RunRecord record, WithProgress(job));
+  const bool is_empty = record.result.num_curves == 0;
+  (is_empty ? std::cerr : std::cout) << "\n" << SummaryText(record);
   return is_empty ? kExitNoCurves : kExitSuccess;
 }
 
@@ -103,7 +101,7 @@ std::vector<FlagSection> ReconstructSections(RunSettings* settings) {
   return sections;
 }
 
-ExitCode RunReconstruct(const Arguments& arguments) {
+Result<ExitCode> RunReconstruct(const Arguments& arguments) {
   int part_idx = kNoPart;
   RunSettings settings;
   std::vector<FlagSection> sections = ReconstructSections(&settings);
@@ -122,13 +120,13 @@ ExitCode RunReconstruct(const Arguments& arguments) {
   }
   return RunAndSummarize(
       settings, [&](RunProgress& progress) -> Result<RunRecord> {
-        Result<WorkspaceRun> run = RunWorkspace(settings, progress);
-        if (!run.ok()) return run.status();
-        return std::move(run->record);
+        CURVIX_ASSIGN_OR_RETURN(WorkspaceRun run,
+                                RunWorkspace(settings, progress));
+        return std::move(run.record);
       });
 }
 
-ExitCode RunPartitionCommand(const Arguments& arguments) {
+Result<ExitCode> RunPartitionCommand(const Arguments& arguments) {
   RunSettings settings;
   int max_views_per_part = 150;
   const std::optional<ExitCode> code = ParseCommand(
@@ -143,12 +141,12 @@ ExitCode RunPartitionCommand(const Arguments& arguments) {
                   .help = "most images that a part is reconstructed from, "
                           "those around it included"})}}});
   if (code) return *code;
-  const auto partition = WithProgress([&](RunProgress& progress) {
-    return RunPartition(settings, max_views_per_part, progress);
-  });
-  if (!partition.ok()) return Fail(partition.status());
-  for (std::size_t i = 0; i < partition->parts.size(); ++i) {
-    const ScenePart& part = partition->parts[i];
+  CURVIX_ASSIGN_OR_RETURN(
+      const ScenePartition partition, WithProgress([&](RunProgress& progress) {
+        return RunPartition(settings, max_views_per_part, progress);
+      }));
+  for (std::size_t i = 0; i < partition.parts.size(); ++i) {
+    const ScenePart& part = partition.parts[i];
     std::cout << "part " << i << ": " << Plural(part.view_idxs.size(), "view")
               << ", " << part.own_view_idxs.size() << " of its own\n";
   }
@@ -158,7 +156,7 @@ ExitCode RunPartitionCommand(const Arguments& arguments) {
   return kExitSuccess;
 }
 
-ExitCode RunMergeCommand(const Arguments& arguments) {
+Result<ExitCode> RunMergeCommand(const Arguments& arguments) {
   RunSettings settings;
   std::vector<FlagSection> sections = ReconstructSections(&settings);
   // Merges get the options of their parts, of which those of poses have no use.

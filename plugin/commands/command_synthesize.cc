@@ -32,9 +32,8 @@ Status WriteImage(const SyntheticImage& image, const fs::path& path) {
   const cv::Mat grey = cv::Mat(image.pixels).reshape(1, image.height);
   cv::Mat bgr;
   cv::cvtColor(grey, bgr, cv::COLOR_GRAY2BGR);
-  const Result<std::string> png = EncodeImage(".png", bgr);
-  if (!png.ok()) return png.status();
-  return WriteFileAtomically(path, *png);
+  CURVIX_ASSIGN_OR_RETURN(const std::string png, EncodeImage(".png", bgr));
+  return WriteFileAtomically(path, png);
 }
 
 std::string TruthText(const std::vector<TrueSample>& samples) {
@@ -144,7 +143,7 @@ std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
 
 }  // namespace
 
-ExitCode RunSynthesize(const Arguments& arguments) {
+Result<ExitCode> RunSynthesize(const Arguments& arguments) {
   SynthesizeSettings settings;
   const std::optional<ExitCode> code =
       ParseCommand("synthesize", arguments, Sections(&settings));
@@ -152,10 +151,9 @@ ExitCode RunSynthesize(const Arguments& arguments) {
   settings.options.seed = static_cast<std::uint64_t>(settings.seed);
   const Status valid = Validate(settings.options);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
-  const Status status = Synthesize(settings.options,
-                                   settings.workspace_path,
-                                   [] { return !IsInterrupted(); });
-  if (!status.ok()) return Fail(status);
+  CURVIX_RETURN_IF_ERROR(Synthesize(settings.options,
+                                    settings.workspace_path,
+                                    [] { return !IsInterrupted(); }));
   const std::string path = settings.workspace_path.string();
   std::cout << "Wrote " << Plural(settings.options.num_views, "image")
             << " and their poses to " << path
@@ -169,33 +167,25 @@ Status Synthesize(const SyntheticOptions& options,
                   const std::function<bool()>& keep_going) {
   const std::vector<std::string> names = {"images", "sparse", "gt.txt"};
   for (const std::string& name : names) {
-    if (Status status = CheckUnused(workspace / name); !status.ok()) {
-      return status;
-    }
+    CURVIX_RETURN_IF_ERROR(CheckUnused(workspace / name));
   }
-  const Result<SyntheticScene> scene = MakeSyntheticScene(options, keep_going);
-  if (!scene.ok()) return scene.status();
+  CURVIX_ASSIGN_OR_RETURN(const SyntheticScene scene,
+                          MakeSyntheticScene(options, keep_going));
 
-  const Result<StagedOutput> staged =
-      StagedOutput::Create(workspace, "--workspace_path");
-  if (!staged.ok()) return staged.status();
-  const fs::path& folder = staged->folder();
+  CURVIX_ASSIGN_OR_RETURN(const StagedOutput staged,
+                          StagedOutput::Create(workspace, "--workspace_path"));
+  const fs::path& folder = staged.folder();
   std::error_code ignored;  // writing the images tells it
   fs::create_directory(folder / "images", ignored);
-  Status status;
-  for (std::size_t i = 0; status.ok() && i < scene->images.size(); ++i) {
-    const fs::path path = folder / "images" / scene->scene.views[i].name;
-    status = WriteImage(scene->images[i], path);
-    if (status.ok() && keep_going && !keep_going()) status = CancelledStatus();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const fs::path path = folder / "images" / scene.scene.views[i].name;
+    CURVIX_RETURN_IF_ERROR(WriteImage(scene.images[i], path));
+    if (keep_going && !keep_going()) return CancelledStatus();
   }
-  if (status.ok()) {
-    status =
-        WriteColmapModel(ModelOfScene(scene->scene), folder / "sparse" / "0");
-  }
-  if (status.ok()) {
-    status = WriteFileAtomically(folder / "gt.txt", TruthText(scene->truth));
-  }
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(
+      WriteColmapModel(ModelOfScene(scene.scene), folder / "sparse" / "0"));
+  CURVIX_RETURN_IF_ERROR(
+      WriteFileAtomically(folder / "gt.txt", TruthText(scene.truth)));
   return MoveIntoWorkspace(names, folder, workspace);
 }
 

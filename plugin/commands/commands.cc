@@ -58,8 +58,13 @@ ExitCode ExitCodeOf(const Status& status) {
   return kExitInternal;
 }
 
-ExitCode Help(const Arguments& arguments);
-ExitCode Version(const Arguments& arguments);
+Result<ExitCode> Help(const Arguments& arguments);
+Result<ExitCode> Version(const Arguments& arguments);
+
+std::string VersionText() {
+  return "colmap_curvix " + std::string(ProgramVersion()) +
+         " -- 3D curves from COLMAP reconstructions\n";
+}
 
 // In the order of the overview.
 constexpr std::array kCommands = {
@@ -101,7 +106,7 @@ constexpr char kExamples[] =
     "  colmap_curvix --project_path proj/curvix/0/project.ini\n"
     "      repeats an earlier run\n";
 
-ExitCode Help(const Arguments& arguments) {
+Result<ExitCode> Help(const Arguments& arguments) {
   if (!arguments.empty() && !arguments.front().starts_with("-")) {
     return RunProgram({arguments.front(), "--help"});
   }
@@ -118,8 +123,8 @@ ExitCode Help(const Arguments& arguments) {
     std::cout << OptionsMarkdown();
     return kExitSuccess;
   }
-  Version({});
-  std::cout << "\nUsage: colmap_curvix --workspace_path proj [options]\n"
+  std::cout << VersionText()
+            << "\nUsage: colmap_curvix --workspace_path proj [options]\n"
                "       colmap_curvix <command> [options]\n\nCommands\n";
   for (const Command& command : kCommands) {
     std::string name = command.name;
@@ -133,9 +138,8 @@ ExitCode Help(const Arguments& arguments) {
   return kExitSuccess;
 }
 
-ExitCode Version(const Arguments&) {
-  std::cout << "colmap_curvix " << ProgramVersion()
-            << " -- 3D curves from COLMAP reconstructions\n";
+Result<ExitCode> Version(const Arguments&) {
+  std::cout << VersionText();
   return kExitSuccess;
 }
 
@@ -180,6 +184,16 @@ Command CommandOfProject(const Arguments& arguments) {
   return command;
 }
 
+Result<ExitCode> RunWord(const Arguments& arguments) {
+  if (arguments.empty()) return Help({});
+  const std::string& first = arguments.front();
+  if (first == "--version") return Version({});
+  if (first.starts_with("-")) return CommandOfProject(arguments).run(arguments);
+  const Command* const command = FindCommand(first);
+  if (command == nullptr) return UnknownCommand(first);
+  return command->run({arguments.begin() + 1, arguments.end()});
+}
+
 }  // namespace
 
 const Command* FindCommand(const std::string& name) {
@@ -190,13 +204,8 @@ const Command* FindCommand(const std::string& name) {
 }
 
 ExitCode RunProgram(const std::vector<std::string>& arguments) {
-  if (arguments.empty()) return Help({});
-  const std::string& first = arguments.front();
-  if (first == "--version") return Version({});
-  if (first.starts_with("-")) return CommandOfProject(arguments).run(arguments);
-  const Command* const command = FindCommand(first);
-  if (command == nullptr) return UnknownCommand(first);
-  return command->run({arguments.begin() + 1, arguments.end()});
+  const Result<ExitCode> code = RunWord(arguments);
+  return code.ok() ? *code : Fail(code.status());
 }
 
 ExitCode Fail(const Status& status, ExitCode code) {

@@ -29,17 +29,18 @@ using Arguments = std::vector<std::string>;
 struct Command {
   const char* name;
   const char* summary;
-  ExitCode (*run)(const Arguments& arguments);
+  // The status of a failure that Fail() is to tell.
+  Result<ExitCode> (*run)(const Arguments& arguments);
 };
 
-ExitCode RunReconstruct(const Arguments& arguments);
-ExitCode RunPartitionCommand(const Arguments& arguments);
-ExitCode RunMergeCommand(const Arguments& arguments);
-ExitCode RunAlign(const Arguments& arguments);
-ExitCode RunDraw(const Arguments& arguments);
-ExitCode RunSynthesize(const Arguments& arguments);
-ExitCode RunImport(const Arguments& arguments);
-ExitCode RunEvaluate(const Arguments& arguments);
+Result<ExitCode> RunReconstruct(const Arguments& arguments);
+Result<ExitCode> RunPartitionCommand(const Arguments& arguments);
+Result<ExitCode> RunMergeCommand(const Arguments& arguments);
+Result<ExitCode> RunAlign(const Arguments& arguments);
+Result<ExitCode> RunDraw(const Arguments& arguments);
+Result<ExitCode> RunSynthesize(const Arguments& arguments);
+Result<ExitCode> RunImport(const Arguments& arguments);
+Result<ExitCode> RunEvaluate(const Arguments& arguments);
 
 // Where things are.
 FlagSection PathsSection(RunSettings* settings);
@@ -59,7 +60,7 @@ auto WithProgress(const F& f) {
 
 // Does a job with its progress on stderr, and prints its closing words.
 using Job = std::function<Result<RunRecord>(RunProgress& progress)>;
-ExitCode RunAndSummarize(const RunSettings& settings, const Job& job);
+Result<ExitCode> RunAndSummarize(const RunSettings& settings, const Job& job);
 
 // nullptr: there is no such word.
 const Command* FindCommand(const std::string& name);

@@ -174,9 +174,8 @@ std::string JsonOf(const Evaluation& e) {
 Result<std::optional<WorldAlignment>> AlignmentOfCurves(
     const fs::path& folder) {
   if (!fs::exists(folder / "curves.json")) return ReadAlignment(folder);
-  Result<CurvesFile> curves = ReadCurvesFile(folder);
-  if (!curves.ok()) return curves.status();
-  return std::move(curves->alignment);
+  CURVIX_ASSIGN_OR_RETURN(CurvesFile curves, ReadCurvesFile(folder));
+  return std::move(curves.alignment);
 }
 
 // What curves are compared with.
@@ -191,27 +190,24 @@ struct HoldoutScene {
 Result<HoldoutScene> ReadHoldoutScene(const RunSettings& settings,
                                       const fs::path& curves_path,
                                       RunProgress& progress) {
-  Result<Workspace> workspace = FindWorkspace(settings);
-  if (!workspace.ok()) return workspace.status();
+  CURVIX_ASSIGN_OR_RETURN(Workspace workspace, FindWorkspace(settings));
   const bool has_curves = !curves_path.empty();
   const fs::path folder = curves_path.parent_path();
   const bool has_model = FindColmapFormat(folder / "sparse").ok();
   if (has_curves && has_model && settings.input_path.empty()) {
-    workspace->model_path = folder / "sparse";
+    workspace.model_path = folder / "sparse";
   }
-  Result<WorkspaceScene> input = LoadWorkspaceScene(*workspace);
-  if (!input.ok()) return input.status();
-  for (const std::string& note : input->notes) progress.Note(note);
-  HoldoutScene result{std::move(input->scene), workspace->model_path, ""};
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input, LoadWorkspaceScene(workspace));
+  for (const std::string& note : input.notes) progress.Note(note);
+  HoldoutScene result{std::move(input.scene), workspace.model_path, ""};
   if (!has_curves) return result;
-  const auto alignment = AlignmentOfCurves(folder);
-  if (!alignment.ok()) return alignment.status();
-  if (!*alignment) return result;
+  CURVIX_ASSIGN_OR_RETURN(const auto alignment, AlignmentOfCurves(folder));
+  if (!alignment) return result;
   // The cameras of curves_model/ are in the frame of the curves.
   std::error_code ignored;
   if (!fs::equivalent(
-          workspace->model_path, folder / kCurvesModelFolder, ignored)) {
-    result.scene = MoveScene((*alignment)->world_from_model, result.scene);
+          workspace.model_path, folder / kCurvesModelFolder, ignored)) {
+    result.scene = MoveScene(alignment->world_from_model, result.scene);
   }
   result.alignment_path = folder / kAlignmentName;
   return result;
@@ -283,13 +279,13 @@ Result<CurveSet> ReconstructOthers(const Scene& scene,
                                    const Options& options,
                                    int every,
                                    RunProgress& progress) {
-  const Result<std::vector<EdgeMap>> edge_maps =
-      DetectEdges(scene, options, progress.Callback());
-  if (!edge_maps.ok()) return edge_maps.status();
-  Result<Holdout> holdout = ReconstructWithHoldout(
-      scene, *edge_maps, options, every, progress.Callback());
-  if (!holdout.ok()) return holdout.status();
-  return std::move(holdout->reconstruction.curves);
+  CURVIX_ASSIGN_OR_RETURN(const std::vector<EdgeMap> edge_maps,
+                          DetectEdges(scene, options, progress.Callback()));
+  CURVIX_ASSIGN_OR_RETURN(
+      Holdout holdout,
+      ReconstructWithHoldout(
+          scene, edge_maps, options, every, progress.Callback()));
+  return std::move(holdout.reconstruction.curves);
 }
 
 }  // namespace
@@ -302,14 +298,11 @@ Result<std::string> EvaluateFiles(const std::filesystem::path& curves_path,
                                   const std::filesystem::path& truth_path,
                                   const EvaluationOptions& options,
                                   bool json) {
-  const Result<CurveSet> curves = ReadCurves(curves_path, {});
-  if (!curves.ok()) return curves.status();
-  const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
-  if (!truth.ok()) return truth.status();
-  const Result<Evaluation> evaluation =
-      EvaluateCurves(*curves, *truth, options);
-  if (!evaluation.ok()) return evaluation.status();
-  return EvaluationText(*evaluation, json);
+  CURVIX_ASSIGN_OR_RETURN(const CurveSet curves, ReadCurves(curves_path, {}));
+  CURVIX_ASSIGN_OR_RETURN(const GroundTruth truth, ReadGroundTruth(truth_path));
+  CURVIX_ASSIGN_OR_RETURN(const Evaluation evaluation,
+                          EvaluateCurves(curves, truth, options));
+  return EvaluationText(evaluation, json);
 }
 
 Result<std::string> RunHoldout(const RunSettings& settings,
@@ -317,26 +310,27 @@ Result<std::string> RunHoldout(const RunSettings& settings,
                                int every,
                                bool json,
                                RunProgress& progress) {
-  Result<HoldoutScene> input =
-      ReadHoldoutScene(settings, curves_path, progress);
-  if (!input.ok()) return input.status();
-  const Scene& scene = input->scene;
-  const Result<std::vector<int>> view_idxs =
-      ViewsHeldOut(scene.views.size(), every);
-  if (!view_idxs.ok()) return view_idxs.status();
-  const Result<CurveSet> curves =
+  CURVIX_ASSIGN_OR_RETURN(HoldoutScene input,
+                          ReadHoldoutScene(settings, curves_path, progress));
+  const Scene& scene = input.scene;
+  CURVIX_ASSIGN_OR_RETURN(const std::vector<int> view_idxs,
+                          ViewsHeldOut(scene.views.size(), every));
+  CURVIX_ASSIGN_OR_RETURN(
+      const CurveSet curves,
       curves_path.empty()
           ? ReconstructOthers(scene, settings.options, every, progress)
-          : ReadCurves(curves_path, scene);
-  if (!curves.ok()) return curves.status();
-  const Result<ImageAgreement> agreement = CompareWithImages(
-      curves->curves, scene, *view_idxs, settings.options.runtime.num_threads);
-  if (!agreement.ok()) return agreement.status();
+          : ReadCurves(curves_path, scene));
+  CURVIX_ASSIGN_OR_RETURN(
+      const ImageAgreement agreement,
+      CompareWithImages(curves.curves,
+                        scene,
+                        view_idxs,
+                        settings.options.runtime.num_threads));
   progress.Finish("");
-  const HoldoutResult result{*std::move(input),
-                             static_cast<int>(view_idxs->size()),
-                             SummarizeCurves(*curves),
-                             *agreement};
+  const HoldoutResult result{std::move(input),
+                             static_cast<int>(view_idxs.size()),
+                             SummarizeCurves(curves),
+                             agreement};
   return json ? JsonOf(result) : TableOf(result);
 }
 

@@ -135,9 +135,9 @@ Result<std::vector<DrawingPlane>> ChoosePlanes(const std::string& text,
                                                const Scene& scene) {
   std::vector<DrawingPlane> planes;
   for (const std::string_view part : SplitAt(text, ',')) {
-    Result<DrawingPlane> plane = ChoosePlane(std::string(part), curves, scene);
-    if (!plane.ok()) return plane.status();
-    planes.push_back(*std::move(plane));
+    CURVIX_ASSIGN_OR_RETURN(DrawingPlane plane,
+                            ChoosePlane(std::string(part), curves, scene));
+    planes.push_back(std::move(plane));
   }
   return planes;
 }

@@ -119,16 +119,10 @@ class Drafter {
 };
 
 Status Drafter::Read() {
-  Result<Workspace> workspace = FindInput(settings_.run);
-  if (!workspace.ok()) return workspace.status();
-  workspace_ = *std::move(workspace);
-  Result<CurvesFile> curves =
-      ReadCurvesFile(workspace_.output_path, NeedsSamples());
-  if (!curves.ok()) return curves.status();
-  curves_ = *std::move(curves);
-  Result<Scene> scene = ReadRefinedScene(workspace_, progress_);
-  if (!scene.ok()) return scene.status();
-  scene_ = *std::move(scene);
+  CURVIX_ASSIGN_OR_RETURN(workspace_, FindInput(settings_.run));
+  CURVIX_ASSIGN_OR_RETURN(
+      curves_, ReadCurvesFile(workspace_.output_path, NeedsSamples()));
+  CURVIX_ASSIGN_OR_RETURN(scene_, ReadRefinedScene(workspace_, progress_));
   if (curves_.alignment) {
     scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
   }
@@ -137,10 +131,9 @@ Status Drafter::Read() {
 }
 
 Status Drafter::TakePlanes() {
-  Result<std::vector<DrawingPlane>> planes =
-      ChoosePlanes(settings_.plane, curves_, scene_);
-  if (!planes.ok()) return planes.status();
-  for (DrawingPlane& plane : *planes) {
+  CURVIX_ASSIGN_OR_RETURN(std::vector<DrawingPlane> planes,
+                          ChoosePlanes(settings_.plane, curves_, scene_));
+  for (DrawingPlane& plane : planes) {
     if (settings_.from_behind) plane = FromBehind(plane);
     if (!AxisPlane(plane.name)) {
       plane.depth_axis = plane.toward;
@@ -231,12 +224,13 @@ Status Drafter::TakePhotograph() {
                 : "is no image of the model") +
         "; --photograph auto chooses one that shows it");
   }
-  Result<RectifiedPhotograph> photograph =
-      Rectify(scene_, *chosen, area, settings_.run.options.runtime.num_threads);
-  if (!photograph.ok()) return photograph.status();
+  CURVIX_ASSIGN_OR_RETURN(
+      RectifiedPhotograph photograph,
+      Rectify(
+          scene_, *chosen, area, settings_.run.options.runtime.num_threads));
   photograph_ = scene_.views[*chosen].name;
-  jpeg_ = std::move(photograph->jpeg);
-  picture_ = std::move(photograph->place);
+  jpeg_ = std::move(photograph.jpeg);
+  picture_ = std::move(photograph.place);
   picture_->file = name_ + ".jpg";
   text_ += "Photograph: " + photograph_ + ", right where " +
            view.plane.depth_name + " is " + DepthText(area.depth) + "\n";
@@ -285,9 +279,7 @@ Status Drafter::LayOut() {
   for (const DrawnView& view : views_) {
     curves.insert(curves.end(), view.curves.begin(), view.curves.end());
   }
-  Result<Sheet> laid = LaySheet(sheet, std::move(curves), picture_);
-  if (!laid.ok()) return laid.status();
-  sheet_ = *std::move(laid);
+  CURVIX_ASSIGN_OR_RETURN(sheet_, LaySheet(sheet, std::move(curves), picture_));
   std::vector<Eigen::AlignedBox2d> bounds;
   for (const DrawnView& view : views_) bounds.push_back(BoundsOf(view.curves));
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -312,8 +304,7 @@ Status Drafter::Write() {
   if (picture_) files.emplace_back(picture_->file, std::move(jpeg_));
   text_ += "Written to " + workspace_.output_path.string() + ":";
   for (const auto& [file, bytes] : files) {
-    Status written = WriteFileAtomically(output->folder() / file, bytes);
-    if (!written.ok()) return written;
+    CURVIX_RETURN_IF_ERROR(WriteFileAtomically(output->folder() / file, bytes));
     text_ += " " + file;
   }
   const DrawingPlane& plane = views_.front().plane;
@@ -324,10 +315,9 @@ Status Drafter::Write() {
        {std::pair(settings_.geopackage, ".gpkg"),
         {settings_.geojson, ".geojson"}}) {
     if (!is_wanted) continue;
-    Status written = WriteMapFile(output->folder() / files.front().first,
-                                  is_map ? curves_.alignment->crs : "",
-                                  output->folder() / (name_ + ending));
-    if (!written.ok()) return written;
+    CURVIX_RETURN_IF_ERROR(WriteMapFile(output->folder() / files.front().first,
+                                        is_map ? curves_.alignment->crs : "",
+                                        output->folder() / (name_ + ending)));
     text_ += " " + name_ + ending;
   }
   text_ += "\n";
@@ -339,8 +329,7 @@ Result<std::string> Drafter::Run() {
                           &Drafter::TakePlanes,
                           &Drafter::TakePhotograph,
                           &Drafter::LayOut}) {
-    Status status = (this->*step)();
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR((this->*step)());
   }
   const auto num_hidden = std::ranges::count_if(
       sheet_.curves, [](const SheetCurve& curve) { return curve.is_hidden; });
@@ -364,18 +353,16 @@ Result<std::string> Drafter::Run() {
     }
     text_ += "\n";
   }
-  Status written = Write();
-  if (!written.ok()) return written;
+  CURVIX_RETURN_IF_ERROR(Write());
   return std::move(text_);
 }
 
 }  // namespace
 
 Status Check(const DrawSettings& s) {
-  Status status = CheckPlanes(s.plane);
-  if (status.ok()) status = ParseWindow(s.slice, s.crop).status();
-  if (status.ok()) status = CheckName(NameOf(s));
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckPlanes(s.plane));
+  CURVIX_RETURN_IF_ERROR(ParseWindow(s.slice, s.crop).status());
+  CURVIX_RETURN_IF_ERROR(CheckName(NameOf(s)));
   if (!s.scale.empty() && !ParseScale(s.scale)) {
     return Status::InvalidArgument("--scale is \"" + s.scale +
                                    "\"; it takes a scale such as 1:50 or 2:1");

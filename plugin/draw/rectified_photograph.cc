@@ -81,15 +81,15 @@ Result<RectifiedPhotograph> Rectify(const Scene& scene,
                                     int num_threads) {
   const View& view = scene.views[view_idx];
   const Camera& camera = CameraOf(scene, view);
-  const Result<cv::Mat> image = ReadImage(view.image_path, cv::IMREAD_COLOR);
-  if (!image.ok()) return image.status();
+  CURVIX_ASSIGN_OR_RETURN(const cv::Mat image,
+                          ReadImage(view.image_path, cv::IMREAD_COLOR));
   RectifiedPhotograph result;
   SheetPicture& place = result.place;
   place.corner = area.bounds.min();
   place.pixel = PixelOnPlane(scene, view, area);
   place.size = (area.bounds.sizes() / place.pixel).array().ceil().cast<int>();
   place.size = place.size.cwiseMax(1);
-  const double to_read = static_cast<double>(image->cols) / camera.width;
+  const double to_read = static_cast<double>(image.cols) / camera.width;
   cv::Mat2f map(place.size.y(), place.size.x());
   ParallelFor(static_cast<std::size_t>(map.rows), num_threads, [&](auto row) {
     const int y = static_cast<int>(row);
@@ -106,17 +106,16 @@ Result<RectifiedPhotograph> Rectify(const Scene& scene,
     }
   });
   cv::Mat flat;
-  cv::remap(*image,
+  cv::remap(image,
             flat,
             map,
             cv::noArray(),
             cv::INTER_LINEAR,
             cv::BORDER_CONSTANT,
             cv::Scalar(255, 255, 255));
-  Result<std::string> jpeg =
-      EncodeImage(".jpg", flat, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  if (!jpeg.ok()) return jpeg.status();
-  result.jpeg = *std::move(jpeg);
+  CURVIX_ASSIGN_OR_RETURN(
+      result.jpeg,
+      EncodeImage(".jpg", flat, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}));
   return result;
 }
 

@@ -160,9 +160,8 @@ Result<std::optional<WorldAlignment>> ReadAlignment(
   if (!std::filesystem::exists(path, error)) {
     return std::optional<WorldAlignment>();
   }
-  const Result<std::string> text = ReadFile(path);
-  if (!text.ok()) return text.status();
-  const Json json = Json::parse(*text, nullptr, false);
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  const Json json = Json::parse(text, nullptr, false);
   Result<WorldAlignment> alignment =
       json.is_discarded()
           ? Result<WorldAlignment>(Status::DataLoss("it is not JSON"))

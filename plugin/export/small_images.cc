@@ -120,28 +120,27 @@ Result<std::string> SmallPinholeJpeg(const View& view,
   const double reduction = std::max(
       1.0,
       static_cast<double>(std::max(camera.width, camera.height)) / max_size_px);
-  Result<cv::Mat> photo = ReadPhoto(view, ReadMode(reduction));
-  if (!photo.ok()) return photo.status();
+  CURVIX_ASSIGN_OR_RETURN(cv::Mat photo, ReadPhoto(view, ReadMode(reduction)));
   const auto shrunk = [&](int full) {
     return std::max(1, static_cast<int>(std::lround(full / reduction)));
   };
   const cv::Size small(shrunk(camera.width), shrunk(camera.height));
   cv::Mat image;
   if (IsPinhole(camera)) {
-    cv::resize(*photo, image, small, 0, 0, cv::INTER_AREA);
+    cv::resize(photo, image, small, 0, 0, cv::INTER_AREA);
   } else {
     // Twice the size at first, so that sampling leaves no pixel out.
-    if (photo->cols > 2 * small.width) {
-      cv::resize(*photo,
-                 *photo,
+    if (photo.cols > 2 * small.width) {
+      cv::resize(photo,
+                 photo,
                  {2 * small.width, 2 * small.height},
                  0,
                  0,
                  cv::INTER_AREA);
     }
-    cv::remap(*photo,
+    cv::remap(photo,
               image,
-              PinholeMap(camera, small, photo->size()),
+              PinholeMap(camera, small, photo.size()),
               cv::noArray(),
               cv::INTER_LINEAR);
   }
@@ -193,10 +192,9 @@ Result<std::string> OverlayPng(const CurveSource& curves,
   constexpr double kPhotoShare = 0.55;  // the rest is white
   constexpr double kPaleShare = 0.4;    // of a colour, the rest is white
   const View& view = scene.views[static_cast<std::size_t>(view_idx)];
-  Result<cv::Mat> photo = ReadPhoto(view, cv::IMREAD_COLOR);
-  if (!photo.ok()) return photo.status();
-  photo->convertTo(*photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));
-  const int width = std::max(2, std::max(photo->cols, photo->rows) / 500);
+  CURVIX_ASSIGN_OR_RETURN(cv::Mat photo, ReadPhoto(view, cv::IMREAD_COLOR));
+  photo.convertTo(photo, -1, kPhotoShare, 255 * (1 - kPhotoShare));
+  const int width = std::max(2, std::max(photo.cols, photo.rows) / 500);
   // What is shown comes last, over all that may be hidden.
   for (const bool is_shown : {false, true}) {
     curves.ForEach([&](std::size_t id, const Curve& curve) {
@@ -208,11 +206,11 @@ Result<std::string> OverlayPng(const CurveSource& curves,
         DrawLine(stretch.pixels,
                  is_shown ? Color(id) : pale,
                  is_shown ? width : width / 2,
-                 &*photo);
+                 &photo);
       }
     });
   }
-  return EncodeImage(".png", *photo);
+  return EncodeImage(".png", photo);
 }
 
 }  // namespace curvix

@@ -41,9 +41,9 @@ Result<int> ViewOfSvg(const std::string& image,
 Status WriteSvg(const CurveRecord& record,
                 const std::string& image,
                 const fs::path& path) {
-  const Result<int> view_idx = ViewOfSvg(image, record.scene.views);
-  if (!view_idx.ok()) return view_idx.status();
-  return WriteProjection(path, record.curves, record.scene, *view_idx);
+  CURVIX_ASSIGN_OR_RETURN(const int view_idx,
+                          ViewOfSvg(image, record.scene.views));
+  return WriteProjection(path, record.curves, record.scene, view_idx);
 }
 
 bool AsksFor(const OutputSettings& settings, const std::string& format) {
@@ -100,8 +100,7 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
       AddSample(record, sample, CurveColor(id), model);
     }
   });
-  Status read = record.curves.status();
-  if (!read.ok()) return read;
+  CURVIX_RETURN_IF_ERROR(record.curves.status());
   if (!has_edges) {
     return Status::InvalidArgument(
         "the 2D edges behind the curves are not known, so that a COLMAP model "
@@ -134,8 +133,7 @@ Status WriteOverlays(const CurveRecord& record,
     fs::path path = folder / view.name;
     path += ".png";
     fs::create_directories(path.parent_path());
-    Status status = WriteFileAtomically(path, *png);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(WriteFileAtomically(path, *png));
   }
   return {};
 }
@@ -240,15 +238,13 @@ Result<std::vector<std::string>> WriteResults(const CurveRecord& record,
   std::vector<std::string> files;
   for (const OutputFormat& format : OutputFormats()) {
     if (!AsksFor(settings, format.name)) continue;
-    Status status = WriteFormat(
-        record, settings, num_threads, format.name, folder / format.file);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(WriteFormat(
+        record, settings, num_threads, format.name, folder / format.file));
     files.emplace_back(format.file);
   }
   if (settings.num_overlays > 0) {
-    Status status =
-        WriteOverlays(record, settings.num_overlays, folder / kOverlaysFolder);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(
+        WriteOverlays(record, settings.num_overlays, folder / kOverlaysFolder));
     files.emplace_back(kOverlaysFolder);
   }
   return files;

@@ -84,9 +84,8 @@ Result<Projections> ReadNpzProjections(const fs::path& file, bool normalize) {
 }
 
 Result<Matrix34d> ReadPos(const fs::path& file) {
-  const Result<std::string> text = ReadFile(file);
-  if (!text.ok()) return text.status();
-  WordReader words(WithoutByteOrderMark(*text));
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(file));
+  WordReader words(WithoutByteOrderMark(text));
   Matrix34d projection;
   for (int i = 0; i < 12; ++i) {
     projection(i / 4, i % 4) = words.Number<double>();
@@ -103,9 +102,7 @@ Result<Projections> ReadPosFolder(const fs::path& folder) {
   for (const fs::path& file : EntriesOf(folder)) {
     const auto number = NumberIn(file.filename().string(), "pos_", ".txt");
     if (!number) continue;
-    const Result<Matrix34d> projection = ReadPos(file);
-    if (!projection.ok()) return projection.status();
-    projections[*number] = *projection;
+    CURVIX_ASSIGN_OR_RETURN(projections[*number], ReadPos(file));
   }
   return projections;
 }
@@ -153,12 +150,11 @@ Result<std::vector<DtuView>> PairByNumber(const Projections& projections,
                                           const std::vector<std::string>& names,
                                           const fs::path& folder,
                                           std::vector<std::string>* notes) {
-  const auto numbered = NumberedImages(names, folder);
-  if (!numbered.ok()) return numbered.status();
+  CURVIX_ASSIGN_OR_RETURN(const auto numbered, NumberedImages(names, folder));
   std::vector<DtuView> views;
   for (const auto& [number, projection] : projections) {
-    const auto image = numbered->find(number);
-    if (image == numbered->end()) continue;
+    const auto image = numbered.find(number);
+    if (image == numbered.end()) continue;
     views.push_back(
         {"camera " + std::to_string(number), projection, image->second});
   }
@@ -224,9 +220,7 @@ Result<ImportedScene> ImportDtu(const ImportOptions& options) {
   fs::path source = options.input_path;
   Projections projections;
   if (IsFolder(source)) {
-    Result<Projections> positions = ReadPosFolder(source);
-    if (!positions.ok()) return positions.status();
-    projections = std::move(positions).value();
+    CURVIX_ASSIGN_OR_RETURN(projections, ReadPosFolder(source));
   }
   const bool is_npz = projections.empty();
   if (!is_npz && options.normalize) {
@@ -235,30 +229,25 @@ Result<ImportedScene> ImportDtu(const ImportOptions& options) {
         source.string() + " has positions");
   }
   if (is_npz) {
-    const Result<fs::path> file = IsFolder(source)
-                                      ? OnlyFile(source, "cameras", ".npz")
-                                      : Result<fs::path>(source);
-    if (!file.ok()) return file.status();
-    Result<Projections> read = ReadNpzProjections(*file, options.normalize);
-    if (!read.ok()) return read.status();
-    projections = std::move(read).value();
-    source = *file;
+    if (IsFolder(source)) {
+      CURVIX_ASSIGN_OR_RETURN(source, OnlyFile(source, "cameras", ".npz"));
+    }
+    CURVIX_ASSIGN_OR_RETURN(projections,
+                            ReadNpzProjections(source, options.normalize));
   }
   const fs::path base = is_npz ? source.parent_path() : source;
-  const Result<fs::path> folder = FindFolder(options, base);
-  if (!folder.ok()) return folder.status();
-  const auto names = ImageNames(*folder, options.image_filter);
+  CURVIX_ASSIGN_OR_RETURN(const fs::path folder, FindFolder(options, base));
+  const auto names = ImageNames(folder, options.image_filter);
   std::vector<std::string> notes;
-  Result<std::vector<DtuView>> pairs =
+  CURVIX_ASSIGN_OR_RETURN(
+      std::vector<DtuView> pairs,
       is_npz && names.size() == projections.size() &&
               !HaveSameNumbers(projections, names)
           ? PairInOrder(projections, names)
-          : PairByNumber(projections, names, *folder, &notes);
-  if (!pairs.ok()) return pairs.status();
-  const auto images = Decompose(*pairs);
-  if (!images.ok()) return images.status();
+          : PairByNumber(projections, names, folder, &notes));
+  CURVIX_ASSIGN_OR_RETURN(const auto images, Decompose(pairs));
   Result<ImportedScene> scene =
-      SceneOfImages(*images, *folder, options.first_pixel.value_or(0), source);
+      SceneOfImages(images, folder, options.first_pixel.value_or(0), source);
   if (scene.ok()) scene->notes = std::move(notes);
   return scene;
 }

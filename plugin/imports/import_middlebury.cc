@@ -64,9 +64,9 @@ Result<std::vector<CalibratedImage>> ParsePar(std::string_view text,
     const std::string_view line = TakeLine(text);
     std::string_view rest = line;
     if (TakeWord(rest).empty()) continue;
-    Result<CalibratedImage> parsed = ParseParLine(line, file, number);
-    if (!parsed.ok()) return parsed.status();
-    lines.push_back(std::move(parsed).value());
+    CURVIX_ASSIGN_OR_RETURN(CalibratedImage parsed,
+                            ParseParLine(line, file, number));
+    lines.push_back(std::move(parsed));
   }
   if (lines.size() != static_cast<std::size_t>(*count)) {
     return BrokenMiddlebury(file,
@@ -84,28 +84,23 @@ Result<std::vector<CalibratedImage>> ParsePar(std::string_view text,
 Result<ImportedScene> ImportMiddlebury(const ImportOptions& options) {
   fs::path file = options.input_path;
   if (IsFolder(file)) {
-    const Result<fs::path> found = OnlyFile(file, "", "_par.txt");
-    if (!found.ok()) return found.status();
-    file = *found;
+    CURVIX_ASSIGN_OR_RETURN(file, OnlyFile(file, "", "_par.txt"));
   }
-  const Result<std::string> text = ReadFile(file);
-  if (!text.ok()) return text.status();
-  const Result<std::vector<CalibratedImage>> lines =
-      ParsePar(WithoutByteOrderMark(*text), file);
-  if (!lines.ok()) return lines.status();
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(file));
+  CURVIX_ASSIGN_OR_RETURN(const std::vector<CalibratedImage> lines,
+                          ParsePar(WithoutByteOrderMark(text), file));
   std::vector<std::string> names;
-  for (const CalibratedImage& line : *lines) {
-    Status status = CheckImageName(line.name, file);
-    if (!status.ok()) return status;
+  for (const CalibratedImage& line : lines) {
+    CURVIX_RETURN_IF_ERROR(CheckImageName(line.name, file));
     names.push_back(line.name);
   }
   const fs::path base = file.parent_path();
-  const Result<fs::path> folder = FindImageFolder(
-      options.image_path, {base, base / "images"}, names.front());
-  if (!folder.ok()) return folder.status();
-  Status status = CheckImagesExist(names, *folder);
-  if (!status.ok()) return status;
-  return SceneOfImages(*lines, *folder, options.first_pixel.value_or(0), file);
+  CURVIX_ASSIGN_OR_RETURN(
+      const fs::path folder,
+      FindImageFolder(
+          options.image_path, {base, base / "images"}, names.front()));
+  CURVIX_RETURN_IF_ERROR(CheckImagesExist(names, folder));
+  return SceneOfImages(lines, folder, options.first_pixel.value_or(0), file);
 }
 
 }  // namespace curvix

@@ -46,10 +46,9 @@ Result<Rigid3> NerfPose(const Json& frame) {
 }
 
 Result<Json> ReadTransforms(const fs::path& file) {
-  const Result<std::string> text = ReadFile(file);
-  if (!text.ok()) return text.status();
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(file));
   constexpr bool kThrow = false, kIgnoreComments = true;
-  Json document = Json::parse(*text, nullptr, kThrow, kIgnoreComments);
+  Json document = Json::parse(text, nullptr, kThrow, kIgnoreComments);
   if (!document.is_object()) {
     return Status::DataLoss(file.string() +
                             " is not valid JSON (NaN and Infinity are not), "
@@ -126,8 +125,7 @@ Result<std::vector<std::string>> FindNames(const Json& frames,
   std::vector<std::string> missing;
   for (const Json& frame : frames) {
     const fs::path path = FilePathOf(frame);
-    const Status status = CheckImageName(path.filename().string(), source);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckImageName(path.filename().string(), source));
     names.push_back(FindBelow(root, path, by_last_parts));
     if (names.back().empty()) missing.push_back(path.string());
   }
@@ -142,13 +140,11 @@ Result<ImportedView> ViewOf(const Json& frame,
                             const Json& document,
                             const fs::path& file,
                             std::optional<double> first_pixel) {
-  const Result<ImageSize> size = ReadImageSize(file);
-  if (!size.ok()) return size.status();
-  const Result<Camera> camera = NerfCamera(frame, document, *size, first_pixel);
-  if (!camera.ok()) return camera.status();
-  const Result<Rigid3> pose = NerfPose(frame);
-  if (!pose.ok()) return pose.status();
-  return ImportedView{"", file, *camera, *pose};
+  CURVIX_ASSIGN_OR_RETURN(const ImageSize size, ReadImageSize(file));
+  CURVIX_ASSIGN_OR_RETURN(const Camera camera,
+                          NerfCamera(frame, document, size, first_pixel));
+  CURVIX_ASSIGN_OR_RETURN(const Rigid3 pose, NerfPose(frame));
+  return ImportedView{"", file, camera, pose};
 }
 
 fs::path TransformsFile(const fs::path& input_path) {
@@ -162,20 +158,19 @@ fs::path TransformsFile(const fs::path& input_path) {
 
 Result<ImportedScene> ImportNerf(const ImportOptions& options) {
   const fs::path file = TransformsFile(options.input_path);
-  const Result<Json> document = ReadTransforms(file);
-  if (!document.ok()) return document.status();
-  const Json& frames = (*document)["frames"];
-  const Result<fs::path> root =
-      FindImageFolder(options.image_path, {file.parent_path()}, "");
-  if (!root.ok()) return root.status();
-  const Result<std::vector<std::string>> names =
-      FindNames(frames, *root, !options.image_path.empty(), file);
-  if (!names.ok()) return names.status();
+  CURVIX_ASSIGN_OR_RETURN(const Json document, ReadTransforms(file));
+  const Json& frames = document["frames"];
+  CURVIX_ASSIGN_OR_RETURN(
+      const fs::path root,
+      FindImageFolder(options.image_path, {file.parent_path()}, ""));
+  CURVIX_ASSIGN_OR_RETURN(
+      const std::vector<std::string> names,
+      FindNames(frames, root, !options.image_path.empty(), file));
   std::vector<ImportedView> views;
-  for (std::size_t i = 0; i < names->size(); ++i) {
-    const std::string& name = (*names)[i];
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
     Result<ImportedView> view =
-        ViewOf(frames[i], *document, *root / name, options.first_pixel);
+        ViewOf(frames[i], document, root / name, options.first_pixel);
     if (!view.ok()) {
       return Status(view.status().code(),
                     file.string() + ", frame " + std::to_string(i + 1) + " (" +

@@ -44,10 +44,9 @@ Result<ImportedView> CalibratedView(const CalibratedImage& image,
                                     const fs::path& folder,
                                     double first_pixel) {
   const fs::path file = folder / image.name;
-  const Result<ImageSize> size = ReadImageSize(file);
-  if (!size.ok()) return size.status();
+  CURVIX_ASSIGN_OR_RETURN(const ImageSize size, ReadImageSize(file));
   const Result<Camera> camera = CameraFromCalibration(
-      image.pose.calibration, size->width, size->height, first_pixel);
+      image.pose.calibration, size.width, size.height, first_pixel);
   if (!camera.ok()) {
     return Status(camera.status().code(),
                   image.source + ": " + camera.status().message());
@@ -66,9 +65,7 @@ Result<ImportedScene> SceneOfViews(const std::vector<ImportedView>& views,
   }
   ImportedScene scene;
   for (const ImportedView& view : views) {
-    if (Status status = CheckImageName(view.name, source); !status.ok()) {
-      return status;
-    }
+    CURVIX_RETURN_IF_ERROR(CheckImageName(view.name, source));
     ColmapImage image;
     image.image_id = static_cast<std::uint32_t>(scene.image_files.size() + 1);
     image.cam_from_world = view.cam_from_world;
@@ -90,9 +87,9 @@ Result<ImportedScene> SceneOfImages(const std::vector<CalibratedImage>& images,
                                     const fs::path& source) {
   std::vector<ImportedView> views;
   for (const CalibratedImage& image : images) {
-    Result<ImportedView> view = CalibratedView(image, folder, first_pixel);
-    if (!view.ok()) return view.status();
-    views.push_back(*std::move(view));
+    CURVIX_ASSIGN_OR_RETURN(ImportedView view,
+                            CalibratedView(image, folder, first_pixel));
+    views.push_back(std::move(view));
   }
   return SceneOfViews(views, source);
 }

@@ -199,19 +199,17 @@ Result<Distortion> ReadDistortion(const Fields& fields) {
 }
 
 Status AddDistortion(const Fields& fields, Camera* camera) {
-  const Result<CameraModel> largest = LargestModel(fields);
-  if (!largest.ok()) return largest.status();
-  const Result<Distortion> distortion = ReadDistortion(fields);
-  if (!distortion.ok()) return distortion.status();
-  const auto& [k, p1, p2] = *distortion;
+  CURVIX_ASSIGN_OR_RETURN(const CameraModel largest, LargestModel(fields));
+  CURVIX_ASSIGN_OR_RETURN(const Distortion distortion, ReadDistortion(fields));
+  const auto& [k, p1, p2] = distortion;
   const bool has_tangential = p1 != 0 || p2 != 0;
   const bool has_denominator = k[3] != 0 || k[4] != 0 || k[5] != 0;
   std::vector<double> more;
-  if (*largest == CameraModel::kOpenCVFisheye) {
+  if (largest == CameraModel::kOpenCVFisheye) {
     if (has_tangential) return NotImported("p1 and p2 of a fisheye are not 0");
     camera->model = CameraModel::kOpenCVFisheye;
     more = {k[0], k[1], k[2], k[3]};
-  } else if (has_denominator && *largest != CameraModel::kFullOpenCV) {
+  } else if (has_denominator && largest != CameraModel::kFullOpenCV) {
     return NotImported(
         "k4, k5 or k6 is not 0, and the camera neither a fisheye nor "
         "FULL_OPENCV");
@@ -233,7 +231,7 @@ Result<Camera> NerfCamera(const Json& frame,
                           const ImageSize& image,
                           std::optional<double> first_pixel) {
   const Fields fields(frame, file);
-  if (Status status = fields.CheckNumbers(); !status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(fields.CheckNumbers());
   const double width = fields.Number("w").value_or(image.width);
   const double height = fields.Number("h").value_or(image.height);
   if (width != image.width || height != image.height) {
@@ -241,12 +239,11 @@ Result<Camera> NerfCamera(const Json& frame,
                             SizeText(image) +
                             "; take the images that the cameras were made for");
   }
-  Result<Camera> camera = Pinhole(fields, image, first_pixel);
-  if (!camera.ok()) return camera;
-  camera->width = image.width;
-  camera->height = image.height;
-  if (Status s = AddDistortion(fields, &*camera); !s.ok()) return s;
-  const Status status = Validate(*camera);
+  CURVIX_ASSIGN_OR_RETURN(Camera camera, Pinhole(fields, image, first_pixel));
+  camera.width = image.width;
+  camera.height = image.height;
+  CURVIX_RETURN_IF_ERROR(AddDistortion(fields, &camera));
+  const Status status = Validate(camera);
   if (!status.ok()) return Status::DataLoss(status.message());
   return camera;
 }

@@ -106,23 +106,20 @@ Status WriteNewWorkspace(const ColmapModel& model,
                          const fs::path& workspace,
                          const std::function<bool()>& keep_going) {
   CURVIX_CHECK(image_files.size() == model.images.size(), "one per image");
-  Status status = CheckUnused(workspace / "sparse");
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckUnused(workspace / "sparse"));
   const bool in_place = AreInPlace(model, image_files, workspace / "images");
-  if (!in_place) status = CheckImageFolder(workspace / "images", image_files);
-  if (!status.ok()) return status;
-  const Result<StagedOutput> staged =
-      StagedOutput::Create(workspace, "--workspace_path");
-  if (!staged.ok()) return staged.status();
-  const fs::path folder = staged->folder();
+  if (!in_place) {
+    CURVIX_RETURN_IF_ERROR(CheckImageFolder(workspace / "images", image_files));
+  }
+  CURVIX_ASSIGN_OR_RETURN(const StagedOutput staged,
+                          StagedOutput::Create(workspace, "--workspace_path"));
+  const fs::path folder = staged.folder();
   for (std::size_t i = 0; !in_place && i < image_files.size(); ++i) {
     const fs::path to = folder / "images" / model.images[i].name;
-    status = PlaceImage(image_files[i], to, policy);
-    if (status.ok() && keep_going && !keep_going()) status = CancelledStatus();
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(PlaceImage(image_files[i], to, policy));
+    if (keep_going && !keep_going()) return CancelledStatus();
   }
-  status = WriteColmapModel(model, folder / "sparse" / "0");
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(WriteColmapModel(model, folder / "sparse" / "0"));
   const std::vector<std::string> names =
       in_place ? std::vector<std::string>{"sparse"}
                : std::vector<std::string>{"images", "sparse"};

@@ -184,15 +184,14 @@ Result<Eigen::Matrix4d> ReadNpyMatrix(zip_t* archive,
 Result<std::map<std::string, Eigen::Matrix4d>> ReadNpz(
     const std::filesystem::path& path,
     const std::function<bool(const std::string& name)>& wanted) {
-  Result<Archive> archive = OpenArchive(path);
-  if (!archive.ok()) return archive.status();
+  CURVIX_ASSIGN_OR_RETURN(Archive archive, OpenArchive(path));
   std::map<std::string, Eigen::Matrix4d> matrices;
-  const zip_int64_t count = zip_get_num_entries(archive->get(), 0);
+  const zip_int64_t count = zip_get_num_entries(archive.get(), 0);
   for (zip_int64_t i = 0; i < count; ++i) {
     zip_stat_t stat;
     zip_stat_init(&stat);
     const auto index = static_cast<zip_uint64_t>(i);
-    if (zip_stat_index(archive->get(), index, 0, &stat) != 0 ||
+    if (zip_stat_index(archive.get(), index, 0, &stat) != 0 ||
         (stat.valid & ZIP_STAT_NAME) == 0) {
       return BrokenArchive(path.string(), "is damaged");
     }
@@ -200,10 +199,9 @@ Result<std::map<std::string, Eigen::Matrix4d>> ReadNpz(
     if (!name.ends_with(".npy")) continue;
     name.resize(name.size() - 4);
     if (!wanted(name)) continue;
-    const Result<Eigen::Matrix4d> matrix =
-        ReadNpyMatrix(archive->get(), stat, name + " of " + path.string());
-    if (!matrix.ok()) return matrix.status();
-    matrices[name] = *matrix;
+    CURVIX_ASSIGN_OR_RETURN(
+        matrices[name],
+        ReadNpyMatrix(archive.get(), stat, name + " of " + path.string()));
   }
   return matrices;
 }

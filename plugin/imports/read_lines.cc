@@ -172,9 +172,8 @@ Result<Lines> SomeLines(const fs::path& path, Lines lines) {
 // What `read` finds in a file, at least one line.
 template <typename Read>
 Result<Lines> ReadWords(const fs::path& path, const Read& read) {
-  const Result<std::string> text = ReadFile(path);
-  if (!text.ok()) return text.status();
-  Words words(path, WithoutByteOrderMark(*text));
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  Words words(path, WithoutByteOrderMark(text));
   Lines lines;
   read(words, lines);
   if (!words.ok()) return words.status();
@@ -182,10 +181,9 @@ Result<Lines> ReadWords(const fs::path& path, const Read& read) {
 }
 
 Result<Lines> ReadObj(const fs::path& path) {
-  const Result<CurveSet> set = ReadCurves(path);
-  if (!set.ok()) return set.status();
+  CURVIX_ASSIGN_OR_RETURN(const CurveSet set, ReadCurves(path));
   Lines lines;
-  for (const Curve& curve : set->curves) {
+  for (const Curve& curve : set.curves) {
     for (std::size_t i = 1; i < curve.samples.size(); ++i) {
       lines.push_back(
           {curve.samples[i - 1].position, curve.samples[i].position, {}});
@@ -272,10 +270,10 @@ std::size_t CountTracks(const fs::path& folder) {
 Result<Lines> ReadTracks(const fs::path& folder, std::size_t count) {
   Lines lines;
   for (std::size_t i = 0; i < count; ++i) {
-    const Result<Lines> track =
-        ReadWords(folder / ("track_" + std::to_string(i) + ".txt"), ReadTrack);
-    if (!track.ok()) return track.status();
-    lines.push_back(track->front());
+    CURVIX_ASSIGN_OR_RETURN(
+        const Lines track,
+        ReadWords(folder / ("track_" + std::to_string(i) + ".txt"), ReadTrack));
+    lines.push_back(track.front());
   }
   return lines;
 }

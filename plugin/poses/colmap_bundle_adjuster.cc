@@ -247,16 +247,16 @@ Result<std::string> ColmapHelp(const std::vector<std::string>& arguments,
                                const KeepGoing& keep_going) {
   const fs::path text_path = folder / "help.txt";
   const double timeout_s = std::min(run.timeout_s, kHelpTimeoutS);
-  const Result<ChildEnd> end = RunChildProcess({run.program,
-                                                arguments,
-                                                folder,
-                                                text_path,
-                                                timeout_s,
-                                                keep_going,
-                                                LogsInto(folder)});
-  if (!end.ok()) return end.status();
-  if (end->kind == ChildEnd::Kind::kStopped) return CancelledStatus();
-  if (end->kind == ChildEnd::Kind::kTimedOut) {
+  CURVIX_ASSIGN_OR_RETURN(const ChildEnd end,
+                          RunChildProcess({run.program,
+                                           arguments,
+                                           folder,
+                                           text_path,
+                                           timeout_s,
+                                           keep_going,
+                                           LogsInto(folder)}));
+  if (end.kind == ChildEnd::Kind::kStopped) return CancelledStatus();
+  if (end.kind == ChildEnd::Kind::kTimedOut) {
     return Status::ExternalTool("its help was not done after " +
                                 DurationText(timeout_s));
   }
@@ -333,14 +333,13 @@ Result<BundleAdjustment> RefineWithColmap(const Scene& in_world,
                                           const ColmapRun& run,
                                           const KeepGoing& keep_going,
                                           std::string* version) {
-  const Result<fs::path> made = ScratchFolder::Make();
-  if (!made.ok()) return made.status();
-  const ScratchFolder scratch(*made);
+  CURVIX_ASSIGN_OR_RETURN(const fs::path made, ScratchFolder::Make());
+  const ScratchFolder scratch(made);
   const Scene scene = AboutOrigin(in_world);
-  const Result<std::string> general =
-      ColmapHelp({"help"}, run, scratch.path(), keep_going);
-  if (!general.ok()) return general.status();
-  *version = VersionIn(*general);
+  CURVIX_ASSIGN_OR_RETURN(
+      const std::string general,
+      ColmapHelp({"help"}, run, scratch.path(), keep_going));
+  *version = VersionIn(general);
   const Result<std::string> help = ColmapHelp(
       {"bundle_adjuster", "--help"}, run, scratch.path(), keep_going);
   if (!help.ok() && help.status().code() == StatusCode::kCancelled) {
@@ -352,18 +351,17 @@ Result<BundleAdjustment> RefineWithColmap(const Scene& in_world,
   const fs::path output = scratch.path() / "output";
   std::error_code error;
   fs::create_directory(output, error);
-  Status written = WriteColmapModel(ModelForColmap(scene), input);
-  if (!written.ok()) return written;
-  const Result<ChildEnd> end =
+  CURVIX_RETURN_IF_ERROR(WriteColmapModel(ModelForColmap(scene), input));
+  CURVIX_ASSIGN_OR_RETURN(
+      const ChildEnd end,
       RunChildProcess({run.program,
                        BundleAdjusterArguments(input, output, tolerance_option),
                        scratch.path(),
                        run.log_path,
                        run.timeout_s,
                        keep_going,
-                       LogsInto(scratch.path())});
-  if (!end.ok()) return end.status();
-  Status ended = CheckEnd(*end, run.timeout_s);
+                       LogsInto(scratch.path())}));
+  Status ended = CheckEnd(end, run.timeout_s);
   if (ended.code() == StatusCode::kExternalTool) {
     const std::string model = UnknownModel(scene, run.log_path);
     if (!model.empty()) {

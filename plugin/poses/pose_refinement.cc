@@ -38,15 +38,14 @@ Result<Scene> RunColmap(Scene scene,
   const auto adjust = [&] {
     return RefineWithColmap(scene, run, keep_going, &record->colmap_version);
   };
-  const Result<BundleAdjustment> adjusted =
-      cache ? cache(scene, run.program, adjust) : adjust();
-  if (!adjusted.ok()) return adjusted.status();
-  record->colmap_version = adjusted->program_version;
+  CURVIX_ASSIGN_OR_RETURN(const BundleAdjustment adjusted,
+                          cache ? cache(scene, run.program, adjust) : adjust());
+  record->colmap_version = adjusted.program_version;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
-    scene.views[i].cam_from_world = adjusted->cam_from_world[i];
+    scene.views[i].cam_from_world = adjusted.cam_from_world[i];
   }
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    scene.points[i].position = adjusted->positions[i];
+    scene.points[i].position = adjusted.positions[i];
   }
   return scene;
 }

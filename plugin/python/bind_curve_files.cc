@@ -78,11 +78,11 @@ std::string Evaluate(const PythonCurves& curves,
   options.step = step;
   options.min_num_views = min_num_views;
   const auto evaluate = [&]() -> Result<Evaluation> {
-    const Result<GroundTruth> truth = ReadGroundTruth(truth_path);
-    if (!truth.ok()) return truth.status();
+    CURVIX_ASSIGN_OR_RETURN(const GroundTruth truth,
+                            ReadGroundTruth(truth_path));
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < curves.table.size(); ++i) all.push_back(i);
-    return EvaluateCurves(curves.table.Select(all), *truth, options);
+    return EvaluateCurves(curves.table.Select(all), truth, options);
   };
   return EvaluationText(Take(WithoutLock(evaluate)), /*json=*/true);
 }

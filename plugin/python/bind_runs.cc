@@ -57,10 +57,9 @@ Result<WorkspaceRun> ReconstructScene(Scene scene,
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     scene.points[i].point3D_id = model.points[i].point3D_id;
   }
-  Result<SceneStages> found =
-      RunStages({}, progress, record).Run(model, std::move(scene), edges);
-  if (!found.ok()) return found.status();
-  run.stages = *std::move(found);
+  CURVIX_ASSIGN_OR_RETURN(
+      run.stages,
+      RunStages({}, progress, record).Run(model, std::move(scene), edges));
   const Reconstruction& reconstruction = run.stages.reconstruction;
   const CurvesInMemory curves(reconstruction.curves, &run.stages.edge_maps);
   run.fitted = FitCurvesOf(run.stages.scene, curves, record);

@@ -41,8 +41,7 @@ Status AddFile(const fs::path& path, std::uint64_t& hash) {
 Result<std::uint64_t> HashFiles(const std::vector<fs::path>& paths) {
   std::uint64_t hash = HashBytes("");
   for (const fs::path& path : paths) {
-    Status status = AddFile(path, hash);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(AddFile(path, hash));
   }
   return hash;
 }
@@ -88,9 +87,8 @@ std::uint64_t HashOf(const std::vector<std::uint64_t>& hashes) {
 }
 
 Result<std::uint64_t> HashModel(const fs::path& folder) {
-  const Result<ColmapFormat> format = FindColmapFormat(folder);
-  if (!format.ok()) return format.status();
-  const char* extension = *format == ColmapFormat::kText ? ".txt" : ".bin";
+  CURVIX_ASSIGN_OR_RETURN(const ColmapFormat format, FindColmapFormat(folder));
+  const char* extension = format == ColmapFormat::kText ? ".txt" : ".bin";
   std::vector<fs::path> paths;
   for (const char* name : {"cameras", "images", "points3D"}) {
     const fs::path path = folder / (std::string(name) + extension);

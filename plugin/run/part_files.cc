@@ -187,14 +187,13 @@ Status WritePlan(const ScenePartition& partition,
                  const Scene& scene,
                  const ColmapModel& model,
                  const fs::path& folder) {
-  Status status =
-      WriteColmapModel(ModelForMerge(model, scene), folder / "scene");
-  for (std::size_t i = 0; status.ok() && i < partition.parts.size(); ++i) {
-    status = WriteColmapModel(
+  CURVIX_RETURN_IF_ERROR(
+      WriteColmapModel(ModelForMerge(model, scene), folder / "scene"));
+  for (std::size_t i = 0; i < partition.parts.size(); ++i) {
+    CURVIX_RETURN_IF_ERROR(WriteColmapModel(
         ModelForPart(model, scene, partition.parts[i].view_idxs),
-        PartFolder(folder, static_cast<int>(i)) / "sparse");
+        PartFolder(folder, static_cast<int>(i)) / "sparse"));
   }
-  if (!status.ok()) return status;
   return WriteFileAtomically(folder / kPlanName, PlanJson(partition, scene));
 }
 
@@ -223,10 +222,9 @@ Result<InputSummary> ReadInputOfPlan(const fs::path& folder) {
   const fs::path path = folder / kInputName;
   std::error_code error;
   if (!fs::exists(path, error)) return input;
-  const Result<std::string> text = ReadFile(path);
-  if (!text.ok()) return text.status();
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
   try {
-    const Json json = Json::parse(*text);
+    const Json json = Json::parse(text);
     json.at("missing_images").get_to(input.missing_images);
     json.at("notes").get_to(input.notes);
   } catch (const Json::exception&) {

@@ -105,15 +105,14 @@ Status CheckImagesAreThere(const WorkspaceScene& input) {
 
 // kNotFound if the model is no longer the one that was divided.
 Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
-  const Result<std::uint64_t> hash = HashModel(model_path);
-  if (!hash.ok()) return hash.status();
+  CURVIX_ASSIGN_OR_RETURN(const std::uint64_t hash, HashModel(model_path));
   const Result<std::string> divided = ReadFile(folder / kModelHashName);
   if (!divided.ok()) {
     return Status::NotFound("there is no " +
                             (folder / kModelHashName).string() +
                             "; run 'colmap_curvix partition' again");
   }
-  if (*divided == std::to_string(*hash)) return {};
+  if (*divided == std::to_string(hash)) return {};
   return Status::NotFound(
       "the model " + model_path.string() +
       " has changed since it was divided; run 'colmap_curvix " +
@@ -125,10 +124,9 @@ Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
 Status TakeInputOfPlan(const fs::path& folder,
                        RunProgress& progress,
                        InputSummary& input) {
-  Result<InputSummary> divided = ReadInputOfPlan(folder);
-  if (!divided.ok()) return divided.status();
-  input.missing_images = std::move(divided->missing_images);
-  for (const std::string& note : divided->notes) {
+  CURVIX_ASSIGN_OR_RETURN(InputSummary divided, ReadInputOfPlan(folder));
+  input.missing_images = std::move(divided.missing_images);
+  for (const std::string& note : divided.notes) {
     if (std::ranges::find(input.notes, note) != input.notes.end()) continue;
     progress.Note(note);
     input.notes.push_back(note);
@@ -141,9 +139,9 @@ Status CheckScene(const WorkspaceScene& input,
                   const PartPlan& plan,
                   const fs::path& model_path,
                   const fs::path& folder) {
-  Status status = CheckImagesAreThere(input);
-  if (status.ok()) status = CheckModelIsSame(model_path, folder);
-  if (!status.ok() || input.scene.views.size() == plan.num_views) return status;
+  CURVIX_RETURN_IF_ERROR(CheckImagesAreThere(input));
+  CURVIX_RETURN_IF_ERROR(CheckModelIsSame(model_path, folder));
+  if (input.scene.views.size() == plan.num_views) return {};
   return Status::DataLoss(
       (folder / "scene").string() +
       " does not fit the plan; run 'colmap_curvix partition' again");
@@ -173,28 +171,26 @@ std::vector<fs::path> EdgesPaths(const PartPlan& plan, const fs::path& folder) {
 Result<ScenePartition> RunPartition(const RunSettings& settings,
                                     int max_views_per_part,
                                     RunProgress& progress) {
-  const Result<Workspace> workspace = FindInput(settings);
-  if (!workspace.ok()) return workspace.status();
-  const Result<std::uint64_t> hash = HashModel(workspace->model_path);
-  if (!hash.ok()) return hash.status();
-  const std::string hash_text = std::to_string(*hash);
+  CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, FindInput(settings));
+  CURVIX_ASSIGN_OR_RETURN(const std::uint64_t hash,
+                          HashModel(workspace.model_path));
+  const std::string hash_text = std::to_string(hash);
   RunRecord record = RecordOf(settings);
-  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
-  if (!input.ok()) return input.status();
+  CURVIX_ASSIGN_OR_RETURN(const WorkspaceScene input,
+                          ReadInput(workspace, progress, record));
   progress.Update("partition_scene", 0, 0);
-  Result<ScenePartition> partition =
-      PartitionScene(input->scene, max_views_per_part);
-  if (!partition.ok()) return partition;
-  progress.Finish(Plural(partition->parts.size(), "part"));
-  NoteLargeErrors(input->scene, progress, record);
-  NoteOverlap(*partition, progress);
+  CURVIX_ASSIGN_OR_RETURN(ScenePartition partition,
+                          PartitionScene(input.scene, max_views_per_part));
+  progress.Finish(Plural(partition.parts.size(), "part"));
+  NoteLargeErrors(input.scene, progress, record);
+  NoteOverlap(partition, progress);
 
-  const fs::path folder = workspace->output_path / kPartsName;
+  const fs::path folder = workspace.output_path / kPartsName;
   const Result<PartPlan> present = ReadPlan(folder);
-  Result<StagedOutput> output = StagedOutput::Create(workspace->output_path);
-  if (!output.ok()) return output.status();
+  CURVIX_ASSIGN_OR_RETURN(StagedOutput output,
+                          StagedOutput::Create(workspace.output_path));
   const bool is_same =
-      present.ok() && present->text == PlanJson(*partition, input->scene);
+      present.ok() && present->text == PlanJson(partition, input.scene);
   const bool has_results = HasResults(folder);
   if (present.ok() && !is_same && has_results) {
     return Status::InvalidArgument("the plan in " + folder.string() +
@@ -205,18 +201,16 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
   // Beside finished parts; a merge finds those of another plan or model.
   const bool in_place = is_same || has_results;
   if (!in_place) {
-    const Status replaceable = CheckReplaceable(folder, present.ok());
-    if (!replaceable.ok()) return replaceable;
+    CURVIX_RETURN_IF_ERROR(CheckReplaceable(folder, present.ok()));
   }
-  const fs::path written = in_place ? folder : output->folder() / kPartsName;
-  Status status = WritePlan(*partition, input->scene, input->model, written);
-  if (status.ok()) {
-    status = WriteFileAtomically(written / kModelHashName, hash_text);
-  }
-  if (status.ok()) status = WriteInputOfPlan(record.input, written);
-  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  if (status.ok() && !in_place) status = output->Publish();
-  if (!status.ok()) return status;
+  const fs::path written = in_place ? folder : output.folder() / kPartsName;
+  CURVIX_RETURN_IF_ERROR(
+      WritePlan(partition, input.scene, input.model, written));
+  CURVIX_RETURN_IF_ERROR(
+      WriteFileAtomically(written / kModelHashName, hash_text));
+  CURVIX_RETURN_IF_ERROR(WriteInputOfPlan(record.input, written));
+  if (progress.IsCancelled()) return CancelledStatus();
+  if (!in_place) CURVIX_RETURN_IF_ERROR(output.Publish());
   return partition;
 }
 
@@ -224,40 +218,35 @@ Result<RunRecord> RunPart(const RunSettings& settings,
                           int part_idx,
                           RunProgress& progress) {
   const Stopwatch since_start;
-  Result<Workspace> workspace = FindInput(settings);
-  if (!workspace.ok()) return workspace.status();
-  const fs::path parts = workspace->output_path / kPartsName;
-  const Result<PartPlan> plan = ReadPlan(parts);
-  if (!plan.ok()) return plan.status();
+  CURVIX_ASSIGN_OR_RETURN(Workspace workspace, FindInput(settings));
+  const fs::path parts = workspace.output_path / kPartsName;
+  CURVIX_ASSIGN_OR_RETURN(const PartPlan plan, ReadPlan(parts));
   const fs::path folder = PartFolder(parts, part_idx);
-  workspace->model_path = folder / "sparse";
-  Status status = CheckPartIdx(*plan, part_idx);
-  if (status.ok()) status = CheckModelIsThere(workspace->model_path);
-  if (!status.ok()) return status;
-  workspace->output_path = folder;
+  workspace.model_path = folder / "sparse";
+  CURVIX_RETURN_IF_ERROR(CheckPartIdx(plan, part_idx));
+  CURVIX_RETURN_IF_ERROR(CheckModelIsThere(workspace.model_path));
+  workspace.output_path = folder;
   RunRecord record = RecordOf(settings);
   record.settings.output.formats.clear();  // parts have none of them
-  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
-  if (!input.ok()) return input.status();
-  status = CheckImagesAreThere(*input);
-  if (!status.ok()) return status;
-  Result<StagedOutput> output = StagedOutput::Create(folder);
-  if (!output.ok()) return output.status();
+  CURVIX_ASSIGN_OR_RETURN(const WorkspaceScene input,
+                          ReadInput(workspace, progress, record));
+  CURVIX_RETURN_IF_ERROR(CheckImagesAreThere(input));
+  CURVIX_ASSIGN_OR_RETURN(StagedOutput output, StagedOutput::Create(folder));
   const Options& options = settings.options;
   // Before they are used, so that no change in between goes unnoticed.
-  const auto image_hashes =
-      HashImages(input->scene, options.runtime.num_threads, progress);
-  if (!image_hashes.ok()) return image_hashes.status();
-  RunStages stages(folder / "stages", progress, record, HashOf(*image_hashes));
-  Result<SceneStages> found = stages.Run(input->model, input->scene, nullptr);
-  if (!found.ok()) return found.status();
-  Reconstruction& reconstruction = found->reconstruction;
+  CURVIX_ASSIGN_OR_RETURN(
+      const auto image_hashes,
+      HashImages(input.scene, options.runtime.num_threads, progress));
+  RunStages stages(folder / "stages", progress, record, HashOf(image_hashes));
+  CURVIX_ASSIGN_OR_RETURN(SceneStages found,
+                          stages.Run(input.model, input.scene, nullptr));
+  Reconstruction& reconstruction = found.reconstruction;
 
   PartResult part = TakePart(
-      plan->partition, part_idx, reconstruction.curves, found->edge_maps);
+      plan.partition, part_idx, reconstruction.curves, found.edge_maps);
   std::vector<Edge3d>& edges = reconstruction.edges;
   std::erase_if(edges, [&](const Edge3d& edge) {
-    return OwnerOf(plan->partition, edge.position) != part_idx;
+    return OwnerOf(plan.partition, edge.position) != part_idx;
   });
   part.num_core_edges_3d = static_cast<std::int64_t>(edges.size());
   for (const TracedCurve& traced : part.curves) {
@@ -268,73 +257,61 @@ Result<RunRecord> RunPart(const RunSettings& settings,
     const std::string& why = reconstruction.report.why_empty;
     record.result.why_empty = why.empty() ? "all lie in other parts" : why;
   }
-  status = WriteEdges(output->folder() / kPartEdgesName, edges);
-  if (status.ok()) {
-    status = WritePartResult(output->folder() / kPartResultName,
-                             PartKey(*plan, part_idx, options, *image_hashes),
-                             part);
-  }
-  if (status.ok()) status = FinishRun(since_start, *output, progress, record);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(WriteEdges(output.folder() / kPartEdgesName, edges));
+  CURVIX_RETURN_IF_ERROR(
+      WritePartResult(output.folder() / kPartResultName,
+                      PartKey(plan, part_idx, options, image_hashes),
+                      part));
+  CURVIX_RETURN_IF_ERROR(FinishRun(since_start, output, progress, record));
   return record;
 }
 
 Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   const Stopwatch since_start;
-  Result<Workspace> workspace = FindInput(settings);
-  if (!workspace.ok()) return workspace.status();
-  const fs::path model_path = workspace->model_path;
-  const fs::path folder = workspace->output_path / kPartsName;
-  const Result<PartPlan> plan = ReadPlan(folder);
-  if (!plan.ok()) return plan.status();
-  workspace->model_path = folder / "scene";
-  Status status = CheckModelIsThere(workspace->model_path);
-  if (!status.ok()) return status;
+  CURVIX_ASSIGN_OR_RETURN(Workspace workspace, FindInput(settings));
+  const fs::path model_path = workspace.model_path;
+  const fs::path folder = workspace.output_path / kPartsName;
+  CURVIX_ASSIGN_OR_RETURN(const PartPlan plan, ReadPlan(folder));
+  workspace.model_path = folder / "scene";
+  CURVIX_RETURN_IF_ERROR(CheckModelIsThere(workspace.model_path));
   RunRecord record = RecordOf(settings);
-  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
-  if (!input.ok()) return input.status();
-  status = CheckScene(*input, *plan, model_path, folder);
-  if (status.ok()) status = TakeInputOfPlan(folder, progress, record.input);
-  if (!status.ok()) return status;
+  CURVIX_ASSIGN_OR_RETURN(const WorkspaceScene input,
+                          ReadInput(workspace, progress, record));
+  CURVIX_RETURN_IF_ERROR(CheckScene(input, plan, model_path, folder));
+  CURVIX_RETURN_IF_ERROR(TakeInputOfPlan(folder, progress, record.input));
   record.settings.input_path = fs::absolute(model_path);
   record.settings.command = "merge";
-  Result<StagedOutput> output = CreateOutput(*workspace);
-  if (!output.ok()) return output.status();
-  const auto image_hashes =
-      HashImages(input->scene, settings.options.runtime.num_threads, progress);
-  if (!image_hashes.ok()) return image_hashes.status();
+  CURVIX_ASSIGN_OR_RETURN(StagedOutput output, CreateOutput(workspace));
+  CURVIX_ASSIGN_OR_RETURN(
+      const auto image_hashes,
+      HashImages(input.scene, settings.options.runtime.num_threads, progress));
 
   const Stopwatch since_join;
   progress.Update(kJoinStage, 0, 0);
-  Result<PartFiles> parts =
-      PartFiles::Open(*plan, settings.options, *image_hashes, folder, progress);
-  if (!parts.ok()) return parts.status();
+  CURVIX_ASSIGN_OR_RETURN(
+      PartFiles parts,
+      PartFiles::Open(plan, settings.options, image_hashes, folder, progress));
   const JoinedCurves curves(
-      plan->partition, *parts, input->scene, settings.options);
-  if (!curves.status().ok()) return curves.status();
-  if (settings.clean) StageStore(workspace->output_path / "stages").Clean();
-  const std::size_t num_parts = plan->partition.parts.size();
+      plan.partition, parts, input.scene, settings.options);
+  CURVIX_RETURN_IF_ERROR(curves.status());
+  if (settings.clean) StageStore(workspace.output_path / "stages").Clean();
+  const std::size_t num_parts = plan.partition.parts.size();
   record.stages.push_back(
       since_join.Read(kJoinStage,
                       {{"parts", static_cast<std::int64_t>(num_parts)},
                        {"curves", static_cast<std::int64_t>(curves.size())}}));
-  record.result.num_edges_2d = parts->num_edges_2d();
-  status =
-      WriteFindings(
-          input->scene,
-          {curves,
-           parts->num_edges_3d(),
-           [&](const fs::path& path) {
-             return ConcatenatePlyEdges(path, EdgesPaths(*plan, folder));
-           },
-           curves.size() > 0 ? ""
-                             : "no part has any; report.json in the folders "
-                               "of the parts says more"},
-          output->folder(),
-          record)
-          .status();
-  if (status.ok()) status = FinishRun(since_start, *output, progress, record);
-  if (!status.ok()) return status;
+  record.result.num_edges_2d = parts.num_edges_2d();
+  Findings findings{curves, parts.num_edges_3d()};
+  findings.write_edges = [&](const fs::path& path) {
+    return ConcatenatePlyEdges(path, EdgesPaths(plan, folder));
+  };
+  if (curves.size() == 0) {
+    findings.why_empty =
+        "no part has any; report.json in the folders of the parts says more";
+  }
+  CURVIX_RETURN_IF_ERROR(
+      WriteFindings(input.scene, findings, output.folder(), record).status());
+  CURVIX_RETURN_IF_ERROR(FinishRun(since_start, output, progress, record));
   return record;
 }
 

@@ -213,10 +213,9 @@ Status RunStages::RefinePoses(const ColmapModel& model, SceneStages& stages) {
   if (!refusal.empty()) progress_.Note(refusal);
   if (!result.model) return {};
   const CurvePoses& poses = result.record.poses;
-  auto moved =
-      EdgesWithCameras(scene, std::move(stages.edge_maps), poses.cameras);
-  if (!moved.ok()) return moved.status();
-  stages.edge_maps = *std::move(moved);
+  CURVIX_ASSIGN_OR_RETURN(
+      stages.edge_maps,
+      EdgesWithCameras(scene, std::move(stages.edge_maps), poses.cameras));
   stages.refined_model = std::move(result.model);
   MoveViews(poses, &scene);
   std::map<std::uint64_t, Eigen::Vector3d> positions;
@@ -264,17 +263,15 @@ Status RunStages::KeptStages(Status status) const {
 
 Result<Reconstruction> RunStages::Reconstruct(
     const Scene& scene, const std::vector<EdgeMap>& edge_maps) {
-  const Result<EdgeSketch> sketch = Sketch(scene, edge_maps);
-  if (!sketch.ok()) return sketch.status();
-  Result<Reconstruction> reconstruction =
-      CurvesFromSketch(scene,
-                       edge_maps,
-                       *sketch,
-                       record_.settings.options,
-                       progress_.Callback());
-  if (!reconstruction.ok()) return reconstruction.status();
+  CURVIX_ASSIGN_OR_RETURN(const EdgeSketch sketch, Sketch(scene, edge_maps));
+  CURVIX_ASSIGN_OR_RETURN(Reconstruction reconstruction,
+                          CurvesFromSketch(scene,
+                                           edge_maps,
+                                           sketch,
+                                           record_.settings.options,
+                                           progress_.Callback()));
   progress_.Finish("");
-  for (const StageReport& stage : reconstruction->report.stages) {
+  for (const StageReport& stage : reconstruction.report.stages) {
     record_.stages.push_back(stage);
   }
   return reconstruction;

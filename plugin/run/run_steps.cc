@@ -107,11 +107,10 @@ bool LosesDigits(const Scene& scene,
 Status WriteCurveFiles(const CurveRecord& curves,
                        const fs::path& folder,
                        RunRecord& record) {
-  Result<std::vector<std::string>> written =
-      WriteInFrame(curves, folder, record);
-  if (!written.ok()) return written.status();
+  CURVIX_ASSIGN_OR_RETURN(std::vector<std::string> written,
+                          WriteInFrame(curves, folder, record));
   std::vector<std::string>& files = record.result.files;
-  files.insert(files.end(), written->begin(), written->end());
+  files.insert(files.end(), written.begin(), written.end());
   return {};
 }
 
@@ -126,21 +125,18 @@ void NoteRemoved(const std::vector<fs::path>& drawings, RunProgress& progress) {
 }  // namespace
 
 Result<Workspace> FindInput(const RunSettings& settings) {
-  Result<Workspace> workspace = FindWorkspace(settings);
-  if (!workspace.ok()) return workspace;
-  Status usable = CheckOutputLinks(settings, *workspace);
-  if (usable.ok()) usable = CheckOutputPath(*workspace);
-  if (!usable.ok()) return usable;
+  CURVIX_ASSIGN_OR_RETURN(Workspace workspace, FindWorkspace(settings));
+  CURVIX_RETURN_IF_ERROR(CheckOutputLinks(settings, workspace));
+  CURVIX_RETURN_IF_ERROR(CheckOutputPath(workspace));
   return workspace;
 }
 
 Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {
   const fs::path refined = workspace.output_path / "sparse";
   if (fs::exists(refined)) workspace.model_path = refined;
-  Result<WorkspaceScene> input = LoadWorkspaceScene(workspace);
-  if (!input.ok()) return input.status();
-  for (const std::string& note : input->notes) progress.Note(note);
-  return std::move(input->scene);
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input, LoadWorkspaceScene(workspace));
+  for (const std::string& note : input.notes) progress.Note(note);
+  return std::move(input.scene);
 }
 
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,
@@ -148,15 +144,11 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
                                  RunRecord& record) {
   const Stopwatch stopwatch;
   progress.Update("read_model", 0, 0);
-  Result<WorkspaceScene> input = LoadWorkspaceScene(workspace);
-  if (!input.ok()) return input.status();
-  Status usable = CheckOutput(record.settings.output, input->scene);
-  if (!usable.ok()) return usable;
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input, LoadWorkspaceScene(workspace));
+  CURVIX_RETURN_IF_ERROR(CheckOutput(record.settings.output, input.scene));
 
-  Result<std::optional<WorldAlignment>> alignment =
-      ReadAlignment(workspace.output_path, &input->scene);
-  if (!alignment.ok()) return alignment.status();
-  record.alignment = *std::move(alignment);
+  CURVIX_ASSIGN_OR_RETURN(record.alignment,
+                          ReadAlignment(workspace.output_path, &input.scene));
 
   RunSettings& settings = record.settings;
   settings.workspace_path = fs::absolute(settings.workspace_path);
@@ -164,7 +156,7 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   settings.image_path = fs::absolute(workspace.image_path);
   settings.output_path = fs::absolute(workspace.output_path);
   settings.mask_path = workspace.mask_path;
-  record.input = SummarizeInput(workspace, *input);
+  record.input = SummarizeInput(workspace, input);
   record.result.output_path = workspace.output_path;
   record.stages.push_back(stopwatch.Read(
       "read_model",
@@ -175,7 +167,7 @@ Result<WorkspaceScene> ReadInput(const Workspace& workspace,
   progress.Finish(Plural(record.input.num_views, "view") + ", " +
                   Plural(record.input.num_points, "point"));
   for (const std::string& note : record.input.notes) progress.Note(note);
-  if (LosesDigits(input->scene, record.alignment)) {
+  if (LosesDigits(input.scene, record.alignment)) {
     progress.Note(
         "Coordinates are large: the 32-bit floats of .ply and .pcd files lose "
         "digits, other formats do not");
@@ -199,12 +191,12 @@ FittedCurves FitCurvesOf(const Scene& scene,
 }
 
 Result<StagedOutput> CreateOutput(const Workspace& workspace) {
-  Result<StagedOutput> output = StagedOutput::Create(workspace.output_path);
-  if (!output.ok()) return output;
+  CURVIX_ASSIGN_OR_RETURN(StagedOutput output,
+                          StagedOutput::Create(workspace.output_path));
   const std::vector<fs::path> replaced =
-      FilesOfEarlierRun(output->output_path());
+      FilesOfEarlierRun(output.output_path());
   for (const char* name : {kModelFolder, kCurvesModelFolder, kOverlaysFolder}) {
-    const fs::path folder = (output->output_path() / name).parent_path();
+    const fs::path folder = (output.output_path() / name).parent_path();
     std::error_code ignored;
     if (EntriesOf(folder).empty() || fs::is_symlink(folder, ignored) ||
         std::ranges::find(replaced, name) != replaced.end()) {
@@ -234,21 +226,21 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
   if (result.num_curves > 0) {
     fitted = FitCurvesOf(scene, findings.curves, record);
   }
-  Status status = findings.curves.status();
+  CURVIX_RETURN_IF_ERROR(findings.curves.status());
   const Stopwatch stopwatch;
-  if (status.ok() && result.num_curves > 0) {
-    status = WriteCurveFiles({scene, findings.curves, fitted}, folder, record);
+  if (result.num_curves > 0) {
+    CURVIX_RETURN_IF_ERROR(
+        WriteCurveFiles({scene, findings.curves, fitted}, folder, record));
   }
-  if (status.ok() && findings.is_repeatable) {
+  if (findings.is_repeatable) {
     result.files.push_back("project.ini");
-    status = WriteFileAtomically(folder / "project.ini",
-                                 ProjectFile(record.settings));
+    CURVIX_RETURN_IF_ERROR(WriteFileAtomically(folder / "project.ini",
+                                               ProjectFile(record.settings)));
   }
-  if (status.ok() && result.num_edges_3d > 0) {
+  if (result.num_edges_3d > 0) {
     result.files.push_back("edges.ply");
-    status = findings.write_edges(folder / "edges.ply");
+    CURVIX_RETURN_IF_ERROR(findings.write_edges(folder / "edges.ply"));
   }
-  if (!status.ok()) return status;
   record.stages.push_back(stopwatch.Read("write_files"));
   return fitted;
 }
@@ -260,16 +252,15 @@ Status FinishRun(const Stopwatch& since_start,
   record.result.files.push_back("report.json");
   record.total = since_start.Read("total");
   progress.Finish("");
-  Status status =
-      WriteFileAtomically(output.folder() / "report.json", ReportJson(record));
-  if (status.ok() && progress.IsCancelled()) status = CancelledStatus();
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(
+      WriteFileAtomically(output.folder() / "report.json", ReportJson(record)));
+  if (progress.IsCancelled()) return CancelledStatus();
   std::vector<fs::path> obsolete = FilesOfEarlierRun(output.output_path());
   const auto drawings = FilesOfDrawings(output.output_path());
   obsolete.insert(obsolete.end(), drawings.begin(), drawings.end());
-  status = output.Publish(obsolete);
-  if (status.ok()) NoteRemoved(drawings, progress);
-  return status;
+  CURVIX_RETURN_IF_ERROR(output.Publish(obsolete));
+  NoteRemoved(drawings, progress);
+  return {};
 }
 
 }  // namespace curvix

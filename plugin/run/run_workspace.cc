@@ -24,8 +24,7 @@ namespace fs = std::filesystem;
 // tell: at once, where edges would be sought only after minutes.
 Status CheckImages(const Scene& scene) {
   for (const View& view : scene.views) {
-    Status status = CheckImageAndMask(view, CameraOf(scene, view));
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckImageAndMask(view, CameraOf(scene, view)));
   }
   return {};
 }
@@ -38,13 +37,13 @@ Result<bool> RunBundleAdjustment(const Workspace& workspace,
                                  RunRecord& record,
                                  WorkspaceScene& input) {
   const fs::path log_path = staging / kAdjustmentLog;
-  Result<PoseRefinement> refined = stages.AdjustPoses(input.model, log_path);
-  if (!refined.ok()) return refined.status();
+  CURVIX_ASSIGN_OR_RETURN(PoseRefinement refined,
+                          stages.AdjustPoses(input.model, log_path));
   if (fs::exists(log_path)) {
     record.result.files.push_back(log_path.filename().string());
   }
-  if (!refined->model) return false;
-  input.model = *std::move(refined->model);
+  if (!refined.model) return false;
+  input.model = *std::move(refined.model);
   input.scene = MakeScene(workspace, input.model, input.missing_images);
   return true;
 }
@@ -55,31 +54,28 @@ Result<LineCurves> ReadCurvesOfLines(const LinesSource& read,
                                      RunRecord& record) {
   const Stopwatch stopwatch;
   progress.Update("read_lines", 0, 0);
-  const Result<std::vector<ImportedLine>> lines = read();
-  if (!lines.ok()) return lines.status();
-  Result<LineCurves> curves = CurvesOfLines(*lines, scene);
-  if (!curves.ok()) return curves;
+  CURVIX_ASSIGN_OR_RETURN(const std::vector<ImportedLine> lines, read());
+  CURVIX_ASSIGN_OR_RETURN(LineCurves curves, CurvesOfLines(lines, scene));
   record.stages.push_back(
       stopwatch.Read("read_lines",
-                     {{"lines", static_cast<std::int64_t>(lines->size())},
-                      {"left out", curves->num_left_out}}));
-  progress.Finish(Plural(lines->size(), "line"));
-  if (curves->num_seen < static_cast<int>(lines->size()) / 2) {
-    progress.Note("Only " + std::to_string(curves->num_seen) +
-                  " of the lines " + OneOrMore(curves->num_seen, "is", "are") +
+                     {{"lines", static_cast<std::int64_t>(lines.size())},
+                      {"left out", curves.num_left_out}}));
+  progress.Finish(Plural(lines.size(), "line"));
+  if (curves.num_seen < static_cast<int>(lines.size()) / 2) {
+    progress.Note("Only " + std::to_string(curves.num_seen) + " of the lines " +
+                  OneOrMore(curves.num_seen, "is", "are") +
                   " seen by an image of the model. If they "
                   "were made of another model, name its workspace with "
                   "--workspace_path.");
   }
-  if (curves->num_unknown_images > 0) {
-    progress.Note("Left out " +
-                  Plural(curves->num_unknown_images, "reference") +
+  if (curves.num_unknown_images > 0) {
+    progress.Note("Left out " + Plural(curves.num_unknown_images, "reference") +
                   " of lines to images that are not in the model. If the lines "
                   "were made of another model, name its workspace with "
                   "--workspace_path.");
   }
-  if (curves->num_left_out > 0) {
-    progress.Note("Left out " + Plural(curves->num_left_out, "line") +
+  if (curves.num_left_out > 0) {
+    progress.Note("Left out " + Plural(curves.num_left_out, "line") +
                   " of length 0 or with an end too far away to be known.");
   }
   return curves;
@@ -93,33 +89,27 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
   WorkspaceRun run;
   RunRecord& record = run.record;
   record.settings = settings;
-  const Result<Workspace> workspace = FindInput(settings);
-  if (!workspace.ok()) return workspace.status();
-  Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
-  if (!input.ok()) return input.status();
+  CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, FindInput(settings));
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input,
+                          ReadInput(workspace, progress, record));
   // Now, so that broken images or an unwritable folder are not found out after
   // much work.
-  const Status usable = CheckImages(input->scene);
-  if (!usable.ok()) return usable;
-  Result<StagedOutput> output = CreateOutput(*workspace);
-  if (!output.ok()) return output.status();
-  const fs::path& staging = output->folder();
-  RunStages stages(workspace->output_path / "stages", progress, record);
+  CURVIX_RETURN_IF_ERROR(CheckImages(input.scene));
+  CURVIX_ASSIGN_OR_RETURN(StagedOutput output, CreateOutput(workspace));
+  const fs::path& staging = output.folder();
+  RunStages stages(workspace.output_path / "stages", progress, record);
 
-  const Result<bool> is_adjusted =
-      RunBundleAdjustment(*workspace, staging, stages, record, *input);
-  if (!is_adjusted.ok()) return is_adjusted.status();
-  Result<SceneStages> found =
-      stages.Run(input->model, std::move(input->scene), nullptr);
-  if (!found.ok()) return found.status();
-  run.stages = *std::move(found);
+  CURVIX_ASSIGN_OR_RETURN(
+      const bool is_adjusted,
+      RunBundleAdjustment(workspace, staging, stages, record, input));
+  CURVIX_ASSIGN_OR_RETURN(
+      run.stages, stages.Run(input.model, std::move(input.scene), nullptr));
 
   const std::optional<ColmapModel>& refined = run.stages.refined_model;
-  if (*is_adjusted || refined || input->is_scaled) {
+  if (is_adjusted || refined || input.is_scaled) {
     record.result.files.push_back(kModelFolder);
-    Status written =
-        WriteColmapModel(refined ? *refined : input->model, staging / "sparse");
-    if (!written.ok()) return written;
+    CURVIX_RETURN_IF_ERROR(
+        WriteColmapModel(refined ? *refined : input.model, staging / "sparse"));
   }
   const Reconstruction& reconstruction = run.stages.reconstruction;
   const CurvesInMemory curves(reconstruction.curves, &run.stages.edge_maps);
@@ -134,8 +124,7 @@ Result<WorkspaceRun> RunWorkspace(const RunSettings& settings,
                     staging,
                     record);
   if (!fitted.ok()) return fitted.status();
-  Status finished = FinishRun(since_start, *output, progress, record);
-  if (!finished.ok()) return finished;
+  CURVIX_RETURN_IF_ERROR(FinishRun(since_start, output, progress, record));
   run.fitted = *std::move(fitted);
   return run;
 }
@@ -146,23 +135,20 @@ Result<RunRecord> RunLines(const RunSettings& settings,
   const Stopwatch since_start;
   RunRecord record;
   record.settings = settings;
-  const Result<Workspace> workspace = FindInput(settings);
-  if (!workspace.ok()) return workspace.status();
-  const Result<WorkspaceScene> input = ReadInput(*workspace, progress, record);
-  if (!input.ok()) return input.status();
-  Result<StagedOutput> output = CreateOutput(*workspace);
-  if (!output.ok()) return output.status();
-  const Result<LineCurves> lines =
-      ReadCurvesOfLines(read, input->scene, progress, record);
-  if (!lines.ok()) return lines.status();
-  const CurvesInMemory curves(lines->curves, &lines->edge_maps);
+  CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, FindInput(settings));
+  CURVIX_ASSIGN_OR_RETURN(const WorkspaceScene input,
+                          ReadInput(workspace, progress, record));
+  CURVIX_ASSIGN_OR_RETURN(StagedOutput output, CreateOutput(workspace));
+  CURVIX_ASSIGN_OR_RETURN(
+      const LineCurves lines,
+      ReadCurvesOfLines(read, input.scene, progress, record));
+  const CurvesInMemory curves(lines.curves, &lines.edge_maps);
   Findings findings{curves};
   findings.is_repeatable = false;
   if (curves.size() == 0) findings.why_empty = "all lines were left out";
-  Status status =
-      WriteFindings(input->scene, findings, output->folder(), record).status();
-  if (status.ok()) status = FinishRun(since_start, *output, progress, record);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(
+      WriteFindings(input.scene, findings, output.folder(), record).status());
+  CURVIX_RETURN_IF_ERROR(FinishRun(since_start, output, progress, record));
   return record;
 }
 

@@ -163,8 +163,7 @@ Status CheckRange(const OptionRow& row) {
 Status Validate(const Options& options) {
   Options copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
-    Status status = CheckRange(row);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckRange(row));
   }
   if (copy.hypotheses.min_ray_angle_deg > copy.hypotheses.max_ray_angle_deg) {
     return Status::InvalidArgument(

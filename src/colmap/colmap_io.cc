@@ -13,15 +13,13 @@ Result<Scene> ReadColmapScene(const std::filesystem::path& workspace_path,
   WorkspacePaths paths;
   paths.workspace_path = workspace_path;
   paths.image_path = image_path;
-  const Result<Workspace> workspace = FindWorkspace(paths);
-  if (!workspace.ok()) return workspace.status();
-  Result<WorkspaceScene> loaded = LoadWorkspaceScene(*workspace);
-  if (!loaded.ok()) return loaded.status();
+  CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, FindWorkspace(paths));
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene loaded, LoadWorkspaceScene(workspace));
   if (notes != nullptr) {
-    *notes = workspace->notes;
-    notes->insert(notes->end(), loaded->notes.begin(), loaded->notes.end());
+    *notes = workspace.notes;
+    notes->insert(notes->end(), loaded.notes.begin(), loaded.notes.end());
   }
-  return std::move(loaded->scene);
+  return std::move(loaded.scene);
 }
 
 }  // namespace curvix

@@ -31,9 +31,8 @@ fs::path FilePath(const fs::path& folder,
 // Reads and parses one file of the model.
 template <typename List, typename Parse>
 Result<List> ReadList(const fs::path& path, const Parse& parse) {
-  const Result<std::string> bytes = ReadFile(path);
-  if (!bytes.ok()) return bytes.status();
-  return parse(*bytes, path.string());
+  CURVIX_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  return parse(bytes, path.string());
 }
 
 ImagesOrError ReadImages(const fs::path& folder, ColmapFormat format) {
@@ -179,31 +178,27 @@ std::size_t CountColmapImages(const fs::path& folder) {
 }
 
 Result<ColmapModel> ReadColmapModel(const fs::path& folder) {
-  const Result<ColmapFormat> format = FindColmapFormat(folder);
-  if (!format.ok()) return format.status();
-  ImagesOrError images = ReadImages(folder, *format);
-  if (!images.ok()) return images.status();
-  CamerasOrError cameras =
-      ReadUsableCameras(FilePath(folder, "cameras", *format), *format, *images);
-  if (!cameras.ok()) return cameras.status();
-  PointsOrError points =
-      ReadPoints(FilePath(folder, "points3D", *format), *format);
-  if (!points.ok()) return points.status();
-  ColmapModel model{std::move(cameras).value(),
-                    std::move(images).value(),
-                    std::move(points).value()};
+  CURVIX_ASSIGN_OR_RETURN(const ColmapFormat format, FindColmapFormat(folder));
+  CURVIX_ASSIGN_OR_RETURN(std::vector<ColmapImage> images,
+                          ReadImages(folder, format));
+  CURVIX_ASSIGN_OR_RETURN(
+      std::vector<ColmapCamera> cameras,
+      ReadUsableCameras(FilePath(folder, "cameras", format), format, images));
+  CURVIX_ASSIGN_OR_RETURN(
+      std::vector<ColmapPoint3D> points,
+      ReadPoints(FilePath(folder, "points3D", format), format));
+  ColmapModel model{std::move(cameras), std::move(images), std::move(points)};
   SortById(&model);
   if (const std::optional<ColmapFlaw> flaw = FindFlaw(model)) {
-    return Status::DataLoss(FilePath(folder, flaw->list, *format).string() +
+    return Status::DataLoss(FilePath(folder, flaw->list, format).string() +
                             ": " + flaw->sentence);
   }
   return model;
 }
 
 Status WriteColmapModel(const ColmapModel& model, const fs::path& folder) {
-  Status status = ValidateColmapModel(model);
-  if (status.ok()) status = RefuseForeignFiles(folder);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(ValidateColmapModel(model));
+  CURVIX_RETURN_IF_ERROR(RefuseForeignFiles(folder));
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
@@ -217,8 +212,7 @@ Status WriteColmapModel(const ColmapModel& model, const fs::path& folder) {
       {"points3D.bin", FormatPointsBinary(model.points)},
   };
   for (const auto& [name, bytes] : files) {
-    status = WriteFileAtomically(folder / name, bytes);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(WriteFileAtomically(folder / name, bytes));
   }
   return {};
 }

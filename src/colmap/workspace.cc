@@ -166,8 +166,7 @@ Status FindModel(const WorkspacePaths& paths, Workspace* found) {
   }
   found->model_path = *place;
   if (!is_named) {
-    Status status = CheckModelFiles(folder, *place);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckModelFiles(folder, *place));
   }
   if (*place != folder && IsNumber(place->filename().string())) {
     const std::string note = OtherModelsNote(*place);
@@ -327,10 +326,9 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
         "images/.");
   }
   Workspace found;
-  Status status = FindModel(paths, &found);
-  if (status.ok()) status = FindImages(paths, &found);
-  if (status.ok()) status = FindMasks(paths, &found);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(FindModel(paths, &found));
+  CURVIX_RETURN_IF_ERROR(FindImages(paths, &found));
+  CURVIX_RETURN_IF_ERROR(FindMasks(paths, &found));
   found.output_path = paths.output_path.empty()
                           ? ResultFolders(paths, found.model_path).front()
                           : paths.output_path;
@@ -349,17 +347,14 @@ Status CheckNoLink(const fs::path& output_path) {
 Status CheckOutputLinks(const WorkspacePaths& paths, const Workspace& found) {
   if (!paths.output_path.empty()) return {};
   for (const fs::path& folder : ResultFolders(paths, found.model_path)) {
-    Status status = CheckNoLink(folder);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckNoLink(folder));
   }
   return {};
 }
 
 Result<WorkspaceScene> LoadWorkspaceScene(const Workspace& workspace) {
-  Result<ColmapModel> model = ReadColmapModel(workspace.model_path);
-  if (!model.ok()) return model.status();
   WorkspaceScene result;
-  result.model = std::move(model).value();
+  CURVIX_ASSIGN_OR_RETURN(result.model, ReadColmapModel(workspace.model_path));
   const std::string scaled = ScaleToImages(workspace.image_path, &result.model);
   result.is_scaled = !scaled.empty();
   if (result.is_scaled) result.notes.push_back(scaled);

@@ -200,13 +200,12 @@ std::int64_t MaxEdges(const EdgeDetectionOptions& options,
 Result<EdgeMap> DetectViewEdges(const View& view,
                                 const Camera& camera,
                                 const EdgeDetectionOptions& options) {
-  const Result<GrayImage> image = LoadGrayImage(view, camera);
-  if (!image.ok()) return image.status();
-  const Result<std::optional<GrayImage>> mask = LoadMask(view, camera);
-  if (!mask.ok()) return mask.status();
-  EdgeMap map = DetectEdgesIn({*image, *mask, EstimateNoise(*image)}, options);
+  CURVIX_ASSIGN_OR_RETURN(const GrayImage image, LoadGrayImage(view, camera));
+  CURVIX_ASSIGN_OR_RETURN(const std::optional<GrayImage> mask,
+                          LoadMask(view, camera));
+  EdgeMap map = DetectEdgesIn({image, mask, EstimateNoise(image)}, options);
   map = UndistortEdges(std::move(map), camera);
-  map.unseen = FindUnseenCells(camera, *mask);
+  map.unseen = FindUnseenCells(camera, mask);
   return map;
 }
 

@@ -157,17 +157,14 @@ template <typename CheckSize>
 Result<GrayImage> LoadFile(const std::filesystem::path& path,
                            const std::string& name,
                            const CheckSize& check) {
-  const Result<std::string> bytes = ReadImageFile(path, name);
-  if (!bytes.ok()) return bytes.status();
-  const std::optional<ImageHeader> header = HeaderOf(*bytes);
+  CURVIX_ASSIGN_OR_RETURN(const std::string bytes, ReadImageFile(path, name));
+  const std::optional<ImageHeader> header = HeaderOf(bytes);
   if (header) {
-    Status status = check(header->size);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(check(header->size));
   }
-  const cv::Mat image = Decode(*bytes);
-  if (image.empty() || IsTruncatedJpeg(*bytes)) return Broken(name, *bytes);
-  Status status = check(ImageSize{image.cols, image.rows});
-  if (!status.ok()) return status;
+  const cv::Mat image = Decode(bytes);
+  if (image.empty() || IsTruncatedJpeg(bytes)) return Broken(name, bytes);
+  CURVIX_RETURN_IF_ERROR(check(ImageSize{image.cols, image.rows}));
   if (std::optional<GrayImage> gray = ToGrey(image, header))
     return *std::move(gray);
   return WrongPixels(name);
@@ -228,11 +225,10 @@ GrayImage Resized(GrayImage image, const ImageSize& size) {
 
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
   const std::string name = ImageNamed(path);
-  const Result<std::string> bytes = ReadImageFile(path, name);
-  if (!bytes.ok()) return bytes.status();
-  if (const auto header = HeaderOf(*bytes)) return header->size;
-  const cv::Mat image = Decode(*bytes);
-  if (image.empty()) return Broken(name, *bytes);
+  CURVIX_ASSIGN_OR_RETURN(const std::string bytes, ReadImageFile(path, name));
+  if (const auto header = HeaderOf(bytes)) return header->size;
+  const cv::Mat image = Decode(bytes);
+  if (image.empty()) return Broken(name, bytes);
   return ImageSize{image.cols, image.rows};
 }
 
@@ -262,8 +258,7 @@ Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   }
   const ImageInMemory& image = *view.image;
   const ImageSize size = {image.width, image.height};
-  Status status = CheckImage(view, camera);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckImage(view, camera));
   constexpr int kRed = 0;
   std::optional<GrayImage> gray = std::visit(
       [&](const auto& values) -> std::optional<GrayImage> {
@@ -285,12 +280,12 @@ Result<std::optional<GrayImage>> LoadMask(const View& view,
   if (view.mask_path.empty()) return std::optional<GrayImage>();
   const ImageSize expected = {camera.width, camera.height};
   const std::string name = MaskNamed(view.mask_path);
-  Result<GrayImage> mask =
-      LoadFile(view.mask_path, name, IsOfShape(name, expected));
-  if (!mask.ok()) return mask.status();
-  const bool fits = ImageSize{mask->width, mask->height} == expected;
-  return std::optional(fits ? *std::move(mask)
-                            : Resized(*std::move(mask), expected));
+  CURVIX_ASSIGN_OR_RETURN(
+      GrayImage mask,
+      LoadFile(view.mask_path, name, IsOfShape(name, expected)));
+  const bool fits = ImageSize{mask.width, mask.height} == expected;
+  return std::optional(fits ? std::move(mask)
+                            : Resized(std::move(mask), expected));
 }
 
 }  // namespace curvix

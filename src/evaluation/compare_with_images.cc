@@ -151,8 +151,8 @@ Result<ImageTally> CompareWithView(const std::vector<Curve>& curves,
                                    std::size_t view_idx,
                                    std::vector<std::size_t> used) {
   const View& view = scene.views[view_idx];
-  const Result<GrayImage> image = LoadGrayImage(view, CameraOf(scene, view));
-  if (!image.ok()) return image.status();
+  CURVIX_ASSIGN_OR_RETURN(const GrayImage image,
+                          LoadGrayImage(view, CameraOf(scene, view)));
   const Pen pen(scene, views, view_idx, std::move(used));
   std::vector<DrawnCurve> drawn;
   for (const Curve& curve : curves) {
@@ -160,7 +160,7 @@ Result<ImageTally> CompareWithView(const std::vector<Curve>& curves,
     DrawnCurve in_view = pen.Draw(curve);
     if (!in_view.empty()) drawn.push_back(std::move(in_view));
   }
-  return CompareWithImage(drawn, FindContours(*image), FindLongLines(*image));
+  return CompareWithImage(drawn, FindContours(image), FindLongLines(image));
 }
 
 }  // namespace

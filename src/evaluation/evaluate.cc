@@ -297,8 +297,7 @@ KindAgreement MeasureKinds(const Comparison& c, double step, double spacing) {
 Result<Evaluation> EvaluateCurves(const CurveSet& curves,
                                   const GroundTruth& truth,
                                   const EvaluationOptions& options) {
-  Status status = Check(curves, truth, options);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(Check(curves, truth, options));
   Comparison c;
   c.predicted = Resample(curves, options.step);
   c.truth = truth.samples;

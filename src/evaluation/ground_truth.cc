@@ -128,18 +128,16 @@ Status ParseCurveKinds(std::string_view text, GroundTruth& truth) {
 }
 
 Result<GroundTruth> ReadGroundTruth(const std::filesystem::path& path) {
-  const Result<std::string> text = ReadFile(path);
-  if (!text.ok()) return text.status();
-  Result<GroundTruth> truth = ParseGroundTruth(*text);
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  Result<GroundTruth> truth = ParseGroundTruth(text);
   if (!truth.ok()) return InFile(path, truth.status());
   const std::filesystem::path class_path = ClassPath(path);
   std::error_code error;
   if (truth->has_kinds || !std::filesystem::exists(class_path, error)) {
     return truth;
   }
-  const Result<std::string> classes = ReadFile(class_path);
-  if (!classes.ok()) return classes.status();
-  const Status status = ParseCurveKinds(*classes, *truth);
+  CURVIX_ASSIGN_OR_RETURN(const std::string classes, ReadFile(class_path));
+  const Status status = ParseCurveKinds(classes, *truth);
   if (!status.ok()) return InFile(class_path, status);
   return truth;
 }

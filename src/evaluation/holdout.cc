@@ -77,19 +77,15 @@ Result<Holdout> ReconstructWithHoldout(const Scene& scene,
                                        const Options& options,
                                        int every,
                                        const Progress& progress) {
-  if (Status status = CheckScene(scene); !status.ok()) return status;
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
-    return status;
-  }
-  Result<std::vector<int>> held_out = ViewsHeldOut(scene.views.size(), every);
-  if (!held_out.ok()) return held_out.status();
+  CURVIX_RETURN_IF_ERROR(CheckScene(scene));
+  CURVIX_RETURN_IF_ERROR(CheckEdgeMaps(scene, edge_maps));
   Holdout holdout;
-  holdout.view_idxs = *std::move(held_out);
+  CURVIX_ASSIGN_OR_RETURN(holdout.view_idxs,
+                          ViewsHeldOut(scene.views.size(), every));
   const Subset used = UsedViews(scene, edge_maps, holdout.view_idxs);
-  Result<Reconstruction> reconstruction =
-      ReconstructCurves(used.scene, used.edge_maps, options, progress);
-  if (!reconstruction.ok()) return reconstruction.status();
-  holdout.reconstruction = *std::move(reconstruction);
+  CURVIX_ASSIGN_OR_RETURN(
+      holdout.reconstruction,
+      ReconstructCurves(used.scene, used.edge_maps, options, progress));
   for (Curve& curve : holdout.reconstruction.curves.curves) {
     for (CurveSample& sample : curve.samples) {
       RestoreViewIdxs(used.view_idxs, &sample.support);

@@ -139,9 +139,8 @@ Status WriteCurves(const fs::path& path,
 }
 
 Result<CurveSet> ReadCurves(const fs::path& path, const Scene& scene) {
-  const Result<std::string> bytes = ReadFile(path);
-  if (!bytes.ok()) return bytes.status();
-  Result<CurveSet> curves = Decode(ExtensionOf(path), *bytes, scene);
+  CURVIX_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(path));
+  Result<CurveSet> curves = Decode(ExtensionOf(path), bytes, scene);
   if (!curves.ok()) return InFile(path, curves.status());
   return curves;
 }

@@ -93,13 +93,12 @@ Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
   if (!file.stream_) {
     return Status::NotFound("Cannot open " + path.string() + ".");
   }
-  const Result<StageHead> head =
-      ReadStageHead(path,
-                    ReadUpTo(file.stream_, kStageHeadBytes),
-                    StageKind::kPartResult,
-                    key);
-  if (!head.ok()) return head.status();
-  if (!HasContent(file.stream_, *head)) return BrokenStage(path);
+  CURVIX_ASSIGN_OR_RETURN(const StageHead head,
+                          ReadStageHead(path,
+                                        ReadUpTo(file.stream_, kStageHeadBytes),
+                                        StageKind::kPartResult,
+                                        key));
+  if (!HasContent(file.stream_, head)) return BrokenStage(path);
 
   constexpr std::size_t kCountsBytes = 24;
   file.stream_.seekg(kStageHeadBytes);
@@ -109,13 +108,13 @@ Result<PartFile> PartFile::Open(const fs::path& path, std::uint64_t key) {
   file.num_core_edges_3d_ = in.Take<std::int64_t>();
   const auto num_curves = in.Take<std::uint64_t>();
   constexpr std::size_t kSizeBytes = 8;
-  if (!in.ok() || num_curves > head->num_bytes / kSizeBytes) {
+  if (!in.ok() || num_curves > head.num_bytes / kSizeBytes) {
     return BrokenStage(path);
   }
   const std::string sizes = ReadUpTo(file.stream_, kSizeBytes * num_curves);
   in = ByteReader(sizes);
   std::uint64_t offset = kStageHeadBytes + kCountsBytes + sizes.size();
-  const std::uint64_t end = kStageHeadBytes + head->num_bytes;
+  const std::uint64_t end = kStageHeadBytes + head.num_bytes;
   file.offsets_.push_back(offset);
   for (std::uint64_t i = 0; i < num_curves; ++i) {
     const auto size = in.Take<std::uint64_t>();

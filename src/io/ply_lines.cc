@@ -41,16 +41,16 @@ Status TakeVertices(const PlyElement& element,
   const std::size_t num_coordinates = columns->size();
   const auto kinds = FindScalars(element, {"kind", "kind_probability"});
   if (kinds) columns->insert(columns->end(), kinds->begin(), kinds->end());
-  const auto rows = TakePlyRows(element, format, *columns, body);
-  if (!rows.ok()) return rows.status();
+  CURVIX_ASSIGN_OR_RETURN(const auto rows,
+                          TakePlyRows(element, format, *columns, body));
   const std::size_t stride = columns->size();
-  for (std::size_t i = 0; i < rows->size(); i += stride) {
-    graph.positions.emplace_back(Eigen::Vector3d::Map(rows->data() + i));
+  for (std::size_t i = 0; i < rows.size(); i += stride) {
+    graph.positions.emplace_back(Eigen::Vector3d::Map(rows.data() + i));
     if (has_tangents) {
-      graph.tangents.emplace_back(Eigen::Vector3d::Map(rows->data() + i + 3));
+      graph.tangents.emplace_back(Eigen::Vector3d::Map(rows.data() + i + 3));
     }
     if (kinds) {
-      const double* const kind = rows->data() + i + num_coordinates;
+      const double* const kind = rows.data() + i + num_coordinates;
       graph.kinds.emplace_back(KindFromNumber(kind[0]),
                                static_cast<float>(kind[1]));
     }
@@ -66,12 +66,12 @@ Status TakeEdges(const PlyElement& element,
   if (!columns) {
     return NoColumns("scalar properties vertex1, vertex2 of an edge");
   }
-  const auto rows = TakePlyRows(element, format, *columns, body);
-  if (!rows.ok()) return rows.status();
-  for (std::size_t i = 0; i < rows->size(); i += 2) {
+  CURVIX_ASSIGN_OR_RETURN(const auto rows,
+                          TakePlyRows(element, format, *columns, body));
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
     std::array<std::int64_t, 2> edge;
     for (std::size_t k = 0; k < 2; ++k) {
-      const double vertex = (*rows)[i + k];
+      const double vertex = rows[i + k];
       // What is not a small whole number becomes one that no vertex has.
       const bool whole =
           std::abs(vertex) < 1e15 && std::floor(vertex) == vertex;
@@ -211,9 +211,8 @@ Result<std::string_view> FindEdges(std::string_view bytes) {
 
 Status ForEachEdges(const std::vector<fs::path>& parts, const ByteSink& take) {
   for (const fs::path& part : parts) {
-    const Result<std::string> bytes = ReadFile(part);
-    if (!bytes.ok()) return bytes.status();
-    const Result<std::string_view> edges = FindEdges(*bytes);
+    CURVIX_ASSIGN_OR_RETURN(const std::string bytes, ReadFile(part));
+    const Result<std::string_view> edges = FindEdges(bytes);
     if (!edges.ok()) return InFile(part, edges.status());
     take(*edges);
   }
@@ -272,31 +271,29 @@ Status EncodePlyEdges(const std::vector<Edge3d>& edges, const ByteSink& sink) {
 Status ConcatenatePlyEdges(const fs::path& path,
                            const std::vector<fs::path>& parts) {
   std::size_t num_bytes = 0;
-  Status status = ForEachEdges(
-      parts, [&](std::string_view edges) { num_bytes += edges.size(); });
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(ForEachEdges(
+      parts, [&](std::string_view edges) { num_bytes += edges.size(); }));
   const std::size_t num_edges = num_bytes / kEdgeBytes;
   if (num_edges > kMaxVertices) return InFile(path, TooManyVertices(num_edges));
   FileWriter file(path);
   file.Append(EdgesHeader(num_edges));
-  status = ForEachEdges(parts, file.Sink());
-  return status.ok() ? file.Finish() : status;
+  CURVIX_RETURN_IF_ERROR(ForEachEdges(parts, file.Sink()));
+  return file.Finish();
 }
 
 Result<CurveSet> DecodePlyLines(std::string_view bytes) {
-  const Result<PlyHeader> header = TakePlyHeader(bytes);
-  if (!header.ok()) return header.status();
+  CURVIX_ASSIGN_OR_RETURN(const PlyHeader header, TakePlyHeader(bytes));
   LineGraph graph;
   int num_vertex_elements = 0;
   int num_edge_elements = 0;
-  for (const PlyElement& element : header->elements) {
+  for (const PlyElement& element : header.elements) {
     Status status;
     if (element.name == "vertex" && ++num_vertex_elements == 1) {
-      status = TakeVertices(element, header->format, bytes, graph);
+      status = TakeVertices(element, header.format, bytes, graph);
     } else if (element.name == "edge" && ++num_edge_elements == 1) {
-      status = TakeEdges(element, header->format, bytes, graph);
+      status = TakeEdges(element, header.format, bytes, graph);
     } else {
-      status = TakePlyRows(element, header->format, {}, bytes).status();
+      status = TakePlyRows(element, header.format, {}, bytes).status();
     }
     if (!status.ok()) return status;
   }

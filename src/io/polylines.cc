@@ -152,8 +152,7 @@ Curve MakeCurve(const LineGraph& graph, const Path& path) {
 }  // namespace
 
 Result<CurveSet> JoinPolylines(const LineGraph& graph) {
-  Status status = Check(graph);
-  if (!status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(Check(graph));
   const Edges edges = DistinctEdges(graph);
   CurveSet curves;
   for (const Path& path : Walker(graph.positions.size(), edges).Run()) {

@@ -70,12 +70,11 @@ Result<StageHead> ReadStageHead(const fs::path& path,
 Result<std::string> ReadStage(const fs::path& path,
                               StageKind kind,
                               std::uint64_t key) {
-  Result<std::string> bytes = ReadFile(path);
-  if (!bytes.ok()) return bytes;
-  const Result<StageHead> head = ReadStageHead(path, *bytes, kind, key);
-  if (!head.ok()) return head.status();
-  bytes->erase(0, kStageHeadBytes);
-  if (bytes->size() != head->num_bytes || HashBytes(*bytes) != head->checksum) {
+  CURVIX_ASSIGN_OR_RETURN(std::string bytes, ReadFile(path));
+  CURVIX_ASSIGN_OR_RETURN(const StageHead head,
+                          ReadStageHead(path, bytes, kind, key));
+  bytes.erase(0, kStageHeadBytes);
+  if (bytes.size() != head.num_bytes || HashBytes(bytes) != head.checksum) {
     return BrokenStage(path);
   }
   return bytes;

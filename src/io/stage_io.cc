@@ -166,9 +166,9 @@ Status Write(const fs::path& path,
 
 template <typename T>
 Result<T> Read(const fs::path& path, StageKind kind, std::uint64_t key) {
-  const Result<std::string> content = ReadStage(path, kind, key);
-  if (!content.ok()) return content.status();
-  StageReader in(*content);
+  CURVIX_ASSIGN_OR_RETURN(const std::string content,
+                          ReadStage(path, kind, key));
+  StageReader in(content);
   T value;
   Fields(in, value);
   if (!in.AtEnd()) return BrokenStage(path);

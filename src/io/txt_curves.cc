@@ -146,8 +146,7 @@ Result<CurveSet> DecodeTxtCurves(std::string_view bytes, const Scene& scene) {
       return Broken(lines.line_number(),
                     "a curve (CURVE_ID CLOSED NUM_SAMPLES)");
     }
-    Status status = ReadSamples(*num_samples, views, lines, curve);
-    if (!status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(ReadSamples(*num_samples, views, lines, curve));
     curves.curves.push_back(std::move(curve));
   }
   return curves;

@@ -83,8 +83,7 @@ class Estimator {
   explicit Estimator(const AlignmentInput& input) : input_(input) {}
 
   Result<AlignmentResult> Run() {
-    Status usable = Start();
-    if (!usable.ok()) return usable;
+    CURVIX_RETURN_IF_ERROR(Start());
     Equations equations;
     WorldAlignment& a = result_.alignment;
     for (int step = 0; step <= kNumSteps; ++step) {
@@ -149,8 +148,7 @@ class Estimator {
       if (a.has_scale || a.has_rotation) return {};
       return Status::InvalidArgument("Nothing is given to align to");
     }
-    Status sigmas = CheckSigmas(input_.positions);
-    if (!sigmas.ok()) return sigmas;
+    CURVIX_RETURN_IF_ERROR(CheckSigmas(input_.positions));
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const KnownPosition& p : input_.positions) mean += p.world;
     mean /= static_cast<double>(input_.positions.size());

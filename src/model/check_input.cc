@@ -107,10 +107,10 @@ Status CheckScene(const Scene& scene) {
         std::to_string(scene.views.size()));
   }
   for (const Camera& camera : scene.cameras) {
-    if (Status status = Validate(camera); !status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(Validate(camera));
   }
   for (const View& view : scene.views) {
-    if (Status status = CheckView(scene, view); !status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckView(scene, view));
   }
   for (const ScenePoint& point : scene.points) {
     if (IsSound(point, scene.views.size())) continue;

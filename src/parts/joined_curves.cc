@@ -99,15 +99,14 @@ std::vector<PartCurve> JoinedCurves::ReadPartCurves() const {
 // A curve of a part, which names views of the scene.
 Result<TracedCurve> JoinedCurves::Read(int part_idx,
                                        std::size_t curve_idx) const {
-  Result<TracedCurve> traced = parts_.Read(part_idx, curve_idx);
-  if (!traced.ok()) return traced;
+  CURVIX_ASSIGN_OR_RETURN(TracedCurve traced, parts_.Read(part_idx, curve_idx));
   const std::vector<int>& view_idxs =
       partition_.parts[static_cast<std::size_t>(part_idx)].view_idxs;
-  bool is_sound = !traced->curve.samples.empty();
-  ForEachSupport(traced->curve, [&](EdgeRef& ref) {
+  bool is_sound = !traced.curve.samples.empty();
+  ForEachSupport(traced.curve, [&](EdgeRef& ref) {
     const auto view_idx = static_cast<std::size_t>(ref.view_idx);
     const auto edge_idx = static_cast<std::size_t>(ref.edge_idx);
-    if (view_idx >= view_idxs.size() || edge_idx >= traced->edges.size()) {
+    if (view_idx >= view_idxs.size() || edge_idx >= traced.edges.size()) {
       is_sound = false;
       return;
     }
@@ -128,14 +127,13 @@ Result<TracedCurve> JoinedCurves::Join(const EndChain& chain) const {
   for (const std::size_t item : items) {
     const CurveSegment& segment = tied_.segments[item];
     const PartCurve& part_curve = part_curves_[segment.curve];
-    Result<TracedCurve> traced =
-        Read(part_curve.part_idx, part_curve.curve_idx);
-    if (!traced.ok()) return traced;
-    curves.push_back(TakeOut(traced->curve, segment.range));
-    joined.edges.reserve(joined.edges.size() + traced->edges.size());
+    CURVIX_ASSIGN_OR_RETURN(TracedCurve traced,
+                            Read(part_curve.part_idx, part_curve.curve_idx));
+    curves.push_back(TakeOut(traced.curve, segment.range));
+    joined.edges.reserve(joined.edges.size() + traced.edges.size());
     ForEachSupport(curves.back(), [&](EdgeRef& ref) {
       joined.edges.push_back(
-          traced->edges[static_cast<std::size_t>(ref.edge_idx)]);
+          traced.edges[static_cast<std::size_t>(ref.edge_idx)]);
       ref.edge_idx = static_cast<std::int32_t>(joined.edges.size() - 1);
     });
   }

@@ -47,7 +47,7 @@ TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps) {
 
 Result<ScenePartition> PartitionScene(const Scene& scene,
                                       int max_views_per_part) {
-  if (Status status = CheckScene(scene); !status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckScene(scene));
   const std::vector<PosedView> views = MakePosedViews(scene);
   const auto places = FindPlaces(views, scene.points);
   std::optional<ScenePartition> partition = PartitionViews(

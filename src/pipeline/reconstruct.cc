@@ -274,27 +274,25 @@ Result<Reconstruction> Connect(const Scene& scene,
 Status Check(const Scene& scene,
              const std::vector<EdgeMap>& edge_maps,
              const Options& options) {
-  if (Status status = CheckScene(scene); !status.ok()) return status;
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
-    return status;
-  }
+  CURVIX_RETURN_IF_ERROR(CheckScene(scene));
+  CURVIX_RETURN_IF_ERROR(CheckEdgeMaps(scene, edge_maps));
   return Validate(options);
 }
 
 Result<std::vector<EdgeMap>> Detect(const Scene& scene,
                                     const Options& options,
                                     RunRecorder& run) {
-  if (Status status = CheckScene(scene); !status.ok()) return status;
-  if (Status status = Validate(options); !status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckScene(scene));
+  CURVIX_RETURN_IF_ERROR(Validate(options));
   if (!run.Begin("detect_edges")) return CancelledStatus();
   std::vector<EdgeMap> edge_maps(scene.views.size());
   Status status = run.ForEach(
       edge_maps.size(), options.runtime.num_threads, [&](std::size_t i) {
         const View& view = scene.views[i];
-        auto detected = DetectViewEdges(
-            view, CameraOf(scene, view), options.edge_detection);
-        if (!detected.ok()) return detected.status();
-        edge_maps[i] = *std::move(detected);
+        CURVIX_ASSIGN_OR_RETURN(
+            edge_maps[i],
+            DetectViewEdges(
+                view, CameraOf(scene, view), options.edge_detection));
         return Status();
       });
   if (!status.ok()) return status;
@@ -306,9 +304,7 @@ Result<Reconstruction> Reconstruct(const Scene& scene,
                                    const std::vector<EdgeMap>& edge_maps,
                                    const Options& options,
                                    RunRecorder& run) {
-  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
-    return status;
-  }
+  CURVIX_RETURN_IF_ERROR(Check(scene, edge_maps, options));
   const std::vector<PosedView> views = MakePosedViews(scene);
   const EdgeSketch sketch = Sketch(scene, views, edge_maps, options, run);
   return Connect(scene, views, edge_maps, sketch, options, run);
@@ -327,9 +323,7 @@ Result<EdgeSketch> SketchEdges(const Scene& scene,
                                const std::vector<EdgeMap>& edge_maps,
                                const Options& options,
                                const Progress& progress) {
-  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
-    return status;
-  }
+  CURVIX_RETURN_IF_ERROR(Check(scene, edge_maps, options));
   RunRecorder run(progress);
   EdgeSketch sketch =
       Sketch(scene, MakePosedViews(scene), edge_maps, options, run);
@@ -342,12 +336,8 @@ Result<Reconstruction> CurvesFromSketch(const Scene& scene,
                                         const EdgeSketch& sketch,
                                         const Options& options,
                                         const Progress& progress) {
-  if (Status status = Check(scene, edge_maps, options); !status.ok()) {
-    return status;
-  }
-  if (Status status = CheckEdgeSketch(edge_maps, sketch); !status.ok()) {
-    return status;
-  }
+  CURVIX_RETURN_IF_ERROR(Check(scene, edge_maps, options));
+  CURVIX_RETURN_IF_ERROR(CheckEdgeSketch(edge_maps, sketch));
   RunRecorder run(progress);
   return Connect(scene, MakePosedViews(scene), edge_maps, sketch, options, run);
 }
@@ -364,9 +354,8 @@ Result<Reconstruction> ReconstructCurves(const Scene& scene,
                                          const Options& options,
                                          const Progress& progress) {
   RunRecorder run(progress);
-  const auto edge_maps = Detect(scene, options, run);
-  if (!edge_maps.ok()) return edge_maps.status();
-  return Reconstruct(scene, *edge_maps, options, run);
+  CURVIX_ASSIGN_OR_RETURN(const auto edge_maps, Detect(scene, options, run));
+  return Reconstruct(scene, edge_maps, options, run);
 }
 
 }  // namespace curvix

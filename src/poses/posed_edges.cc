@@ -339,9 +339,7 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
     const Scene& scene,
     std::vector<EdgeMap> edge_maps,
     const std::vector<Camera>& cameras) {
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
-    return status;
-  }
+  CURVIX_RETURN_IF_ERROR(CheckEdgeMaps(scene, edge_maps));
   if (cameras.size() < scene.cameras.size()) {
     return Status::InvalidArgument(
         "there " + OneOrMore(cameras.size(), "is ", "are ") +
@@ -350,7 +348,7 @@ Result<std::vector<EdgeMap>> EdgesWithCameras(
   }
   for (const auto* all : {&scene.cameras, &cameras}) {
     for (const Camera& camera : *all) {
-      if (Status status = Validate(camera); !status.ok()) return status;
+      CURVIX_RETURN_IF_ERROR(Validate(camera));
     }
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {

@@ -371,11 +371,9 @@ Result<CurvePoses> RefinePosesWithCurves(const Scene& scene,
                                          const Options& options,
                                          const Progress& progress,
                                          bool refine_intrinsics) {
-  if (Status status = CheckScene(scene); !status.ok()) return status;
-  if (Status status = CheckEdgeMaps(scene, edge_maps); !status.ok()) {
-    return status;
-  }
-  if (Status status = Validate(options); !status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(CheckScene(scene));
+  CURVIX_RETURN_IF_ERROR(CheckEdgeMaps(scene, edge_maps));
+  CURVIX_RETURN_IF_ERROR(Validate(options));
   RunRecorder run(progress);
   if (!run.Begin("refine_poses_with_curves")) return CancelledStatus();
   CurvePoses result =

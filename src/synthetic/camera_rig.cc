@@ -88,7 +88,7 @@ Result<Camera> MakeCamera(const SyntheticOptions& options) {
   camera.params[next++] = options.height / 2.0;
   if (next < camera.params.size()) camera.params[next++] = options.distortion;
   if (model == CameraModel::kEucm) camera.params[next] = 1;  // beta
-  if (Status status = Validate(camera); !status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(Validate(camera));
   return camera;
 }
 

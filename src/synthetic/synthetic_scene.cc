@@ -129,7 +129,7 @@ std::vector<OptionRow> OptionTable(SyntheticOptions& options) {
 Status Validate(const SyntheticOptions& options) {
   SyntheticOptions copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
-    if (Status status = CheckRange(row); !status.ok()) return status;
+    CURVIX_RETURN_IF_ERROR(CheckRange(row));
   }
   constexpr double kMaxPixels = 1e9;
   if (1.0 * options.num_views * options.width * options.height > kMaxPixels) {
@@ -141,7 +141,7 @@ Status Validate(const SyntheticOptions& options) {
 
 Result<SyntheticScene> MakeSyntheticScene(
     const SyntheticOptions& options, const std::function<bool()>& keep_going) {
-  if (Status status = Validate(options); !status.ok()) return status;
+  CURVIX_RETURN_IF_ERROR(Validate(options));
   const Result<Camera> camera = MakeCamera(options);
 
   const Solid solid = MakeSolid(
