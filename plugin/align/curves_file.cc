@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "plugin/export/alignment_file.h"
 

@@ -12,7 +12,6 @@
 #include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/file_io.h"
 #include "base/line_reader.h"

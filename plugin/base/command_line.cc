@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/base/command_line.h"
 
-#include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/program_options.hpp>
 #include <map>
-#include <string_view>
-#include <utility>
 
 #include "base/file_io.h"
 #include "colmap/project_file.h"

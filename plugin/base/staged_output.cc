@@ -6,10 +6,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 #include <cerrno>
-#include <optional>
-#include <string>
 #include <system_error>
-#include <utility>
 
 #include "colmap/files.h"
 

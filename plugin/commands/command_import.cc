@@ -4,7 +4,6 @@
 #include <iostream>
 #include <iterator>
 #include <string>
-#include <utility>
 
 #include "base/count_text.h"
 #include "base/text_fields.h"

@@ -3,7 +3,6 @@
 
 #include <glog/logging.h>
 #include <array>
-#include <iostream>
 #include <utility>
 
 #include "base/file_io.h"
@@ -11,7 +10,6 @@
 #include "colmap/project_file.h"
 #include "plugin/base/text.h"
 #include "plugin/commands/help_text.h"
-#include "plugin/run/run_report.h"
 
 namespace curvix {
 namespace {

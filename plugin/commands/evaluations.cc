@@ -3,9 +3,7 @@
 
 #include <curvix/curve_io.h>
 #include <cmath>
-#include <filesystem>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <set>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "base/text_fields.h"
 #include "measuring/main_axes.h"

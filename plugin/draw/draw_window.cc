@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/draw/draw_window.h"
 
-#include <algorithm>
 #include <string_view>
 #include <utility>
 

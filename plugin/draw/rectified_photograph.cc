@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "base/parallel.h"
 #include "plugin/base/image_file.h"

@@ -4,7 +4,6 @@
 #include <curvix/curves.h>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "base/angles.h"
 

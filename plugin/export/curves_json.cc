@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/export/curves_json.h"
 
-#include <curvix/scene.h>
 #include <Eigen/Geometry>
-#include <array>
 #include <boost/algorithm/string/replace.hpp>
-#include <cmath>
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/text_fields.h"
-#include "plugin/base/json.h"
 #include "plugin/export/alignment_file.h"
 
 namespace curvix {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/export/small_images.h"
 
-#include <curvix/curves.h>
-#include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <variant>
-#include <vector>
 
 #include "base/parallel.h"
 #include "io/curve_style.h"

@@ -3,10 +3,8 @@
 
 #include <curvix/scene.h>
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <utility>

@@ -2,7 +2,6 @@
 #include "plugin/imports/new_workspace.h"
 
 #include <algorithm>
-#include <string>
 #include <system_error>
 
 #include "base/cancelled.h"

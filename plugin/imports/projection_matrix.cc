@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/imports/projection_matrix.h"
 
-#include <curvix/scene.h>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>

@@ -11,10 +11,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <sstream>
-#include <string>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include "colmap/files.h"
 

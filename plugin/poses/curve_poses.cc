@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/poses/curve_poses.h"
 
-#include <curvix/scene.h>
 #include <algorithm>
-#include <cstdint>
 #include <set>
 #include <utility>
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <exception>
 #include <stdexcept>
-#include <string>
 
 namespace curvix {
 namespace {

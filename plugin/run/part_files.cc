@@ -2,22 +2,18 @@
 #include "plugin/run/part_files.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "base/cancelled.h"
 #include "base/file_io.h"
 #include "base/option_table.h"
 #include "base/text_fields.h"
 #include "io/stage_file.h"
-#include "io/stage_io.h"
 #include "plugin/base/json.h"
 #include "plugin/export/curves_json.h"
 #include "plugin/run/file_hashes.h"

@@ -17,7 +17,6 @@
 #include "base/stopwatch.h"
 #include "colmap/colmap_model.h"
 #include "plugin/base/progress.h"
-#include "plugin/poses/curve_poses.h"
 #include "plugin/poses/pose_refinement.h"
 #include "plugin/run/run_report.h"
 #include "plugin/run/stage_store.h"

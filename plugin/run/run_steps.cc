@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/run/run_steps.h"
 
-#include <curvix/scene.h>
 #include <algorithm>
-#include <cstdint>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/cancelled.h"
 #include "base/count_text.h"
 #include "base/file_io.h"
-#include "base/stopwatch.h"
 #include "colmap/files.h"
 #include "measuring/moved_curves.h"
 #include "plugin/export/alignment_file.h"

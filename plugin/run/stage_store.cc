@@ -7,10 +7,8 @@
 #include <system_error>
 #include <type_traits>
 
-#include "base/file_io.h"
 #include "base/option_table.h"
 #include "io/stage_file.h"
-#include "io/stage_io.h"
 #include "plugin/run/run_report.h"
 
 namespace curvix {

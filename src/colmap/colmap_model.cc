@@ -2,11 +2,9 @@
 #include "colmap/colmap_model.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <system_error>
 
 #include "base/file_io.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering).
 #include <curvix/scene.h>
-#include <algorithm>
 #include <utility>
 
 #include "base/bytes.h"

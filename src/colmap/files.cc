@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "colmap/files.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <system_error>
 
 #include "base/count_text.h"
 

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
-#include <vector>
 
 #include "base/angles.h"
 #include "base/median.h"

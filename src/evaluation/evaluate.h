@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "evaluation/ground_truth.h"
-#include "synthetic/synthetic_scene.h"
 
 namespace curvix {
 

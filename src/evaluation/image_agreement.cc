@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
 #include "base/angles.h"
 #include "base/grid_index.h"

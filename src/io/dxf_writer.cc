@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <tuple>
-#include <utility>
 
 #include "base/text_fields.h"
 #include "drawing/sheet.h"

@@ -21,10 +21,7 @@
 //     text; counts and doubles in the order of Fields()
 #include "io/stage_io.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <string>
 
 #include "io/stage_file.h"
 

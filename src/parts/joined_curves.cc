@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "geometry/pixel_size.h"
-#include "model/curve_chains.h"
 #include "model/sample_ranges.h"
 #include "parts/partition_views.h"
 

@@ -2,7 +2,6 @@
 #include "parts/scene_parts.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <optional>
 #include <utility>
 

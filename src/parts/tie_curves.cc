@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "parts/tie_curves.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,8 +11,6 @@
 #include "base/angles.h"
 #include "base/point_tree.h"
 #include "geometry/pixel_size.h"
-#include "model/sample_ranges.h"
-#include "parts/partition_views.h"
 
 namespace curvix {
 
