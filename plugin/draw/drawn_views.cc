@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/draw/drawn_views.h"
 
+#include <curvix/curves.h>
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "base/angles.h"
+#include "base/text_fields.h"
+#include "drawing/cut_fit.h"
 #include "drawing/flat_fit.h"
-#include "plugin/draw/seen_from.h"
 
 namespace curvix {
 namespace {
+
+// "low, ..., high, ...": `count` numbers of which those of the first half are
+// below those of the second. Empty: it is not that.
+std::vector<double> ParseBox(std::string_view text, std::size_t count) {
+  const std::vector<double> numbers = ParseNumbers(text, count);
+  for (std::size_t i = 0; i < numbers.size() / 2; ++i) {
+    if (!(numbers[i] < numbers[i + count / 2])) return {};
+  }
+  return numbers;
+}
+
+Status BadOption(const std::string& option,
+                 const std::string& text,
+                 const std::string& what) {
+  return Status::InvalidArgument(option + " is \"" + text + "\"; it takes " +
+                                 what);
+}
+
+constexpr double kSideDeg = 45;
+constexpr int kLeastViews = 3;
+constexpr double kLeastShare = 0.1;
+constexpr std::size_t kMostSamples = 16;
 
 // Between views on one sheet, of the extent of the largest.
 constexpr double kGapOfViews = 0.15;
@@ -118,6 +145,96 @@ void PlaceViews(const DrawnContent& content, std::vector<DrawnView>& views) {
 }
 
 }  // namespace
+
+Result<DrawWindow> ParseWindow(const std::string& slice,
+                               const std::string& crop) {
+  DrawWindow window;
+  if (!slice.empty()) {
+    const std::vector<double> box = ParseBox(slice, 2);
+    if (box.empty()) {
+      return BadOption("--slice",
+                       slice,
+                       "the lower and the higher depth, as in --slice 0.9,1.1");
+    }
+    window.depth = {box[0], box[1]};
+  }
+  if (!crop.empty() && crop != "all") {
+    const std::vector<double> box = ParseBox(crop, 4);
+    if (box.empty()) {
+      return BadOption("--crop",
+                       crop,
+                       "left, bottom, right and top, in the coordinates of the "
+                       "drawing, as in --crop 0,0,2.5,3, or all");
+    }
+    window.across = {box[0], box[2]};
+    window.upwards = {box[1], box[3]};
+  }
+  return window;
+}
+
+std::vector<CurveFit> PartsInWindow(const CurveFit& fit,
+                                    const DrawingPlane& plane,
+                                    const DrawWindow& window) {
+  std::vector<CurveFit> parts = {fit};
+  for (const auto& [axis, range] : {std::pair(plane.depth_axis, window.depth),
+                                    std::pair(plane.right, window.across),
+                                    std::pair(plane.up, window.upwards)}) {
+    const double at_0 = axis.dot(plane.origin);
+    std::vector<CurveFit> within;
+    for (const CurveFit& part : parts) {
+      for (CurveFit& piece :
+           PartsWithin(part, axis, range.from + at_0, range.to + at_0)) {
+        within.push_back(std::move(piece));
+      }
+    }
+    parts = std::move(within);
+  }
+  return parts;
+}
+
+SeenFrom SeenFromSide(const CurveFit& fit,
+                      const std::vector<SeenSample>& samples,
+                      const Eigen::Vector3d& toward,
+                      const Scene& scene) {
+  const std::size_t count = std::min(fit.num_samples, kMostSamples);
+  int num_views = 0, num_showing = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    // The middles of equal stretches.
+    const std::size_t at = fit.num_samples * (2 * i + 1) / (2 * count);
+    const SeenSample& sample =
+        samples[(fit.first_sample + at) % samples.size()];
+    for (const View& view : scene.views) {
+      const Eigen::Vector3d ray =
+          view.cam_from_world.Inverse().translation - sample.position;
+      const Camera& camera = CameraOf(scene, view);
+      if (ray.dot(toward) < std::cos(DegToRad(kSideDeg)) * ray.norm() ||
+          !ProjectPoint(sample.position, view, camera)) {
+        continue;
+      }
+      ++num_views;
+      num_showing +=
+          std::ranges::binary_search(sample.image_ids, view.image_id) ? 1 : 0;
+    }
+  }
+  if (num_views < kLeastViews * static_cast<int>(count)) {
+    return SeenFrom::kUnknown;
+  }
+  return num_showing < kLeastShare * num_views ? SeenFrom::kHidden
+                                               : SeenFrom::kSeen;
+}
+
+FittedCurves WithoutHidden(const CurvesFile& curves,
+                           const Eigen::Vector3d& toward,
+                           const Scene& scene) {
+  FittedCurves shown = curves.fitted;
+  for (std::size_t c = 0; c < shown.curves.size(); ++c) {
+    std::erase_if(shown.curves[c].fits, [&](const CurveFit& fit) {
+      return SeenFromSide(fit, curves.samples[c], toward, scene) ==
+             SeenFrom::kHidden;
+    });
+  }
+  return shown;
+}
 
 void FillViews(const DrawnContent& content, std::vector<DrawnView>* views) {
   for (DrawnView& view : *views) {

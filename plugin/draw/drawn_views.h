@@ -1,19 +1,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What elevations, plans and sections show, side by side on one sheet.
+// What elevations, plans and sections show, side by side on one sheet: the part
+// of space, and the lines that photographs show from their side.
 #pragma once
 
+#include <curvix/fitting.h>
 #include <curvix/scene.h>
+#include <curvix/status.h>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "base/infinity.h"
 #include "drawing/drawing_plane.h"
 #include "drawing/sheet.h"
 #include "plugin/align/curves_file.h"
 #include "plugin/draw/choose_dimensions.h"
-#include "plugin/draw/draw_window.h"
 
 namespace curvix {
+
+struct DrawRange {
+  double from = -kInfinity;
+  double to = kInfinity;
+};
+
+// Coordinates of the drawing, and depths.
+struct DrawWindow {
+  DrawRange depth;
+  DrawRange across;
+  DrawRange upwards;
+};
+
+// Of --slice, "FROM,TO", and --crop, "LEFT,BOTTOM,RIGHT,TOP". Empty, or "all"
+// as crop: without limits. kInvalidArgument: they are neither.
+Result<DrawWindow> ParseWindow(const std::string& slice,
+                               const std::string& crop);
+
+// The parts of `fit` that are in the window, in their order; `fit` itself if
+// that is all of it.
+std::vector<CurveFit> PartsInWindow(const CurveFit& fit,
+                                    const DrawingPlane& plane,
+                                    const DrawWindow& window);
+
+enum class SeenFrom {
+  kUnknown,  // fewer than three photographs look from there
+  kSeen,
+  kHidden,  // fewer than one in ten of them show it
+};
+
+// Whether photographs show `fit` from where `toward` points: those whose rays
+// to it are within 45 degrees of that and that have it in the image. What is
+// shown is what supports its samples, of which some are looked at. `scene` is
+// in the frame of the samples.
+SeenFrom SeenFromSide(const CurveFit& fit,
+                      const std::vector<SeenSample>& samples,
+                      const Eigen::Vector3d& toward,
+                      const Scene& scene);
+
+// The curves without the primitives that photographs from there do not show.
+// `curves` has samples.
+FittedCurves WithoutHidden(const CurvesFile& curves,
+                           const Eigen::Vector3d& toward,
+                           const Scene& scene);
 
 // One elevation, plan or section.
 struct DrawnView {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/draw/draw_window.h"
+#include "plugin/draw/drawn_views.h"
 
 #include <cmath>
 
