@@ -10,7 +10,7 @@
 
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
-#include "parts/partition_views.h"
+#include "parts/scene_parts.h"
 
 namespace curvix {
 namespace {

@@ -12,7 +12,6 @@
 #include "model/curve_chains.h"
 #include "model/posed_view.h"
 #include "model/sample_ranges.h"
-#include "parts/partition_views.h"
 #include "parts/scene_parts.h"
 
 namespace curvix {

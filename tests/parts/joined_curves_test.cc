@@ -11,7 +11,7 @@
 
 #include "base/angles.h"
 #include "model/curve_chains.h"
-#include "parts/partition_views.h"
+#include "parts/scene_parts.h"
 #include "tests/support/synthetic_edges.h"
 
 namespace curvix {

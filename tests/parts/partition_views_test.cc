@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parts/partition_views.h"
+#include "parts/scene_parts.h"
 
 #include <gtest/gtest.h>
 
