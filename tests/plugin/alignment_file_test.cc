@@ -9,7 +9,7 @@
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "plugin/align/known_structures.h"
-#include "plugin/align/positions_file.h"
+#include "plugin/align/positions.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_views.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin/align/check_positions.h"
+#include "plugin/align/positions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
