@@ -63,7 +63,6 @@ class Aligner {
   Status TakeMarkers();
   Status TakePositions();
   Status TakeAxes();
-  Status TakeAll();
   Status Write(const AlignmentResult& result);
   void DescribeScale(const AlignmentResult& result);
   void DescribePositions(const AlignmentResult& result);
@@ -185,17 +184,6 @@ Status Aligner::TakeAxes() {
   return {};
 }
 
-Status Aligner::TakeAll() {
-  for (const auto step : {&Aligner::ReadScene,
-                          &Aligner::TakeDistances,
-                          &Aligner::TakeMarkers,
-                          &Aligner::TakePositions,
-                          &Aligner::TakeAxes}) {
-    CURVIX_RETURN_IF_ERROR((this->*step)());
-  }
-  return {};
-}
-
 void Aligner::DescribeScale(const AlignmentResult& result) {
   const double scale = result.alignment.world_from_model.scale;
   Say("Scale " + Text(scale) + ", to " +
@@ -276,7 +264,11 @@ Status Aligner::Write(const AlignmentResult& result) {
 }
 
 Result<std::string> Aligner::Run() {
-  CURVIX_RETURN_IF_ERROR(TakeAll());
+  CURVIX_RETURN_IF_ERROR(ReadScene());
+  CURVIX_RETURN_IF_ERROR(TakeDistances());
+  CURVIX_RETURN_IF_ERROR(TakeMarkers());
+  CURVIX_RETURN_IF_ERROR(TakePositions());
+  CURVIX_RETURN_IF_ERROR(TakeAxes());
   CURVIX_ASSIGN_OR_RETURN(AlignmentResult result, EstimateAlignment(input_));
   CURVIX_RETURN_IF_ERROR(CheckPositions(
       input_, result, DirectionsOf(scene_), !settings_.epsg.empty()));

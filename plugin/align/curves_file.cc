@@ -161,20 +161,19 @@ Result<CurvesFile> ReadCurvesFile(const fs::path& folder, bool with_samples) {
         ", which has the nodes and lines; run 'colmap_curvix reconstruct' "
         "first, with json among its --output_formats");
   }
+  const auto unusable = [&](const std::string& why) {
+    return Status::DataLoss(path.string() + " is " + why +
+                            "; run 'colmap_curvix reconstruct' again");
+  };
   const Json json = ReadJson(file, with_samples);
-  const std::string advice = "; run 'colmap_curvix reconstruct' again";
+  if (json.is_discarded()) return unusable("not JSON");
   try {
-    if (!json.is_discarded()) {
-      Result<CurvesFile> result = CurvesOf(json, with_samples);
-      if (result.ok()) return result;
-      return Status::DataLoss(
-          path.string() + " is broken: " + result.status().message() + advice);
-    }
+    Result<CurvesFile> result = CurvesOf(json, with_samples);
+    if (result.ok()) return result;
+    return unusable("broken: " + result.status().message());
   } catch (const nlohmann::json::exception& error) {
-    return Status::DataLoss(path.string() + " is broken: " + WhatOf(error) +
-                            advice);
+    return unusable("broken: " + WhatOf(error));
   }
-  return Status::DataLoss(path.string() + " is not JSON" + advice);
 }
 
 std::string NoSuchNode(std::string_view node, const FittedCurves& fitted) {

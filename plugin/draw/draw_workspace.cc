@@ -323,12 +323,10 @@ Status Drafter::Write() {
 }
 
 Result<std::string> Drafter::Run() {
-  for (const auto step : {&Drafter::Read,
-                          &Drafter::TakePlanes,
-                          &Drafter::TakePhotograph,
-                          &Drafter::LayOut}) {
-    CURVIX_RETURN_IF_ERROR((this->*step)());
-  }
+  CURVIX_RETURN_IF_ERROR(Read());
+  CURVIX_RETURN_IF_ERROR(TakePlanes());
+  CURVIX_RETURN_IF_ERROR(TakePhotograph());
+  CURVIX_RETURN_IF_ERROR(LayOut());
   const auto num_hidden = std::ranges::count_if(
       sheet_.curves, [](const SheetCurve& curve) { return curve.is_hidden; });
   int num_unknown = 0;

@@ -166,18 +166,18 @@ Result<std::optional<WorldAlignment>> ReadAlignment(
       json.is_discarded()
           ? Result<WorldAlignment>(Status::DataLoss("it is not JSON"))
           : AlignmentFromJson(json);
-  if (alignment.ok() && model != nullptr && IsOfAnother(json, *model)) {
+  if (!alignment.ok()) {
+    return Status::DataLoss(path.string() +
+                            " cannot be used: " + alignment.status().message() +
+                            "; run 'colmap_curvix align' again, or remove it");
+  }
+  if (model != nullptr && IsOfAnother(json, *model)) {
     return Status::DataLoss(
         path.string() +
         " is of another model, whose cameras are elsewhere. Remove it, run "
         "again, and align the new curves");
   }
-  if (alignment.ok()) {
-    return std::optional<WorldAlignment>(*std::move(alignment));
-  }
-  return Status::DataLoss(path.string() +
-                          " cannot be used: " + alignment.status().message() +
-                          "; run 'colmap_curvix align' again, or remove it");
+  return std::optional(*std::move(alignment));
 }
 
 }  // namespace curvix

@@ -128,7 +128,7 @@ Status WriteOverlays(const CurveRecord& record,
     const View& view = record.scene.views[static_cast<std::size_t>(idx)];
     const Result<std::string> png =
         OverlayPng(record.curves, record.scene, idx);
-    if (!record.curves.status().ok()) return record.curves.status();
+    CURVIX_RETURN_IF_ERROR(record.curves.status());
     if (!png.ok()) return png.status();
     fs::path path = folder / view.name;
     path += ".png";
