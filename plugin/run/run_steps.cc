@@ -100,16 +100,6 @@ bool LosesDigits(const Scene& scene,
   });
 }
 
-Status WriteCurveFiles(const CurveRecord& curves,
-                       const fs::path& folder,
-                       RunRecord& record) {
-  CURVIX_ASSIGN_OR_RETURN(std::vector<std::string> written,
-                          WriteInFrame(curves, folder, record));
-  std::vector<std::string>& files = record.result.files;
-  files.insert(files.end(), written.begin(), written.end());
-  return {};
-}
-
 void NoteRemoved(const std::vector<fs::path>& drawings, RunProgress& progress) {
   if (drawings.empty()) return;
   std::string names;
@@ -225,8 +215,10 @@ Result<FittedCurves> WriteFindings(const Scene& scene,
   CURVIX_RETURN_IF_ERROR(findings.curves.status());
   const Stopwatch stopwatch;
   if (result.num_curves > 0) {
-    CURVIX_RETURN_IF_ERROR(
-        WriteCurveFiles({scene, findings.curves, fitted}, folder, record));
+    CURVIX_ASSIGN_OR_RETURN(
+        const std::vector<std::string> written,
+        WriteInFrame({scene, findings.curves, fitted}, folder, record));
+    result.files.insert(result.files.end(), written.begin(), written.end());
   }
   if (findings.is_repeatable) {
     result.files.push_back("project.ini");
