@@ -54,7 +54,7 @@ bool ParseLine(std::string_view words, LineGraph& graph) {
   }
 }
 
-Status Broken(std::size_t line_number, std::string_view line) {
+Status NotUnderstood(std::size_t line_number, std::string_view line) {
   return Status::DataLoss("line " + std::to_string(line_number) +
                           " is not understood: \"" +
                           std::string(line.substr(0, 80)) + "\"");
@@ -102,7 +102,7 @@ Result<CurveSet> DecodeObjLines(std::string_view bytes) {
       any_line = true;
       understood = ParseLine(words, graph);
     }
-    if (!understood) return Broken(number, line);
+    if (!understood) return NotUnderstood(number, line);
   }
   if (!any_line && !only_comments) {
     return Status::Unsupported(

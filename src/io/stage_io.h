@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Results of finished stages to and from files, bit
 // by bit: a run that goes on from a file gives the same bytes as one that does
-// not, on this machine or on another. stage_io.cc and part_file.cc describe the
-// files.
+// not, on this machine or on another. stage_io.cc describes the files.
 #pragma once
 
 #include <curvix/edges.h>
