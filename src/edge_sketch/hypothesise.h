@@ -13,7 +13,6 @@
 #include "edge_sketch/depth_range.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"
-#include "geometry/epipolar_wedge.h"
 #include "model/posed_view.h"
 
 namespace curvix {

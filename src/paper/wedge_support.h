@@ -10,7 +10,6 @@
 
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"
-#include "geometry/epipolar_wedge.h"
 #include "model/posed_view.h"
 
 namespace curvix {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/epipolar_wedge.h"
+#include "geometry/epipolar.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
