@@ -15,7 +15,6 @@
 #include "curve_drawing/edge_distances.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
-#include "model/sample_tree.h"
 
 namespace curvix {
 namespace {

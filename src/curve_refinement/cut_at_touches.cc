@@ -15,7 +15,7 @@
 #include "curve_refinement/curve_ends.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
-#include "model/sample_tree.h"
+#include "model/sample_ranges.h"
 
 namespace curvix {
 namespace {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Some of the samples of a curve: ranges of them,
-// and samples at equal distances.
+// Paper: none (engineering). Some of the samples of curves: ranges of them,
+// samples at equal distances, and those near a place.
 #pragma once
 
 #include <curvix/curves.h>
+#include <Eigen/Core>
 #include <cstddef>
 #include <limits>
 #include <vector>
+
+#include "base/point_tree.h"
 
 namespace curvix {
 
@@ -36,5 +39,28 @@ std::vector<std::size_t> SamplesAlong(
     const Curve& curve,
     double spacing,
     std::size_t max_num = std::numeric_limits<std::size_t>::max());
+
+struct SamplePlace {
+  std::size_t curve_idx = 0;
+  std::size_t sample_idx = 0;
+};
+
+// All samples of some curves, numbered in the order of curves and samples.
+class SampleTree {
+ public:
+  explicit SampleTree(const std::vector<Curve>& curves);
+
+  const std::vector<SamplePlace>& Places() const { return places_; }
+
+  // The numbers of the samples at most `radius` from `center`, ascending.
+  std::vector<std::size_t> Within(const Eigen::Vector3d& center,
+                                  double radius) const {
+    return tree_.Within(center, radius);
+  }
+
+ private:
+  std::vector<SamplePlace> places_;
+  PointTree tree_;
+};
 
 }  // namespace curvix
