@@ -10,7 +10,7 @@
 
 #include "base/wide_vectors.h"
 #include "edge_detection/gaussian_derivatives.h"
-#include "edge_detection/steep_tiles.h"
+#include "edge_detection/gradient_rows.h"
 
 namespace curvix {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/steep_tiles.h"
+#include "edge_detection/gradient_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "edge_detection/gradient_rows.h"
 #include "tests/edge_detection/rendered_images.h"
 
 namespace curvix {
