@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/prominence.h"
+#include "edge_detection/keep_contours.h"
 
 #include <gtest/gtest.h>
 

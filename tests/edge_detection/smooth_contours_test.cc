@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/smooth_contours.h"
+#include "edge_detection/curvelets.h"
 
 #include <gtest/gtest.h>
 
