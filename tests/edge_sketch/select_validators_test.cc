@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/select_validators.h"
+#include "edge_sketch/select_views.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
