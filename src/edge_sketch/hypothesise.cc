@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "edge_sketch/slide_to_line.h"
+#include "edge_sketch/consolidate.h"
 #include "geometry/detected_edge.h"
 
 namespace curvix {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "edge_sketch/appearance.h"
-#include "edge_sketch/cluster_edges.h"
+#include "edge_sketch/consolidate.h"
 #include "edge_sketch/depth_range.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/slide_to_line.h"
+#include "edge_sketch/consolidate.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/cluster_edges.h"
+#include "edge_sketch/consolidate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
