@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/edge_noise.h"
+// Paper: none (beyond it). The standard deviation of 2D edges in a scene.
+#include "edge_sketch/sketch_by_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include "base/median.h"
-#include "edge_sketch/sketch_by_views.h"
 #include "geometry/occluding_contour.h"
 
 namespace curvix {

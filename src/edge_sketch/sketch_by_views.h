@@ -16,4 +16,14 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done);
 EdgeSketch TrackByViews(const SketchInput& input, const StepDone& step_done);
 void DropExplained(const SketchInput& input, EdgeSketch& sketch);
 
+// The standard deviation of the distance of 2D edges from the 3D edges that
+// they support, due to noise, blur, lens and poses. Pixels. Found in a sketch
+// of a few thousand edges, from the median distance from the best-fitting
+// contour of any radius, so that occluding contours of smooth bodies do not
+// count as noise. At least input.sigma_px, which is also the result if too few
+// 3D edges have four supports or more. With four or five views it is up to a
+// quarter too small: 3D edges with large errors are not found, and the
+// residuals of so few supports depend on each other. `step_done` may stop it.
+double EstimateEdgeSigma(const SketchInput& input, const StepDone& step_done);
+
 }  // namespace curvix
