@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "paper/wedge_support.h"
+#include "paper/sketch_by_pairs.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
