@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/render.h"
+// Paper: none (engineering). Images of a solid, with exact pixel areas.
+#include "synthetic/surfaces.h"
 
 #include <Eigen/Core>
 #include <algorithm>

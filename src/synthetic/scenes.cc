@@ -9,8 +9,7 @@
 
 #include "base/check.h"
 #include "geometry/directions.h"
-#include "synthetic/bodies.h"
-#include "synthetic/walks.h"
+#include "synthetic/primitive.h"
 
 namespace curvix {
 namespace {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). How the surfaces of a solid look.
+// Paper: none (engineering). How the surfaces of a solid look, and images of
+// them, with exact pixel areas.
 #pragma once
 
+#include <curvix/scene.h>
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "base/gray_image.h"
 #include "synthetic/face_pattern.h"
 #include "synthetic/solid.h"
 #include "synthetic/synthetic_scene.h"
@@ -57,5 +60,15 @@ class Surfaces {
   double mottle_ = 0;  // contrast, grey levels
   std::vector<std::vector<std::unique_ptr<FacePattern>>> patterns_;
 };
+
+// The mean of the scene's brightness over each square pixel (a box filter; no
+// blur besides), before noise and rounding. Where faces meet inside a pixel,
+// the shares of both are measured to about 1/100 of its area; a camera with
+// distortion bends the image itself, not a resampled one. Directions that the
+// camera model cannot invert show the background.
+GrayImage Render(const Solid& solid,
+                 const Surfaces& surfaces,
+                 const Camera& camera,
+                 const Rigid3& cam_from_world);
 
 }  // namespace curvix

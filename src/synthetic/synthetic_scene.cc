@@ -10,11 +10,9 @@
 #include "base/parallel.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
-#include "synthetic/render.h"
 #include "synthetic/scenes.h"
 #include "synthetic/surfaces.h"
 #include "synthetic/synthetic_truth.h"
-#include "synthetic/walks.h"
 
 namespace curvix {
 namespace {

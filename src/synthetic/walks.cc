@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/walks.h"
+// Paper: none (engineering). Scenes that one walks through.
+#include "synthetic/scenes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/angles.h"
-#include "synthetic/bodies.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
+#include "synthetic/primitive.h"
 
 namespace curvix {
 namespace {

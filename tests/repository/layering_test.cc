@@ -257,7 +257,7 @@ TEST(Layering, RefusesWhatTheTableDoesNotAllow) {
       {"src/model/x.h", "\"geometry/epipolar.h\""},
       {"src/base/x.h", "\"model/posed_view.h\""},
       {"src/pipeline/x.cc", "\"io/curve_formats.h\""},
-      {"src/pipeline/x.cc", "\"synthetic/render.h\""},
+      {"src/pipeline/x.cc", "\"synthetic/surfaces.h\""},
       {"src/new_folder/x.cc", "<vector>"},
       {"plugin/run/x.cc", "\"curve_drawing/group_edges.h\""},
       {"plugin/run/x.cc", "<pcl/point_types.h>"},

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "synthetic/bodies.h"
+#include "synthetic/primitive.h"
 #include "synthetic/scenes.h"
 #include "synthetic/synthetic_truth.h"
 #include "tests/synthetic/face_value.h"

@@ -2,8 +2,8 @@
 #include "synthetic/face_pattern.h"
 
 #include "base/angles.h"
-#include "synthetic/bodies.h"
 #include "synthetic/counter_random.h"
+#include "synthetic/primitive.h"
 
 #include <gtest/gtest.h>
 

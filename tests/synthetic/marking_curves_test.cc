@@ -2,11 +2,10 @@
 #include "synthetic/synthetic_truth.h"
 
 #include "base/angles.h"
-#include "synthetic/bodies.h"
 #include "synthetic/camera_rig.h"
-#include "synthetic/render.h"
+#include "synthetic/primitive.h"
 #include "synthetic/scenes.h"
-#include "synthetic/walks.h"
+#include "synthetic/surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/render.h"
+#include "synthetic/surfaces.h"
 
 #include "base/angles.h"
 #include "geometry/directions.h"
