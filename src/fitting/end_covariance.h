@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). How well primitives are known.
+// Paper: none (engineering). How well primitives are known, and the points in
+// which they meet.
 #pragma once
 
+#include <curvix/fitting.h>
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
-#include "fitting/fit_conic.h"
 #include "fitting/primitive.h"
 #include "geometry/edge_geometry.h"
 
@@ -58,5 +59,18 @@ Eigen::Matrix<double, 7, 7> ArcCovariance(
     const FitSamples& samples,
     const std::vector<UncertainPoint>& points,
     bool is_whole);
+
+// A primitive of a curve and its ends.
+struct PrimitiveOfCurve {
+  Primitive primitive;
+  PrimitiveEnd at_start;
+  PrimitiveEnd at_end;
+};
+
+using CurvePrimitives = std::vector<PrimitiveOfCurve>;
+
+// The nodes, as FitCurves describes them: by their first end. Sets the nodes of
+// the ends.
+std::vector<CurveNode> MeetInNodes(std::vector<CurvePrimitives>& curves);
 
 }  // namespace curvix

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/fit_conic.h"
+// Paper: none (engineering). Circles and ellipses in space.
+#include "fitting/primitive.h"
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>

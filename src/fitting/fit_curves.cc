@@ -9,7 +9,6 @@
 
 #include "base/parallel.h"
 #include "fitting/end_covariance.h"
-#include "fitting/meet_in_nodes.h"
 #include "fitting/primitive.h"
 #include "fitting/structure.h"
 #include "model/posed_view.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/meet_in_nodes.h"
+// Paper: none (engineering). The points in which primitives meet.
+#include "fitting/end_covariance.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

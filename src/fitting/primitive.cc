@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/angles.h"
-#include "fitting/spline.h"
 
 namespace curvix {
 namespace {

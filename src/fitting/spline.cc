@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/spline.h"
+// Paper: none (engineering). Clamped cubic B-splines with even knots.
+#include "fitting/primitive.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

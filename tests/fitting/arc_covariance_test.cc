@@ -8,7 +8,7 @@
 
 #include "base/angles.h"
 #include "fitting/end_covariance.h"
-#include "fitting/fit_conic.h"
+#include "fitting/primitive.h"
 #include "gtest/gtest.h"
 #include "tests/support/random.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "fitting/spline.h"
+#include "fitting/primitive.h"
 #include "gmock/gmock.h"
 #include "gtest/gtest.h"
 #include "tests/fitting/sampled_curves.h"
