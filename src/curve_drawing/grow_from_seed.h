@@ -7,13 +7,19 @@
 #include <optional>
 #include <vector>
 
-#include "curve_drawing/keep_significant.h"
 #include "edge_sketch/evidence.h"
 #include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_index.h"
 #include "model/posed_view.h"
 
 namespace curvix {
+
+struct GrownCurve {
+  Curve curve;  // with the log-likelihood ratio of each sample
+  // Number of queries: views and samples in which the prediction was certain
+  // enough.
+  std::int64_t num_looks = 0;
+};
 
 // What a seed grew into.
 struct Growth {

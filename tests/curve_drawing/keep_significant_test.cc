@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/keep_significant.h"
+#include "curve_drawing/grow_curves.h"
 
 #include <gtest/gtest.h>
 #include <cstddef>
