@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/connect_edges.h"
+// Paper: Sec. 6. The connectivity graph, and the curves that follow it.
+#include "curve_drawing/group_edges.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <utility>
 
 #include "base/angles.h"
 #include "base/check.h"

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/drop_duplicates.h"
+// Paper: none (engineering), after Sec. 6. Curves drawn once.
+#include "curve_drawing/group_edges.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
-
 #include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "base/angles.h"
-#include "curve_drawing/connect_edges.h"
 #include "curve_drawing/edge_distances.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"

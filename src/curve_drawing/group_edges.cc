@@ -3,11 +3,6 @@
 
 #include <utility>
 
-#include "curve_drawing/connect_edges.h"
-#include "curve_drawing/drop_duplicates.h"
-#include "curve_drawing/join_curves.h"
-#include "curve_drawing/split_corners.h"
-#include "curve_drawing/thin_edges.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/split_corners.h"
+// Paper: none (engineering), after Sec. 6. Curves end at corners.
+#include "curve_drawing/group_edges.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -12,7 +12,6 @@
 #include "base/angles.h"
 #include "geometry/directions.h"
 #include "geometry/pixel_size.h"
-#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/thin_edges.h"
+// Paper: none (engineering), ahead of Sec. 6. One edge per place.
+#include "curve_drawing/group_edges.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "base/angles.h"

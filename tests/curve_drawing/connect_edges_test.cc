@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/connect_edges.h"
+#include "curve_drawing/group_edges.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "curve_drawing/thin_edges.h"
 #include "tests/model/end_ties.h"
 #include "tests/support/synthetic_edges.h"
 

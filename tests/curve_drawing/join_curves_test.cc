@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/join_curves.h"
+#include "curve_drawing/group_edges.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "curve_drawing/connect_edges.h"
-#include "curve_drawing/drop_duplicates.h"
 #include "geometry/pixel_size.h"
 #include "tests/support/synthetic_edges.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/split_corners.h"
+#include "curve_drawing/group_edges.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
