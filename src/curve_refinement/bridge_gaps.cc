@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/bridge_gaps.h"
+// Paper: none (beyond it). Whole curves.
+#include "curve_refinement/refine_curves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/cut_at_touches.h"
+// Paper: none (beyond it). Junctions of curves that touch.
+#include "curve_refinement/refine_curves.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "base/angles.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/cut_corners.h"
+// Paper: none (beyond it). Corners that are too blunt to see before the fit.
+#include "curve_refinement/refine_curves.h"
 
 #include <algorithm>
 #include <cmath>

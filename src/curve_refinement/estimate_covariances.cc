@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/estimate_covariances.h"
+// Paper: none (beyond it). How far samples of curves may be off.
+#include "curve_refinement/refine_curves.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <optional>
 
 #include "curve_refinement/curve_ends.h"
-#include "curve_refinement/response_curve.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/pixel_size.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/fit_to_images.h"
+// Paper: none (beyond it). Whole curves on the edges of all images.
+#include "curve_refinement/refine_curves.h"
 
 #include <ceres/ceres.h>
 #include <Eigen/Dense>
@@ -13,7 +14,6 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "curve_refinement/response_curve.h"
 #include "curve_refinement/weak_directions.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"

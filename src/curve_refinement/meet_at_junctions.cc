@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/meet_at_junctions.h"
+// Paper: none (beyond it). Sharp corners.
+#include "curve_refinement/refine_curves.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <tuple>

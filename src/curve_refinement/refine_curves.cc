@@ -3,17 +3,6 @@
 
 #include <utility>
 
-#include "curve_refinement/bridge_gaps.h"
-#include "curve_refinement/cut_at_touches.h"
-#include "curve_refinement/cut_corners.h"
-#include "curve_refinement/estimate_covariances.h"
-#include "curve_refinement/fit_to_images.h"
-#include "curve_refinement/image_support.h"
-#include "curve_refinement/meet_at_junctions.h"
-#include "curve_refinement/response_curve.h"
-#include "curve_refinement/select_curves.h"
-#include "curve_refinement/separate_touching.h"
-#include "curve_refinement/smooth_curves.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/select_curves.h"
+// Paper: none (beyond it). Which curves are edges of the scene.
+#include "curve_refinement/refine_curves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/separate_touching.h"
+// Paper: none (beyond it). Curves that touch each other.
+#include "curve_refinement/refine_curves.h"
 
 #include <Eigen/Core>
 #include <algorithm>

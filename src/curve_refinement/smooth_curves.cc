@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/smooth_curves.h"
+// Paper: none (beyond it). Curves without the scatter of their samples.
+#include "curve_refinement/refine_curves.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 
 #include "base/parallel.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/bridge_gaps.h"
+#include "curve_refinement/refine_curves.h"
 
 #include <gtest/gtest.h>
 #include <iterator>

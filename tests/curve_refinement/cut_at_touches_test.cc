@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/cut_at_touches.h"
+#include "curve_refinement/refine_curves.h"
 
 #include <gtest/gtest.h>
 
 #include "base/angles.h"
-#include "curve_refinement/meet_at_junctions.h"
 #include "model/curve_chains.h"
 #include "tests/curve_refinement/touching_curves.h"
 

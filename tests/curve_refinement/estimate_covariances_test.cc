@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/estimate_covariances.h"
+#include "curve_refinement/refine_curves.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
@@ -10,7 +10,6 @@
 
 #include "base/median.h"
 #include "curve_refinement/curve_ends.h"
-#include "curve_refinement/fit_to_images.h"
 #include "tests/curve_refinement/seen_curves.h"
 #include "tests/support/random.h"
 

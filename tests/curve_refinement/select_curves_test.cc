@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/select_curves.h"
+#include "curve_refinement/refine_curves.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
