@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/angles.h"
-#include "curve_refinement/nearest_contour.h"
 #include "geometry/detected_edge.h"
 #include "geometry/nearest_edge.h"
 #include "tests/curve_refinement/drawn_curves.h"
