@@ -33,8 +33,10 @@ inline double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 // The rotation by the least angle that brings the direction of `from` to that
 // of `to`; the vectors may have any length but 0.
-Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from,
-                                    const Eigen::Vector3d& to);
+inline Eigen::Quaterniond ShortestRotation(const Eigen::Vector3d& from,
+                                           const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
 
 // By |turn| about `turn`.
 inline Eigen::Quaterniond RotationBy(const Eigen::Vector3d& turn) {
