@@ -9,8 +9,8 @@
 #include "base/check.h"
 #include "base/infinity.h"
 #include "base/parallel.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/nearest_edge.h"
-#include "geometry/occluding_contour.h"
 
 namespace curvix {
 namespace {

@@ -16,7 +16,7 @@
 namespace curvix {
 
 // The mean side from which the views that support a sample see it; see
-// MeanSide() of geometry/occluding_contour.h.
+// MeanSide() of geometry/adjust_edge.h.
 Eigen::Vector3d MeanSide(const CurveSample& sample,
                          const std::vector<PosedView>& views);
 

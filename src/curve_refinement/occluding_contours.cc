@@ -12,7 +12,6 @@
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/occluding_contour.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {

@@ -14,7 +14,6 @@
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/occluding_contour.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/median.h"
-#include "geometry/occluding_contour.h"
+#include "geometry/adjust_edge.h"
 
 namespace curvix {
 namespace {

@@ -4,7 +4,7 @@
 //
 // An edge does not determine the position along it. So a sample has three
 // unknowns: two offsets across its tangent, and its radius
-// (geometry/occluding_contour.h). Each edge gives one equation in these, the
+// (geometry/adjust_edge.h). Each edge gives one equation in these, the
 // six unknowns of the view's pose and those of its camera. A point has three
 // unknowns, and each view that sees it gives two equations.
 #pragma once
@@ -15,8 +15,8 @@
 #include <functional>
 #include <vector>
 
+#include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
-#include "geometry/occluding_contour.h"
 
 namespace curvix {
 

@@ -12,8 +12,8 @@
 
 #include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_index.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/fit_point.h"
-#include "geometry/occluding_contour.h"
 #include "poses/adjust_poses.h"
 #include "poses/find_shift.h"
 

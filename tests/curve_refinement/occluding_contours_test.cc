@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/occluding_contour.h"
+#include "geometry/adjust_edge.h"
 #include "tests/curve_refinement/upright_lines.h"
 
 namespace curvix {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/occluding_contour.h"
+#include "geometry/adjust_edge.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
