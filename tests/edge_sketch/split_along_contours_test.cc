@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/query_edges.h"
+#include "edge_sketch/sketch_input.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
