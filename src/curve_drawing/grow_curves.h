@@ -23,7 +23,7 @@ namespace curvix {
 // (CurveTip) by about a pixel. Each view is queried for the nearest edge at the
 // projection, within the same bounds as for a 3D edge (WidestGate()), among
 // those that no earlier curve has. Edges that look unlike those of neighbouring
-// views (appearance.h) do not support the curve. Views that show the curve
+// views (AppearanceRatio()) do not support the curve. Views that show the curve
 // steadily correct the tip; views in which the prediction is too uncertain do
 // not count. A sample is supported if enough such views show it and its
 // log-likelihood ratio (evidence.h) is a fair share of the mean of the curve so

@@ -7,8 +7,97 @@
 #include <tuple>
 
 #include "base/angles.h"
+#include "geometry/detected_edge.h"
 
 namespace curvix {
+namespace {
+
+constexpr double kLevelScale = 7;
+constexpr double kContrastScale = 3.5;
+constexpr double kMaxRatio = 15;
+constexpr double kBinWidth = 16;  // grey levels
+// Of edges that look like none of the view.
+constexpr double kShareOfUnlike = 0.1;
+
+double Cauchy(double x, double scale) {
+  return 1 / (kPi * scale * (1 + (x / scale) * (x / scale)));
+}
+
+}  // namespace
+
+std::optional<Appearance> AppearanceAlong(const Edge2d& edge) {
+  if (!(edge.sharpness > 0)) return std::nullopt;
+  return Appearance{static_cast<float>(edge.level),
+                    static_cast<float>(HalfContrast(edge))};
+}
+
+double LikelihoodRatio(const Appearance& a, const Appearance& b) {
+  const double alike =
+      Cauchy(static_cast<double>(a.level - b.level), kLevelScale) *
+      Cauchy(static_cast<double>(a.half_contrast - b.half_contrast),
+             kContrastScale);
+  return std::min(kMaxRatio, alike / static_cast<double>(a.density));
+}
+
+AppearanceDensity::AppearanceDensity()
+    : AppearanceDensity(std::vector<Edge2d>()) {}
+
+AppearanceDensity::AppearanceDensity(const std::vector<Edge2d>& edges) {
+  densities_.fill(0);
+  double total = 0;
+  for (const Edge2d& edge : edges) {
+    if (!(edge.sharpness > 0)) continue;
+    for (const auto& [bin, weight] : BinsOf(edge)) densities_[bin] += weight;
+    total += 1;
+  }
+  const double uniform = 1.0 / static_cast<double>(densities_.size());
+  for (double& density : densities_) {
+    const double share = total > 0 ? density / total : uniform;
+    // Either side may be the brighter one.
+    density = (kShareOfUnlike * uniform + (1 - kShareOfUnlike) * share) /
+              (2 * kBinWidth * kBinWidth);
+  }
+}
+
+std::optional<Appearance> AppearanceDensity::AppearanceOf(
+    const Edge2d& edge, const Eigen::Vector2d& direction) const {
+  auto appearance = AppearanceAlong(edge);
+  if (!appearance) return std::nullopt;
+  if (TangentAt(edge.angle).dot(direction) < 0) appearance->SwapSides();
+  double density = 0;
+  for (const auto& [bin, weight] : BinsOf(edge)) {
+    density += weight * densities_[bin];
+  }
+  appearance->density = static_cast<float>(density);
+  return appearance;
+}
+
+std::array<AppearanceDensity::WeightedBin, 4> AppearanceDensity::BinsOf(
+    const Edge2d& edge) {
+  const auto [level, next_level] =
+      BinsAround(static_cast<double>(edge.level), kNumLevels);
+  const auto [contrast, next_contrast] =
+      BinsAround(HalfContrast(edge), kNumContrasts);
+  const auto bin = [](const WeightedBin& row, const WeightedBin& column) {
+    return WeightedBin{row.index * kNumContrasts + column.index,
+                       row.weight * column.weight};
+  };
+  return {bin(level, contrast),
+          bin(level, next_contrast),
+          bin(next_level, contrast),
+          bin(next_level, next_contrast)};
+}
+
+// The bins with the nearest centres.
+std::pair<AppearanceDensity::WeightedBin, AppearanceDensity::WeightedBin>
+AppearanceDensity::BinsAround(double grey_levels, std::size_t num_bins) {
+  const double place = std::clamp(
+      grey_levels / kBinWidth - 0.5, 0.0, static_cast<double>(num_bins - 1));
+  const auto bin = static_cast<std::size_t>(place);
+  const double after = place - static_cast<double>(bin);
+  return {{bin, 1 - after}, {std::min(bin + 1, num_bins - 1), after}};
+}
+
 namespace {
 
 constexpr double kSeenAndDetected = 0.9;  // q

@@ -8,9 +8,9 @@
 #include <curvix/options.h>
 #include <vector>
 
-#include "edge_sketch/appearance.h"
 #include "edge_sketch/consolidate.h"
 #include "edge_sketch/depth_range.h"
+#include "edge_sketch/evidence.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"
 #include "model/posed_view.h"

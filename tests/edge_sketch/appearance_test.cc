@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/appearance.h"
+#include "edge_sketch/evidence.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
