@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "edge_sketch/consolidate.h"
-#include "edge_sketch/depth_range.h"
 #include "edge_sketch/evidence.h"
+#include "edge_sketch/view_overlap.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"
 #include "model/posed_view.h"

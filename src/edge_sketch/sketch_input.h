@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/cancelled.h"
-#include "edge_sketch/depth_range.h"
 #include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
 #include "model/posed_view.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "edge_sketch/depth_range.h"
 #include "edge_sketch/sketch_by_views.h"
 #include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_index.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_sketch/depth_range.h"
+#include "edge_sketch/view_overlap.h"
 
 #include <gtest/gtest.h>
 #include <cmath>
