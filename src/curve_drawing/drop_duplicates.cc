@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/angles.h"
-#include "curve_drawing/edge_distances.h"
+#include "curve_drawing/link_edges.h"
 #include "geometry/pixel_size.h"
 #include "model/sample_ranges.h"
 

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "curve_drawing/curve_tip.h"
-#include "curve_drawing/streaks.h"
 #include "edge_sketch/visible_side.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"

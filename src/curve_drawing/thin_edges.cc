@@ -11,7 +11,7 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
-#include "curve_drawing/edge_distances.h"
+#include "curve_drawing/link_edges.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
