@@ -11,10 +11,7 @@
 
 #include "edge_detection/curvelets.h"
 #include "edge_detection/gaussian_derivatives.h"
-#include "edge_detection/image_noise.h"
-#include "edge_detection/keep_contours.h"
 #include "edge_detection/load_image.h"
-#include "edge_detection/separate_edges.h"
 #include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
 #include "geometry/detected_edge.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/image_noise.h"
+// Paper: none (engineering). How noisy an image is.
+#include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>
 #include <array>

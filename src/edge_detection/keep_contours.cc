@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/keep_contours.h"
+// Paper: none (engineering). Selection of the edges of an image.
+#include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>
 #include <cmath>

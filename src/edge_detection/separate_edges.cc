@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/separate_edges.h"
+// Paper: none (beyond it). Corrects the shift of parallel edges by blur.
+#include "edge_detection/detect_view_edges.h"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "edge_detection/separate_edges.h"
+#include "edge_detection/detect_view_edges.h"
 
 #include <gtest/gtest.h>
 
