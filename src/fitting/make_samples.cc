@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (engineering). Samples of curves and how well they are known.
-#include "fitting/fit_samples.h"
+#include "fitting/primitive.h"
 
 #include <algorithm>
 #include <cmath>

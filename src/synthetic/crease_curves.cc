@@ -10,7 +10,7 @@
 
 #include "base/angles.h"
 #include "base/infinity.h"
-#include "synthetic/face_frame.h"
+#include "synthetic/face_pattern.h"
 
 namespace curvix {
 namespace {

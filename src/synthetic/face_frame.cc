@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "synthetic/face_frame.h"
-
-#include "base/angles.h"
+// Paper: none (engineering). Coordinates on the faces of primitives.
+#include "synthetic/face_pattern.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "base/angles.h"
 
 namespace curvix {
 namespace {

@@ -1,17 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). What is painted on a face, with exact outlines.
+// Paper: none (engineering). Coordinates on the faces of primitives, and what is
+// painted there, with exact outlines.
 #pragma once
-
-#include "synthetic/face_frame.h"
-#include "synthetic/primitive.h"
-#include "synthetic/true_curve.h"
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "synthetic/primitive.h"
+#include "synthetic/true_curve.h"
+
 namespace curvix {
+
+// A rectangle that holds all of a face.
+struct FaceArea {
+  Eigen::Vector2d low;    // world units
+  Eigen::Vector2d high;   // likewise
+  bool is_round = false;  // the side of a frustum: u goes round it
+};
+
+// The coordinates (u, v) of a face: Cartesian on flat ones, with v up on
+// upright faces of a box; on the side of a frustum u is the angle from the x
+// axis times the larger radius, within +-pi radii, and v is z. A sphere has
+// none.
+std::optional<FaceArea> AreaOfFace(const SolidPrimitive& primitive,
+                                   int face_idx);
+
+// (u, v) of a point of such a face, in the primitive's frame, and back.
+Eigen::Vector2d FaceFromOwn(const SolidPrimitive& primitive,
+                            int face_idx,
+                            const Eigen::Vector3d& own);
+Eigen::Vector3d OwnFromFace(const SolidPrimitive& primitive,
+                            int face_idx,
+                            const Eigen::Vector2d& uv);
+
+// A curve in the plane (z = 0) of (u, v), in the world. On the side of a
+// frustum segments along u or v only.
+TrueCurve OnFace(const SolidPrimitive& primitive,
+                 int face_idx,
+                 const TrueCurve& flat);
 
 // Patches of even tone in the coordinates of a face, see FaceFromOwn.
 class FacePattern {

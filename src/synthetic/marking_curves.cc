@@ -2,7 +2,7 @@
 // Paper: none (engineering).
 #include "synthetic/synthetic_truth.h"
 
-#include "synthetic/face_frame.h"
+#include "synthetic/face_pattern.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "synthetic/counter_random.h"
-#include "synthetic/face_frame.h"
+#include "synthetic/face_pattern.h"
 
 namespace curvix {
 namespace {
