@@ -10,9 +10,7 @@
 #include "base/parallel.h"
 #include "geometry/directions.h"
 #include "geometry/fit_point.h"
-#include "poses/find_shift.h"
-#include "poses/gauge.h"
-#include "poses/residual_spread.h"
+#include "poses/estimates.h"
 
 namespace curvix {
 namespace {

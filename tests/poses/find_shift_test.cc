@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "poses/find_shift.h"
+#include "poses/estimates.h"
 
 #include <gtest/gtest.h>
 

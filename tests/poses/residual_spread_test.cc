@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "poses/residual_spread.h"
+#include "poses/estimates.h"
 
 #include <gtest/gtest.h>
 
