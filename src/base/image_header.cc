@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <fstream>
 #include <limits>
-#include <vector>
 
 namespace curvix {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "base/infinity.h"
-
 namespace curvix {
 namespace {
 

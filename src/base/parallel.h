@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <utility>
 #include <vector>
 
 namespace curvix {

@@ -6,7 +6,6 @@
 #include <curvix/curves.h>
 #include <curvix/edges.h>
 #include <curvix/options.h>
-#include <cstdint>
 #include <vector>
 
 #include "base/cancelled.h"

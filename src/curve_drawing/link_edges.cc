@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_drawing/link_edges.h"
 
-#include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <opencv2/imgproc.hpp>
 #include <utility>
-#include <vector>
 
 #include "base/angles.h"
 #include "base/check.h"

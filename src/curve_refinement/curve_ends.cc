@@ -2,10 +2,8 @@
 #include "curve_refinement/curve_ends.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "base/angles.h"
 #include "geometry/adjust_edge.h"

@@ -7,7 +7,6 @@
 
 #include "base/median.h"
 #include "geometry/pixel_size.h"
-#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {

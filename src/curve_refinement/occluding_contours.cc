@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/infinity.h"
-#include "curve_refinement/image_support.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/edge_geometry.h"

@@ -3,10 +3,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <optional>
-#include <vector>
 
 #include "base/parallel.h"
 #include "curve_refinement/curve_ends.h"

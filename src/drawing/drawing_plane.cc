@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "base/angles.h"
 #include "geometry/directions.h"

@@ -7,12 +7,10 @@
 #include <iterator>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "edge_detection/curvelets.h"
 #include "edge_detection/gaussian_derivatives.h"
 #include "edge_detection/load_image.h"
-#include "edge_detection/third_order_edges.h"
 #include "edge_detection/undistort_edges.h"
 #include "geometry/detected_edge.h"
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 namespace curvix {
 namespace {

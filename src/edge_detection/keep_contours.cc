@@ -11,7 +11,6 @@
 #include <opencv2/imgproc.hpp>
 #include <span>
 #include <tuple>
-#include <utility>
 
 #include "base/angles.h"
 #include "base/check.h"

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "base/file_io.h"
-#include "base/image_header.h"
 
 namespace curvix {
 namespace {

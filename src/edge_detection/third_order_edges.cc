@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
 #include "base/wide_vectors.h"
 #include "edge_detection/gaussian_derivatives.h"
-#include "edge_detection/gradient_rows.h"
 
 namespace curvix {
 namespace {

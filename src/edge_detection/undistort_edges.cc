@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edge_detection/undistort_edges.h"
 
-#include <curvix/scene.h>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "base/check.h"
 #include "geometry/detected_edge.h"

@@ -2,7 +2,6 @@
 #include "edge_sketch/edge_density.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/angles.h"

@@ -5,10 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "base/angles.h"
-#include "edge_sketch/consolidate.h"
 #include "geometry/detected_edge.h"
 
 namespace curvix {

@@ -15,7 +15,6 @@
 #include "edge_sketch/exclusive_support.h"
 #include "edge_sketch/hypothesise.h"
 #include "edge_sketch/select_views.h"
-#include "edge_sketch/sketch_input.h"
 #include "edge_sketch/track_support.h"
 #include "edge_sketch/view_index.h"
 #include "geometry/epipolar.h"

@@ -3,12 +3,7 @@
 // made of.
 #include "fitting/primitive.h"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <optional>
-#include <utility>
-#include <variant>
 
 #include "base/infinity.h"
 

@@ -3,10 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "fitting/primitive.h"
 
 namespace curvix {
 namespace {

@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>

@@ -5,13 +5,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include "base/angles.h"
 #include "fitting/agreement.h"
 #include "geometry/directions.h"
 

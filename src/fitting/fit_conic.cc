@@ -3,11 +3,7 @@
 #include "fitting/primitive.h"
 
 #include <Eigen/Dense>
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 namespace curvix {
 

@@ -2,11 +2,7 @@
 // Paper: none (engineering). Samples of curves and how well they are known.
 #include "fitting/primitive.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <optional>
-#include <utility>
 
 #include "base/check.h"
 #include "base/infinity.h"

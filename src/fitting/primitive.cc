@@ -2,7 +2,6 @@
 #include "fitting/primitive.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 
 #include "base/angles.h"

@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <ranges>
 #include <set>

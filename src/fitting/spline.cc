@@ -3,9 +3,7 @@
 #include "fitting/primitive.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <array>
-#include <utility>
 
 namespace curvix {
 namespace {

@@ -4,10 +4,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <string>
 #include <utility>
 
 #include "base/text_fields.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/check_input.h"
 
-#include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

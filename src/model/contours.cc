@@ -2,7 +2,6 @@
 #include "model/contours.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace curvix {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/posed_view.h"
 
-#include <curvix/scene.h>
-#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace curvix {

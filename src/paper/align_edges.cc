@@ -2,7 +2,6 @@
 #include "paper/align_edges.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "base/check.h"

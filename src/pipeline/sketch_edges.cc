@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "edge_sketch/sketch_by_views.h"
-#include "edge_sketch/sketch_input.h"
 #include "edge_sketch/view_index.h"
 #include "edge_sketch/view_overlap.h"
 #include "paper/sketch_by_pairs.h"

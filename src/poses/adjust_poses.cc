@@ -3,7 +3,6 @@
 
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
-#include <curvix/scene.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "base/infinity.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poses/pose_observation_set.h"
 
-#include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "poses/adjust_poses.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "poses/pose_search.h"
 
-#include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/median.h"
 #include "base/parallel.h"

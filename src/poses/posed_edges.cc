@@ -2,12 +2,9 @@
 #include "poses/posed_edges.h"
 
 #include <curvix/refine_poses.h>
-#include <curvix/scene.h>
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "base/count_text.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/camera_rig.h"
 
-#include <curvix/scene.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

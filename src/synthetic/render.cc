@@ -2,13 +2,9 @@
 // Paper: none (engineering). Images of a solid, with exact pixel areas.
 #include "synthetic/surfaces.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace curvix {
 namespace {

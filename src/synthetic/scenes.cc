@@ -9,7 +9,6 @@
 
 #include "base/check.h"
 #include "geometry/directions.h"
-#include "synthetic/primitive.h"
 
 namespace curvix {
 namespace {

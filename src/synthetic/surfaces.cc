@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "synthetic/counter_random.h"
-#include "synthetic/face_pattern.h"
 
 namespace curvix {
 namespace {

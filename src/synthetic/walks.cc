@@ -9,7 +9,6 @@
 #include "base/angles.h"
 #include "synthetic/camera_rig.h"
 #include "synthetic/counter_random.h"
-#include "synthetic/primitive.h"
 
 namespace curvix {
 namespace {
