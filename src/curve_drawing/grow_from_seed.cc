@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_drawing/grow_from_seed.h"
+// Paper: none (beyond it). One curve, from its seed on.
+#include "curve_drawing/grow_curves.h"
 
 #include <algorithm>
 #include <cmath>
