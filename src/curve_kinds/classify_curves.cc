@@ -14,7 +14,6 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_kinds/blurred_images.h"
-#include "curve_kinds/nearby_points.h"
 #include "curve_kinds/strips.h"
 #include "geometry/directions.h"
 #include "geometry/pixel_size.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_kinds/nearby_points.h"
+// Paper: none (beyond it). What curves and points near a place say.
+#include "curve_kinds/strips.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). How well the images agree on a surface beside a
-// curve.
+// curve, and what curves and points near it say of the surfaces that meet there.
 #pragma once
 
 #include <curvix/scene.h>
-
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -76,5 +76,22 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images);
+
+// How far the nearest of the `positions` on other curves is in each direction;
+// those a few pixels (of length `pixel`, world units) beside the plane across
+// the curve count. Infinity without any.
+CurveDistances DistancesByDirection(
+    const StripPlace& place,
+    double pixel,
+    const std::vector<Eigen::Vector3d>& positions);
+
+// Adds what points nearby say: a point in the direction of a surface speaks
+// for it, one in another direction against it. `points` are on other curves or
+// COLMAP's, `pixel` is the length of a pixel at the place, world units.
+void AddNearbyPoints(const StripPlace& place,
+                     double pixel,
+                     const std::vector<PosedView>& views,
+                     const std::vector<Eigen::Vector3d>& points,
+                     SurfaceEvidence* evidence);
 
 }  // namespace curvix
