@@ -3,6 +3,7 @@
 // made of.
 #include "fitting/primitive.h"
 
+#include <array>
 #include <cmath>
 
 #include "base/infinity.h"
@@ -264,9 +265,6 @@ void OfferSplines(const FitSamples& curve, bool closed, Choice& choice) {
   }
 }
 
-// The single primitives that a curve may be, by number of parameters.
-using SingleFit = std::optional<Primitive> (*)(const FitSamples&, bool);
-
 std::optional<Primitive> SingleLine(const FitSamples& curve, bool closed) {
   if (closed) return std::nullopt;
   const auto line = FitLine(curve);
@@ -314,13 +312,8 @@ std::vector<Primitive> LinesBetween(const FitSamples& curve, bool closed) {
   return lines;
 }
 
-struct Single {
-  SingleFit fit;
-  std::size_t num_parameters;  // of the shape, without its ends
-};
-
-constexpr Single kSingles[] = {
-    {SingleLine, 4}, {SingleArc, 6}, {SingleEllipse, 8}};
+// The single primitives that a curve may be, by number of parameters.
+constexpr std::array kSingles = {SingleLine, SingleArc, SingleEllipse};
 
 // A circle instead of an ellipse so round that the circle leaves no outliers.
 Primitive WithoutSlightOvalness(const Primitive& primitive,
@@ -343,16 +336,17 @@ std::vector<Primitive> ChoosePrimitives(const FitSamples& curve, bool closed) {
   const double parameter_cost =
       kSamplesPerError * std::log(static_cast<double>(curve.size()));
   Choice choice{parameter_cost};
-  for (const Single& single : kSingles) {
-    const auto primitive = single.fit(curve, closed);
+  for (const auto fit_single : kSingles) {
+    const auto primitive = fit_single(curve, closed);
     if (!primitive) continue;
     const auto squared = DistancesFromPart(primitive->shape, curve);
     if (Explains(squared, curve)) {
       return {WithoutSlightOvalness(*primitive, curve, closed)};
     }
-    choice.Offer({{*primitive},
-                  {CostOf(squared, curve),
-                   single.num_parameters + (primitive->closed ? 0 : 2)}});
+    choice.Offer(
+        {{*primitive},
+         {CostOf(squared, curve),
+          NumParameters(primitive->shape) + (primitive->closed ? 0 : 2)}});
   }
   if (choice.CanWin(2 * kLineParameters - kNodeParameters)) {
     choice.Offer(ChainPrimitives(curve, closed, parameter_cost));

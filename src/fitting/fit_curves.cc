@@ -137,20 +137,6 @@ struct Draw {
   }
 };
 
-std::size_t NumParameters(const CurveFit& fit) {
-  switch (fit.kind) {
-    case FitKind::kLine:
-      return 4;
-    case FitKind::kArc:
-      return 6;
-    case FitKind::kEllipse:
-      return 8;
-    case FitKind::kSpline:
-      return 3 * fit.control_points.size();
-  }
-  return 0;
-}
-
 void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
   const std::vector<double> squared = SquaredDistances(shape, samples);
   double sum = 0, max = 0, variance = 0;
@@ -170,7 +156,7 @@ void Judge(const Shape& shape, const FitSamples& samples, CurveFit& fit) {
   fit.max_residual = std::sqrt(max);
   // Each sample measures two directions across.
   const double share =
-      static_cast<double>(NumParameters(fit)) / (2 * std::max(inliers, 1.0));
+      static_cast<double>(NumParameters(shape)) / (2 * std::max(inliers, 1.0));
   const double shared = fit.kind == FitKind::kLine ? 0 : SharedSigma(samples);
   fit.sigma =
       std::hypot(std::sqrt(variance / n * std::min(1.0, share)), shared);

@@ -148,6 +148,15 @@ std::vector<double> PlacesAlong(const Shape& shape, FitSpan samples) {
 
 }  // namespace
 
+std::size_t NumParameters(const Shape& shape) {
+  if (const auto* spline = std::get_if<Spline>(&shape)) {
+    return 3 * spline->control_points.size();
+  }
+  const auto* conic = std::get_if<Conic>(&shape);
+  if (conic == nullptr) return 4;
+  return conic->a == conic->b ? 6 : 8;
+}
+
 FitSamples SamplesOf(const Primitive& primitive, const FitSamples& curve) {
   FitSamples samples;
   for (std::size_t k = 0; k < primitive.num_samples; ++k) {

@@ -175,6 +175,9 @@ std::optional<FittedLine> FitLine(FitSpan samples);
 
 using Shape = std::variant<FittedLine, Conic, Spline>;
 
+// That describe it, without its ends.
+std::size_t NumParameters(const Shape& shape);
+
 // A shape and the samples of the curve that it stands for: `num_samples` from
 // `first_sample` on, round a closed curve.
 struct Primitive {
