@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -100,31 +99,25 @@ cv::Mat Decode(const std::string& file) {
 Status WrongSize(const std::string& name,
                  const ImageSize& size,
                  const ImageSize& expected) {
-  std::ostringstream message;
-  message << name << " is " << size.width << " x " << size.height
-          << " pixels, but its camera in the model is " << expected.width
-          << " x " << expected.height;
-  if (size == ImageSize{expected.height, expected.width}) {
-    message << ". Images are taken as they are stored, as COLMAP does, "
-               "whatever the orientation in their EXIF data.";
-  } else {
-    message << ".";
-  }
-  message << " Give the images from which the model was made, or export the "
-             "model at the size of these images.";
-  return Status::InvalidArgument(message.str());
+  const bool is_turned = size == ImageSize{expected.height, expected.width};
+  return Status::InvalidArgument(
+      name + " is " + SizeText(size) +
+      " pixels, but its camera in the model is " + SizeText(expected) +
+      (is_turned ? ". Images are taken as they are stored, as COLMAP does, "
+                   "whatever the orientation in their EXIF data."
+                 : ".") +
+      " Give the images from which the model was made, or export the model at "
+      "the size of these images.");
 }
 
 Status WrongShape(const std::string& name,
                   const ImageSize& size,
                   const ImageSize& expected) {
-  std::ostringstream message;
-  message << name << " is " << size.width << " x " << size.height
-          << " pixels, and its image " << expected.width << " x "
-          << expected.height
-          << ". A mask may be larger or smaller than its image, but has the "
-             "same shape.";
-  return Status::InvalidArgument(message.str());
+  return Status::InvalidArgument(
+      name + " is " + SizeText(size) + " pixels, and its image " +
+      SizeText(expected) +
+      ". A mask may be larger or smaller than its image, but has the same "
+      "shape.");
 }
 
 Status Broken(const std::string& name, const std::string& bytes) {
@@ -145,10 +138,6 @@ Status WrongPixels(const std::string& name) {
       name +
       " has neither 8 nor 16 bits per channel, or an unusual number of "
       "channels. Convert it to an 8-bit PNG.");
-}
-
-std::string ImageNamed(const std::filesystem::path& path) {
-  return "Image " + path.string();
 }
 
 // `check(size)` is OK for the sizes that will do.
@@ -204,10 +193,6 @@ auto IsOfShape(const std::string& name, const ImageSize& expected) {
   };
 }
 
-std::string MaskNamed(const std::filesystem::path& path) {
-  return "Mask " + path.string();
-}
-
 GrayImage Resized(GrayImage image, const ImageSize& size) {
   const cv::Mat from(image.height, image.width, CV_32F, image.pixels.data());
   cv::Mat1f to;
@@ -223,7 +208,7 @@ GrayImage Resized(GrayImage image, const ImageSize& size) {
 }  // namespace
 
 Result<ImageSize> ReadImageSize(const std::filesystem::path& path) {
-  const std::string name = ImageNamed(path);
+  const std::string name = "Image " + path.string();
   CURVIX_ASSIGN_OR_RETURN(const std::string bytes, ReadImageFile(path, name));
   if (const auto header = HeaderOf(bytes)) return header->size;
   const cv::Mat image = Decode(bytes);
@@ -237,14 +222,14 @@ Status CheckImage(const View& view, const Camera& camera) {
     return IsOfSize("Image " + view.name,
                     expected)({view.image->width, view.image->height});
   }
-  const std::string name = ImageNamed(view.image_path);
+  const std::string name = "Image " + view.image_path.string();
   return CheckFile(view.image_path, name, IsOfSize(name, expected));
 }
 
 Status CheckImageAndMask(const View& view, const Camera& camera) {
   Status status = CheckImage(view, camera);
   if (!status.ok() || view.mask_path.empty()) return status;
-  const std::string name = MaskNamed(view.mask_path);
+  const std::string name = "Mask " + view.mask_path.string();
   return CheckFile(
       view.mask_path, name, IsOfShape(name, {camera.width, camera.height}));
 }
@@ -252,7 +237,7 @@ Status CheckImageAndMask(const View& view, const Camera& camera) {
 Result<GrayImage> LoadGrayImage(const View& view, const Camera& camera) {
   const ImageSize expected = {camera.width, camera.height};
   if (!view.image) {
-    const std::string name = ImageNamed(view.image_path);
+    const std::string name = "Image " + view.image_path.string();
     return LoadFile(view.image_path, name, IsOfSize(name, expected));
   }
   const ImageInMemory& image = *view.image;
@@ -278,7 +263,7 @@ Result<std::optional<GrayImage>> LoadMask(const View& view,
                                           const Camera& camera) {
   if (view.mask_path.empty()) return std::optional<GrayImage>();
   const ImageSize expected = {camera.width, camera.height};
-  const std::string name = MaskNamed(view.mask_path);
+  const std::string name = "Mask " + view.mask_path.string();
   CURVIX_ASSIGN_OR_RETURN(
       GrayImage mask,
       LoadFile(view.mask_path, name, IsOfShape(name, expected)));
