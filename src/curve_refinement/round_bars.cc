@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/round_bars.h"
+// Paper: none (beyond it). Curves that are a side of a round bar.
+#include "curve_refinement/occluding_contours.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Upright bars amid a ring of views.
-#include "curve_refinement/round_bars.h"
+#include "curve_refinement/occluding_contours.h"
 
 #include <gtest/gtest.h>
 #include <vector>
