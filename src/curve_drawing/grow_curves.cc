@@ -8,8 +8,6 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "edge_sketch/evidence.h"
-#include "edge_sketch/sketch_input.h"
 
 namespace curvix {
 namespace {

@@ -3,7 +3,6 @@
 #include "curve_kinds/strips.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "base/angles.h"

@@ -12,7 +12,6 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
-#include "curve_refinement/fill_gap.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 

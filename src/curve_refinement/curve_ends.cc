@@ -8,7 +8,6 @@
 #include "base/angles.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/pixel_size.h"
-#include "model/curve_chains.h"
 
 namespace curvix {
 namespace {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curve_refinement/fill_gap.h"
+// Paper: none (beyond it). Curves where edges are missing.
+#include "curve_refinement/curve_ends.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "base/median.h"

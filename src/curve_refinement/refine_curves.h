@@ -82,7 +82,7 @@ std::vector<Curve> SmoothCurves(const std::vector<Curve>& curves,
 // or the two are swapped behind it. Wherever two ends meet beside a passing
 // curve, both curves are carried on through what they share, exchanged if need
 // be: the last 3 px before the ends are cut off, and gaps are filled
-// (fill_gap.h).
+// (StringTogetherFilled()).
 std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
                                     const std::vector<PosedView>& views,
                                     const ImageSupport& images,

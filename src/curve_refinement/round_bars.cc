@@ -11,7 +11,6 @@
 
 #include "base/infinity.h"
 #include "base/parallel.h"
-#include "curve_refinement/image_support.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/edge_geometry.h"

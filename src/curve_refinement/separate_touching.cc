@@ -13,7 +13,6 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
-#include "curve_refinement/fill_gap.h"
 #include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 #include "model/sample_ranges.h"
@@ -234,7 +233,7 @@ class MeetingFinder {
 // branches tell which belong together: `a` and `b`, or, unless the passing
 // curve is closed, those that are exchanged, if their distances are below 0.6
 // times the others. They must fit to 0.4 px, and the images show what is
-// between the branches (fill_gap.h). Best fits first; ties by the order of
+// between the branches (IsGapShown()). Best fits first; ties by the order of
 // curves. Pixels as in pixel_size.h.
 std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
                                   const std::vector<PosedView>& views,
