@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/agreement.h"
+// Paper: none (engineering). Which of many uncertain values are the same.
+#include "fitting/structure.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 
-#include "base/angles.h"
 #include "base/infinity.h"
 
 namespace curvix {

@@ -10,7 +10,6 @@
 #include <set>
 #include <utility>
 
-#include "fitting/agreement.h"
 #include "geometry/directions.h"
 
 namespace curvix {

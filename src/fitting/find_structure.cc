@@ -5,11 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string_view>
 #include <utility>
 
-#include "fitting/agreement.h"
 #include "geometry/directions.h"
 
 namespace curvix {
