@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paper: none (beyond it). How well the images agree on a surface beside a
-// curve, and what curves and points near it say of the surfaces that meet there.
+// curve, and what curves and points near it say of the surfaces that meet
+// there.
 #pragma once
 
 #include <curvix/scene.h>

@@ -54,13 +54,13 @@ struct VirtualEdges {
   }
 };
 
-// Fig. 5(c): agglomerates edges that lie on `line`: the two clusters with the nearest
-// centroids merge first (ties: those first along the line, there the smaller
-// edge index), as long as they are at most max_cluster_distance_px apart and
-// their mean directions differ by at most max_cluster_angle_deg; a pair that
-// differs more is passed over. Directions are averaged mod 180 degrees. The
-// order of the input makes no difference. O(n log n) plus O(n k) per merge, k
-// the clusters within max_cluster_distance_px of one.
+// Fig. 5(c): agglomerates edges that lie on `line`: the two clusters with the
+// nearest centroids merge first (ties: those first along the line, there the
+// smaller edge index), as long as they are at most max_cluster_distance_px
+// apart and their mean directions differ by at most max_cluster_angle_deg; a
+// pair that differs more is passed over. Directions are averaged mod 180
+// degrees. The order of the input makes no difference. O(n log n) plus O(n k)
+// per merge, k the clusters within max_cluster_distance_px of one.
 VirtualEdges ClusterEdges(const std::vector<LineEdge>& edges,
                           const Line2& line,
                           const ConsolidationOptions& options);

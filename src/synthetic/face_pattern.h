@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Coordinates on the faces of primitives, and what is
-// painted there, with exact outlines.
+// Paper: none (engineering). Coordinates on the faces of primitives, and what
+// is painted there, with exact outlines.
 #pragma once
 
 #include <Eigen/Core>
