@@ -20,7 +20,8 @@ namespace curvix {
 // turned a quarter from +x towards +y. Where `sharpness` is known, views are
 // matched by the bright side, too; other code treats angles as equal mod pi.
 struct Edge2d {
-  // Pixels. Not aligned, for there may be millions: 40 bytes each.
+  // Pixels. Not aligned, for there may be millions: 40 bytes each. Converts to
+  // Eigen::Vector2d, but is none: no reference to that can be bound to it.
   Eigen::Matrix<double, 2, 1, Eigen::DontAlign> position = {0, 0};
   float angle = 0;     // radians
   float strength = 0;  // gradient magnitude >= 0, grey levels per pixel

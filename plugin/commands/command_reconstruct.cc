@@ -65,8 +65,9 @@ FlagSection PathsSection(RunSettings* settings) {
                              "folder with sparse/ and images/, or dense/")),
            PathFlag("input_path",
                     &settings->input_path,
-                    "folder of the model; default: that of sparse/<k> with "
-                    "most images, sparse or dense/0/sparse"),
+                    "folder of the model, or of models 0, 1, ...; default: "
+                    "that of sparse/<k> with most images, sparse or "
+                    "dense/0/sparse"),
            PathFlag("image_path",
                     &settings->image_path,
                     "folder of the images; default: images/ beside the "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What elevations, plans and sections show, side by side on one sheet: the part
-// of space, and the lines that photographs show from their side.
+// of space that --slice and --crop name, and the lines that photographs show
+// from their side.
 #pragma once
 
 #include <curvix/fitting.h>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/angles.h"
+#include "base/check.h"
 #include "base/infinity.h"
 #include "base/median.h"
 #include "base/text_fields.h"
@@ -146,6 +147,7 @@ bool PosesFit(const Scene& poses, const std::vector<ScenePoint>& check_points) {
   for (ScenePoint point : check_points) {
     point.position = FitPoint(poses, point);
     const std::vector<double> errors = ReprojectionErrors(poses, point);
+    CURVIX_CHECK(errors.size() == point.view_idxs.size(), "unknown pixels");
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const auto view_idx = static_cast<std::size_t>(point.view_idxs[i]);
       by_view[view_idx].push_back(errors[i]);

@@ -55,7 +55,7 @@ struct PoseJudgement {
 std::vector<ScenePoint> TakeCheckPoints(Scene* scene);
 
 // Whether the views of `poses` see `check_points`, fitted anew, where the poses
-// put them, so that there is nothing to gain.
+// put them, so that there is nothing to gain. All of their pixels are known.
 bool PosesFit(const Scene& poses, const std::vector<ScenePoint>& check_points);
 
 // Compares `after`, aligned to `before`, with it: two adjustable scenes of the

@@ -7,6 +7,7 @@
 #include "base/count_text.h"
 #include "colmap/inconsistent_points.h"
 #include "edge_detection/curvelets.h"
+#include "plugin/poses/curve_poses.h"
 
 namespace curvix {
 namespace {

@@ -115,6 +115,14 @@ std::vector<fs::path> ModelCandidates(const fs::path& workspace) {
   return places;
 }
 
+// Of what --input_path names: a model, or a folder of numbered ones.
+std::vector<fs::path> NamedCandidates(const fs::path& folder) {
+  if (IsModel(folder)) return {folder};
+  std::vector<fs::path> places = MostImagesFirst(NumberedFolders(folder));
+  places.push_back(folder);
+  return places;
+}
+
 // Names the numbered siblings of `model` that hold models too; empty: none.
 std::string OtherModelsNote(const fs::path& model) {
   std::string names;
@@ -148,26 +156,22 @@ Status CheckModelFiles(const fs::path& workspace, const fs::path& model) {
 Status FindModel(const WorkspacePaths& paths, Workspace* found) {
   const bool is_named = !paths.input_path.empty();
   const fs::path& folder = is_named ? paths.input_path : paths.workspace_path;
-  std::vector<fs::path> places = is_named
-                                     ? MostImagesFirst(NumberedFolders(folder))
-                                     : ModelCandidates(folder);
-  if (is_named) places.insert(places.begin(), folder);
+  const std::vector<fs::path> places =
+      is_named ? NamedCandidates(folder) : ModelCandidates(folder);
   const auto place = std::ranges::find_if(places, IsModel);
   if (place == places.end()) {
-    if (is_named) return FindColmapFormat(folder).status();
     for (const fs::path& tried : places) {
       if (!IsForbidden(tried / "cameras.bin")) continue;
       return MayNotBeRead(tried, "--input_path");
     }
+    if (is_named) return FindColmapFormat(folder).status();
     return Status::NotFound(
         "No COLMAP model (cameras and images, as .bin or .txt) in " +
         paths.workspace_path.string() + "." + Tried(places) +
         " Name its folder with --input_path.");
   }
   found->model_path = *place;
-  if (!is_named) {
-    CURVIX_RETURN_IF_ERROR(CheckModelFiles(folder, *place));
-  }
+  if (!is_named) CURVIX_RETURN_IF_ERROR(CheckModelFiles(folder, *place));
   if (*place != folder && IsNumber(place->filename().string())) {
     const std::string note = OtherModelsNote(*place);
     if (!note.empty()) found->notes.push_back(note);

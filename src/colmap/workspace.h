@@ -37,10 +37,10 @@ struct Workspace {
 
 // Finds the folders; `paths` wins over what is found. Folders named by numbers
 // count in numerical order.
-//  * Model: the first of <workspace>/sparse/<k>, <workspace>/sparse,
-//    <workspace>/dense/<k>/sparse, <workspace> that holds one; of several
-//    sparse/<k> the one with most images, with a note that says so. Ties: the
-//    smallest k.
+//  * Model: input_path, if it holds one, else its folders <k>; if it is not
+//    given, the first of <workspace>/sparse/<k>, <workspace>/sparse,
+//    <workspace>/dense/<k>/sparse, <workspace> that holds one. Of several <k>
+//    the one with most images, with a note that says so. Ties: the smallest k.
 //  * Images: the first that exists of <workspace>/images, images/ beside the
 //    model's sparse/, and the image_path in the model's project.ini, which is
 //    relative to the current folder or, failing that, to the workspace. A model
@@ -50,10 +50,10 @@ struct Workspace {
 //    curvix beside sparse. Else <workspace>/curvix if the workspace is the
 //    model, and <workspace>/curvix/<name of the model's folder> if it is not.
 //  * Masks: only those of `paths`.
-// Folders and images may be links. Files of a model that is found and not given
-// lie, all links followed, in its folder or in the workspace. kInvalidArgument
-// if the workspace is not given; kNotFound for model files that lead out, and,
-// with the places that were tried, if a folder is not there.
+// Folders and images may be links. Files of a model without input_path lie, all
+// links followed, in its folder or in the workspace. kInvalidArgument if the
+// workspace is not given; kNotFound for model files that lead out, and, with
+// the places that were tried, if a folder is not there.
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
 
 // To be asked before anything is written to `found`, the workspace of `paths`:

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/angles.h"
@@ -246,8 +247,11 @@ CurveSample SampleOf(const Edge3d& edge, bool flipped) {
   return sample;
 }
 
-}  // namespace
-
+// The chains of FollowEnds as curves, in the same order: samples in walking
+// order, tangents along the curve, support carried over. A chain that returns
+// to its start is a closed curve. Every edge is in exactly one curve, once; an
+// edge without neighbours is a curve of one sample, for JoinCurves to take up
+// or GroupEdges to drop.
 std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
                                const EndTies& ties) {
   CURVIX_CHECK(ties.size() == 2 * edges.size(),
@@ -262,6 +266,8 @@ std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
   }
   return curves;
 }
+
+}  // namespace
 
 std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
                               const NeighborhoodGraph& graph,

@@ -25,6 +25,8 @@ std::vector<Curve> GroupEdges(const std::vector<Edge3d>& edges,
                               int num_threads,
                               const StepDone& step_done = {});
 
+// The steps of the above, in their order.
+
 struct ThinnedEdges {
   std::vector<Edge3d> edges;
   NeighborhoodGraph graph;  // of `edges`: the links between the groups
@@ -71,14 +73,6 @@ EndTies ConnectEdges(const std::vector<Edge3d>& edges,
                      const std::vector<PosedView>& views,
                      const ConnectivityOptions& options,
                      int num_threads);
-
-// The chains of FollowEnds as curves, in the same order: samples in walking
-// order, tangents along the curve, support carried over. A chain that returns
-// to its start is a closed curve. Every edge is in exactly one curve, once; an
-// edge without neighbours is a curve of one sample, for JoinCurves to take up
-// or GroupEdges to drop.
-std::vector<Curve> TraceCurves(const std::vector<Edge3d>& edges,
-                               const EndTies& ties);
 
 // Drops duplicates of longer curves. Curves are taken by decreasing length in
 // pixels (ties: smaller index), samples in order. A sample is dropped if one

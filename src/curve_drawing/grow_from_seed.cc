@@ -13,6 +13,7 @@
 
 #include "curve_drawing/curve_tip.h"
 #include "edge_sketch/visible_side.h"
+#include "geometry/adjust_edge.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/nearest_edge.h"
 #include "geometry/pixel_size.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The neighbourhood of a sample on its curve, the
+// Paper: none (beyond it). The neighbourhood of a sample on its curve, the
 // curve up to it, how a curve goes on beyond its end, and what fills gaps.
 #pragma once
 

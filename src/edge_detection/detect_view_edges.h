@@ -15,20 +15,6 @@
 
 namespace curvix {
 
-// Weakest gradient, of an image smoothed by `sigma_px`, that counts as an edge
-// where the image noise has standard deviation `noise`: max(min_gradient,
-// noise_factor * standard deviation of the gradient of the noise). Grey levels
-// per pixel.
-double GradientThreshold(const EdgeDetectionOptions& options,
-                         double sigma_px,
-                         double noise);
-
-// Most edges that are kept of an image of that size: at least 20,000, and of n
-// million pixels n^0.8 times options.max_edges_per_megapixel.
-std::int64_t MaxEdges(const EdgeDetectionOptions& options,
-                      int width,
-                      int height);
-
 // The edges of the view's image, linked along its contours and mapped to the
 // ideal pinhole of `camera`, which is the view's. Crowded images, which have
 // more edges than MaxEdges(), are seen at the coarser scale. Isolated edges,
@@ -54,6 +40,40 @@ Result<EdgeMap> DetectViewEdges(const View& view,
 // image. The noise of 8-bit rounding, 1/12 of a squared grey level, is taken
 // off.
 double EstimateNoise(const GrayImage& image);
+
+// Weakest gradient, of an image smoothed by `sigma_px`, that counts as an edge
+// where the image noise has standard deviation `noise`: max(min_gradient,
+// noise_factor * standard deviation of the gradient of the noise). Grey levels
+// per pixel.
+double GradientThreshold(const EdgeDetectionOptions& options,
+                         double sigma_px,
+                         double noise);
+
+// Most edges that are kept of an image of that size: at least 20,000, and of n
+// million pixels n^0.8 times options.max_edges_per_megapixel.
+std::int64_t MaxEdges(const EdgeDetectionOptions& options,
+                      int width,
+                      int height);
+
+// Sets the crowding of each edge (Edge2d::crowding). Positions are those of the
+// image, strengths positive.
+//
+// Where a surface or an object ends, one side has no edges, or weaker ones. In
+// brick, foliage and gravel both sides are crowded. The emptier side counts,
+// with the mean strength of edges per pixel in a square of 9 pixels whose
+// centre lies 8 pixels from the edge. What lies outside the image is empty.
+// `spacing_px`: of edges along their contours; each edge counts as often as it
+// has half pixels.
+void MeasureCrowding(double spacing_px, std::vector<LocatedEdge>* edges);
+
+// The strength of an edge whose crowding is measured, reduced by it; grey
+// levels per pixel. A crowding of a tenth halves it, which is about that
+// between two parallel contours as strong.
+double Prominence(const LocatedEdge& edge);
+
+// The same of each edge, whose crowding is measured anew, among these edges.
+std::vector<double> Prominence(const std::vector<Edge2d>& edges,
+                               double spacing_px);
 
 // Keeps the `max_edges` (>= 1) edges of largest Prominence(), and those that
 // are as prominent as the last of these, in their order. Returns how many it
@@ -94,26 +114,6 @@ KeptEdges KeepContours(const std::vector<Edge2d>& edges,
                        const std::vector<EdgeNeighbors>& neighbors,
                        const EdgeDetectionOptions& options,
                        const ContourLimits& limits);
-
-// Sets the crowding of each edge (Edge2d::crowding). Positions are those of the
-// image, strengths positive.
-//
-// Where a surface or an object ends, one side has no edges, or weaker ones. In
-// brick, foliage and gravel both sides are crowded. The emptier side counts,
-// with the mean strength of edges per pixel in a square of 9 pixels whose
-// centre lies 8 pixels from the edge. What lies outside the image is empty.
-// `spacing_px`: of edges along their contours; each edge counts as often as it
-// has half pixels.
-void MeasureCrowding(double spacing_px, std::vector<LocatedEdge>* edges);
-
-// The strength of an edge whose crowding is measured, reduced by it; grey
-// levels per pixel. A crowding of a tenth halves it, which is about that
-// between two parallel contours as strong.
-double Prominence(const LocatedEdge& edge);
-
-// The same of each edge, whose crowding is measured anew, among these edges.
-std::vector<double> Prominence(const std::vector<Edge2d>& edges,
-                               double spacing_px);
 
 // The detector sees steps blurred by a Gaussian. Its standard deviation w
 // follows from the median sharpness. Two steps within some 4 w add up: of a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). How noisy an image is.
+// Paper: none (beyond it). How noisy an image is.
 #include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>

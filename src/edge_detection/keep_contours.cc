@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). Selection of the edges of an image.
+// Paper: none (beyond it). Selection of the edges of an image.
 #include "edge_detection/detect_view_edges.h"
 
 #include <algorithm>

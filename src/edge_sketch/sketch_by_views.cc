@@ -350,20 +350,22 @@ EdgeSketch TrackByViews(const SketchInput& input, const StepDone& step_done) {
   return sketch;
 }
 
-void DropExplained(const SketchInput& input, EdgeSketch& sketch) {
+void DropExplained(const std::vector<PosedView>& views,
+                   const std::vector<EdgeMap>& edge_maps,
+                   const ValidationOptions& options,
+                   EdgeSketch& sketch) {
   const std::size_t num_confirmed = sketch.edges.size();
-  sketch.edges = DropWithoutExclusiveSupport(
-      std::move(sketch.edges),
-      input.views,
-      input.edge_maps,
-      input.options.validation.min_num_exclusive_views);
+  sketch.edges = DropWithoutExclusiveSupport(std::move(sketch.edges),
+                                             views,
+                                             edge_maps,
+                                             options.min_num_exclusive_views);
   sketch.counts.rivals +=
       static_cast<std::int64_t>(num_confirmed - sketch.edges.size());
 }
 
 EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done) {
   EdgeSketch sketch = TrackByViews(input, step_done);
-  DropExplained(input, sketch);
+  DropExplained(input.views, input.edge_maps, input.options.validation, sketch);
   return sketch;
 }
 

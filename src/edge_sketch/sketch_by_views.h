@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: Secs. 3 and 4. The loop of the default.
+// Paper: Secs. 3 and 4. The loop of the default and, beyond the paper, the
+// standard deviation of 2D edges that it takes.
 #pragma once
 
+#include <curvix/edges.h>
+
+#include "base/cancelled.h"
 #include "edge_sketch/sketch_input.h"
 
 namespace curvix {
@@ -14,7 +18,10 @@ EdgeSketch SketchByViews(const SketchInput& input, const StepDone& step_done);
 // that others explain (exclusive_support.h). The second step needs no indices:
 // with many views, these are freed before, since both take much memory.
 EdgeSketch TrackByViews(const SketchInput& input, const StepDone& step_done);
-void DropExplained(const SketchInput& input, EdgeSketch& sketch);
+void DropExplained(const std::vector<PosedView>& views,
+                   const std::vector<EdgeMap>& edge_maps,
+                   const ValidationOptions& options,
+                   EdgeSketch& sketch);
 
 // The standard deviation of the distance of 2D edges from the 3D edges that
 // they support, due to noise, blur, lens and poses. Pixels. Found in a sketch

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "edge_sketch/sketch_input.h"
 
+#include <utility>
+
 #include "base/median.h"
 #include "model/contours.h"
 

@@ -18,6 +18,7 @@
 #include "fitting/end_covariance.h"
 #include "fitting/primitive.h"
 #include "fitting/regularize_costs.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 namespace {

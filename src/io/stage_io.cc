@@ -28,6 +28,7 @@
 //     as in edges.bin but for neighbours
 #include "io/stage_io.h"
 
+#include <algorithm>
 #include <istream>
 #include <optional>
 

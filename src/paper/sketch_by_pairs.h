@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/cancelled.h"
 #include "edge_sketch/sketch_input.h"
 #include "geometry/edge_geometry.h"
 #include "geometry/epipolar.h"

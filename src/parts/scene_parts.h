@@ -85,6 +85,8 @@ class PartResults {
   virtual Result<TracedCurve> Read(int part_idx, std::size_t curve_idx) = 0;
 };
 
+// The steps of the above.
+
 // A partition as PartitionScene describes it. `places` of each view, at least
 // one. nullopt: impossible with so few views in a part.
 std::optional<ScenePartition> PartitionViews(

@@ -196,6 +196,36 @@ void GroupIntoCurves(const std::vector<PosedView>& views,
   run.End(CountsOf(result.curves));
 }
 
+// Beyond the paper, in their place.
+void GrowIntoCurves(const Scene& scene,
+                    const std::vector<PosedView>& views,
+                    const std::vector<EdgeMap>& edge_maps,
+                    const EdgeSketch& sketch,
+                    const Options& options,
+                    RunRecorder& run,
+                    Reconstruction& result) {
+  const int num_threads = options.runtime.num_threads;
+  if (!run.Begin("grow_curves")) return;
+  result.edges = sketch.edges;
+  const DistinctViews distinct =
+      FindDistinctViews(views, edge_maps, scene.points, options);
+  const std::vector<ViewIndex> indices =
+      IndexViews(views, edge_maps, distinct, num_threads);
+  const auto neighbors =
+      NeighborsInDirection(distinct.overlaps, distinct.stations);
+  result.curves.curves = GrowCurves(sketch.edges,
+                                    {views,
+                                     edge_maps,
+                                     indices,
+                                     neighbors,
+                                     sketch.edge_sigma_px,
+                                     options.curve_growth,
+                                     options.validation},
+                                    num_threads,
+                                    run.Steps());
+  run.End(CountsOf(result.curves));
+}
+
 // Secs. 5 and 6, and what follows beyond the paper.
 Result<Reconstruction> Connect(const Scene& scene,
                                const std::vector<PosedView>& views,
@@ -206,25 +236,7 @@ Result<Reconstruction> Connect(const Scene& scene,
   const int num_threads = options.runtime.num_threads;
   Reconstruction result;
   if (CurvesGrow(edge_maps, options)) {
-    if (!run.Begin("grow_curves")) return CancelledStatus();
-    result.edges = sketch.edges;
-    const DistinctViews distinct =
-        FindDistinctViews(views, edge_maps, scene.points, options);
-    const std::vector<ViewIndex> indices =
-        IndexViews(views, edge_maps, distinct, num_threads);
-    const auto neighbors =
-        NeighborsInDirection(distinct.overlaps, distinct.stations);
-    result.curves.curves = GrowCurves(sketch.edges,
-                                      {views,
-                                       edge_maps,
-                                       indices,
-                                       neighbors,
-                                       sketch.edge_sigma_px,
-                                       options.curve_growth,
-                                       options.validation},
-                                      num_threads,
-                                      run.Steps());
-    run.End(CountsOf(result.curves));
+    GrowIntoCurves(scene, views, edge_maps, sketch, options, run, result);
   } else {
     GroupIntoCurves(views, edge_maps, sketch, options, run, result);
   }

@@ -42,7 +42,7 @@ EdgeSketch SketchViews(const std::vector<PosedView>& views,
       input.finds_seeds = CurvesGrow(edge_maps, options);
       EdgeSketch sketch = TrackByViews(input, step_done);
       indices.clear();  // frees memory that the next step can use
-      DropExplained(input, sketch);
+      DropExplained(views, edge_maps, options.validation, sketch);
       sketch.counts.repeated_views =
           std::ranges::count(distinct.are_repeated, true);
       return sketch;

@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "geometry/directions.h"
 #include "geometry/fit_point.h"
-#include "poses/estimates.h"
+#include "poses/pose_search_estimates.h"
 
 namespace curvix {
 namespace {

@@ -15,7 +15,7 @@
 #include "geometry/adjust_edge.h"
 #include "geometry/fit_point.h"
 #include "poses/adjust_poses.h"
-#include "poses/estimates.h"
+#include "poses/pose_search_estimates.h"
 
 namespace curvix {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Paper: none (engineering). The convex bodies that solids are made of, and the
-// same by their measures.
+// Paper: none (engineering). The convex bodies that solids are made of, and
+// functions that make them from their measures.
 #pragma once
 
 #include <curvix/scene.h>

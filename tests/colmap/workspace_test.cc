@@ -165,6 +165,8 @@ TEST_F(WorkspaceTest, GivenPathsWin) {
   WorkspacePaths paths = Root();
   paths.input_path = At("proj/sparse/1");
   Expect(paths, "proj/sparse/1", "proj/images", "proj/curvix/1");
+  MakeModel("proj/sparse/1/0");
+  Expect(paths, "proj/sparse/1", "proj/images", "proj/curvix/1");
   paths.input_path = At("proj/sparse_txt");
   Expect(paths, "proj/sparse_txt", "proj/images", "proj/curvix/sparse_txt");
   paths.input_path = At("elsewhere/sparse/0");

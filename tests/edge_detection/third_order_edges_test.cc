@@ -226,7 +226,7 @@ TEST(ThirdOrderEdges, WidensWithSigma) {
 }
 
 // Those of hundreds of images are in memory at once.
-TEST(ThirdOrderEdges, TakeFortyBytesEach) { EXPECT_EQ(sizeof(Edge2d), 40u); }
+TEST(Edge2d, TakesFortyBytes) { EXPECT_EQ(sizeof(Edge2d), 40u); }
 
 }  // namespace
 }  // namespace curvix

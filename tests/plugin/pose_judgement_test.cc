@@ -54,5 +54,20 @@ TEST(JudgePoses, SaysWhichErrorDoesNotFall) {
               HasSubstr("nothing to gain: the mean error"));
 }
 
+TEST(PosesFit, AsksEveryView) {
+  PosedPointsOptions options;
+  options.noise_px = 0.03;
+  Scene scene = AdjustableScene(PosedPoints(options));
+  const std::vector<ScenePoint> check_points = TakeCheckPoints(&scene);
+  EXPECT_TRUE(PosesFit(scene, check_points));
+  EXPECT_FALSE(PosesFit(scene, {}));
+  std::vector<ScenePoint> without_first = check_points;
+  for (ScenePoint& point : without_first) {
+    const std::vector<int> seen_by = point.view_idxs;
+    KeepObservations([&](std::size_t i) { return seen_by[i] != 0; }, &point);
+  }
+  EXPECT_FALSE(PosesFit(scene, without_first));
+}
+
 }  // namespace
 }  // namespace curvix

@@ -176,14 +176,17 @@ TEST_F(FakeColmap, IsNotRunOnPointsThatFit) {
   PosedPointsOptions options;
   options.noise_px = 0.03;
   model_ = PosedPoints(options);
-  const PoseRefinement result = Run("touch ran");
+  const fs::path mark = folder_.path() / "ran";
+  const PoseRefinement result = Run("touch '" + mark.string() + "'");
+  EXPECT_FALSE(fs::exists(mark));
   EXPECT_FALSE(result.model);
   EXPECT_EQ(result.record.refiner, "none");
   EXPECT_THAT(
       result.notes,
       ElementsAre(HasSubstr("the points are where the poses put them")));
   DisturbPoses(0.1, 5, &model_);
-  EXPECT_EQ(Run("exit 1").record.refiner, "colmap");
+  EXPECT_EQ(Run("touch '" + mark.string() + "'").record.refiner, "colmap");
+  EXPECT_TRUE(fs::exists(mark));
 }
 
 TEST_F(FakeColmap, LowersTheErrorsOfPointsThatWereHeldOut) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "poses/estimates.h"
+#include "poses/pose_search_estimates.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "poses/estimates.h"
+#include "poses/pose_search_estimates.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/infinity.h"
 #include "base/median.h"
