@@ -11,8 +11,8 @@
 #include "base/median.h"
 #include "base/text_fields.h"
 #include "colmap/inconsistent_points.h"
+#include "geometry/fit_point.h"
 #include "plugin/poses/adjustable_scene.h"
-#include "poses/held_out.h"
 
 namespace curvix {
 namespace {

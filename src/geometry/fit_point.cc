@@ -2,9 +2,12 @@
 #include "geometry/fit_point.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/infinity.h"
+#include "base/median.h"
 #include "geometry/lens.h"
 
 namespace curvix {
@@ -63,6 +66,12 @@ Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
     if (!(cost < previous * (1 - kMinGain))) break;
   }
   return best;
+}
+
+bool PointsFit(std::vector<std::vector<double>> errors_by_view) {
+  return std::ranges::all_of(errors_by_view, [](std::vector<double>& of_view) {
+    return MedianOr(kInfinity, std::move(of_view)) < kGoodPoseErrorPx;
+  });
 }
 
 }  // namespace curvix

@@ -21,4 +21,13 @@ struct PointInImage {
 Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
                          const std::vector<PointInImage>& seen);
 
+// Points and edges of exact poses are half as far off; poses that are a quarter
+// of a pixel off make it twice as much.
+inline constexpr double kGoodPoseErrorPx = 0.06;
+
+// Whether poses are good enough, by the reprojection errors of points (pixels)
+// in each view: if the medians of all views are small, the points contradict
+// any other poses. A view without points is not good enough.
+bool PointsFit(std::vector<std::vector<double>> errors_by_view);
+
 }  // namespace curvix

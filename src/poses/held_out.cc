@@ -17,9 +17,6 @@ namespace {
 constexpr double kMaxErrorPx = 1;  // of places
 constexpr double kMaxPointErrorPx = 2;
 constexpr double kMinTruncationPx = 0.3;
-// Edges of exact poses are half as far off; poses a quarter of a pixel off make
-// it twice as much.
-constexpr double kGoodEnoughPx = 0.06;
 constexpr double kNothingFitsPx = 1;
 constexpr double kHarmlessShiftPx = 0.5;
 constexpr double kMaxShiftPerFall = 4;
@@ -128,12 +125,6 @@ bool IsShiftTooLarge(double shift_px, double fall_px) {
   return shift_px > std::max(kHarmlessShiftPx, kMaxShiftPerFall * fall_px);
 }
 
-bool PointsFit(std::vector<std::vector<double>> errors_by_view) {
-  return std::ranges::all_of(errors_by_view, [](auto& of_view) {
-    return MedianOr(kNothingFitsPx, std::move(of_view)) < kGoodEnoughPx;
-  });
-}
-
 bool PointsFit(const PoseObservationSet& held_out,
                const HeldOutErrors& errors,
                std::size_t num_views) {
@@ -153,7 +144,7 @@ bool EdgesFit(const HeldOutErrors& errors) {
   for (const auto& of_place : errors.places) {
     for (const auto& [view_idx, error] : of_place) of_places.push_back(error);
   }
-  return MedianOr(kNothingFitsPx, std::move(of_places)) < kGoodEnoughPx;
+  return MedianOr(kNothingFitsPx, std::move(of_places)) < kGoodPoseErrorPx;
 }
 
 double SignificanceOf(const std::vector<double>& gains) {

@@ -47,10 +47,8 @@ double FallOfErrors(const HeldOutErrors& before, const HeldOutErrors& after);
 // old camera: points, dense models, other images.
 bool IsShiftTooLarge(double shift_px, double fall_px);
 
-// Whether poses are good enough. Points: if their errors (pixels, by view) are
-// small in each of the views, they contradict any other poses. Edges: if the
-// errors of the places are small, there is nothing to find.
-bool PointsFit(std::vector<std::vector<double>> errors_by_view);
+// Whether poses are good enough. Points: see fit_point.h. Edges: if the errors
+// of the places are small, there is nothing to find.
 bool PointsFit(const PoseObservationSet& held_out,
                const HeldOutErrors& errors,
                std::size_t num_views);
