@@ -95,6 +95,7 @@ class [[nodiscard]] Result {
 
 // The same of a Result, whose value `target` gets, which may be declared here:
 // CURVIX_ASSIGN_OR_RETURN(const Scene scene, ReadColmapScene("proj"));
+// Several statements: within an if, it needs braces.
 #define CURVIX_ASSIGN_OR_RETURN(target, ...) \
   CURVIX_ASSIGN_OR_RETURN_IN(__LINE__, target, __VA_ARGS__)
 #define CURVIX_ASSIGN_OR_RETURN_IN(line, target, ...) \

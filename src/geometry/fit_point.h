@@ -21,8 +21,9 @@ struct PointInImage {
 Eigen::Vector3d FitPoint(const Eigen::Vector3d& start,
                          const std::vector<PointInImage>& seen);
 
-// Points and edges of exact poses are half as far off; poses that are a quarter
-// of a pixel off make it twice as much.
+// Poses are good enough if points or edges are this far off (median, pixels).
+// Edges of exact poses are half as far off; poses that are a quarter of a pixel
+// off make it twice as much.
 inline constexpr double kGoodPoseErrorPx = 0.06;
 
 // Whether poses are good enough, by the reprojection errors of points (pixels)

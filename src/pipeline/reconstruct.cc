@@ -196,7 +196,8 @@ void GroupIntoCurves(const std::vector<PosedView>& views,
   run.End(CountsOf(result.curves));
 }
 
-// Beyond the paper, in their place.
+// Beyond the paper, instead of Secs. 5 and 6: curves grow from 3D edges along
+// the contours of the images.
 void GrowIntoCurves(const Scene& scene,
                     const std::vector<PosedView>& views,
                     const std::vector<EdgeMap>& edge_maps,
@@ -226,7 +227,7 @@ void GrowIntoCurves(const Scene& scene,
   run.End(CountsOf(result.curves));
 }
 
-// Secs. 5 and 6, and what follows beyond the paper.
+// Secs. 5 and 6 or growth, and what follows beyond the paper.
 Result<Reconstruction> Connect(const Scene& scene,
                                const std::vector<PosedView>& views,
                                const std::vector<EdgeMap>& edge_maps,

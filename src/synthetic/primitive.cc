@@ -287,7 +287,7 @@ SolidPrimitive Without(SolidPrimitive primitive, double albedo) {
 }
 
 SolidPrimitive Hole(const Vector3d& from, const Vector3d& to, double radius) {
-  const Vector3d beyond = kBeyond * (to - from).normalized();
+  const Vector3d beyond = kCutMargin * (to - from).normalized();
   return Without(Cylinder(from - beyond, to - from + 2 * beyond, radius),
                  kHoleAlbedo);
 }

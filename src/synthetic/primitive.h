@@ -93,7 +93,7 @@ Eigen::AlignedBox3d BoundingBox(const std::vector<SolidPrimitive>& primitives);
 
 // What is taken away reaches this far beyond what it is taken from, so that no
 // two faces coincide by rounding.
-inline constexpr double kBeyond = 0.05;
+inline constexpr double kCutMargin = 0.05;
 inline constexpr double kHoleAlbedo = 0.8;  // as if less light came in
 
 SolidPrimitive Box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);

@@ -112,7 +112,7 @@ void AddBottle(const Vector3d& foot, std::vector<SolidPrimitive>& parts) {
 
 std::vector<SolidPrimitive> Block() {
   return {Box({0, 0, 0}, {1, 0.7, 0.55}),
-          Without(Box({0.55, -kBeyond, 0.25}, {1 + kBeyond, 0.8, 0.8}))};
+          Without(Box({0.55, -kCutMargin, 0.25}, {1 + kCutMargin, 0.8, 0.8}))};
 }
 
 std::vector<SolidPrimitive> UprightCylinder() {

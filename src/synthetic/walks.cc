@@ -85,7 +85,7 @@ void AddBay(int bay_idx, double x, std::vector<SolidPrimitive>& parts) {
 std::vector<SolidPrimitive> Room() {
   const Vector3d size(1, kRoomWidth, kRoomHeight);
   const Vector3d wall = Vector3d::Constant(kWallThickness);
-  const double beyond = kWallThickness + kBeyond;
+  const double beyond = kWallThickness + kCutMargin;
   std::vector<SolidPrimitive> parts = {
       Box(-wall, size + wall),
       Without(Box({0, 0, 0}, size)),
