@@ -31,14 +31,25 @@ std::string ColorText(const Rgb& color) {
   return text += '\n';
 }
 
+// The vertex that is counted last of all that lines name, and a line with it.
+// It may follow that line.
+struct LastVertex {
+  std::int64_t number = 0;
+  std::size_t line = 0;
+};
+
 // Adds the vertices and edges of one line; false if it is broken.
 bool ParseVertex(std::string_view line, LineGraph& graph) {
   WordReader words(line);
-  for (double& x : graph.positions.emplace_back()) x = words.Number<double>();
-  return !words.failed();
+  Eigen::Vector3d& position = graph.positions.emplace_back();
+  for (double& x : position) x = words.Number<double>();
+  return !words.failed() && position.allFinite();
 }
 
-bool ParseLine(std::string_view words, LineGraph& graph) {
+bool ParseLine(std::string_view words,
+               std::size_t line_number,
+               LineGraph& graph,
+               LastVertex& last) {
   const auto size = static_cast<std::int64_t>(graph.positions.size());
   std::optional<std::int64_t> previous;
   while (true) {
@@ -48,6 +59,7 @@ bool ParseLine(std::string_view words, LineGraph& graph) {
         ParseNumber<std::int64_t>(word.substr(0, word.find('/')));
     // Numbers count from 1; negative ones count back from the last vertex.
     if (!number || *number == 0 || *number < -size) return false;
+    if (*number > last.number) last = {*number, line_number};
     const std::int64_t vertex = *number > 0 ? *number - 1 : size + *number;
     if (previous) graph.edges.push_back({*previous, vertex});
     previous = vertex;
@@ -87,6 +99,7 @@ void EncodeObjLines(const CurveSource& curves, const ByteSink& sink) {
 
 Result<CurveSet> DecodeObjLines(std::string_view bytes) {
   LineGraph graph;
+  LastVertex last;
   bool any_line = false;
   bool only_comments = true;
   bytes = WithoutByteOrderMark(bytes);
@@ -100,13 +113,20 @@ Result<CurveSet> DecodeObjLines(std::string_view bytes) {
     if (keyword == "v") understood = ParseVertex(words, graph);
     if (keyword == "l") {
       any_line = true;
-      understood = ParseLine(words, graph);
+      understood = ParseLine(words, number, graph, last);
     }
     if (!understood) return NotUnderstood(number, line);
   }
   if (!any_line && !only_comments) {
     return Status::Unsupported(
         "the OBJ has no line (\"l\"), so it holds no curves");
+  }
+  const std::size_t num_vertices = graph.positions.size();
+  if (last.number > static_cast<std::int64_t>(num_vertices)) {
+    return Status::DataLoss("line " + std::to_string(last.line) +
+                            " names vertex " + std::to_string(last.number) +
+                            ", but the file has " +
+                            std::to_string(num_vertices) + "; it is damaged");
   }
   return JoinPolylines(graph);
 }

@@ -64,8 +64,13 @@ TEST(ObjLines, BrokenFilesAreReportedWithTheirLine) {
   EXPECT_EQ(code("v 0 0 nan\nv 1 0 0\nl 1 2\n"), StatusCode::kDataLoss);
   EXPECT_EQ(code("v 0 0 0\nf 1 1 1\n"), StatusCode::kUnsupported);
   EXPECT_EQ(code("%PDF-1.4\n"), StatusCode::kUnsupported);
-  EXPECT_THAT(DecodeObjLines("v 0 0 0\nl x\n").status().message(),
-              HasSubstr("line 2"));
+  const auto why = [](const char* bytes) {
+    return DecodeObjLines(bytes).status().message();
+  };
+  EXPECT_THAT(why("v 0 0 0\nl x\n"), HasSubstr("line 2"));
+  EXPECT_THAT(why("# two\n\nv 0 0 nan\nl 1 1\n"), HasSubstr("line 3"));
+  EXPECT_THAT(why("l 1 2\nl 1 4\nv 0 0 0\nl 2 3\nv 1 0 0\n"),
+              HasSubstr("line 2 names vertex 4, but the file has 2;"));
 }
 
 }  // namespace
