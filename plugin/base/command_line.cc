@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plugin/base/command_line.h"
 
-#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/program_options.hpp>
 #include <map>
 
 #include "base/file_io.h"
 #include "colmap/project_file.h"
+#include "plugin/base/suggestion.h"
 
 namespace curvix {
 namespace {
@@ -15,7 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 namespace po = boost::program_options;
 
-using Values = std::map<std::string, std::string>;
+// Of the command line, or of a line of the project file.
+struct GivenValue {
+  std::string text;
+  std::size_t line = 0;  // from 1; 0: of the command line
+};
+
+using Values = std::map<std::string, GivenValue>;
 
 std::vector<Flag> AllFlags(const std::vector<FlagSection>& sections) {
   std::vector<Flag> flags;
@@ -38,36 +44,64 @@ po::options_description Describe(const std::vector<Flag>& flags) {
 }
 
 // Options of earlier versions that are constants now, and their values.
-const Values& FormerOptions() {
-  static const Values options = {{"EdgeDetection.border_px", "4"},
-                                 {"EdgeDetection.short_contour_factor", "2"},
-                                 {"CurveGrowth.min_relative_evidence", "0.3"},
-                                 {"CurveGrowth.max_gap_px", "10"},
-                                 {"CurveRefinement.max_junction_gap_px", "1.5"},
-                                 {"CurveFitting.common_error_px", "0.1"}};
+const std::map<std::string, std::string>& FormerOptions() {
+  static const std::map<std::string, std::string> options = {
+      {"EdgeDetection.border_px", "4"},
+      {"EdgeDetection.short_contour_factor", "2"},
+      {"CurveGrowth.min_relative_evidence", "0.3"},
+      {"CurveGrowth.max_gap_px", "10"},
+      {"CurveRefinement.max_junction_gap_px", "1.5"},
+      {"CurveFitting.common_error_px", "0.1"}};
   return options;
 }
+
+// `written`: the name as the user wrote it. `hint`: what to do.
+Status UnknownOption(const std::string& name,
+                     const std::string& written,
+                     const std::string& hint) {
+  const auto former = FormerOptions().find(name);
+  if (former != FormerOptions().end()) {
+    return Status::InvalidArgument(
+        written + " is no longer an option; it is always " + former->second);
+  }
+  return Status::InvalidArgument("There is no option " + written + hint);
+}
+
+constexpr const char* kListsAll = "--help_all lists all options";
 
 Status UnknownFlag(std::string token, const std::vector<Flag>& flags) {
   token = token.substr(0, token.find('='));
   const std::size_t dashes = token.find_first_not_of('-');
   const std::string name =
       dashes == std::string::npos ? token : token.substr(dashes);
-  const auto former = FormerOptions().find(name);
-  if (former != FormerOptions().end()) {
-    return Status::InvalidArgument("'" + token +
-                                   "' is no longer an option; it is always " +
-                                   former->second);
-  }
   std::vector<std::string> names = {"help", "help_all"};
   for (const Flag& flag : flags) names.push_back(flag.name);
-  return Status::InvalidArgument(
-      "There is no option '" + token + "'" +
-      Suggestion(name, names, "--", "--help_all lists all options"));
+  return UnknownOption(
+      name, "'" + token + "'", Suggestion(name, names, "--", kListsAll));
 }
 
-Status GivenTwice(const std::string& name) {
-  return Status::InvalidArgument("The option '--" + name + "' is given twice");
+// As project files have it: "'sigma_px' in [EdgeDetection]".
+std::string KeyText(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) return "'" + name + "'";
+  return "'" + name.substr(dot + 1) + "' in [" + name.substr(0, dot) + "]";
+}
+
+Status UnknownKey(const std::string& name, const std::vector<Flag>& flags) {
+  std::vector<std::string> names;
+  for (const Flag& flag : flags) names.push_back(flag.name);
+  const std::string nearest = NearestName(name, names);
+  return UnknownOption(name,
+                       KeyText(name),
+                       nearest.empty()
+                           ? "; " + std::string(kListsAll)
+                           : "; did you mean " + KeyText(nearest) + "?");
+}
+
+Status InLine(const fs::path& file, std::size_t line, const Status& status) {
+  return {status.code(),
+          file.string() + ", line " + std::to_string(line) + ": " +
+              status.message()};
 }
 
 // What Boost found, as one value per name.
@@ -85,8 +119,9 @@ Result<Values> Collect(const po::parsed_options& parsed,
     if (option.unregistered) return UnknownFlag(token, flags);
     // Only a switch may come without a value.
     const std::string value = option.value.empty() ? "1" : option.value.front();
-    if (!values.emplace(option.string_key, value).second) {
-      return GivenTwice(option.string_key);
+    if (!values.emplace(option.string_key, GivenValue{value}).second) {
+      return Status::InvalidArgument("The option '--" + option.string_key +
+                                     "' is given twice");
     }
   }
   return values;
@@ -114,39 +149,39 @@ bool IsFlag(const std::string& name, const std::vector<Flag>& flags) {
   return std::ranges::find(flags, name, &Flag::name) != flags.end();
 }
 
-// The entries as one value per name, without former options that have their
-// constants and flags of others.
-Result<Values> Collect(std::vector<ProjectEntry> entries,
-                       const std::vector<Flag>& flags,
-                       const std::vector<Flag>& of_others) {
+// One value per name, without former options that have their constants and
+// flags of others.
+Result<Values> ReadProjectFile(const fs::path& path,
+                               const std::vector<Flag>& flags,
+                               const std::vector<Flag>& of_others) {
+  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  const Result<std::vector<ProjectEntry>> entries = ParseProjectFile(text);
+  if (!entries.ok()) {
+    return Status::InvalidArgument(path.string() + ", " +
+                                   entries.status().message());
+  }
   Values values;
-  for (ProjectEntry& entry : entries) {
+  for (const ProjectEntry& entry : *entries) {
     const auto former = FormerOptions().find(entry.name);
     if (former != FormerOptions().end() && entry.value == former->second) {
       continue;
     }
     if (!IsFlag(entry.name, flags)) {
       if (IsFlag(entry.name, of_others)) continue;
-      return UnknownFlag(entry.name, flags);
+      return InLine(path, entry.line, UnknownKey(entry.name, flags));
     }
-    if (!values.emplace(entry.name, std::move(entry.value)).second) {
-      return GivenTwice(entry.name);
+    const auto [given, is_new] =
+        values.emplace(entry.name, GivenValue{entry.value, entry.line});
+    if (!is_new) {
+      return InLine(
+          path,
+          entry.line,
+          Status::InvalidArgument(KeyText(entry.name) +
+                                  " is given twice, first in line " +
+                                  std::to_string(given->second.line)));
     }
   }
   return values;
-}
-
-Result<Values> ReadProjectFile(const fs::path& path,
-                               const std::vector<Flag>& flags,
-                               const std::vector<Flag>& of_others) {
-  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
-  Result<std::vector<ProjectEntry>> entries = ParseProjectFile(text);
-  Result<Values> values = entries.ok()
-                              ? Collect(*std::move(entries), flags, of_others)
-                              : Result<Values>(entries.status());
-  if (values.ok()) return values;
-  return Status::InvalidArgument(values.status().message() + " (in " +
-                                 path.string() + ")");
 }
 
 // The options of a project file win over a preset, so another one would do
@@ -155,13 +190,13 @@ Status CheckPreset(const Values& given, const Values& project) {
   const auto preset = given.find("preset");
   const auto of_project = project.find("preset");
   if (preset == given.end() || of_project == project.end() ||
-      preset->second == of_project->second) {
+      preset->second.text == of_project->second.text) {
     return {};
   }
   return Status::InvalidArgument(
-      "--preset " + preset->second + " would not change the options of " +
-      given.at("project_path") + ", which are those of --preset " +
-      of_project->second + "; leave one of the two out");
+      "--preset " + preset->second.text + " would not change the options of " +
+      given.at("project_path").text + ", which are those of --preset " +
+      of_project->second.text + "; leave one of the two out");
 }
 
 // A workspace that is given wins over that of a project file, whose paths in
@@ -170,13 +205,13 @@ Status CheckPreset(const Values& given, const Values& project) {
 void MoveIntoWorkspace(const fs::path& given, Values* project) {
   const auto workspace = project->find("workspace_path");
   if (workspace == project->end()) return;
-  const fs::path own = fs::path(workspace->second).lexically_normal();
+  const fs::path own = fs::path(workspace->second.text).lexically_normal();
   for (auto& [name, value] : *project) {
     if (!name.ends_with("_path")) continue;
     const fs::path place =
-        fs::path(value).lexically_normal().lexically_relative(own);
+        fs::path(value.text).lexically_normal().lexically_relative(own);
     if (!place.empty() && *place.begin() != "..") {
-      value = (given / place).string();
+      value.text = (given / place).string();
     }
   }
 }
@@ -185,7 +220,11 @@ Status SetFlags(const std::vector<Flag>& flags, const Values& values) {
   for (const Flag& flag : flags) {
     const auto value = values.find(flag.name);
     if (value == values.end()) continue;
-    CURVIX_RETURN_IF_ERROR(flag.set(value->second));
+    const auto& [text, line] = value->second;
+    const Status status = flag.set(text);
+    if (status.ok()) continue;
+    if (line == 0) return status;
+    return InLine(values.at("project_path").text, line, status);
   }
   return {};
 }
@@ -213,58 +252,6 @@ Flag PlainFlag(std::string name,
             *value = text;
             return Status();
           }};
-}
-
-// Levenshtein's distance.
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1] ? 1 : 0);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-// "Section.name" in lower case; "section." and "name" of it.
-struct SplitName {
-  std::string whole, section, field;
-
-  explicit SplitName(const std::string& name)
-      : whole(boost::algorithm::to_lower_copy(name)) {
-    const std::size_t begin = whole.find('.') + 1;
-    section = whole.substr(0, begin);
-    field = whole.substr(begin);
-  }
-};
-
-// The candidate nearest to `name`; "": none is near.
-std::string NearestName(const std::string& name,
-                        const std::vector<std::string>& candidates) {
-  std::string nearest;
-  const SplitName wanted(name);
-  // At most a third of the letters may differ.
-  std::pair<std::size_t, std::size_t> least(
-      std::max<std::size_t>(2, name.size() / 3) + 1, 0);
-  for (const std::string& candidate : candidates) {
-    const SplitName known(candidate);
-    std::size_t distance = std::min(EditDistance(wanted.whole, known.whole),
-                                    EditDistance(wanted.field, known.field));
-    if (wanted.field.size() > 2 && known.field.starts_with(wanted.field)) {
-      distance = std::min<std::size_t>(distance, 1);
-    }
-    const std::pair rating(distance,
-                           EditDistance(wanted.section, known.section));
-    if (rating < least) {
-      least = rating;
-      nearest = candidate;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace
@@ -358,26 +345,17 @@ Result<Request> ParseFlags(const std::vector<std::string>& arguments,
   if (project != values.end()) {
     CURVIX_ASSIGN_OR_RETURN(
         Values more,
-        ReadProjectFile(project->second, flags, AllFlags(of_others)));
+        ReadProjectFile(project->second.text, flags, AllFlags(of_others)));
     CURVIX_RETURN_IF_ERROR(CheckPreset(values, more));
     const auto workspace = values.find("workspace_path");
     if (workspace != values.end()) {
-      MoveIntoWorkspace(workspace->second, &more);
+      MoveIntoWorkspace(workspace->second.text, &more);
     }
     values.merge(more);  // keeps what is there already
   }
   CURVIX_RETURN_IF_ERROR(CheckRequired(flags, values));
   CURVIX_RETURN_IF_ERROR(SetFlags(flags, values));
   return Request::kRun;
-}
-
-std::string Suggestion(const std::string& name,
-                       const std::vector<std::string>& candidates,
-                       const std::string& prefix,
-                       const std::string& otherwise) {
-  const std::string nearest = NearestName(name, candidates);
-  return nearest.empty() ? "; " + otherwise
-                         : "; did you mean '" + prefix + nearest + "'?";
 }
 
 }  // namespace curvix

@@ -82,18 +82,11 @@ enum class Request { kRun, kHelp, kHelpAll };
 // over. Flags are set in the order of `sections`, whatever the order of the
 // arguments: a preset comes before what may change it. kHelp or kHelpAll, with
 // nothing set, if -h, --help or --help_all is among the arguments. Errors name
-// the flag, and for an unknown one the nearest that exists: kInvalidArgument,
-// and kNotFound for a project file that is not there.
+// the flag, or the line and key of the project file, and for an unknown one the
+// nearest that exists: kInvalidArgument, and kNotFound for a project file that
+// is not there.
 Result<Request> ParseFlags(const std::vector<std::string>& arguments,
                            const std::vector<FlagSection>& sections,
                            const std::vector<FlagSection>& of_others = {});
-
-// "; did you mean '<prefix><the candidate nearest to `name`>'?", or "; " and
-// `otherwise` if none is near. Case does not count, and the section only
-// between names that are as near: "sigma" is near to "EdgeDetection.sigma_px".
-std::string Suggestion(const std::string& name,
-                       const std::vector<std::string>& candidates,
-                       const std::string& prefix,
-                       const std::string& otherwise);
 
 }  // namespace curvix

@@ -8,6 +8,7 @@
 #include "base/file_io.h"
 #include "colmap/files.h"
 #include "colmap/project_file.h"
+#include "plugin/base/suggestion.h"
 #include "plugin/base/text.h"
 #include "plugin/commands/help_text.h"
 

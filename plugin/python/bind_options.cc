@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/option_table.h"
+#include "plugin/base/suggestion.h"
 #include "plugin/commands/commands.h"
 #include "plugin/python/bindings.h"
 #include "plugin/python/python_errors.h"

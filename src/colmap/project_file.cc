@@ -24,8 +24,9 @@ Result<std::vector<ProjectEntry>> ParseProjectFile(std::string_view text) {
                                      std::to_string(lines.line_number()) +
                                      " is neither name=value nor [Section]");
     }
-    entries.push_back(
-        {section + name, std::string(Trimmed(line.substr(equals + 1)))});
+    entries.push_back({section + name,
+                       std::string(Trimmed(line.substr(equals + 1))),
+                       lines.line_number()});
   }
   return entries;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/status.h>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@ namespace curvix {
 struct ProjectEntry {
   std::string name;  // "Section.name", or "name" before the first section
   std::string value;
+  std::size_t line;  // from 1
 };
 
 // The lines `name = value` and `[Section]` of `text`, in order. Lines that
