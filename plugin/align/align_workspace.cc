@@ -81,7 +81,7 @@ class Aligner {
 };
 
 Status Aligner::ReadScene() {
-  CURVIX_ASSIGN_OR_RETURN(workspace_, FindInput(settings_.run));
+  CURVIX_ASSIGN_OR_RETURN(workspace_, FindInputOfResults(settings_.run));
   CURVIX_ASSIGN_OR_RETURN(scene_, ReadRefinedScene(workspace_, progress_));
   if (settings_.distances.empty() && settings_.axes == "none") return {};
   CURVIX_ASSIGN_OR_RETURN(structures_, ReadStructures(workspace_.output_path));

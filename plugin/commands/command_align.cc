@@ -104,7 +104,8 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
 // The run that wrote the results, once more, by the command that project.ini
 // names and with the paths that are given: it goes on from its stages.
 ExitCode WriteResultsAgain(const AlignSettings& settings,
-                           const fs::path& folder) {
+                           const Workspace& workspace) {
+  const fs::path& folder = workspace.output_path;
   if (!fs::exists(folder / "project.ini")) {
     std::cout << (fs::exists(folder / "report.json")
                       ? "Repeat the 'colmap_curvix import' that wrote the "
@@ -118,7 +119,7 @@ ExitCode WriteResultsAgain(const AlignSettings& settings,
        {std::pair("--project_path", folder / "project.ini"),
         {"--workspace_path", settings.run.workspace_path},
         {"--input_path", settings.run.input_path},
-        {"--image_path", settings.run.image_path},
+        {"--image_path", workspace.image_path},
         {"--mask_path", settings.run.mask_path},
         {"--output_path", folder}}) {
     if (!path.empty()) again.insert(again.end(), {name, path.string()});
@@ -166,7 +167,7 @@ Result<ExitCode> RunAlign(const Arguments& arguments) {
   const Status valid = Check(settings);
   if (!valid.ok()) return Fail(valid, kExitCommandLine);
   CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, CatchFileErrors([&] {
-                            return FindInput(settings.run);
+                            return FindInputOfResults(settings.run);
                           }));
   const fs::path path = workspace.output_path / kAlignmentName;
   std::optional<std::string> older;
@@ -181,7 +182,7 @@ Result<ExitCode> RunAlign(const Arguments& arguments) {
   std::cout << text << std::flush;
   if (!write_results) return kExitSuccess;
   AlignmentGuard guard{path, std::move(older)};
-  const ExitCode written = WriteResultsAgain(settings, workspace.output_path);
+  const ExitCode written = WriteResultsAgain(settings, workspace);
   guard.is_kept = written == kExitSuccess;
   return written;
 }

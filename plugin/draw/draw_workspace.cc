@@ -117,7 +117,7 @@ class Drafter {
 };
 
 Status Drafter::Read() {
-  CURVIX_ASSIGN_OR_RETURN(workspace_, FindInput(settings_.run));
+  CURVIX_ASSIGN_OR_RETURN(workspace_, FindInputOfResults(settings_.run));
   CURVIX_ASSIGN_OR_RETURN(
       curves_, ReadCurvesFile(workspace_.output_path, NeedsSamples()));
   CURVIX_ASSIGN_OR_RETURN(scene_, ReadRefinedScene(workspace_, progress_));

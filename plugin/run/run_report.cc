@@ -10,6 +10,7 @@
 #include "base/file_io.h"
 #include "base/option_table.h"
 #include "base/text_fields.h"
+#include "colmap/files.h"
 #include "plugin/base/json.h"
 #include "plugin/base/text.h"
 #include "plugin/export/alignment_file.h"
@@ -17,6 +18,8 @@
 
 namespace curvix {
 namespace {
+
+namespace fs = std::filesystem;
 
 // A row's value with its own type.
 Json ValueJson(const OptionRow& row) {
@@ -47,6 +50,7 @@ Json InputJson(const RunRecord& record) {
   const InputSummary& input = record.input;
   const RunSettings& settings = record.settings;
   Json json;
+  json["workspace_path"] = settings.workspace_path.string();
   json["model_path"] = input.model_path.string();
   json["image_path"] = settings.image_path.string();
   if (!settings.mask_path.empty()) {
@@ -253,17 +257,27 @@ std::string EdgeSigmaText(const RunRecord& record) {
          (sigma_px > least_px ? "" : "; the lower limit") + ")\n";
 }
 
+// Of the run before; no object if there is none.
+Json ReadReport(const fs::path& folder) {
+  const Result<std::string> text = ReadFile(folder / "report.json");
+  return text.ok() ? Json::parse(*text, nullptr, false) : Json();
+}
+
+// "" if it is not in the report.
+fs::path PathIn(const Json& report, const std::string& pointer) {
+  const Json::json_pointer place(pointer);
+  if (!report.contains(place) || !report.at(place).is_string()) return {};
+  return report.at(place).get<std::string>();
+}
+
 }  // namespace
 
 std::string_view ProgramVersion() { return CURVIX_VERSION; }
 
-std::vector<std::filesystem::path> FilesOfEarlierRun(
-    const std::filesystem::path& folder) {
-  const Result<std::string> text = ReadFile(folder / "report.json");
-  if (!text.ok()) return {};
-  const Json report = Json::parse(*text, nullptr, false);
+std::vector<fs::path> FilesOfEarlierRun(const fs::path& folder) {
+  const Json report = ReadReport(folder);
   const Json::json_pointer pointer("/result/files");
-  std::vector<std::filesystem::path> files;
+  std::vector<fs::path> files;
   if (!report.is_object() || !report.contains(pointer)) return files;
   for (const Json& file : report.at(pointer)) {
     // Nothing but what runs write.
@@ -272,6 +286,22 @@ std::vector<std::filesystem::path> FilesOfEarlierRun(
     }
   }
   return files;
+}
+
+fs::path ImagesOfEarlierRun(const fs::path& folder,
+                            const fs::path& workspace_path) {
+  const Json report = ReadReport(folder);
+  const fs::path recorded = PathIn(report, "/input/image_path");
+  const fs::path own = PathIn(report, "/input/workspace_path");
+  if (!recorded.empty() && !own.empty()) {
+    const fs::path normal = recorded.lexically_normal();
+    const fs::path from_own = normal.lexically_relative(own.lexically_normal());
+    const fs::path moved =
+        (fs::absolute(workspace_path) / from_own).lexically_normal();
+    // What has not moved keeps its spelling, by which stages know it.
+    if (moved != normal && IsFolder(moved)) return moved;
+  }
+  return IsFolder(recorded) ? recorded : fs::path();
 }
 
 void Count(const Curve& curve, ResultSummary& result) {

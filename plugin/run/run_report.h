@@ -78,6 +78,12 @@ struct RunRecord {
 std::vector<std::filesystem::path> FilesOfEarlierRun(
     const std::filesystem::path& folder);
 
+// The folder of the images of that run, by the same report: where it was from
+// the workspace, which may have moved, else where it was. "": there is none.
+std::filesystem::path ImagesOfEarlierRun(
+    const std::filesystem::path& folder,
+    const std::filesystem::path& workspace_path);
+
 // Counts a curve in `result`, and adds its length.
 void Count(const Curve& curve, ResultSummary& result);
 

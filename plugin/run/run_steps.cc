@@ -117,6 +117,16 @@ Result<Workspace> FindInput(const RunSettings& settings) {
   return workspace;
 }
 
+Result<Workspace> FindInputOfResults(RunSettings settings) {
+  if (settings.image_path.empty()) {
+    CURVIX_ASSIGN_OR_RETURN(const Workspace found,
+                            FindModelAndResults(settings));
+    settings.image_path =
+        ImagesOfEarlierRun(found.output_path, settings.workspace_path);
+  }
+  return FindInput(settings);
+}
+
 Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {
   const fs::path refined = workspace.output_path / "sparse";
   if (fs::exists(refined)) workspace.model_path = refined;

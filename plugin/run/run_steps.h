@@ -24,6 +24,10 @@ namespace curvix {
 // results would lie among the inputs or behind a link (CheckOutputLinks).
 Result<Workspace> FindInput(const RunSettings& settings);
 
+// The same for what goes on from the results of an earlier run: unless
+// `settings` name the images, they are those of that run, if they are there.
+Result<Workspace> FindInputOfResults(RunSettings settings);
+
 // The scene of the workspace, with the model of refined poses that an earlier
 // run has left beside its results, if there is one. Errors of
 // LoadWorkspaceScene.

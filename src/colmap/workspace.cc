@@ -192,24 +192,20 @@ fs::path ImagePathOfProject(const fs::path& model) {
 
 std::vector<fs::path> ImageCandidates(const ModelPlace& place) {
   std::vector<fs::path> places;
-  const fs::path common = place.workspace / "images";
+  const auto add = [&](const fs::path& path) {
+    if (std::ranges::find(places, path) == places.end()) places.push_back(path);
+  };
   const bool below = place.inside && !place.root.empty() &&
                      IsInside(place.root, place.workspace) &&
                      place.root != place.workspace;
-  if (!below) places.push_back(common);
-  if (!place.root.empty()) places.push_back(place.root / "images");
+  if (!below) add(place.workspace / "images");
+  if (!place.root.empty()) add(place.root / "images");
   const fs::path project = ImagePathOfProject(place.model);
   if (!project.empty()) {
-    places.push_back(fs::absolute(project));
-    places.push_back(place.workspace / project);
+    add(fs::absolute(project));
+    add(place.workspace / project);
   }
-  std::vector<fs::path> unique;
-  for (const fs::path& path : places) {
-    if (std::ranges::find(unique, path) == unique.end()) {
-      unique.push_back(path);
-    }
-  }
-  return unique;
+  return places;
 }
 
 Status FindImages(const WorkspacePaths& paths, Workspace* found) {
@@ -318,7 +314,7 @@ Status TooFewViews(const Workspace& workspace,
 
 }  // namespace
 
-Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
+Result<Workspace> FindModelAndResults(const WorkspacePaths& paths) {
   if (paths.workspace_path.empty()) {
     return Status::InvalidArgument(
         "The option --workspace_path is required but missing.");
@@ -331,11 +327,16 @@ Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
   }
   Workspace found;
   CURVIX_RETURN_IF_ERROR(FindModel(paths, &found));
-  CURVIX_RETURN_IF_ERROR(FindImages(paths, &found));
-  CURVIX_RETURN_IF_ERROR(FindMasks(paths, &found));
   found.output_path = paths.output_path.empty()
                           ? ResultFolders(paths, found.model_path).front()
                           : paths.output_path;
+  return found;
+}
+
+Result<Workspace> FindWorkspace(const WorkspacePaths& paths) {
+  CURVIX_ASSIGN_OR_RETURN(Workspace found, FindModelAndResults(paths));
+  CURVIX_RETURN_IF_ERROR(FindImages(paths, &found));
+  CURVIX_RETURN_IF_ERROR(FindMasks(paths, &found));
   return found;
 }
 

@@ -56,6 +56,9 @@ struct Workspace {
 // the places that were tried, if a folder is not there.
 Result<Workspace> FindWorkspace(const WorkspacePaths& paths);
 
+// The same without images and masks, which need not be there.
+Result<Workspace> FindModelAndResults(const WorkspacePaths& paths);
+
 // To be asked before anything is written to `found`, the workspace of `paths`:
 // kInvalidArgument if the folder of the results was not given and it, or the
 // curvix/ that it is in, is a link.

@@ -114,6 +114,53 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8) {
   EXPECT_TRUE(json::accept(ReportJson(record)));
 }
 
+// Results, and images beside their workspace or wherever `image_path` is.
+class EarlierImages : public testing::Test {
+ protected:
+  EarlierImages() {
+    for (const char* name : {"old/photos", "new/photos", "new/in/images"}) {
+      std::filesystem::create_directories(At(name));
+    }
+  }
+  std::filesystem::path At(const std::string& name) const {
+    return folder_.path() / name;
+  }
+  // By a report of a run with these paths, for the workspace new/in.
+  std::filesystem::path Found(const json& input) const {
+    folder_.Write("report.json", json{{"input", input}}.dump());
+    return ImagesOfEarlierRun(folder_.path(), At("new/in"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(EarlierImages, MoveWithTheirWorkspaceOrStay) {
+  const auto found = [&](const std::string& images, const std::string& own) {
+    return Found({{"image_path", images}, {"workspace_path", own}});
+  };
+  const std::string photos = At("old/photos").string();
+  EXPECT_EQ(found(photos, At("old/in")), At("new/photos"));
+  EXPECT_EQ(found("/gone/in/images", "/gone/x/../in/."), At("new/in/images"));
+  EXPECT_EQ(found(photos, "/gone/in"), photos);
+  EXPECT_EQ(found("/gone/photos", "/gone/a/in"), "");
+  // As it was written, if nothing has moved.
+  const std::string written = At("new/in/../photos/").string();
+  EXPECT_EQ(found(written, At("new/in")), written);
+}
+
+TEST_F(EarlierImages, AreNotThereWithoutAWholeReport) {
+  const std::string photos = At("old/photos").string();
+  EXPECT_EQ(Found({{"image_path", photos}}), photos);
+  EXPECT_EQ(Found({{"image_path", 3}}), "");
+  EXPECT_EQ(Found({{"image_path", ""}, {"workspace_path", At("old").string()}}),
+            "");
+  EXPECT_EQ(Found({{"workspace_path", At("old").string()}}), "");
+  EXPECT_EQ(Found({}), "");
+  folder_.Write("report.json", "[");
+  EXPECT_EQ(ImagesOfEarlierRun(folder_.path(), At("new/in")), "");
+  EXPECT_EQ(ImagesOfEarlierRun(At("new"), At("new/in")), "");
+}
+
 TEST(ProjectFile, ReadsBackAsTheSameSettings) {
   RunSettings written = Example().settings;
   written.preset = "paper";
