@@ -55,6 +55,8 @@ class Aligner {
       : settings_(settings), progress_(progress) {}
 
   Result<std::string> Run();
+  // On the input.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   Status ReadScene();
@@ -73,6 +75,7 @@ class Aligner {
   RunProgress& progress_;
   Workspace workspace_;
   Scene scene_;
+  std::vector<std::string> notes_;
   KnownStructures structures_;
   AlignmentInput input_;
   std::vector<FoundMarker> markers_;
@@ -82,7 +85,9 @@ class Aligner {
 
 Status Aligner::ReadScene() {
   CURVIX_ASSIGN_OR_RETURN(workspace_, FindInputOfResults(settings_.run));
-  CURVIX_ASSIGN_OR_RETURN(scene_, ReadRefinedScene(workspace_, progress_));
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input, ReadRefinedScene(workspace_));
+  scene_ = std::move(input.scene);
+  notes_ = std::move(input.notes);
   if (settings_.distances.empty() && settings_.axes == "none") return {};
   CURVIX_ASSIGN_OR_RETURN(structures_, ReadStructures(workspace_.output_path));
   if (structures_.is_aligned) WarnOfCoordinates();
@@ -357,7 +362,12 @@ Status Check(const AlignSettings& s) {
 
 Result<std::string> AlignWorkspace(const AlignSettings& settings,
                                    RunProgress& progress) {
-  return Aligner(settings, progress).Run();
+  Aligner aligner(settings, progress);
+  Result<std::string> text = aligner.Run();
+  if (!text.ok() || !settings.run_follows) {
+    for (const std::string& note : aligner.notes()) progress.Note(note);
+  }
+  return text;
 }
 
 }  // namespace curvix

@@ -21,6 +21,8 @@ struct AlignSettings {
   std::string axes = "none";  // or "auto"
   std::string up;             // x,y,z in the frame of curves.json; "": cameras'
   std::string unit = "none";
+  // The run is repeated once this has worked, and tells the notes on the input.
+  bool run_follows = false;
 };
 
 // kInvalidArgument: settings that cannot work, whatever the results.

@@ -106,7 +106,7 @@ std::vector<FlagSection> Sections(AlignSettings* s, bool* write_results) {
 ExitCode WriteResultsAgain(const AlignSettings& settings,
                            const Workspace& workspace) {
   const fs::path& folder = workspace.output_path;
-  if (!fs::exists(folder / "project.ini")) {
+  if (!settings.run_follows) {
     std::cout << (fs::exists(folder / "report.json")
                       ? "Repeat the 'colmap_curvix import' that wrote the "
                         "results: it uses it.\n"
@@ -175,6 +175,8 @@ Result<ExitCode> RunAlign(const Arguments& arguments) {
   if (fs::exists(path, error)) {
     CURVIX_ASSIGN_OR_RETURN(older, ReadFile(path));
   }
+  settings.run_follows =
+      write_results && fs::exists(workspace.output_path / "project.ini", error);
   CURVIX_ASSIGN_OR_RETURN(const std::string text,
                           WithProgress([&](RunProgress& progress) {
                             return AlignWorkspace(settings, progress);

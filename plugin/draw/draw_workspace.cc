@@ -120,7 +120,9 @@ Status Drafter::Read() {
   CURVIX_ASSIGN_OR_RETURN(workspace_, FindInputOfResults(settings_.run));
   CURVIX_ASSIGN_OR_RETURN(
       curves_, ReadCurvesFile(workspace_.output_path, NeedsSamples()));
-  CURVIX_ASSIGN_OR_RETURN(scene_, ReadRefinedScene(workspace_, progress_));
+  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input, ReadRefinedScene(workspace_));
+  for (const std::string& note : input.notes) progress_.Note(note);
+  scene_ = std::move(input.scene);
   if (curves_.alignment) {
     scene_ = MoveScene(curves_.alignment->world_from_model, std::move(scene_));
   }

@@ -127,12 +127,10 @@ Result<Workspace> FindInputOfResults(RunSettings settings) {
   return FindInput(settings);
 }
 
-Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress) {
+Result<WorkspaceScene> ReadRefinedScene(Workspace workspace) {
   const fs::path refined = workspace.output_path / "sparse";
   if (fs::exists(refined)) workspace.model_path = refined;
-  CURVIX_ASSIGN_OR_RETURN(WorkspaceScene input, LoadWorkspaceScene(workspace));
-  for (const std::string& note : input.notes) progress.Note(note);
-  return std::move(input.scene);
+  return LoadWorkspaceScene(workspace);
 }
 
 Result<WorkspaceScene> ReadInput(const Workspace& workspace,

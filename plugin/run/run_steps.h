@@ -31,7 +31,7 @@ Result<Workspace> FindInputOfResults(RunSettings settings);
 // The scene of the workspace, with the model of refined poses that an earlier
 // run has left beside its results, if there is one. Errors of
 // LoadWorkspaceScene.
-Result<Scene> ReadRefinedScene(Workspace workspace, RunProgress& progress);
+Result<WorkspaceScene> ReadRefinedScene(Workspace workspace);
 
 // Reads the model of `workspace`, and alignment.json if the folder of results
 // has one; puts into `record` which folders and what they hold. Errors of

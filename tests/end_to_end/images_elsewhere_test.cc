@@ -63,5 +63,20 @@ TEST_F(ImagesElsewhere, AreLookedForAsBeforeOnceTheyAreGone) {
   ExpectThatAllGoesOn(" --workspace_path " + Quoted(workspace_));
 }
 
+using MissingImages = BlockTest;
+
+TEST_F(MissingImages, AreToldOnce) {
+  fs::remove(workspace_ / "images/view_003.png");
+  const std::string note = "1 of 12 images is not in";
+  for (const char* words : {"align --axes auto",
+                            "align --axes auto --write_results 0",
+                            "align --distance 0 100000 1",
+                            "draw"}) {
+    const std::string output = Run(words).output;
+    EXPECT_THAT(output, HasSubstr(note)) << words;
+    EXPECT_EQ(output.find(note), output.rfind(note)) << words << output;
+  }
+}
+
 }  // namespace
 }  // namespace curvix
