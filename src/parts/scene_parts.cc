@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -217,25 +218,35 @@ TracedCurve TraceCurve(Curve curve, const std::vector<EdgeMap>& edge_maps) {
 
 }  // namespace
 
-std::optional<ScenePartition> PartitionViews(const Places& places,
-                                             double overlap,
-                                             int max_views_per_part) {
+Result<ScenePartition> PartitionViews(const Places& places,
+                                      double overlap,
+                                      int max_views_per_part) {
   const Partitioner partitioner(places, overlap);
+  const int num_views = static_cast<int>(places.size());
+  int fewest_views = num_views;  // that would do
   const auto divide = [&](int num_parts) {
     auto partition = partitioner.Divide(num_parts);
-    if (partition && LargestPart(*partition) > max_views_per_part) {
-      partition.reset();
-    }
+    if (!partition) return partition;
+    const int largest = LargestPart(*partition);
+    fewest_views = std::min(fewest_views, largest);
+    if (largest > max_views_per_part) partition.reset();
     return partition;
   };
   // Doubling, then halving: few attempts for any number of parts.
-  const int num_views = static_cast<int>(places.size());
   const int most = std::max(1, num_views / kMinOwnViews);
   int too_few = 0;
   int enough = 1;
   std::optional<ScenePartition> best;
   while (!(best = divide(enough))) {
-    if (enough == most) return std::nullopt;
+    if (enough == most) {
+      return Status::InvalidArgument(
+          "the " + Plural(num_views, "view") +
+          " cannot be divided into parts of at most " +
+          Plural(max_views_per_part, "view") +
+          ", because each also needs the views that overlap it; "
+          "--max_views_per_part must be at least " +
+          std::to_string(fewest_views));
+    }
     too_few = enough;
     enough = std::min(2 * enough, most);
   }
@@ -248,7 +259,7 @@ std::optional<ScenePartition> PartitionViews(const Places& places,
       too_few = middle;
     }
   }
-  return best;
+  return *std::move(best);
 }
 
 int OwnerOf(const ScenePartition& partition, const Eigen::Vector3d& position) {
@@ -298,14 +309,8 @@ Result<ScenePartition> PartitionScene(const Scene& scene,
   CURVIX_RETURN_IF_ERROR(CheckScene(scene));
   const std::vector<PosedView> views = MakePosedViews(scene);
   const auto places = FindPlaces(views, scene.points);
-  std::optional<ScenePartition> partition = PartitionViews(
+  return PartitionViews(
       places, kOverlapPx * TypicalPixel(views, places), max_views_per_part);
-  if (partition) return *std::move(partition);
-  return Status::InvalidArgument("the " + Plural(views.size(), "view") +
-                                 " cannot be divided into parts of at most " +
-                                 Plural(max_views_per_part, "view") +
-                                 ", because each also needs the views that "
-                                 "overlap it; allow more views per part");
 }
 
 PartResult TakePart(const ScenePartition& partition,

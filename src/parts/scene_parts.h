@@ -16,7 +16,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace curvix {
@@ -49,7 +48,8 @@ struct ScenePartition {
 // views with at least one place in twenty in its core or within twice the
 // overlap around it. The overlap is 25 pixels at the depth of a typical view.
 // O(n log n) for n views with points. kInvalidArgument if the scene is none, or
-// if so few views are too few to divide it, as where all views see the same.
+// if so few views are too few to divide it, as where all views see the same:
+// then with the fewest that would do.
 Result<ScenePartition> PartitionScene(const Scene& scene,
                                       int max_views_per_part);
 
@@ -88,8 +88,8 @@ class PartResults {
 // The steps of the above.
 
 // A partition as PartitionScene describes it. `places` of each view, at least
-// one. nullopt: impossible with so few views in a part.
-std::optional<ScenePartition> PartitionViews(
+// one. kInvalidArgument as there.
+Result<ScenePartition> PartitionViews(
     const std::vector<std::vector<Eigen::Vector3d>>& places,
     double overlap,
     int max_views_per_part);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace curvix {
@@ -29,7 +30,7 @@ Places Street(int num_views) {
 
 TEST(PartitionViews, IsOnePartIfAllViewsFit) {
   const auto partition = PartitionViews(Street(10), kOverlap, 10);
-  ASSERT_TRUE(partition.has_value());
+  ASSERT_TRUE(partition.ok());
   ASSERT_EQ(partition->parts.size(), 1u);
   EXPECT_TRUE(partition->cuts.empty());
   EXPECT_EQ(partition->parts[0].view_idxs.size(), 10u);
@@ -40,7 +41,7 @@ TEST(PartitionViews, IsOnePartIfAllViewsFit) {
 TEST(PartitionViews, GivesEachViewToOnePartInBalance) {
   for (const int num_views : {30, 61, 200}) {
     const auto partition = PartitionViews(Street(num_views), kOverlap, 24);
-    ASSERT_TRUE(partition.has_value()) << num_views;
+    ASSERT_TRUE(partition.ok()) << num_views;
     std::vector<int> num_owners(static_cast<std::size_t>(num_views), 0);
     std::size_t least = 1000, most = 0;
     for (const ScenePart& part : partition->parts) {
@@ -64,13 +65,13 @@ TEST(PartitionViews, DividesTheOthersBesideAViewThatIsFarOff) {
   Places places = Street(60);
   for (Eigen::Vector3d& place : places[30]) place.z() += 500;
   const auto partition = PartitionViews(places, kOverlap, 24);
-  ASSERT_TRUE(partition.has_value());
+  ASSERT_TRUE(partition.ok());
   EXPECT_LE(partition->parts.size(), 5u);
 }
 
 TEST(PartitionViews, GivesEachPlaceToOneCore) {
   const auto partition = PartitionViews(Street(100), kOverlap, 24);
-  ASSERT_TRUE(partition.has_value());
+  ASSERT_TRUE(partition.ok());
   const auto cores = CoresOf(*partition);
   ASSERT_GT(cores.size(), 3u);
   for (int i = 0; i < 1000; ++i) {
@@ -88,7 +89,7 @@ TEST(PartitionViews, GivesEachPlaceToOneCore) {
 TEST(PartitionViews, GivesAPartAllViewsThatSeeItsSurroundings) {
   const Places places = Street(100);
   const auto partition = PartitionViews(places, kOverlap, 24);
-  ASSERT_TRUE(partition.has_value());
+  ASSERT_TRUE(partition.ok());
   const auto cores = CoresOf(*partition);
   for (std::size_t k = 0; k < cores.size(); ++k) {
     for (int i = 0; i < 100; ++i) {
@@ -110,9 +111,9 @@ TEST(PartitionViews, GivesNoPartFewerThanThreeViewsOfItsOwn) {
     far_apart[i].emplace_back(100.0 * static_cast<double>(i * i), 0, 0);
   }
   const auto partition = PartitionViews(far_apart, kOverlap, 4);
-  ASSERT_TRUE(partition.has_value());
+  ASSERT_TRUE(partition.ok());
   EXPECT_EQ(partition->parts.size(), 2u);
-  EXPECT_FALSE(PartitionViews(far_apart, kOverlap, 3).has_value());
+  EXPECT_FALSE(PartitionViews(far_apart, kOverlap, 3).ok());
   // Three are found, between two, which are too few, and four, too many.
   far_apart.resize(9);
   far_apart.back().emplace_back(1e5, 0, 0);
@@ -126,8 +127,21 @@ TEST(PartitionViews, CannotDivideViewsOfOnePlace) {
       places.emplace_back(std::cos(k), std::sin(k), 0.1 * k);
     }
   }
-  EXPECT_FALSE(PartitionViews(ring, kOverlap, 49).has_value());
-  EXPECT_TRUE(PartitionViews(ring, kOverlap, 50).has_value());
+  EXPECT_FALSE(PartitionViews(ring, kOverlap, 49).ok());
+  EXPECT_TRUE(PartitionViews(ring, kOverlap, 50).ok());
+}
+
+TEST(PartitionViews, SaysHowManyViewsWouldDo) {
+  for (const int num_views : {20, 40, 90}) {
+    const Status status =
+        PartitionViews(Street(num_views), kOverlap, 3).status();
+    EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
+    const std::string& why = status.message();
+    const int fewest = std::stoi(why.substr(why.rfind(' ')));
+    EXPECT_LT(fewest, num_views);
+    EXPECT_TRUE(PartitionViews(Street(num_views), kOverlap, fewest).ok());
+    EXPECT_FALSE(PartitionViews(Street(num_views), kOverlap, fewest - 1).ok());
+  }
 }
 
 }  // namespace
