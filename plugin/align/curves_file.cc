@@ -157,7 +157,7 @@ Result<CurvesFile> ReadCurvesFile(const fs::path& folder, bool with_samples) {
   std::ifstream file(path);
   if (!file) {
     return Status::NotFound(
-        "there is no " + path.string() +
+        "There is no " + path.string() +
         ", which has the nodes and lines; run 'colmap_curvix reconstruct' "
         "first, with json among its --output_formats");
   }

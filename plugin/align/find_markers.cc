@@ -346,7 +346,7 @@ Result<FoundMarkers> FindMarkers(const Scene& scene,
   }
   if (found.markers.empty()) {
     return Status::NotFound(
-        "no marker of " + dictionary + " is seen by " +
+        "No marker of " + dictionary + " is seen by " +
         std::to_string(kMinViews) + " images or more" +
         (found.notes.empty() ? "" : " (" + found.notes[0] + ")") +
         "; check the dictionary that --markers names");

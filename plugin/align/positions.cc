@@ -190,8 +190,8 @@ Result<CameraPositions> ReadPositions(const std::filesystem::path& path,
   CURVIX_ASSIGN_OR_RETURN(std::string file, ReadFile(path));
   LineReader reader(file);
   const auto broken = [&](const std::string& why) {
-    return Status::DataLoss("line " + std::to_string(reader.line_number()) +
-                            " of " + path.string() + " " + why);
+    return Status::DataLoss(path.string() + ", line " +
+                            std::to_string(reader.line_number()) + " " + why);
   };
   const Centers centers = CentersOf(scene);
   CameraPositions result;

@@ -56,7 +56,7 @@ void RemoveEmptyFolders(fs::path path, const fs::path& first_created) {
 Status CannotWrite(const fs::path& path,
                    const std::string& reason,
                    const std::string& flag = "--output_path") {
-  return Status::NotFound("cannot write to " + path.string() + " (" + reason +
+  return Status::NotFound("Cannot write to " + path.string() + " (" + reason +
                           "); choose another folder with " + flag);
 }
 
@@ -161,7 +161,7 @@ Result<StagedOutput> StagedOutput::Create(const fs::path& output_path,
   std::optional<FolderLock> lock = FolderLock::Take(output);
   if (!lock) {
     return Status::InvalidArgument(
-        "another run is writing to " + output.string() +
+        "Another run is writing to " + output.string() +
         "; wait for its end, or choose another folder with " + flag);
   }
   StagedOutput staged(output, first_created, *std::move(lock));

@@ -53,7 +53,7 @@ Flag MarkersFlag(AlignSettings* settings) {
   if (!flag.range.empty()) return flag;
   flag.set = [](const std::string&) {
     return Status::InvalidArgument(
-        "this program was built without OpenCV's aruco module, so that it "
+        "This program was built without OpenCV's aruco module, so that it "
         "finds no markers");
   };
   return flag;

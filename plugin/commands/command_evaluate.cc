@@ -122,7 +122,7 @@ Result<ExitCode> RunEvaluate(const Arguments& arguments) {
   const bool has_curves = has_workspace || !settings.curves_path.empty();
   if (has_truth == holds_out || !(has_truth ? has_curves : has_workspace)) {
     return Fail(Status::InvalidArgument(
-                    "give either --curves_path and --truth_path, or "
+                    "Give either --curves_path and --truth_path, or "
                     "--workspace_path with --truth_path or --holdout_every"),
                 kExitCommandLine);
   }

@@ -159,7 +159,7 @@ Status CheckOutput(const ImportSettings& settings,
   const bool is_file = std::filesystem::is_regular_file(input, error);
   if (input != output && !(is_file && input.parent_path() == output)) return {};
   return Status::InvalidArgument(
-      "the results would be written among the lines in " + output.string() +
+      "The results would be written among the lines in " + output.string() +
       "; choose another folder with --output_path");
 }
 

@@ -103,7 +103,7 @@ Status WriteModel(const CurveRecord& record, const fs::path& path) {
   CURVIX_RETURN_IF_ERROR(record.curves.status());
   if (!has_edges) {
     return Status::InvalidArgument(
-        "the 2D edges behind the curves are not known, so that a COLMAP model "
+        "The 2D edges behind the curves are not known, so that a COLMAP model "
         "of them would have no points; write it from the run that makes the "
         "curves, since curves that were read from a file have none");
   }

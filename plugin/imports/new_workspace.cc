@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Status CannotWrite(const fs::path& path, const std::error_code& error) {
-  return Status::InvalidArgument("cannot write " + path.string() + " (" +
+  return Status::InvalidArgument("Cannot write " + path.string() + " (" +
                                  error.message() + ").");
 }
 

@@ -318,7 +318,7 @@ Result<LineCurves> CurvesOfLines(const std::vector<ImportedLine>& lines,
       [&](const ImportedLine& line) { return IsSeenBySome(line, scene); }));
   if (result.num_seen == 0) {
     return Status::InvalidArgument(
-        "no image of the model sees any of the lines: they are of another "
+        "No image of the model sees any of the lines: they are of another "
         "world; name the workspace that they were made of with "
         "--workspace_path");
   }

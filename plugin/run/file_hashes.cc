@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 Status AddFile(const fs::path& path, std::uint64_t& hash) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    return Status::NotFound("cannot open " + path.string() +
+    return Status::NotFound("Cannot open " + path.string() +
                             "; check that it may be read");
   }
   constexpr std::size_t kBlock = 1 << 20;
@@ -31,7 +31,7 @@ Status AddFile(const fs::path& path, std::uint64_t& hash) {
     num_bytes += bytes.size();
   }
   if (file.bad()) {
-    return Status::DataLoss("cannot read " + path.string() +
+    return Status::DataLoss("Cannot read " + path.string() +
                             " to its end; copy it again");
   }
   hash = HashBytes(":" + std::to_string(num_bytes), hash);

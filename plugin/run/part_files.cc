@@ -130,7 +130,7 @@ bool IsSound(const ScenePartition& partition, int num_views) {
              });
 }
 
-// "these parts are not there: 1, 3" and the like; "" without parts.
+// "; these are not there: 1, 3" and the like; "" without parts.
 std::string PartsText(const std::string& what, const std::vector<int>& idxs) {
   std::string text;
   for (const int idx : idxs) {
@@ -146,14 +146,11 @@ Status BrokenPlan(const fs::path& path) {
 
 Status PartsNotDone(const std::vector<int>& missing,
                     const std::vector<int>& other) {
-  std::string text = PartsText("these parts are not there", missing);
-  if (!missing.empty() && !other.empty()) text += "; ";
-  text += PartsText(
-      "these parts are broken, or of other images, masks or options, or of "
-      "another version",
-      other);
   return Status::NotFound(
-      text +
+      "Not all parts are done" + PartsText("; these are not there", missing) +
+      PartsText("; these are broken, or of other images, masks or options, or "
+                "of another version",
+                other) +
       "; run 'colmap_curvix reconstruct' with --part and the paths and options "
       "of this command for each of them");
 }
@@ -198,7 +195,7 @@ Status CheckModelIsThere(const fs::path& folder) {
   for (const char* file : {"cameras.bin", "images.bin", "points3D.bin"}) {
     if (fs::exists(folder / file, error)) continue;
     return Status::NotFound(
-        "there is no " + (folder / file).string() +
+        "There is no " + (folder / file).string() +
         "; run 'colmap_curvix partition' again, which brings it back");
   }
   return {};
@@ -232,7 +229,7 @@ Result<InputSummary> ReadInputOfPlan(const fs::path& folder) {
 Result<PartPlan> ReadPlan(const fs::path& folder) {
   Result<std::string> text = ReadFile(folder / kPlanName);
   if (!text.ok()) {
-    return Status::NotFound("there is no plan " +
+    return Status::NotFound("There is no plan " +
                             (folder / kPlanName).string() +
                             "; run 'colmap_curvix partition' first");
   }

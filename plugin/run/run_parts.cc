@@ -82,7 +82,7 @@ Status CheckReplaceable(const fs::path& parts, bool is_plan) {
   const std::vector<fs::path> entries = EntriesOf(parts);
   if (!is_plan && !entries.empty()) {
     return Status::InvalidArgument(
-        "the plan would replace " + parts.string() +
+        "The plan would replace " + parts.string() +
         ", which is no plan; remove it, or choose another folder with "
         "--output_path");
   }
@@ -99,7 +99,7 @@ Status CheckReplaceable(const fs::path& parts, bool is_plan) {
 // Those of a model that 'partition' has written.
 Status CheckImagesAreThere(const WorkspaceScene& input) {
   if (input.missing_images.empty()) return {};
-  return Status::NotFound("image " + input.missing_images.front() +
+  return Status::NotFound("Image " + input.missing_images.front() +
                           " is gone; bring it back");
 }
 
@@ -108,13 +108,13 @@ Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
   CURVIX_ASSIGN_OR_RETURN(const std::uint64_t hash, HashModel(model_path));
   const Result<std::string> divided = ReadFile(folder / kModelHashName);
   if (!divided.ok()) {
-    return Status::NotFound("there is no " +
+    return Status::NotFound("There is no " +
                             (folder / kModelHashName).string() +
                             "; run 'colmap_curvix partition' again");
   }
   if (*divided == std::to_string(hash)) return {};
   return Status::NotFound(
-      "the model " + model_path.string() +
+      "The model " + model_path.string() +
       " has changed since it was divided; run 'colmap_curvix " +
       "partition' again");
 }
@@ -152,7 +152,7 @@ Status CheckPartIdx(const PartPlan& plan, int part_idx) {
   if (part_idx >= 0 && static_cast<std::size_t>(part_idx) < num_parts) {
     return {};
   }
-  return Status::NotFound("there is no part " + std::to_string(part_idx) +
+  return Status::NotFound("There is no part " + std::to_string(part_idx) +
                           "; the plan has the parts 0 to " +
                           std::to_string(num_parts - 1));
 }
@@ -193,7 +193,7 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
       present.ok() && present->text == PlanJson(partition, input.scene);
   const bool has_results = HasResults(folder);
   if (present.ok() && !is_same && has_results) {
-    return Status::InvalidArgument("the plan in " + folder.string() +
+    return Status::InvalidArgument("The plan in " + folder.string() +
                                    " is another one, and parts of it are done; "
                                    "to divide anew, remove this folder");
   }

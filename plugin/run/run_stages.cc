@@ -253,7 +253,7 @@ Status RunStages::KeptStages(Status status) const {
     return status;
   }
   return {status.code(),
-          "interrupted; no results were written, but finished stages are kept: "
+          "Interrupted; no results were written, but finished stages are kept: "
           "the same command goes on from there"};
 }
 

@@ -28,7 +28,7 @@ Status CheckOutputPath(const Workspace& workspace) {
        {workspace.model_path, workspace.image_path, workspace.mask_path}) {
     if (!input.empty() && IsInside(fs::weakly_canonical(input), output)) {
       return Status::InvalidArgument(
-          "the results would be written among the inputs in " +
+          "The results would be written among the inputs in " +
           output.string() + "; choose another folder with --output_path");
     }
   }
@@ -197,7 +197,7 @@ Result<StagedOutput> CreateOutput(const Workspace& workspace) {
       continue;
     }
     return Status::InvalidArgument(
-        "results would replace " + folder.string() +
+        "Results would replace " + folder.string() +
         ", which no earlier run wrote; remove it, or choose another folder "
         "with --output_path");
   }

@@ -13,7 +13,7 @@ using StepDone = std::function<bool(int, int)>;
 
 // Of a run that the user has stopped.
 inline Status CancelledStatus() {
-  return {StatusCode::kCancelled, "interrupted; nothing was written"};
+  return {StatusCode::kCancelled, "Interrupted; nothing was written"};
 }
 
 }  // namespace curvix

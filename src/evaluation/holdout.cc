@@ -59,13 +59,13 @@ void RestoreViewIdxs(const std::vector<std::int32_t>& view_idxs,
 Result<std::vector<int>> ViewsHeldOut(std::size_t num_views, int every) {
   if (every < 2) {
     return Status::InvalidArgument(
-        "at least every second view must be left in");
+        "At least every second view must be left in");
   }
   std::vector<int> view_idxs;
   const int n = static_cast<int>(num_views);
   for (int i = every / 2; i < n; i += every) view_idxs.push_back(i);
   if (view_idxs.empty()) {
-    return Status::InvalidArgument("none of " + Plural(num_views, "view") +
+    return Status::InvalidArgument("None of " + Plural(num_views, "view") +
                                    " is held out if it is one of " +
                                    std::to_string(every) + "; hold out more");
   }

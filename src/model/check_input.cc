@@ -20,7 +20,7 @@ Status CheckView(const Scene& scene, const View& view) {
   if (view.camera_idx < 0 ||
       static_cast<std::size_t>(view.camera_idx) >= scene.cameras.size()) {
     return Status::InvalidArgument(
-        "view " + view.name + " has camera index " +
+        "View " + view.name + " has camera index " +
         std::to_string(view.camera_idx) + ", but there " +
         OneOrMore(scene.cameras.size(), "is ", "are ") +
         Plural(scene.cameras.size(), "camera"));
@@ -29,7 +29,7 @@ Status CheckView(const Scene& scene, const View& view) {
   if (!pose.translation.allFinite() || !pose.rotation.coeffs().allFinite() ||
       std::abs(pose.rotation.norm() - 1) > 1e-6) {
     return Status::InvalidArgument(
-        "the pose of view " + view.name +
+        "The pose of view " + view.name +
         " is no rigid motion: a number is not finite or the "
         "quaternion is not of unit length");
   }
@@ -102,7 +102,7 @@ bool IsSound(const Edge3d& edge, const std::vector<EdgeMap>& edge_maps) {
 Status CheckScene(const Scene& scene) {
   if (scene.views.size() < 3) {
     return Status::InvalidArgument(
-        "curves need at least three views, and there are " +
+        "Curves need at least three views, and there are " +
         std::to_string(scene.views.size()));
   }
   for (const Camera& camera : scene.cameras) {
@@ -114,7 +114,7 @@ Status CheckScene(const Scene& scene) {
   for (const ScenePoint& point : scene.points) {
     if (IsSound(point, scene.views.size())) continue;
     return Status::InvalidArgument(
-        "a sparse point is not sound: a finite position, views of the scene "
+        "A sparse point is not sound: a finite position, views of the scene "
         "and, if it has pixels, one per view are needed");
   }
   return {};
@@ -124,14 +124,14 @@ Status CheckEdgeMaps(const Scene& scene,
                      const std::vector<EdgeMap>& edge_maps) {
   if (edge_maps.size() != scene.views.size()) {
     return Status::InvalidArgument(
-        "there " + OneOrMore(edge_maps.size(), "is ", "are ") +
+        "There " + OneOrMore(edge_maps.size(), "is ", "are ") +
         Plural(edge_maps.size(), "edge map") + " for " +
         Plural(scene.views.size(), "view") + "; one per view is needed");
   }
   for (std::size_t i = 0; i < edge_maps.size(); ++i) {
     if (IsSound(edge_maps[i])) continue;
     return Status::InvalidArgument(
-        "the edges of view " + scene.views[i].name +
+        "The edges of view " + scene.views[i].name +
         " are not sound: one entry of neighbors per edge, "
         "neighbors among the edges, finite numbers, and "
         "positions within a million pixels are needed");
@@ -148,7 +148,7 @@ Status CheckEdgeSketch(const std::vector<EdgeMap>& edge_maps,
       });
   if (is_sound) return {};
   return Status::InvalidArgument(
-      "the 3D edges are not sound: finite numbers, a positive edge_sigma_px "
+      "The 3D edges are not sound: finite numbers, a positive edge_sigma_px "
       "and, in the order of views, "
       "at most one 2D edge per view are needed, and these among the edges");
 }

@@ -113,7 +113,7 @@ Result<TracedCurve> JoinedCurves::Read(int part_idx,
   });
   if (is_sound) return traced;
   return Status::DataLoss(
-      "a curve of part " + std::to_string(part_idx) +
+      "A curve of part " + std::to_string(part_idx) +
       " names views or edges that are not there; reconstruct this part again");
 }
 

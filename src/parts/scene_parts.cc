@@ -240,7 +240,7 @@ Result<ScenePartition> PartitionViews(const Places& places,
   while (!(best = divide(enough))) {
     if (enough == most) {
       return Status::InvalidArgument(
-          "the " + Plural(num_views, "view") +
+          "The " + Plural(num_views, "view") +
           " cannot be divided into parts of at most " +
           Plural(max_views_per_part, "view") +
           ", because each also needs the views that overlap it; "

@@ -47,10 +47,10 @@ inline void ExpectOutcome(const BadCase& bad) {
   EXPECT_THAT(outcome.output, testing::HasSubstr(bad.says));
   EXPECT_THAT(outcome.output,
               testing::Not(testing::HasSubstr("wrong in colmap_curvix")));
-  const std::size_t error = outcome.output.find("ERROR: ");
-  EXPECT_EQ(error != std::string::npos,
-            bad.exit_code != 0 && bad.exit_code != 5);
-  if (error != std::string::npos) {
+  const bool has_error = HasError(outcome.output);
+  EXPECT_EQ(has_error, bad.exit_code != 0 && bad.exit_code != 5);
+  if (has_error) {
+    const std::size_t error = outcome.output.find("ERROR: ");
     EXPECT_EQ(outcome.output.find('\n', error), outcome.output.size() - 1)
         << "more than one line: " << outcome.output;
   }

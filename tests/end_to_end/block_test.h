@@ -34,7 +34,7 @@ class BlockTest : public testing::Test {
   void ExpectError(const std::string& words, const std::string& why) {
     const Outcome outcome = Run(words);
     EXPECT_NE(outcome.exit_code, 0) << words;
-    EXPECT_THAT(outcome.output, testing::HasSubstr("ERROR: ")) << words;
+    EXPECT_TRUE(HasError(outcome.output)) << words;
     EXPECT_THAT(outcome.output, testing::HasSubstr(why)) << words;
   }
   nlohmann::json Curves() {

@@ -284,7 +284,7 @@ TEST_F(Faults, TwoRunsAtOnce) {
   const Outcome outcome = Run(kNewer);
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.output,
-              HasSubstr("another run is writing to " + results_.string()));
+              HasSubstr("Another run is writing to " + results_.string()));
   EXPECT_EQ(CurvesAndMore(), older_);
 }
 

@@ -4,11 +4,13 @@
 
 #include <sys/wait.h>
 
+#include <gtest/gtest.h>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <string>
 
 namespace curvix {
@@ -37,6 +39,15 @@ inline Outcome RunInShell(const std::string& command) {
 inline Outcome RunProgram(const std::string& arguments) {
   return RunInShell(std::string("'") + CURVIX_PROGRAM + "' " + arguments +
                     " 2>&1");
+}
+
+// Whether there is an error in what the program says. It begins with a capital,
+// or the name of an option, a file or a command.
+inline bool HasError(const std::string& output) {
+  static const std::regex small(
+      "ERROR: (a|another|cannot|give|no|none|the|there|these|this) ");
+  EXPECT_FALSE(std::regex_search(output, small)) << output;
+  return output.find("ERROR: ") != output.npos;
 }
 
 inline std::string Quoted(const std::filesystem::path& path) {

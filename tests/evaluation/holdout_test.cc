@@ -67,7 +67,7 @@ TEST(ReconstructWithHoldout, SaysWhatItCannotHoldOut) {
     return holdout.status().message();
   };
   EXPECT_THAT(message(1), HasSubstr("every second view"));
-  EXPECT_THAT(message(50), HasSubstr("none of 24 views is held out"));
+  EXPECT_THAT(message(50), HasSubstr("None of 24 views is held out"));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST_F(CheckInput, NeedsThreeViews) {
 TEST_F(CheckInput, NeedsACameraForEveryView) {
   for (const int camera_idx : {-1, 4}) {
     ExpectSceneRefused([&](Scene& s) { s.views[1].camera_idx = camera_idx; },
-                       "view view_001 has camera index " +
+                       "View view_001 has camera index " +
                            std::to_string(camera_idx) +
                            ", but there are 4 cameras");
   }
@@ -69,7 +69,7 @@ TEST_F(CheckInput, NeedsCamerasThatAreCameras) {
 }
 
 TEST_F(CheckInput, NeedsRigidPoses) {
-  const std::string why = "the pose of view view_002 is no rigid motion";
+  const std::string why = "The pose of view view_002 is no rigid motion";
   ExpectSceneRefused(
       [](Scene& s) { s.views[2].cam_from_world.translation.y() = kNan; }, why);
   ExpectSceneRefused(
@@ -103,13 +103,13 @@ TEST_F(CheckInput, NeedsPointsOfViewsThatAreThere) {
 
 TEST_F(CheckInput, NeedsOneMapPerView) {
   ExpectMapsRefused([](auto& maps) { maps.pop_back(); },
-                    "there are 3 edge maps for 4 views");
+                    "There are 3 edge maps for 4 views");
   ExpectMapsRefused([](auto& maps) { maps.clear(); },
-                    "there are 0 edge maps for 4 views");
+                    "There are 0 edge maps for 4 views");
 }
 
 TEST_F(CheckInput, NeedsSoundEdges) {
-  const std::string why = "the edges of view view_001 are not sound";
+  const std::string why = "The edges of view view_001 are not sound";
   ExpectMapsRefused([](auto& maps) { maps[1].neighbors.pop_back(); }, why);
   ExpectMapsRefused([](auto& maps) { maps[1].edges[3].position.x() = kNan; },
                     why);

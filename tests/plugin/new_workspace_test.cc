@@ -141,7 +141,7 @@ TEST(NewWorkspace, LeavesNothingWhenAnImageCannotBePlaced) {
   const Status status = WriteNewWorkspace(
       source.model, source.files, CopyPolicy::kCopy, workspace);
   EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
-  EXPECT_THAT(status.message(), HasSubstr("cannot write"));
+  EXPECT_THAT(status.message(), HasSubstr("Cannot write"));
   EXPECT_FALSE(fs::exists(source.folder.path() / "new"));
 }
 

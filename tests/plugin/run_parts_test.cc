@@ -316,7 +316,7 @@ TEST_F(RunParts, ReadOnlyTheirOwnImages) {
   EXPECT_EQ(status.code(), StatusCode::kNotFound);
   EXPECT_THAT(status.message(), HasSubstr("view_000.png is gone"));
   EXPECT_THAT(RunPart(settings_, 99, progress_).status().message(),
-              HasSubstr("there is no part 99"));
+              HasSubstr("There is no part 99"));
 }
 
 TEST_F(RunParts, OneRunAtATimeWorksOnAPart) {
@@ -326,7 +326,7 @@ TEST_F(RunParts, OneRunAtATimeWorksOnAPart) {
     const auto lock = FolderLock::Take(folder);
     const Status status = RunPart(settings_, 0, progress_).status();
     EXPECT_EQ(status.code(), StatusCode::kInvalidArgument);
-    EXPECT_THAT(status.message(), HasSubstr("another run is writing"));
+    EXPECT_THAT(status.message(), HasSubstr("Another run is writing"));
     EXPECT_FALSE(fs::exists(folder / "part.bin"));
     Reconstruct(1);
   }

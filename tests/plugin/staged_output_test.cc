@@ -88,7 +88,7 @@ TEST(StagedOutput, OneAtATime) {
     ASSERT_TRUE(first.ok());
     const auto second = StagedOutput::Create(folder.path());
     EXPECT_EQ(second.status().code(), StatusCode::kInvalidArgument);
-    EXPECT_THAT(second.status().message(), testing::HasSubstr("another run"));
+    EXPECT_THAT(second.status().message(), testing::HasSubstr("Another run"));
   }
   EXPECT_TRUE(StagedOutput::Create(folder.path()).ok());
 }

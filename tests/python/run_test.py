@@ -145,7 +145,7 @@ class Stopping(WorkspaceTest):
         self.assertFalse((self.folder / 'out' / 'report.json').exists())
 
     def test_false_stops_the_run(self):
-        with self.assertRaisesRegex(pycurvix.CancelledError, 'interrupted'):
+        with self.assertRaisesRegex(pycurvix.CancelledError, 'Interrupted'):
             self.reconstruct(progress=lambda stage, done, total: np.bool_(stage != 'sketch_edges'))
         self.assert_nothing_was_written()
 
