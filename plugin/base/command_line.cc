@@ -290,7 +290,8 @@ Flag ChoiceFlag(std::string name,
               name = flag.name,
               range = flag.range](const std::string& text) -> Status {
     if (std::ranges::find(choices, text) == choices.end()) {
-      return Status::InvalidArgument(name + " is " + text +
+      return Status::InvalidArgument(name + " is " +
+                                     (text.empty() ? "empty" : text) +
                                      "; it must be one of " + range);
     }
     *choice = text;

@@ -70,8 +70,8 @@ FlagSection PathsSection(RunSettings* settings) {
                     "dense/0/sparse"),
            PathFlag("image_path",
                     &settings->image_path,
-                    "folder of the images; default: images/ beside the "
-                    "model"),
+                    "folder of the images; default: for align and draw that "
+                    "of the run before, else images/ beside the model"),
            PathFlag("output_path",
                     &settings->output_path,
                     "folder of the results; default: curvix/0 beside "

@@ -293,14 +293,15 @@ fs::path ImagesOfEarlierRun(const fs::path& folder,
   const Json report = ReadReport(folder);
   const fs::path recorded = PathIn(report, "/input/image_path");
   const fs::path own = PathIn(report, "/input/workspace_path");
-  if (!recorded.empty() && !own.empty()) {
-    const fs::path normal = recorded.lexically_normal();
-    const fs::path from_own = normal.lexically_relative(own.lexically_normal());
-    const fs::path moved =
-        (fs::absolute(workspace_path) / from_own).lexically_normal();
-    // What has not moved keeps its spelling, by which stages know it.
-    if (moved != normal && IsFolder(moved)) return moved;
-  }
+  // Earlier versions told no workspace: their images may be those of a project
+  // that this one is a copy of.
+  if (!recorded.is_absolute() || !own.is_absolute()) return {};
+  const fs::path normal = recorded.lexically_normal();
+  const fs::path from_own = normal.lexically_relative(own.lexically_normal());
+  const fs::path moved =
+      (fs::absolute(workspace_path) / from_own).lexically_normal();
+  // What has not moved keeps its spelling, by which stages know it.
+  if (moved / "" != normal / "" && IsFolder(moved)) return moved;
   return IsFolder(recorded) ? recorded : fs::path();
 }
 

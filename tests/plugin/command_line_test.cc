@@ -186,6 +186,7 @@ TEST_F(CommandLine, ErrorsInTheProjectFileNameItsLineAndKey) {
                   "line 2: There is no option 'help'; --help_all"),
         std::pair("# a\n\n[Validation]\nmax_angle_deg = -1\n",
                   "line 4: Validation.max_angle_deg is -1; it must be > 0"),
+        std::pair("color=\n", "line 1: color is empty; it must be one of"),
         std::pair("no equals sign\n", "line 1 is neither name=value nor"),
         std::pair("color=red\n; b\ncolor=blue\n",
                   "line 3: 'color' is given twice, first in line 1")}) {

@@ -144,17 +144,21 @@ TEST_F(EarlierImages, MoveWithTheirWorkspaceOrStay) {
   EXPECT_EQ(found(photos, "/gone/in"), photos);
   EXPECT_EQ(found("/gone/photos", "/gone/a/in"), "");
   // As it was written, if nothing has moved.
-  const std::string written = At("new/in/../photos/").string();
-  EXPECT_EQ(found(written, At("new/in")), written);
+  for (const char* place : {"new/in/../photos/", "new/in", "new/in/"}) {
+    const std::string written = At(place).string();
+    EXPECT_EQ(found(written, At("new/in")), written);
+  }
 }
 
 TEST_F(EarlierImages, AreNotThereWithoutAWholeReport) {
   const std::string photos = At("old/photos").string();
-  EXPECT_EQ(Found({{"image_path", photos}}), photos);
-  EXPECT_EQ(Found({{"image_path", 3}}), "");
-  EXPECT_EQ(Found({{"image_path", ""}, {"workspace_path", At("old").string()}}),
-            "");
-  EXPECT_EQ(Found({{"workspace_path", At("old").string()}}), "");
+  const std::string own = At("old/in").string();
+  EXPECT_EQ(Found({{"image_path", photos}}), "");
+  EXPECT_EQ(Found({{"workspace_path", own}}), "");
+  for (const json& wrong : {json(), json(3), json(""), json(".")}) {
+    EXPECT_EQ(Found({{"image_path", wrong}, {"workspace_path", own}}), "");
+    EXPECT_EQ(Found({{"image_path", photos}, {"workspace_path", wrong}}), "");
+  }
   EXPECT_EQ(Found({}), "");
   folder_.Write("report.json", "[");
   EXPECT_EQ(ImagesOfEarlierRun(folder_.path(), At("new/in")), "");
