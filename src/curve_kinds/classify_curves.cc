@@ -14,6 +14,7 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_kinds/blurred_images.h"
+#include "curve_kinds/judge_kind.h"
 #include "curve_kinds/strips.h"
 #include "geometry/directions.h"
 #include "geometry/pixel_size.h"
@@ -25,31 +26,13 @@ namespace {
 using Eigen::Vector3d;
 
 // Places along a curve, in pixels, and how many to either side are taken
-// together. They are not independent: their strips share errors of the poses
-// and what hides them. Each counts as this share of an independent one.
+// together.
 constexpr double kStepPx = 8;
 constexpr std::size_t kReach = 5;
-constexpr float kIndependentShare = 0.35F;
 
 // Other curves and COLMAP's points as near as this are looked at, too.
 constexpr double kNearbyCurvePx = 40;
 constexpr double kNearbyPointPx = 60;
-
-// Directions of two surfaces that differ from opposite ones by at most this
-// many steps are of one surface, by at least so many of a crease.
-constexpr int kMaxMarkingSteps = 1;
-constexpr int kMinCreaseSteps = 3;
-
-// Before images are looked at, as where there is no texture: curves are mostly
-// edges of surfaces.
-constexpr double kPriorCrease = 0.88;
-constexpr double kPriorBoundary = 0.02;
-constexpr double kPriorMarking = 0.1;
-
-struct KindProbability {
-  CurveKind kind = CurveKind::kUnknown;
-  double probability = 0;
-};
 
 // A vector across `tangent` that is as `normal` as can be.
 Vector3d Across(const Vector3d& tangent, const Vector3d& normal) {
@@ -76,72 +59,6 @@ std::vector<std::size_t> PlacesAround(std::size_t at,
       is_closed ? size - 1 : std::min(size - 1, at + kReach);
   for (std::size_t i = first; i <= last; ++i) around.push_back(i);
   return around;
-}
-
-// The weighted sum over the places `around`. Those that do not see a direction
-// count as the mean of those that do, unless they are most.
-SurfaceEvidence SumOver(const std::vector<std::size_t>& around,
-                        const std::vector<SurfaceEvidence>& evidence) {
-  const auto num = static_cast<float>(around.size());
-  SurfaceEvidence sum;
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t d = 0; d < kNumDirections; ++d) {
-      float seen = 0;
-      for (const std::size_t i : around) {
-        const float log_bayes = evidence[i].log_bayes[side][d];
-        if (!std::isfinite(log_bayes)) continue;
-        sum.log_bayes[side][d] += log_bayes;
-        ++seen;
-      }
-      sum.log_bayes[side][d] *= kIndependentShare * num / seen;
-      if (2 * seen < num) {
-        sum.log_bayes[side][d] = -std::numeric_limits<float>::infinity();
-      }
-    }
-  }
-  return sum;
-}
-
-// The logarithm of the mean of Bayes factors, of which logarithms are given,
-// over the directions that views face; minus infinity without any.
-double LogMean(std::vector<double> logs) {
-  std::erase_if(logs, [](double log) { return !std::isfinite(log); });
-  if (logs.empty()) return -kInfinity;
-  const double largest = std::ranges::max(logs);
-  double sum = 0;
-  for (const double log : logs) sum += std::exp(log - largest);
-  return largest + std::log(sum / static_cast<double>(logs.size()));
-}
-
-KindProbability Judge(const SurfaceEvidence& evidence) {
-  const auto& [left, right] = evidence.log_bayes;
-  std::vector<double> marking, crease, boundary;
-  for (int a = 0; a < kNumDirections; ++a) {
-    const double on_left =
-        static_cast<double>(left[static_cast<std::size_t>(a)]);
-    boundary.push_back(on_left);
-    boundary.push_back(static_cast<double>(right[static_cast<std::size_t>(a)]));
-    if (!std::isfinite(on_left)) continue;
-    for (int b = 0; b < kNumDirections; ++b) {
-      const double both =
-          on_left + static_cast<double>(right[static_cast<std::size_t>(b)]);
-      const int apart = std::abs(a - b);
-      const int bend = std::abs(std::min(apart, kNumDirections - apart) -
-                                kNumDirections / 2);
-      if (bend <= kMaxMarkingSteps) marking.push_back(both);
-      if (bend >= kMinCreaseSteps) crease.push_back(both);
-    }
-  }
-  using Score = std::pair<CurveKind, double>;
-  const std::array<Score, 3> scores = {
-      {{CurveKind::kCrease, std::log(kPriorCrease) + LogMean(crease)},
-       {CurveKind::kBoundary, std::log(kPriorBoundary) + LogMean(boundary)},
-       {CurveKind::kMarking, std::log(kPriorMarking) + LogMean(marking)}}};
-  const auto best = std::ranges::max_element(scores, {}, &Score::second);
-  if (!std::isfinite(best->second)) return {};
-  double sum = 0;
-  for (const auto& score : scores) sum += std::exp(score.second - best->second);
-  return {best->first, 1 / sum};
 }
 
 // Where strips are compared, on all curves.
@@ -277,11 +194,23 @@ class Classifier {
   void Classify(std::size_t curve_idx, Curve* curve) const {
     const std::vector<std::size_t>& chosen = places_.samples[curve_idx];
     if (chosen.empty()) return;
-    const std::vector<SurfaceEvidence> evidence = EvidenceAlong(curve_idx);
-    const auto judge = [&](std::size_t at) {
-      return Judge(
-          SumOver(PlacesAround(at, evidence.size(), curve->closed), evidence));
+    const std::vector<Surroundings> surroundings = SurroundingsOf(curve_idx);
+    std::vector<DepthEvidence> evidence(chosen.size());
+    LookAt(0, DirectionSet().set(), curve_idx, surroundings, &evidence);
+    const auto sum_at = [&](std::size_t at) {
+      return SumOver(PlacesAround(at, evidence.size(), curve->closed),
+                     evidence);
     };
+    DirectionSet may_be_steps;
+    for (std::size_t at = 0; at < evidence.size(); ++at) {
+      const DepthEvidence sum = sum_at(at);
+      if (JudgeKind(sum).kind != CurveKind::kMarking) continue;
+      may_be_steps |= DirectionsOfMarkings(sum.front());
+    }
+    for (std::size_t depth = 1; depth < kNumDepths; ++depth) {
+      LookAt(depth, may_be_steps, curve_idx, surroundings, &evidence);
+    }
+    const auto judge = [&](std::size_t at) { return JudgeKind(sum_at(at)); };
     std::size_t nearest = 0;
     KindProbability kind = judge(nearest);
     for (std::size_t i = 0; i < curve->samples.size(); ++i) {
@@ -295,35 +224,65 @@ class Classifier {
   }
 
  private:
-  std::vector<SurfaceEvidence> EvidenceAlong(std::size_t curve_idx) const {
+  // What is near a place.
+  struct Surroundings {
+    CurveDistances other_curves = {};
+    std::vector<Vector3d> points;  // on other curves, and COLMAP's
+  };
+
+  // Of the places on a curve.
+  std::vector<Surroundings> SurroundingsOf(std::size_t curve_idx) const {
     const auto views_of_point = [&](std::size_t k) -> const std::vector<int>& {
       return scene_.points[k].view_idxs;
     };
     const double pixel = places_.pixels[curve_idx];
-    std::vector<SurfaceEvidence> evidence;
+    std::vector<Surroundings> surroundings;
     for (std::size_t k = 0; k < places_.samples[curve_idx].size(); ++k) {
-      const std::size_t at = places_.first[curve_idx] + k;
-      const StripPlace& place = places_.all[at];
+      const StripPlace& place = places_.all[places_.first[curve_idx] + k];
       const ViewSet views(place.views, views_.size());
-      std::vector<Vector3d> nearby =
-          CurvesNearby(curve_idx, place.position, views);
-      evidence.push_back(
-          CompareStrips(place,
-                        places_.strip_views[at],
-                        DistancesByDirection(place, pixel, nearby),
-                        scene_,
-                        views_,
-                        images_));
+      Surroundings around;
+      around.points = CurvesNearby(curve_idx, place.position, views);
+      around.other_curves = DistancesByDirection(place, pixel, around.points);
       for (std::size_t i : SeenNear(points_tree_,
                                     views_of_point,
                                     place.position,
                                     views,
                                     kNearbyPointPx * pixel)) {
-        nearby.push_back(scene_.points[i].position);
+        around.points.push_back(scene_.points[i].position);
       }
-      AddNearbyPoints(place, pixel, views_, nearby, &evidence.back());
+      surroundings.push_back(std::move(around));
     }
-    return evidence;
+    return surroundings;
+  }
+
+  // Looks for surfaces at one of kDepthsPx in these directions.
+  void LookAt(std::size_t depth_idx,
+              const DirectionSet& directions,
+              std::size_t curve_idx,
+              const std::vector<Surroundings>& surroundings,
+              std::vector<DepthEvidence>* evidence) const {
+    const double depth_px = kDepthsPx[depth_idx];
+    for (std::size_t k = 0; k < surroundings.size(); ++k) {
+      SurfaceEvidence& at_depth = (*evidence)[k][depth_idx];
+      at_depth = NoSurfaces();
+      if (directions.none()) continue;
+      const std::size_t at = places_.first[curve_idx] + k;
+      const StripPlace& place = places_.all[at];
+      at_depth = CompareStrips(place,
+                               places_.strip_views[at],
+                               surroundings[k].other_curves,
+                               directions,
+                               depth_px,
+                               scene_,
+                               views_,
+                               images_);
+      AddNearbyPoints(place,
+                      places_.pixels[curve_idx],
+                      views_,
+                      surroundings[k].points,
+                      depth_px,
+                      &at_depth);
+    }
   }
 
   // Places on other curves that the views of a place on this one see.

@@ -40,9 +40,21 @@ struct Direction {
   double peak = 0;  // largest Ratio()
 };
 
-Direction DirectionOf(double angle, double distance_px) {
-  const double sigma = std::hypot(kDirectionSigma, kPointSigmaPx / distance_px);
-  return {angle, sigma, kPi / (sigma * std::sqrt(2 * kPi))};
+// Of the `points` from where a surface begins, in pixels across the curve.
+std::vector<Direction> DirectionsFrom(const Vector2d& begin,
+                                      const std::vector<Vector2d>& points) {
+  std::vector<Direction> directions;
+  directions.reserve(points.size());
+  for (const Vector2d& point : points) {
+    const Vector2d offset = point - begin;
+    const double distance_px = std::max(1.0, offset.norm());
+    const double sigma =
+        std::hypot(kDirectionSigma, kPointSigmaPx / distance_px);
+    directions.push_back({std::atan2(offset.y(), offset.x()),
+                          sigma,
+                          kPi / (sigma * std::sqrt(2 * kPi))});
+  }
+  return directions;
 }
 
 // Whether most cameras see the direction on side 0. Directions are those of
@@ -94,30 +106,34 @@ void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Vector3d>& points,
+                     double depth_px,
                      SurfaceEvidence* evidence) {
   std::vector<Vector2d> cameras;
   for (const int view : place.views) {
     const Vector3d& center = views[static_cast<std::size_t>(view)].center;
     cameras.push_back(place.Across(center - place.position));
   }
-  std::array<std::vector<Direction>, 2> sides;
+  std::array<std::vector<Vector2d>, 2> sides;
   for (const Vector3d& point : points) {
-    const Vector3d offset = point - place.position;
-    const double distance_px = DistanceAcross(offset, place) / pixel;
-    if (distance_px < kMinDistancePx) continue;
-    sides[IsOnFirstSide(place.Across(offset), cameras) ? 0 : 1].push_back(
-        DirectionOf(place.AngleOf(offset), distance_px));
+    const Vector2d across = place.Across(point - place.position);
+    if (across.norm() < kMinDistancePx * pixel) continue;
+    sides[IsOnFirstSide(across, cameras) ? 0 : 1].push_back(across / pixel);
   }
   for (std::size_t side = 0; side < 2; ++side) {
     if (sides[side].empty()) continue;
     const auto num = static_cast<double>(sides[side].size());
     const double weight = std::min(1.0, kMaxPoints / num);
+    std::vector<Direction> from = DirectionsFrom({0, 0}, sides[side]);
     for (int d = 0; d < kNumDirections; ++d) {
       float& log_bayes = evidence->log_bayes[side][static_cast<std::size_t>(d)];
       if (!std::isfinite(log_bayes)) continue;
       const double angle = d * 2 * kPi / kNumDirections;
+      if (depth_px > 0) {
+        from = DirectionsFrom(depth_px * AwayFromCameras(angle, side),
+                              sides[side]);
+      }
       double sum = 0;
-      for (const Direction& point : sides[side]) {
+      for (const Direction& point : from) {
         sum += std::log(kElsewhere + (1 - kElsewhere) * Ratio(point, angle));
       }
       log_bayes += static_cast<float>(weight * sum);

@@ -135,7 +135,8 @@ Eigen::AlignedBox2i PixelsOfStrips(const LocalView& view, double step) {
   const Eigen::Array2d across =
       (view.normal.cwiseAbs2() + view.binormal.cwiseAbs2()).cwiseSqrt();
   const Eigen::Array2d reach =
-      step * (kLastAcrossPx * across + kSidePx * view.along.array().abs());
+      step * (std::hypot(kLastAcrossPx, kDepthsPx.back()) * across +
+              kSidePx * view.along.array().abs());
   const Eigen::Array2d size(view.image->width(), view.image->height());
   const Eigen::Array2d first = (view.pixel.array() - reach - 1).max(0);
   const Eigen::Array2d last = (view.pixel.array() + reach + 1).min(size - 1);
@@ -143,9 +144,10 @@ Eigen::AlignedBox2i PixelsOfStrips(const LocalView& view, double step) {
 }
 
 // The grey levels of a strip less their mean; false if the image does not hold
-// all of it. `across` is the image of a step of one pixel away from the curve,
-// `along` of one along it.
+// all of it. `begin` is the pixel where the surface begins; `across` is the
+// image of a step of one pixel away from there, `along` of one along the curve.
 bool Sample(const LocalView& view,
+            const Vector2d& begin,
             const Vector2d& across,
             const Vector2d& along,
             Strip* strip) {
@@ -156,7 +158,7 @@ bool Sample(const LocalView& view,
                                  Vector2d(near + side),
                                  Vector2d(far - side),
                                  Vector2d(far + side)}) {
-    const Vector2d at = view.pixel + corner;
+    const Vector2d at = begin + corner;
     if (!(at.x() >= 0 && at.y() >= 0 && at.x() < view.image->width() - 1 &&
           at.y() < view.image->height() - 1)) {
       return false;
@@ -165,7 +167,7 @@ bool Sample(const LocalView& view,
   std::array<float, kNumPixels> x, y;
   std::size_t i = 0;
   for (int a = 0; a < kNumAcross; ++a) {
-    Vector2d at = view.pixel + (kFirstAcrossPx + a) * across - side;
+    Vector2d at = begin + (kFirstAcrossPx + a) * across - side;
     for (int b = 0; b < kNumAlong; ++b, ++i, at += kAlongStepPx * along) {
       x[i] = static_cast<float>(at.x());
       y[i] = static_cast<float>(at.y());
@@ -291,6 +293,14 @@ double StripSet::LogBayesOfRows(int num_rows, double noise_variance) const {
 
 }  // namespace
 
+SurfaceEvidence NoSurfaces() {
+  SurfaceEvidence evidence;
+  for (auto& side : evidence.log_bayes) {
+    side.fill(-std::numeric_limits<float>::infinity());
+  }
+  return evidence;
+}
+
 StripViews ChooseStripViews(const StripPlace& place,
                             const Scene& scene,
                             const std::vector<PosedView>& views,
@@ -312,18 +322,15 @@ StripViews ChooseStripViews(const StripPlace& place,
 SurfaceEvidence CompareStrips(const StripPlace& place,
                               const StripViews& chosen,
                               const CurveDistances& other_curves,
+                              const DirectionSet& directions,
+                              double depth_px,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images) {
   const std::vector<LocalView> seen =
       LocateAll(place, chosen.views, scene, views, images);
-  SurfaceEvidence evidence;
-  if (seen.size() < kMinViews) {
-    for (auto& side : evidence.log_bayes) {
-      side.fill(-std::numeric_limits<float>::infinity());
-    }
-    return evidence;
-  }
+  SurfaceEvidence evidence = NoSurfaces();
+  if (seen.size() < kMinViews) return evidence;
   double noise_variance = 0;
   for (const LocalView& view : seen) {
     noise_variance +=
@@ -332,22 +339,27 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
   noise_variance = std::max(kLeastVariance, kAddedVariance + noise_variance);
   const double step = chosen.step;
   std::array<StripSet, 2> sides;
-  for (int d = 0; d < kNumDirections; ++d) {
-    const double angle = d * 2 * kPi / kNumDirections;
+  for (std::size_t d = 0; d < kNumDirections; ++d) {
+    if (!directions[d]) continue;
+    const double angle = static_cast<double>(d) * 2 * kPi / kNumDirections;
     const double cosine = std::cos(angle), sine = std::sin(angle);
     for (StripSet& side : sides) side.Clear();
     for (const LocalView& view : seen) {
       const double facing = std::sin(angle - view.azimuth);
       if (std::abs(facing) < kMinSine) continue;
-      StripSet& side = sides[facing > 0 ? 0 : 1];
+      const std::size_t side = facing > 0 ? 0 : 1;
+      const Vector2d back = depth_px * AwayFromCameras(angle, side);
+      const Vector2d begin = view.pixel + step * (back.x() * view.normal +
+                                                  back.y() * view.binormal);
       const Vector2d across =
           step * (cosine * view.normal + sine * view.binormal);
-      if (Sample(view, across, step * view.along, side.Next())) side.Keep();
+      if (Sample(view, begin, across, step * view.along, sides[side].Next())) {
+        sides[side].Keep();
+      }
     }
     for (std::size_t side = 0; side < 2; ++side) {
-      evidence.log_bayes[side][static_cast<std::size_t>(d)] =
-          sides[side].LogBayes(other_curves[static_cast<std::size_t>(d)] / step,
-                               noise_variance);
+      evidence.log_bayes[side][d] =
+          sides[side].LogBayes(other_curves[d] / step, noise_variance);
     }
   }
   return evidence;

@@ -8,7 +8,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <bitset>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "curve_kinds/blurred_images.h"
@@ -19,6 +21,12 @@ namespace curvix {
 // Directions about the tangent of a curve, in equal steps from `normal`
 // towards tangent x normal.
 constexpr int kNumDirections = 24;
+using DirectionSet = std::bitset<kNumDirections>;
+
+// How far behind a curve, seen from the cameras, a surface beside it may begin:
+// at the curve, or beyond a step, in pixels (StripViews::step).
+constexpr std::array<double, 4> kDepthsPx = {0, 2, 4, 8};
+constexpr std::size_t kNumDepths = kDepthsPx.size();
 
 // A place on a curve, whose strips are compared.
 struct StripPlace {
@@ -38,16 +46,27 @@ struct StripPlace {
   }
 };
 
-// What the images say about surfaces that begin at a curve, for the two sides
-// of the curve in the images and each direction of a surface away from it: the
+// What the images say about surfaces at a depth behind a curve, for the two
+// sides of the curve in the images and each direction of a surface away from
+// it: the
 // logarithm of the Bayes factor of "this surface shows on this side" to "the
 // views show different things there". A direction shows on side 0 of a view if
 // it lies less than half a turn from the direction of the camera, turning from
 // `normal` towards tangent x normal; else on side 1. Minus infinity where fewer
-// than three views face the surface.
+// than three views face the surface, and where it was not looked for.
 struct SurfaceEvidence {
   std::array<std::array<float, kNumDirections>, 2> log_bayes = {};
 };
+
+// Without any direction.
+SurfaceEvidence NoSurfaces();
+
+// Unit, from a surface that leads in direction `angle` and shows on `side`,
+// away from the cameras; components as of StripPlace::Across().
+inline Eigen::Vector2d AwayFromCameras(double angle, std::size_t side) {
+  const Eigen::Vector2d away(-std::sin(angle), std::cos(angle));
+  return side == 0 ? away : -away;
+}
 
 // How far the nearest other curve is in each direction, world units; infinity:
 // none is near.
@@ -69,11 +88,14 @@ StripViews ChooseStripViews(const StripPlace& place,
                             const std::vector<PosedView>& views,
                             const std::vector<BlurredImage>& images);
 
-// The strips of the `chosen` views, whose pixels have been read. A surface may
-// end at the nearest other curve.
+// The strips of the `chosen` views, whose pixels have been read, on surfaces in
+// the `directions`, `depth_px` behind the curve. A surface may end at the
+// nearest other curve.
 SurfaceEvidence CompareStrips(const StripPlace& place,
                               const StripViews& chosen,
                               const CurveDistances& other_curves,
+                              const DirectionSet& directions,
+                              double depth_px,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images);
@@ -87,12 +109,14 @@ CurveDistances DistancesByDirection(
     const std::vector<Eigen::Vector3d>& positions);
 
 // Adds what points nearby say: a point in the direction of a surface speaks
-// for it, one in another direction against it. `points` are on other curves or
-// COLMAP's, `pixel` is the length of a pixel at the place, world units.
+// for it, one in another direction against it; directions are those from where
+// a surface begins, `depth_px` behind the curve. `points` are on other curves
+// or COLMAP's, `pixel` is the length of a pixel at the place, world units.
 void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Eigen::Vector3d>& points,
+                     double depth_px,
                      SurfaceEvidence* evidence);
 
 }  // namespace curvix

@@ -162,6 +162,27 @@ TEST_F(ClassifyCurvesTest, SurfaceThatEndsBeforeAnotherIsABoundary) {
   EXPECT_GT(sample.kind_probability, 0.95F);
 }
 
+TEST_F(ClassifyCurvesTest, FlatStepIsACrease) {
+  // A pixel is 0.0025 units. Points far from the edge hardly show the step.
+  for (const double depth : {0.005, 0.01}) {
+    std::vector<ScenePoint> points;
+    for (int i = -9; i <= 9; ++i) {
+      if (std::abs(i) < 4) continue;
+      points.emplace_back().position = {0.01 * i, i < 0 ? 0 : depth, 0};
+    }
+    EXPECT_EQ(
+        Classified({{180, 1}, {0, 2, {-0.1, depth, 0}}}, 0.1, points).kind,
+        CurveKind::kCrease)
+        << depth;
+    EXPECT_EQ(Classified({{180, 1}, {0, 2}}, 0.1, points).kind,
+              CurveKind::kMarking)
+        << depth;
+  }
+  // The other side is behind.
+  EXPECT_EQ(Classified({{0, 1}, {180, 2, {0.1, 0.01, 0}}}).kind,
+            CurveKind::kCrease);
+}
+
 TEST_F(ClassifyCurvesTest, WithoutTextureItIsProbablyACrease) {
   const CurveSample sample = Classified({{50, 1}, {130, 2}}, 0);
   EXPECT_EQ(sample.kind, CurveKind::kCrease);

@@ -53,13 +53,21 @@ class StripsTest : public ::testing::Test {
 
   SurfaceEvidence Compare(const StripPlace& place,
                           const StripViews& chosen,
+                          double depth_px,
                           std::vector<BlurredImage> images) const {
     for (std::size_t i = 0; i < images.size(); ++i) {
       if (images[i].IsAskedFor()) images[i].Keep(pixels_[i], 1);
     }
     CurveDistances none;
     none.fill(std::numeric_limits<double>::infinity());
-    return CompareStrips(place, chosen, none, scene_, views_, images);
+    return CompareStrips(place,
+                         chosen,
+                         none,
+                         DirectionSet().set(),
+                         depth_px,
+                         scene_,
+                         views_,
+                         images);
   }
 
   Random random_{1};
@@ -80,13 +88,16 @@ TEST_F(StripsTest, BoxesHoldAllPixelsOfStrips) {
       some[view].AskFor(chosen.boxes[k]);
       all[view].AskFor({Vector2i(0, 0), Vector2i(799, 799)});
     }
-    const SurfaceEvidence evidence = Compare(place, chosen, all);
-    EXPECT_EQ(Compare(place, chosen, some).log_bayes, evidence.log_bayes);
-    num_compared +=
-        std::ranges::any_of(evidence.log_bayes.front(),
-                            [](float log) { return std::isfinite(log); });
+    for (const double depth_px : kDepthsPx) {
+      const SurfaceEvidence evidence = Compare(place, chosen, depth_px, all);
+      EXPECT_EQ(Compare(place, chosen, depth_px, some).log_bayes,
+                evidence.log_bayes);
+      num_compared +=
+          std::ranges::any_of(evidence.log_bayes.front(),
+                              [](float log) { return std::isfinite(log); });
+    }
   }
-  EXPECT_GT(num_compared, 30);
+  EXPECT_GT(num_compared, 120);
 }
 
 TEST_F(StripsTest, FewViewsAreNotChosen) {

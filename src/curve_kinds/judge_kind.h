@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paper: none (beyond it). The most probable kind of a place on a curve.
+#pragma once
+
+#include <curvix/curves.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "curve_kinds/strips.h"
+
+namespace curvix {
+
+// Of one place, or of several together, for each of kDepthsPx.
+using DepthEvidence = std::array<SurfaceEvidence, kNumDepths>;
+
+// The weighted sum over the places `around`, indices of `evidence`. Those that
+// do not see a direction count as the mean of those that do, unless they are
+// most.
+DepthEvidence SumOver(const std::vector<std::size_t>& around,
+                      const std::vector<DepthEvidence>& evidence);
+
+struct KindProbability {
+  CurveKind kind = CurveKind::kUnknown;
+  double probability = 0;
+};
+
+// Unknown where no view faces a surface that begins at the curve.
+KindProbability JudgeKind(const DepthEvidence& evidence);
+
+// Directions of surfaces that may be those on either side of a marking. Only
+// there can a step look like one.
+DirectionSet DirectionsOfMarkings(const SurfaceEvidence& evidence);
+
+}  // namespace curvix
