@@ -2,15 +2,10 @@
 #include "curve_kinds/classify_curves.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <limits>
 #include <utility>
 
-#include "base/infinity.h"
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_kinds/blurred_images.h"
@@ -261,18 +256,17 @@ class Classifier {
               std::size_t curve_idx,
               const std::vector<Surroundings>& surroundings,
               std::vector<DepthEvidence>* evidence) const {
-    const double depth_px = kDepthsPx[depth_idx];
+    if (directions.none()) return;
     for (std::size_t k = 0; k < surroundings.size(); ++k) {
-      SurfaceEvidence& at_depth = (*evidence)[k][depth_idx];
-      at_depth = NoSurfaces();
-      if (directions.none()) continue;
       const std::size_t at = places_.first[curve_idx] + k;
       const StripPlace& place = places_.all[at];
+      const double depth = kDepthsPx[depth_idx] * places_.strip_views[at].step;
+      SurfaceEvidence& at_depth = (*evidence)[k][depth_idx];
       at_depth = CompareStrips(place,
                                places_.strip_views[at],
                                surroundings[k].other_curves,
                                directions,
-                               depth_px,
+                               depth,
                                scene_,
                                views_,
                                images_);
@@ -280,7 +274,7 @@ class Classifier {
                       places_.pixels[curve_idx],
                       views_,
                       surroundings[k].points,
-                      depth_px,
+                      depth,
                       &at_depth);
     }
   }

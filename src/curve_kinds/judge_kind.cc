@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "base/infinity.h"
@@ -73,6 +72,7 @@ double LogSum(const std::vector<double>& logs) {
 // without any.
 double LogMean(std::vector<double> logs) {
   std::erase_if(logs, [](double log) { return !std::isfinite(log); });
+  if (logs.empty()) return -kInfinity;
   return LogSum(logs) - std::log(static_cast<double>(logs.size()));
 }
 
@@ -81,24 +81,23 @@ double LogMean(std::vector<double> logs) {
 // as zero.
 double LogMeanOfSteps(const DepthEvidence& evidence) {
   std::vector<double> steps;
-  double num_pairs = 0;
   ForPairs(0, kMaxMarkingBend, [&](int a, int b) {
     const SurfaceEvidence& front = evidence.front();
     if (!std::isfinite(LogBayesOf(front, a, front, b))) return;
     for (std::size_t depth = 1; depth < kNumDepths; ++depth) {
       steps.push_back(LogBayesOf(front, a, evidence[depth], b));
       steps.push_back(LogBayesOf(evidence[depth], a, front, b));
-      num_pairs += 2;
     }
   });
-  return LogSum(steps) - std::log(num_pairs);
+  if (steps.empty()) return -kInfinity;
+  return LogSum(steps) - std::log(static_cast<double>(steps.size()));
 }
 
 SurfaceEvidence SumAtDepth(const std::vector<std::size_t>& around,
                            const std::vector<DepthEvidence>& evidence,
                            std::size_t depth) {
   const auto num = static_cast<float>(around.size());
-  SurfaceEvidence sum = NoSurfaces();
+  SurfaceEvidence sum;
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t d = 0; d < kNumDirections; ++d) {
       float seen = 0, total = 0;
@@ -160,6 +159,7 @@ DirectionSet DirectionsOfMarkings(const SurfaceEvidence& evidence) {
     best = std::max(best, LogBayesOf(evidence, a, evidence, b));
   });
   DirectionSet directions;
+  if (!std::isfinite(best)) return directions;
   ForPairs(0, kMaxMarkingBend, [&](int a, int b) {
     if (LogBayesOf(evidence, a, evidence, b) < best - kLikelyLogBayes) return;
     directions.set(static_cast<std::size_t>(a));

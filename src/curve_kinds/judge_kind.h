@@ -29,8 +29,8 @@ struct KindProbability {
 // Unknown where no view faces a surface that begins at the curve.
 KindProbability JudgeKind(const DepthEvidence& evidence);
 
-// Directions of surfaces that may be those on either side of a marking. Only
-// there can a step look like one.
+// Those of the likeliest markings. A step that looks like a marking has these,
+// too.
 DirectionSet DirectionsOfMarkings(const SurfaceEvidence& evidence);
 
 }  // namespace curvix

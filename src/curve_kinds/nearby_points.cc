@@ -30,24 +30,22 @@ constexpr double kMaxPoints = 6;
 constexpr double kMaxAlongPx = 6;
 constexpr double kMinBesidePx = 1;
 
-double DistanceAcross(const Vector3d& offset, const StripPlace& place) {
-  return (offset - offset.dot(place.tangent) * place.tangent).norm();
-}
-
 struct Direction {
   double angle = 0;  // about the tangent, from the normal, radians
   double sigma = 0;
   double peak = 0;  // largest Ratio()
 };
 
-// Of the `points` from where a surface begins, in pixels across the curve.
+// Of the `points` that are not too near, from where a surface begins, both in
+// pixels across the curve.
 std::vector<Direction> DirectionsFrom(const Vector2d& begin,
                                       const std::vector<Vector2d>& points) {
   std::vector<Direction> directions;
   directions.reserve(points.size());
   for (const Vector2d& point : points) {
     const Vector2d offset = point - begin;
-    const double distance_px = std::max(1.0, offset.norm());
+    const double distance_px = offset.norm();
+    if (distance_px < kMinDistancePx) continue;
     const double sigma =
         std::hypot(kDirectionSigma, kPointSigmaPx / distance_px);
     directions.push_back({std::atan2(offset.y(), offset.x()),
@@ -85,7 +83,7 @@ CurveDistances DistancesByDirection(const StripPlace& place,
   distances.fill(kInfinity);
   for (const Vector3d& position : positions) {
     const Vector3d offset = (position - place.position) / pixel;
-    const double distance = DistanceAcross(offset, place);
+    const double distance = place.Across(offset).norm();
     if (std::abs(offset.dot(place.tangent)) > kMaxAlongPx ||
         distance < kMinBesidePx) {
       continue;
@@ -106,7 +104,7 @@ void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Vector3d>& points,
-                     double depth_px,
+                     double depth,
                      SurfaceEvidence* evidence) {
   std::vector<Vector2d> cameras;
   for (const int view : place.views) {
@@ -128,8 +126,8 @@ void AddNearbyPoints(const StripPlace& place,
       float& log_bayes = evidence->log_bayes[side][static_cast<std::size_t>(d)];
       if (!std::isfinite(log_bayes)) continue;
       const double angle = d * 2 * kPi / kNumDirections;
-      if (depth_px > 0) {
-        from = DirectionsFrom(depth_px * AwayFromCameras(angle, side),
+      if (depth > 0) {
+        from = DirectionsFrom(depth / pixel * AwayFromCameras(angle, side),
                               sides[side]);
       }
       double sum = 0;

@@ -293,14 +293,6 @@ double StripSet::LogBayesOfRows(int num_rows, double noise_variance) const {
 
 }  // namespace
 
-SurfaceEvidence NoSurfaces() {
-  SurfaceEvidence evidence;
-  for (auto& side : evidence.log_bayes) {
-    side.fill(-std::numeric_limits<float>::infinity());
-  }
-  return evidence;
-}
-
 StripViews ChooseStripViews(const StripPlace& place,
                             const Scene& scene,
                             const std::vector<PosedView>& views,
@@ -323,13 +315,13 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
                               const StripViews& chosen,
                               const CurveDistances& other_curves,
                               const DirectionSet& directions,
-                              double depth_px,
+                              double depth,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images) {
   const std::vector<LocalView> seen =
       LocateAll(place, chosen.views, scene, views, images);
-  SurfaceEvidence evidence = NoSurfaces();
+  SurfaceEvidence evidence;
   if (seen.size() < kMinViews) return evidence;
   double noise_variance = 0;
   for (const LocalView& view : seen) {
@@ -348,9 +340,9 @@ SurfaceEvidence CompareStrips(const StripPlace& place,
       const double facing = std::sin(angle - view.azimuth);
       if (std::abs(facing) < kMinSine) continue;
       const std::size_t side = facing > 0 ? 0 : 1;
-      const Vector2d back = depth_px * AwayFromCameras(angle, side);
-      const Vector2d begin = view.pixel + step * (back.x() * view.normal +
-                                                  back.y() * view.binormal);
+      const Vector2d back = depth * AwayFromCameras(angle, side);
+      const Vector2d begin =
+          view.pixel + back.x() * view.normal + back.y() * view.binormal;
       const Vector2d across =
           step * (cosine * view.normal + sine * view.binormal);
       if (Sample(view, begin, across, step * view.along, sides[side].Next())) {

@@ -11,6 +11,7 @@
 #include <bitset>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "curve_kinds/blurred_images.h"
@@ -48,18 +49,21 @@ struct StripPlace {
 
 // What the images say about surfaces at a depth behind a curve, for the two
 // sides of the curve in the images and each direction of a surface away from
-// it: the
-// logarithm of the Bayes factor of "this surface shows on this side" to "the
-// views show different things there". A direction shows on side 0 of a view if
-// it lies less than half a turn from the direction of the camera, turning from
-// `normal` towards tangent x normal; else on side 1. Minus infinity where fewer
-// than three views face the surface, and where it was not looked for.
+// it: the logarithm of the Bayes factor of "this surface shows on this side" to
+// "the views show different things there". A direction shows on side 0 of a
+// view if it lies less than half a turn from the direction of the camera,
+// turning from `normal` towards tangent x normal; else on side 1. Minus
+// infinity, as at first, where fewer than three views face the surface, and
+// where none was looked for.
 struct SurfaceEvidence {
-  std::array<std::array<float, kNumDirections>, 2> log_bayes = {};
-};
+  std::array<std::array<float, kNumDirections>, 2> log_bayes;
 
-// Without any direction.
-SurfaceEvidence NoSurfaces();
+  SurfaceEvidence() {
+    for (auto& side : log_bayes) {
+      side.fill(-std::numeric_limits<float>::infinity());
+    }
+  }
+};
 
 // Unit, from a surface that leads in direction `angle` and shows on `side`,
 // away from the cameras; components as of StripPlace::Across().
@@ -89,13 +93,13 @@ StripViews ChooseStripViews(const StripPlace& place,
                             const std::vector<BlurredImage>& images);
 
 // The strips of the `chosen` views, whose pixels have been read, on surfaces in
-// the `directions`, `depth_px` behind the curve. A surface may end at the
-// nearest other curve.
+// the `directions`, `depth` (world units) behind the curve. A surface may end
+// at the nearest other curve in its direction from this one.
 SurfaceEvidence CompareStrips(const StripPlace& place,
                               const StripViews& chosen,
                               const CurveDistances& other_curves,
                               const DirectionSet& directions,
-                              double depth_px,
+                              double depth,
                               const Scene& scene,
                               const std::vector<PosedView>& views,
                               const std::vector<BlurredImage>& images);
@@ -110,13 +114,13 @@ CurveDistances DistancesByDirection(
 
 // Adds what points nearby say: a point in the direction of a surface speaks
 // for it, one in another direction against it; directions are those from where
-// a surface begins, `depth_px` behind the curve. `points` are on other curves
-// or COLMAP's, `pixel` is the length of a pixel at the place, world units.
+// a surface begins, `depth` behind the curve. `points` are on other curves or
+// COLMAP's, `pixel` is the length of a pixel at the place; world units.
 void AddNearbyPoints(const StripPlace& place,
                      double pixel,
                      const std::vector<PosedView>& views,
                      const std::vector<Eigen::Vector3d>& points,
-                     double depth_px,
+                     double depth,
                      SurfaceEvidence* evidence);
 
 }  // namespace curvix

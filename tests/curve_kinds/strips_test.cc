@@ -64,7 +64,7 @@ class StripsTest : public ::testing::Test {
                          chosen,
                          none,
                          DirectionSet().set(),
-                         depth_px,
+                         depth_px * chosen.step,
                          scene_,
                          views_,
                          images);
