@@ -196,6 +196,7 @@ class Classifier {
       return SumOver(PlacesAround(at, evidence.size(), curve->closed),
                      evidence);
     };
+    // Steps look like markings; only there are surfaces behind looked for.
     DirectionSet may_be_steps;
     for (std::size_t at = 0; at < evidence.size(); ++at) {
       const DepthEvidence sum = sum_at(at);

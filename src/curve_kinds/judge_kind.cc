@@ -28,7 +28,8 @@ constexpr double kPriorStep = 0.05;
 constexpr double kPriorBoundary = 0.02;
 constexpr double kPriorMarking = 0.09;
 
-// Directions whose log-likelihood is as much below the best are left out.
+// Markings whose log Bayes factor is more than this below that of the best are
+// unlikely.
 constexpr double kLikelyLogBayes = 25;
 
 // How far two directions are from opposite ones, in steps of directions.

@@ -12,7 +12,7 @@
 
 namespace curvix {
 
-// Of one place, or of several together, for each of kDepthsPx.
+// The evidence at one place, or at several together, for each of kDepthsPx.
 using DepthEvidence = std::array<SurfaceEvidence, kNumDepths>;
 
 // The weighted sum over the places `around`, indices of `evidence`. Those that
@@ -26,11 +26,12 @@ struct KindProbability {
   double probability = 0;
 };
 
-// Unknown where no view faces a surface that begins at the curve.
+// The most probable kind; kUnknown where fewer than three views face any
+// surface that begins at the curve. A flat step is a crease.
 KindProbability JudgeKind(const DepthEvidence& evidence);
 
-// Those of the likeliest markings. A step that looks like a marking has these,
-// too.
+// The directions of the surfaces on both sides, if it is one of the likeliest
+// markings. A step that looks like a marking has these, too.
 DirectionSet DirectionsOfMarkings(const SurfaceEvidence& evidence);
 
 }  // namespace curvix
