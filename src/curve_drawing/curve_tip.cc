@@ -17,6 +17,12 @@ constexpr double kTangentSigmaRad = DegToRad(4);
 constexpr double kCorrelatedPx = 3;
 // Of the direction of a seed, where its edges do not determine it.
 constexpr double kSeedSlopeSigma = 0.3;
+// Where cameras move along an edge, its planes nearly coincide, and it could
+// run from the cameras into the depth as well as across their rays. Edges that
+// do are short in images, and so rare. The prior is as strong as planes whose
+// normals deviate by 13 degrees (root mean square): errors of a view are alike
+// along the edge, so its planes hardly tell less.
+constexpr double kSeedRayWeight = 0.05;
 
 }  // namespace
 
@@ -25,7 +31,8 @@ CurveTip::CurveTip(const SpaceEdge& edge,
                    double sigma_px,
                    double pixel)
     : sigma_px_(sigma_px), pixel_(pixel) {
-  const EdgeEstimate estimate = AdjustEdge(edge, measurements, sigma_px);
+  const EdgeEstimate estimate =
+      AdjustEdge(edge, measurements, sigma_px, kSeedRayWeight);
   edge_ = estimate.edge;
   axes_ = estimate.across;
   covariance_.topLeftCorner<2, 2>() = estimate.covariance / (pixel * pixel);

@@ -41,21 +41,26 @@ NormalEquations Linearise(const EdgeEstimate& estimate,
   return sum;
 }
 
-// The direction most orthogonal to the planes' normals, on the side of `start`.
+// The direction most orthogonal to the planes' normals and, with a weight, to
+// the rays, on the side of the estimate.
 Eigen::Vector3d FitTangent(const EdgeEstimate& estimate,
                            const std::vector<PlaneMeasurement>& measurements,
-                           double sigma_px) {
+                           double sigma_px,
+                           double ray_weight) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const PlaneMeasurement& m : measurements) {
     const Eigen::Vector3d normal = m.plane.normalized();
+    const Eigen::Vector3d ray =
+        (estimate.edge.position - m.center).normalized();
     const double weight =
         CauchyWeight(DistanceFrom(m, estimate.edge.position).px, sigma_px);
     scatter += weight * normal * normal.transpose();
+    scatter += weight * ray_weight * ray * ray.transpose();
   }
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(scatter);
   const Eigen::Vector3d eigenvalues = solver.eigenvalues();
-  // Planes that all but coincide leave the tangent open.
+  // Without rays, planes that all but coincide leave the tangent open.
   if (!(eigenvalues(1) > 1e-4 * eigenvalues(2))) return estimate.edge.tangent;
   const Eigen::Vector3d tangent = solver.eigenvectors().col(0).normalized();
   return tangent.dot(estimate.edge.tangent) < 0 ? -tangent : tangent;
@@ -69,7 +74,8 @@ PlaneMeasurement MeasurePlane(const PosedView& view, const ImageEdge& edge) {
 
 EdgeEstimate AdjustEdge(const SpaceEdge& start,
                         const std::vector<PlaneMeasurement>& measurements,
-                        double sigma_px) {
+                        double sigma_px,
+                        double ray_weight) {
   EdgeEstimate estimate;
   estimate.edge = start;
   estimate.across = AxesAcross(estimate.edge.tangent);
@@ -79,7 +85,8 @@ EdgeEstimate AdjustEdge(const SpaceEdge& start,
     estimate.edge.position +=
         step.x() * estimate.across.col(0) + step.y() * estimate.across.col(1);
   }
-  estimate.edge.tangent = FitTangent(estimate, measurements, sigma_px);
+  estimate.edge.tangent =
+      FitTangent(estimate, measurements, sigma_px, ray_weight);
   estimate.across = AxesAcross(estimate.edge.tangent);
   const NormalEquations sum = Linearise(estimate, measurements, sigma_px);
   const double spread2 = sum.weighted_squares / std::max(sum.weights, 1e-12);

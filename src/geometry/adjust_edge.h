@@ -54,14 +54,16 @@ struct EdgeEstimate {
 
 // Gauss-Newton from `start` on the signed pixel distances to the measurements,
 // with weights 1 / (1 + (r / sigma_px)^2) (Cauchy), then the tangent as the
-// direction most orthogonal to the planes' normals, with the same weights. The
-// covariance takes sigma_px for the measurements' standard deviation, or the
-// residuals' spread where that is larger. Needs two measurements whose planes
-// differ; where they hardly do, the covariance is large in that direction and
-// the estimate stays near `start`.
+// direction most orthogonal to the planes' normals, with the same weights, and
+// to the rays, with `ray_weight` times these: a prior against edges seen
+// end-on. The covariance takes sigma_px for the measurements' standard
+// deviation, or the residuals' spread where that is larger. Needs two
+// measurements whose planes differ; where they hardly do, the covariance is
+// large in that direction and the estimate stays near `start`.
 EdgeEstimate AdjustEdge(const SpaceEdge& start,
                         const std::vector<PlaneMeasurement>& measurements,
-                        double sigma_px);
+                        double sigma_px,
+                        double ray_weight = 0);
 
 // The estimate of AdjustEdge() for two measurements whose planes meet in
 // `edge`, so that all residuals are zero; at a quarter of the cost.

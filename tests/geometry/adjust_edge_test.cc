@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -181,6 +182,43 @@ TEST(AdjustEdge, StaysNearTheStartWherePlanesHardlyDiffer) {
   Eigen::SelfAdjointEigenSolver<Matrix2d> axes;
   axes.computeDirect(estimate.covariance);
   EXPECT_GT(axes.eigenvalues()(1), 100 * axes.eigenvalues()(0));
+}
+
+// The largest angle, in degrees, between true and adjusted directions of an
+// edge along the baseline, by images in which it is turned by up to 2 degrees.
+double WorstAngleAlongTheBaseline(double ray_weight) {
+  Random random(7);
+  const SpaceEdge truth{{0, 0, 0}, {0, 1, 0}};
+  double worst_cosine = 1;
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<PlaneMeasurement> measurements;
+    for (int i = -3; i <= 3; ++i) {
+      const PosedView view = LookAt({6, 0.8 * i, 0.1 * (i % 2)}, {0, 0, 0});
+      ImageEdge image = *ProjectEdge(view, truth);
+      const double turn = DegToRad(random.Uniform(-2, 2));
+      image.tangent = Eigen::Rotation2Dd(turn) * image.tangent;
+      measurements.push_back(MeasurePlane(view, image));
+    }
+    const EdgeEstimate estimate =
+        AdjustEdge(truth, measurements, kSigmaPx, ray_weight);
+    worst_cosine =
+        std::min(worst_cosine, estimate.edge.tangent.dot(truth.tangent));
+  }
+  return RadToDeg(std::acos(worst_cosine));
+}
+
+TEST(AdjustEdge, PrefersDirectionsAcrossTheRaysWherePlanesHardlyDiffer) {
+  EXPECT_GT(WorstAngleAlongTheBaseline(0), 30);
+  EXPECT_LT(WorstAngleAlongTheBaseline(0.05), 10);
+}
+
+TEST(AdjustEdge, HardlyPrefersAnyDirectionWherePlanesDiffer) {
+  Random random(8);
+  const auto measurements = MeasureAll(RingOfViews(8), 0, random);
+  const EdgeEstimate estimate =
+      AdjustEdge(Start(random), measurements, kSigmaPx, 0.05);
+  EXPECT_LT(estimate.edge.tangent.cross(kTruth.tangent).norm(),
+            std::sin(DegToRad(2)));
 }
 
 TEST(AdjustEdge, StatesTheScatterOfTheEdgeInAnotherView) {
