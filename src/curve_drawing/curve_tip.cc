@@ -17,11 +17,10 @@ constexpr double kTangentSigmaRad = DegToRad(4);
 constexpr double kCorrelatedPx = 3;
 // Of the direction of a seed, where its edges do not determine it.
 constexpr double kSeedSlopeSigma = 0.3;
-// Where cameras move along an edge, its planes nearly coincide, and it could
-// run from the cameras into the depth as well as across their rays. Edges that
-// do are short in images, and so rare. The prior is as strong as planes whose
-// normals deviate by 13 degrees (root mean square): errors of a view are alike
-// along the edge, so its planes hardly tell less.
+// Where cameras move along an edge, its planes nearly coincide, and images
+// hardly tell how it runs in depth. Edges seen end-on are short in images, and
+// so rare: directions across the rays are preferred, as strongly as by planes
+// whose normals deviate by 13 degrees (root mean square).
 constexpr double kSeedRayWeight = 0.05;
 
 }  // namespace
