@@ -22,7 +22,8 @@ namespace curvix {
 // a random walk from pixel to pixel. The axes may be left-handed.
 class CurveTip {
  public:
-  // `pixel`: of world units; `measurements`: those that gave `edge`.
+  // `pixel`: of world units; `measurements`: those that gave `edge`. Where they
+  // hardly tell its direction, the tip is across the rays.
   CurveTip(const SpaceEdge& edge,
            const std::vector<PlaneMeasurement>& measurements,
            double sigma_px,
