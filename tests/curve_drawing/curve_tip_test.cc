@@ -3,36 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cmath>
-#include <vector>
 
 #include "base/angles.h"
-#include "geometry/adjust_edge.h"
 #include "tests/support/random.h"
-#include "tests/support/test_views.h"
+#include "tests/support/synthetic_edges.h"
 
 namespace curvix {
 namespace {
 
 constexpr double kSigmaAcrossPx = 0.15;
 constexpr double kPixelAtTheEdge = 0.01;
-
-// 2D edges of `edge`, turned by up to `max_turn_deg`, in images by a camera
-// that moves along the y axis at 6 units from it.
-std::vector<PlaneMeasurement> MeasureAlongTheBaseline(const SpaceEdge& edge,
-                                                      double max_turn_deg,
-                                                      Random& random) {
-  std::vector<PlaneMeasurement> measurements;
-  for (int i = -3; i <= 3; ++i) {
-    const PosedView view = LookAt({6, 0.8 * i, 0.1 * (i % 2)}, {0, 0, 0});
-    ImageEdge image = *ProjectEdge(view, edge);
-    const double turn = DegToRad(random.Uniform(-max_turn_deg, max_turn_deg));
-    image.tangent = Eigen::Rotation2Dd(turn) * image.tangent;
-    measurements.push_back(MeasurePlane(view, image));
-  }
-  return measurements;
-}
 
 TEST(CurveTip, OfAnEdgeAlongTheBaselineRunsAcrossTheRays) {
   Random random(1);

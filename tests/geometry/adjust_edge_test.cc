@@ -191,16 +191,8 @@ double WorstAngleAlongTheBaseline(double ray_weight) {
   const SpaceEdge truth{{0, 0, 0}, {0, 1, 0}};
   double worst_cosine = 1;
   for (int trial = 0; trial < 100; ++trial) {
-    std::vector<PlaneMeasurement> measurements;
-    for (int i = -3; i <= 3; ++i) {
-      const PosedView view = LookAt({6, 0.8 * i, 0.1 * (i % 2)}, {0, 0, 0});
-      ImageEdge image = *ProjectEdge(view, truth);
-      const double turn = DegToRad(random.Uniform(-2, 2));
-      image.tangent = Eigen::Rotation2Dd(turn) * image.tangent;
-      measurements.push_back(MeasurePlane(view, image));
-    }
-    const EdgeEstimate estimate =
-        AdjustEdge(truth, measurements, kSigmaPx, ray_weight);
+    const EdgeEstimate estimate = AdjustEdge(
+        truth, MeasureAlongTheBaseline(truth, 2, random), kSigmaPx, ray_weight);
     worst_cosine =
         std::min(worst_cosine, estimate.edge.tangent.dot(truth.tangent));
   }
