@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/angles.h"
+#include "tests/support/edges_along_baseline.h"
 #include "tests/support/random.h"
-#include "tests/support/synthetic_edges.h"
 
 namespace curvix {
 namespace {

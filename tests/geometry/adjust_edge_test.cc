@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "tests/support/edges_along_baseline.h"
 #include "tests/support/random.h"
 #include "tests/support/synthetic_edges.h"
 #include "tests/support/test_views.h"

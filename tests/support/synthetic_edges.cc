@@ -166,20 +166,6 @@ std::vector<PosedView> RingOfViews(int num_views) {
   return views;
 }
 
-std::vector<PlaneMeasurement> MeasureAlongTheBaseline(const SpaceEdge& edge,
-                                                      double max_turn_deg,
-                                                      Random& random) {
-  std::vector<PlaneMeasurement> measurements;
-  for (int i = -3; i <= 3; ++i) {
-    const PosedView view = LookAt({6, 0.8 * i, 0.1 * (i % 2)}, {0, 0, 0});
-    ImageEdge image = *ProjectEdge(view, edge);
-    const double turn = DegToRad(random.Uniform(-max_turn_deg, max_turn_deg));
-    image.tangent = Eigen::Rotation2Dd(turn) * image.tangent;
-    measurements.push_back(MeasurePlane(view, image));
-  }
-  return measurements;
-}
-
 Scene SceneOf(const std::vector<PosedView>& views) {
   Scene scene;
   for (const PosedView& view : views) {

@@ -9,9 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "geometry/adjust_edge.h"
 #include "model/posed_view.h"
-#include "tests/support/random.h"
 
 namespace curvix {
 
@@ -35,12 +33,6 @@ std::vector<TestCurve> CubeCurves();
 // radius 6 around the z axis, 2.5 above the origin and looking at it. One pixel
 // is about 1/125 at the origin.
 std::vector<PosedView> RingOfViews(int num_views);
-
-// 2D edges of `edge`, turned by up to `max_turn_deg`, in seven images by a
-// camera that moves along the y axis and looks at the origin, 6 units away.
-std::vector<PlaneMeasurement> MeasureAlongTheBaseline(const SpaceEdge& edge,
-                                                      double max_turn_deg,
-                                                      Random& random);
 
 // Pinholes of the size and the calibration of `views`.
 Scene SceneOf(const std::vector<PosedView>& views);
