@@ -14,7 +14,6 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "curve_refinement/weak_directions.h"
 #include "geometry/adjust_edge.h"
 #include "geometry/directions.h"
 #include "geometry/pixel_size.h"
@@ -29,8 +28,7 @@ constexpr double kKinkSigmas = 2;   // from here on bends count less
 constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
-constexpr double kMinGain = 1e-3;     // of a step, share of the cost
-constexpr double kMaxStiffening = 3;  // in weak directions
+constexpr double kMinGain = 1e-3;  // of a step, share of the cost
 // Under robust losses the fit can leave edges. Samples at twice the default of
 // Validation.max_distance_px or more are cut out.
 constexpr double kMaxMissPx = 2;
@@ -113,14 +111,12 @@ class SupportCost : public ceres::CostFunction {
 
 using Segment = std::array<Station, 4>;
 
-// The third derivative of four samples in a row, in the directions of `rows`.
+// The third derivative of four samples in a row.
 class BendCost : public ceres::CostFunction {
  public:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-
-  BendCost(const Segment& segment, double stiffness_px, double pixel, Rows rows)
-      : segment_(segment), rows_(std::move(rows)) {
-    set_num_residuals(static_cast<int>(rows_.rows()));
+  BendCost(const Segment& segment, double stiffness_px, double pixel)
+      : segment_(segment) {
+    set_num_residuals(3);
     mutable_parameter_block_sizes()->assign(segment_.size(), 2);
     std::array<double, 4> along = {};
     for (std::size_t j = 1; j < along.size(); ++j) {
@@ -134,7 +130,7 @@ class BendCost : public ceres::CostFunction {
       for (std::size_t i = 0; i < along.size(); ++i) {
         if (i != j) factors_[j] /= along[j] - along[i];
       }
-      jacobians_[j] = factors_[j] * rows_ * segment_[j].axes;
+      jacobians_[j] = factors_[j] * segment_[j].axes;
     }
   }
 
@@ -145,17 +141,16 @@ class BendCost : public ceres::CostFunction {
     for (std::size_t j = 0; j < segment_.size(); ++j) {
       sum += factors_[j] * (segment_[j].At(offsets[j]) - segment_[0].start);
       if (jacobians == nullptr || jacobians[j] == nullptr) continue;
-      Eigen::Map<Jacobian>{jacobians[j], rows_.rows(), 2} = jacobians_[j];
+      Eigen::Map<Jacobian>{jacobians[j]} = jacobians_[j];
     }
-    Eigen::Map<Eigen::VectorXd>{residuals, rows_.rows()} = rows_ * sum;
+    Eigen::Map<Eigen::Vector3d>{residuals} = sum;
     return true;
   }
 
  private:
-  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  using Jacobian = Eigen::Matrix<double, 3, 2, Eigen::RowMajor>;
 
   Segment segment_;
-  Rows rows_;
   std::array<double, 4> factors_ = {};
   std::array<Jacobian, 4> jacobians_;  // by the offset of each sample
 };
@@ -177,7 +172,6 @@ class CurveFitter {
       : curve_(std::move(curve)),
         pixel_(pixel),
         offsets_(curve_.samples.size()),
-        information_(curve_.samples.size(), Eigen::Matrix3d::Zero()),
         problem_(WithoutChecksAndOwnership()) {
     stations_.reserve(curve_.samples.size());
     for (const CurveSample& sample : curve_.samples) {
@@ -192,11 +186,6 @@ class CurveFitter {
       std::vector<PlaneMeasurement> measured =
           MeasureUnblurred(curve_, k, pixel_, input, response);
       if (measured.empty()) continue;
-      for (const PlaneMeasurement& plane : measured) {
-        const Eigen::Vector3d gradient =
-            DistanceFrom(plane, stations_[k].start).gradient;
-        information_[k] += gradient * gradient.transpose();
-      }
       support_costs_.emplace_back(
           stations_[k], std::move(measured), input.edge_sigma_px);
       problem_.AddResidualBlock(
@@ -204,36 +193,10 @@ class CurveFitter {
     }
   }
 
-  // In a weak direction curves may zigzag at first. So samples move across the
-  // mean tangent there, and keep their distances along the curve. Axes turn
-  // with the world, since damping depends on them.
   void AddBends(double stiffness_px) {
-    const std::vector<std::optional<WeakDirection>> weak =
-        WeakDirections(curve_, information_);
-    for (std::size_t k = 0; k < weak.size(); ++k) {
-      if (!weak[k]) continue;
-      const Eigen::Vector3d& direction = weak[k]->direction;
-      stations_[k].axes.col(0) = pixel_ * direction;
-      stations_[k].axes.col(1) = pixel_ * weak[k]->along.cross(direction);
-    }
     const std::size_t size = stations_.size();
     const std::size_t num_bends = curve_.closed ? size : size - 3;
-    for (std::size_t k = 0; k < num_bends; ++k) {
-      const auto& middle = weak[(k + 1) % size];
-      if (!middle) {
-        AddBend(k, stiffness_px, Eigen::Matrix3d::Identity(), &bend_loss_);
-        continue;
-      }
-      const Eigen::Vector3d& d = middle->direction;
-      AddBend(k,
-              stiffness_px,
-              Eigen::Matrix3d::Identity() - d * d.transpose(),
-              &bend_loss_);
-      AddBend(k,
-              std::min(kMaxStiffening, middle->ratio) * stiffness_px,
-              d.transpose(),
-              nullptr);
-    }
+    for (std::size_t k = 0; k < num_bends; ++k) AddBend(k, stiffness_px);
   }
 
   // The curve, or the parts of it that are near their edges.
@@ -255,7 +218,7 @@ class CurveFitter {
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       curve_.samples[k].position = stations_[k].At(offsets_[k].data());
     }
-    SetTangents();
+    SetTangentsAlongChords(curve_);
     return KeepRanges(std::move(curve_), AreNearEdges());
   }
 
@@ -272,10 +235,7 @@ class CurveFitter {
   }
 
   // Of the samples from `first` on.
-  void AddBend(std::size_t first,
-               double stiffness_px,
-               const BendCost::Rows& rows,
-               ceres::LossFunction* loss) {
+  void AddBend(std::size_t first, double stiffness_px) {
     Segment segment;
     std::vector<double*> offsets;
     for (std::size_t j = 0; j < segment.size(); ++j) {
@@ -283,29 +243,14 @@ class CurveFitter {
       segment[j] = stations_[sample];
       offsets.push_back(offsets_[sample].data());
     }
-    bend_costs_.emplace_back(segment, stiffness_px, pixel_, rows);
-    problem_.AddResidualBlock(&bend_costs_.back(), loss, offsets);
-  }
-
-  void SetTangents() {
-    const std::size_t size = curve_.samples.size();
-    for (std::size_t k = 0; k < size; ++k) {
-      const std::size_t before = curve_.closed
-                                     ? (k + size - 2) % size
-                                     : std::max<std::size_t>(k, 2) - 2;
-      const std::size_t after =
-          curve_.closed ? (k + 2) % size : std::min(size - 1, k + 2);
-      const Eigen::Vector3d chord =
-          curve_.samples[after].position - curve_.samples[before].position;
-      if (chord.norm() > 0) curve_.samples[k].tangent = chord.normalized();
-    }
+    bend_costs_.emplace_back(segment, stiffness_px, pixel_);
+    problem_.AddResidualBlock(&bend_costs_.back(), &bend_loss_, offsets);
   }
 
   Curve curve_;
   double pixel_;  // world units
   std::vector<Station> stations_;
   std::vector<std::array<double, 2>> offsets_;
-  std::vector<Eigen::Matrix3d> information_;  // of samples' places
   // At addresses that stay.
   std::deque<SupportCost> support_costs_;
   std::deque<BendCost> bend_costs_;
@@ -326,6 +271,19 @@ std::vector<Curve> FitCurve(const Curve& curve,
 }
 
 }  // namespace
+
+void SetTangentsAlongChords(Curve& curve) {
+  const std::size_t size = curve.samples.size();
+  for (std::size_t k = 0; k < size; ++k) {
+    const std::size_t before =
+        curve.closed ? (k + size - 2) % size : std::max<std::size_t>(k, 2) - 2;
+    const std::size_t after =
+        curve.closed ? (k + 2) % size : std::min(size - 1, k + 2);
+    const Eigen::Vector3d chord =
+        curve.samples[after].position - curve.samples[before].position;
+    if (chord.norm() > 0) curve.samples[k].tangent = chord.normalized();
+  }
+}
 
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const RefinementInput& input,

@@ -30,6 +30,8 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                      : ResponseCurve();
   refined = FitToImages(std::move(refined), input, response);
   if (input.Stops()) return {};
+  refined = FlattenCurves(std::move(refined), input, response);
+  if (input.Stops()) return {};
   if (options.separate_touching) {
     refined = CutAtTouches(std::move(refined), views);
   }

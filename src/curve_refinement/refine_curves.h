@@ -13,9 +13,9 @@
 
 namespace curvix {
 
-// Nine steps, below in their order: those that select, smooth, separate curves
-// that touch, close gaps, fit to all images (response_curve.h), cut at touches
-// and at corners, and carry ends on to corners; curves shorter than
+// Ten steps, below in their order: those that select, smooth, separate curves
+// that touch, close gaps, fit to all images (response_curve.h), flatten, cut at
+// touches and at corners, and carry ends on to corners; curves shorter than
 // input.options.min_length_px are dropped unless they join two junctions; the
 // last estimates covariances. Occluding contours that options keep are
 // smoothed, not fitted. Without input.options.enabled, the curves as they are.
@@ -113,9 +113,7 @@ std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
 // derivative by arc length of four samples in a row, small for all smooth
 // curves, and the losses are Cauchy's: a wrong 2D edge hardly pulls, and a kink
 // that the images show stays. So noise goes on lengths of some b and curvature
-// stays. In a weak direction (weak_directions.h) images show no kink: there, b
-// is larger by the ratio of the standard deviations, at most by three, and
-// rho2 is the square. Tangents become those of the samples five in a row.
+// stays. Tangents become those of SetTangentsAlongChords().
 // Curves of fewer than six samples stay; smoothing_px = 0 returns the input.
 // Samples that come to lie 2 px or more from their 2D edges (median) are cut
 // out; what is left of a curve is one or several, in order.
@@ -123,6 +121,25 @@ std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
 std::vector<Curve> FitToImages(std::vector<Curve> curves,
                                const RefinementInput& input,
                                const ResponseCurve& response);
+
+// Sets each tangent along the chord between the samples two before and behind.
+void SetTangentsAlongChords(Curve& curve);
+
+// Puts curves into planes where images hardly determine their depth, as along
+// the baseline: there, errors that continue along 2D edges bend curves in
+// depth, and most curves of man-made scenes are planar. Samples move along the
+// rays from the mean centre of the supporting cameras into the plane that
+// agrees best with all 2D edges, with Cauchy's loss of input.edge_sigma_px. A
+// weak prior prefers planes across the rays. A curve moves only if
+//  * in no view that supports a quarter of its samples it moves by more than
+//    4 input.edge_sigma_px (root mean square), so that one view from elsewhere
+//    keeps it as it is, and
+//  * in space, in pixels, it moves more than three times as far as in images.
+// Curves of fewer than six samples stay; smoothing_px = 0 returns the input.
+// Pixels in space as in pixel_size.h.
+std::vector<Curve> FlattenCurves(std::vector<Curve> curves,
+                                 const RefinementInput& input,
+                                 const ResponseCurve& response);
 
 // Cuts two curves where they touch, so that all four pieces end in one place:
 // amid the segments of at most 120 px along which either is within 2 px and 10

@@ -11,22 +11,6 @@ namespace {
 
 constexpr double kNoisePx = 0.3;
 
-// A curve, views of it, and exact 2D edges of all its samples.
-struct SeenCurve {
-  Curve truth;
-  std::vector<PosedView> views;
-  std::vector<EdgeMap> edge_maps;
-};
-
-SeenCurve SeeFrom(std::vector<PosedView> views, Curve curve) {
-  SeenCurve seen;
-  seen.views = std::move(views);
-  std::vector<Curve> curves = {std::move(curve)};
-  seen.edge_maps = SupportByEdges(seen.views, curves);
-  seen.truth = std::move(curves[0]);
-  return seen;
-}
-
 SeenCurve SeeFromEightViews(Curve curve) {
   return SeeFrom(EightViews(), std::move(curve));
 }
@@ -129,25 +113,6 @@ TEST(FitToImages, ACornerIsNotRounded) {
     EXPECT_LT((fitted.samples[k].position - corner.samples[k].position).norm(),
               0.4 * kPixel)
         << k;
-  }
-}
-
-// Lines along the baseline have no depth but that of small differences in
-// height. Noise in them is no reason for kinks.
-TEST(FitToImages, ALineAlongTheBaselineIsStraightInDepth) {
-  std::vector<PosedView> views;
-  for (int i = 0; i < 8; ++i) {
-    views.push_back(LookAt({i - 4.0, -8, 0.5 * std::cos(i)}, {0, 0, 0}));
-  }
-  SeenCurve seen = SeeFrom(views, Line(InPlane(-80, 0), InPlane(80, 0)));
-  Random random(3);
-  for (EdgeMap& map : seen.edge_maps) {
-    for (Edge2d& edge : map.edges) {
-      edge.position.y() += 0.15 * random.NormalVector().x();
-    }
-  }
-  for (const CurveSample& sample : Fit(seen).samples) {
-    EXPECT_LT(std::abs(sample.tangent.y()), 0.05);
   }
 }
 

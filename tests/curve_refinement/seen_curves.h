@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/curve_refinement/drawn_curves.h"
@@ -14,6 +15,22 @@ struct SeenCurves {
   std::vector<PosedView> views;
   std::vector<EdgeMap> edge_maps;
 };
+
+// A curve, views of it, and exact 2D edges of all its samples.
+struct SeenCurve {
+  Curve truth;
+  std::vector<PosedView> views;
+  std::vector<EdgeMap> edge_maps;
+};
+
+inline SeenCurve SeeFrom(std::vector<PosedView> views, Curve curve) {
+  SeenCurve seen;
+  seen.views = std::move(views);
+  std::vector<Curve> curves = {std::move(curve)};
+  seen.edge_maps = SupportByEdges(seen.views, curves);
+  seen.truth = std::move(curves[0]);
+  return seen;
+}
 
 // From the side of FrontalViews(), but from eight places on a wave.
 inline std::vector<PosedView> EightViews() {
