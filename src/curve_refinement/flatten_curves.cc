@@ -27,11 +27,12 @@ constexpr double kMaxDistanceSigmas = 4;
 constexpr double kMinDepthRatio = 3;
 // Views that support fewer of the samples do not count alone.
 constexpr double kMinSampleShare = 0.25;
-// A plane that a slope of one separates from the plane across the rays counts
-// as 2D edges that are off by so much.
+// A weak prior against planes seen edge-on: a slope of one towards the rays
+// counts as an error of so many pixels in every 2D edge.
 constexpr double kSlopePx = 0.1;
-// Nearest and farthest places are this depth ratio apart from the middle.
-constexpr double kMinInverseDepth = 0.05;
+// Samples lie no nearer than this share of the depth of the middle, and no
+// farther than the depth over it.
+constexpr double kMinDepthShare = 0.05;
 constexpr int kMaxNumFlattenSteps = 20;
 constexpr double kMinFlattenStep = 1e-7;
 
@@ -44,8 +45,8 @@ struct Rays {
   Places directions;       // of depth 1
   Places plane_functions;  // 1 and two coordinates across the middle ray
 
-  // Inverse depths are linear in planes; that of `plane` is (1, 0, 0) if it is
-  // across the middle ray, at the middle of the curve.
+  // Over that of the middle of the curve; linear in the plane, whose
+  // parameters are (1, 0, 0) if it is across the middle ray.
   double InverseDepth(std::size_t k, const Eigen::Vector3d& plane) const {
     return plane.dot(plane_functions[k]);
   }
@@ -70,7 +71,7 @@ std::optional<Rays> RaysTo(const Curve& curve, const Eigen::Vector3d& center) {
   for (const CurveSample& sample : curve.samples) {
     const Eigen::Vector3d offset = sample.position - center;
     const double depth = axis.dot(offset);
-    if (!(depth > kMinInverseDepth * rays.depth)) return std::nullopt;
+    if (!(depth > kMinDepthShare * rays.depth)) return std::nullopt;
     rays.directions.push_back(offset / depth);
     const Eigen::Vector2d across = axes.transpose() * rays.directions.back();
     rays.plane_functions.emplace_back(1, across.x(), across.y());
@@ -112,14 +113,14 @@ class CurveFlattener {
     Places places;
     for (std::size_t k = 0; k < measured_.size(); ++k) {
       const double inverse_depth = rays->InverseDepth(k, plane);
-      if (!(inverse_depth > kMinInverseDepth)) return std::nullopt;
+      if (!(inverse_depth > kMinDepthShare)) return std::nullopt;
       places.push_back(rays->At(k, inverse_depth));
     }
     return places;
   }
 
-  // Whether images allow these places but hardly determine them.
-  bool AreAsLikely(const Places& places) const {
+  // Whether images allow these places and hardly tell them from the samples.
+  bool LookAlike(const Places& places) const {
     struct Sum {
       double squares = 0;
       double count = 0;
@@ -159,7 +160,7 @@ class CurveFlattener {
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < measured_.size(); ++k) {
       const double inverse_depth = rays.InverseDepth(k, plane);
-      if (!(inverse_depth > kMinInverseDepth)) return std::nullopt;
+      if (!(inverse_depth > kMinDepthShare)) return std::nullopt;
       const Eigen::Vector3d place = rays.At(k, inverse_depth);
       const Eigen::Vector3d derivative = (rays.center - place) / inverse_depth;
       for (const PlaneMeasurement& m : measured_[k]) {
@@ -195,7 +196,7 @@ void FlattenCurve(const RefinementInput& input,
   if (!(pixel > 0)) return;
   const CurveFlattener flattener(curve, pixel, input, response);
   const std::optional<Places> places = flattener.PlacesInPlane();
-  if (!places || !flattener.AreAsLikely(*places)) return;
+  if (!places || !flattener.LookAlike(*places)) return;
   for (std::size_t k = 0; k < places->size(); ++k) {
     curve.samples[k].position = (*places)[k];
   }
