@@ -13,7 +13,6 @@
 
 #include "curve_refinement/refine_curves.h"
 #include "geometry/adjust_edge.h"
-#include "geometry/directions.h"
 #include "geometry/pixel_size.h"
 
 namespace curvix {
@@ -41,14 +40,14 @@ using Places = std::vector<Eigen::Vector3d>;  // by sample
 // The rays from the mean centre of the supporting cameras to the samples.
 struct Rays {
   Eigen::Vector3d center;
-  double depth = 0;        // of the middle of the curve
-  Places directions;       // of depth 1
-  Places plane_functions;  // 1 and two coordinates across the middle ray
+  Eigen::Vector3d axis;  // unit, to the middle of the curve
+  double depth = 0;      // of the middle, along the axis
+  Places directions;     // of depth 1
 
-  // Over that of the middle of the curve; linear in the plane, whose
-  // parameters are (1, 0, 0) if it is across the middle ray.
-  double InverseDepth(std::size_t k, const Eigen::Vector3d& plane) const {
-    return plane.dot(plane_functions[k]);
+  // Where ray k meets the plane n . (X - center) = depth, over that of the
+  // middle: linear in n.
+  double InverseDepth(std::size_t k, const Eigen::Vector3d& n) const {
+    return n.dot(directions[k]);
   }
   Eigen::Vector3d At(std::size_t k, double inverse_depth) const {
     return center + depth / inverse_depth * directions[k];
@@ -66,15 +65,12 @@ std::optional<Rays> RaysTo(const Curve& curve, const Eigen::Vector3d& center) {
   rays.center = center;
   rays.depth = middle.norm();
   if (!(rays.depth > 0)) return std::nullopt;
-  const Eigen::Vector3d axis = middle / rays.depth;
-  const AcrossAxes axes = AxesAcross(axis);
+  rays.axis = middle / rays.depth;
   for (const CurveSample& sample : curve.samples) {
     const Eigen::Vector3d offset = sample.position - center;
-    const double depth = axis.dot(offset);
+    const double depth = rays.axis.dot(offset);
     if (!(depth > kMinDepthShare * rays.depth)) return std::nullopt;
     rays.directions.push_back(offset / depth);
-    const Eigen::Vector2d across = axes.transpose() * rays.directions.back();
-    rays.plane_functions.emplace_back(1, across.x(), across.y());
   }
   return rays;
 }
@@ -103,7 +99,7 @@ class CurveFlattener {
     const std::optional<Rays> rays =
         RaysTo(curve_, sum_of_centers_ / num_measured_);
     if (!rays) return std::nullopt;
-    Eigen::Vector3d plane(1, 0, 0);
+    Eigen::Vector3d plane = rays->axis;
     for (int i = 0; i < kMaxNumFlattenSteps; ++i) {
       const std::optional<Eigen::Vector3d> step = StepOf(plane, *rays);
       if (!step) return std::nullopt;
@@ -166,15 +162,17 @@ class CurveFlattener {
       for (const PlaneMeasurement& m : measured_[k]) {
         const SeenDistance distance = DistanceFrom(m, place);
         const Eigen::Vector3d row =
-            distance.gradient.dot(derivative) * rays.plane_functions[k];
+            distance.gradient.dot(derivative) * rays.directions[k];
         const double weight = CauchyWeight(distance.px, sigma_px_);
         normal += weight * row * row.transpose();
         right -= weight * distance.px * row;
       }
     }
-    const double prior = kSlopePx * kSlopePx * num_measured_;
-    normal.diagonal().tail<2>().array() += prior;
-    right.tail<2>() -= prior * plane.tail<2>();
+    const Eigen::Matrix3d prior =
+        kSlopePx * kSlopePx * num_measured_ *
+        (Eigen::Matrix3d::Identity() - rays.axis * rays.axis.transpose());
+    normal += prior;
+    right -= prior * plane;
     const Eigen::Vector3d step = normal.ldlt().solve(right);
     if (!step.allFinite()) return std::nullopt;
     return step;

@@ -75,7 +75,7 @@ TEST(FlattenCurves, TheShapeInImagesStays) {
   }
 }
 
-// As curves whose supports disagree, which the least squares alone do not see.
+// Least squares alone would let eight views outvote it.
 TEST(FlattenCurves, OneViewFromElsewhereKeepsACurveThatIsNotPlanar) {
   std::vector<PosedView> views = ViewsAlongX();
   const Curve wavy = WavyInDepth(Line(InPlane(-80, 0), InPlane(80, 0)), 3);
