@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/point_tree.h"
 #include "curve_refinement/curve_ends.h"
+#include "geometry/pixel_size.h"
 #include "model/curve_chains.h"
 
 namespace curvix {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -379,7 +378,8 @@ void Regularize(FittedCurves& fitted) {
     Adjustment adjustment(fitted);
     adjustment.Solve();
     const std::map<FitIndex, double> moves = adjustment.Moves();
-    const double worst = std::ranges::max(moves | std::views::values);
+    double worst = 0;
+    for (const auto& [index, move] : moves) worst = std::max(worst, move);
     if (worst <= kMaxAdjustmentSigmas) {
       adjustment.WriteTo(fitted);
       return;
