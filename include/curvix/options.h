@@ -89,8 +89,8 @@ struct ValidationOptions {
   // Delta theta_p: largest angle of a supporting edge, also of curves that
   // grow. Degrees, > 0.
   double max_angle_deg = 15.0;
-  // M: fewest supporting validation views; >= 1. With kEveryView, more than
-  // half of the views on one side will do, hypothesis views included.
+  // M: fewest supporting views besides H1 and H2; >= 1. With kEveryView, more
+  // than half of the views on one side will do, H1 and H2 included.
   int min_num_support_views = 2;
   // With kEveryView: least log-likelihood ratio, see
   // docs/stages/sketch.md; natural logarithm, >= 0.

@@ -47,7 +47,8 @@ struct CurvePoses {
   // standard deviation if gains and losses were equally likely; see
   // RefinePosesWithCurves.
   double significance = 0;
-  std::size_t num_views_moved = 0;  // views with another pose or camera
+  // Views with another pose or camera; if refused, those that would have one.
+  std::size_t num_views_moved = 0;
   // How far samples at their old positions shift in an image when its pose
   // changes: the median over the samples that the view sees. Of these medians,
   // the median and the largest over all views.

@@ -83,7 +83,8 @@ void AddRows(EdgeDetectionOptions& o, Section row) {
   row("min_contour_edges", &o.min_contour_edges, AtLeast(1), "", "",
       "shorter contours are dropped if weak");
   row("max_edges_per_megapixel", &o.max_edges_per_megapixel, Above(0), "", "",
-      "most edges of 1 megapixel, n^0.8 times of n; prominent contours first");
+      "most edges of 1 megapixel, of n that times n^0.8, at least 20,000; "
+      "prominent contours first");
   row.Switch("separate_edges", &o.separate_edges,
       "undo the shift of parallel edges by blur");
 }
@@ -134,7 +135,7 @@ void AddRows(ValidationOptions& o, Section row) {
       "largest angle of a supporting edge");
   row("min_num_support_views", &o.min_num_support_views, AtLeast(1), "",
       "M, Sec. 3",
-      "fewest supporting validation views");
+      "fewest supporting views besides H1 and H2");
   row("min_log_likelihood_ratio", &o.min_log_likelihood_ratio, AtLeast(0), "",
       "", "every_view: least log-likelihood ratio");
   row("min_num_exclusive_views", &o.min_num_exclusive_views, AtLeast(0), "", "",
@@ -185,8 +186,8 @@ void AddRows(CurveGrowthOptions& o, Section row) {
   row("min_significance", &o.min_significance, AtLeast(0), "", "",
       "smallest significance of a curve");
   row("max_crowding", &o.max_crowding, AtLeast(0), "", "",
-      "largest crowding of curves (median) and seeds; more is texture, and has "
-      "to be four times as significant; 0: any");
+      "largest crowding of seeds, and of curves (median) unless they are four "
+      "times as significant; 0: any");
 }
 
 void AddRows(CurveRefinementOptions& o, Section row) {
