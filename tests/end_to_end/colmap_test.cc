@@ -22,6 +22,7 @@
 #include "plugin/commands/command_synthesize.h"
 #include "plugin/poses/child_process.h"
 #include "synthetic/synthetic_scene.h"
+#include "tests/end_to_end/run_program.h"
 #include "tests/plugin/posed_points.h"
 #include "tests/support/temporary_folder.h"
 
