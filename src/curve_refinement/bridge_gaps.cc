@@ -52,17 +52,17 @@ class GapFinder {
   GapFinder(const std::vector<Curve>& curves,
             const std::vector<EndFit>& ends,
             const ImageSupport& images,
-            const CurveRefinementOptions& options)
-      : curves_(curves), ends_(ends), images_(images), options_(options) {}
+            const RefinementInput& input)
+      : curves_(curves), ends_(ends), images_(images), input_(input) {}
 
   // If `only_rings`, those of one curve.
-  std::vector<EndPair> Pairs(bool only_rings, int num_threads) const {
+  std::vector<EndPair> Pairs(bool only_rings) const {
     const PointTree tree(ends_, &EndFit::position);
     std::vector<std::vector<EndPair>> pairs(ends_.size());
-    ParallelFor(ends_.size(), num_threads, [&](EndIdx a) {
+    ParallelFor(ends_.size(), input_.num_threads, [&](EndIdx a) {
       if (!(ends_[a].length > 0)) return;
       const double reach =
-          std::max(options_.max_gap_px * ends_[a].pixel, ends_[a].length);
+          std::max(input_.options.max_gap_px * ends_[a].pixel, ends_[a].length);
       for (const EndIdx b : tree.Within(ends_[a].position, reach)) {
         if (b == a || (only_rings && b != OtherEnd(a))) continue;
         if (const auto cost = Cost(a, b)) pairs[a].push_back({*cost, a, b});
@@ -83,7 +83,7 @@ class GapFinder {
     if (!(gap > 0) || gap > longest) return std::nullopt;
     // The two ends of one curve hardly meet by chance.
     const double tolerance = ItemOf(a) == ItemOf(b) ? kRingTolerance : 1;
-    const bool is_long = gap > options_.max_gap_px * unit;
+    const bool is_long = gap > input_.options.max_gap_px * unit;
     const double max_miss = tolerance * (kMaxBridgeMissPx * unit +
                                          (is_long ? 0 : kMaxMissPerGap * gap));
     const auto miss = [&](const EndFit& a_fit, const EndFit& b_fit) {
@@ -116,7 +116,7 @@ class GapFinder {
   const std::vector<Curve>& curves_;
   const std::vector<EndFit>& ends_;
   const ImageSupport& images_;
-  const CurveRefinementOptions& options_;
+  const RefinementInput& input_;
 };
 
 bool MayBecomeRing(const Curve& curve, const std::vector<PosedView>& views) {
@@ -172,40 +172,34 @@ void CutOverlaps(const EndTies& ties,
 
 // Joins ends that continue each other; if `only_rings`, those of one curve.
 std::vector<Curve> Join(std::vector<Curve> curves,
-                        const std::vector<PosedView>& views,
+                        const RefinementInput& input,
                         const ImageSupport& images,
-                        const CurveRefinementOptions& options,
-                        bool only_rings,
-                        int num_threads) {
+                        bool only_rings) {
   std::vector<Curve> trimmed = curves;
   std::vector<EndFit> ends(2 * curves.size());  // by EndIdx
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    if (only_rings && !MayBecomeRing(curves[i], views)) return;
-    CutBentEnds(views, trimmed[i]);
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+    if (only_rings && !MayBecomeRing(curves[i], input.views)) return;
+    CutBentEnds(input.views, trimmed[i]);
     for (const EndIdx end : {2 * i, 2 * i + 1}) {
-      ends[end] = FitLongEnd(trimmed[i], IsHead(end), views);
+      ends[end] = FitLongEnd(trimmed[i], IsHead(end), input.views);
     }
   });
   const EndTies ties = TieCheapestFirst(
-      GapFinder(trimmed, ends, images, options).Pairs(only_rings, num_threads),
-      curves.size());
+      GapFinder(trimmed, ends, images, input).Pairs(only_rings), curves.size());
   CutTiedEnds(ties, trimmed, curves);
   CutOverlaps(ties, ends, curves);
-  return StringTogetherFilled(std::move(curves), ties, views, images);
+  return StringTogetherFilled(std::move(curves), ties, input.views, images);
 }
 
 }  // namespace
 
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
-                              const std::vector<PosedView>& views,
-                              const ImageSupport& images,
-                              const CurveRefinementOptions& options,
-                              int num_threads) {
-  if (!(options.max_gap_px > 0)) return curves;
+                              const RefinementInput& input,
+                              const ImageSupport& images) {
+  if (!(input.options.max_gap_px > 0)) return curves;
   // Curves that are whole after the first time may close.
   for (const bool only_rings : {false, true}) {
-    curves = Join(
-        std::move(curves), views, images, options, only_rings, num_threads);
+    curves = Join(std::move(curves), input, images, only_rings);
   }
   return curves;
 }

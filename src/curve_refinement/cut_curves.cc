@@ -121,8 +121,8 @@ bool Overlap(const Samples& a, const Samples& b) {
 }  // namespace
 
 std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
-                                const std::vector<PosedView>& views) {
-  const Neighbors neighbors = FindNeighbors(curves, views);
+                                const RefinementInput& input) {
+  const Neighbors neighbors = FindNeighbors(curves, input.views);
   std::vector<Samples> taken(curves.size());
   std::vector<Samples> cuts(curves.size());
   for (const NearPair& touch : neighbors.touches) {
@@ -132,7 +132,7 @@ std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
       continue;
     }
     const CurveSample& nearest = curves[a].samples[touch.a.sample_idx];
-    const double pixel = PixelSize(nearest, views);
+    const double pixel = PixelSize(nearest, input.views);
     const auto of_a = SegmentAround(
         curves[a], touch.a.sample_idx, neighbors.beside.at({a, b}), pixel);
     const auto of_b = SegmentAround(
@@ -240,11 +240,11 @@ std::optional<Turn> TurnAt(const Curve& curve,
 
 // Of neighbouring samples the one whose branches fit best, if it is a corner.
 std::vector<std::size_t> CornersOf(const Curve& curve,
-                                   double max_turn,
-                                   const std::vector<PosedView>& views) {
+                                   const RefinementInput& input) {
+  const double max_turn = DegToRad(input.options.max_corner_deg);
   std::vector<std::optional<Turn>> turns(curve.samples.size());
   for (std::size_t k = 0; k < turns.size(); ++k) {
-    turns[k] = TurnAt(curve, k, max_turn, views);
+    turns[k] = TurnAt(curve, k, max_turn, input.views);
   }
   const auto fits_best = [&](std::size_t k) {
     const auto around = SamplesAround(curve, k, kApartPx * turns[k]->pixel);
@@ -266,14 +266,10 @@ std::vector<std::size_t> CornersOf(const Curve& curve,
 }  // namespace
 
 std::vector<Curve> CutCorners(const std::vector<Curve>& curves,
-                              const std::vector<PosedView>& views,
-                              const CurveRefinementOptions& options,
-                              int num_threads) {
+                              const RefinementInput& input) {
   std::vector<std::vector<Curve>> pieces(curves.size());
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    pieces[i] =
-        CutAt(curves[i],
-              CornersOf(curves[i], DegToRad(options.max_corner_deg), views));
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+    pieces[i] = CutAt(curves[i], CornersOf(curves[i], input));
   });
   return Concatenate(std::move(pieces));
 }

@@ -42,15 +42,14 @@ struct Line {
 };
 
 std::vector<CurveEnd> FitEnds(const std::vector<Curve>& curves,
-                              const std::vector<PosedView>& views,
-                              int num_threads) {
+                              const RefinementInput& input) {
   std::vector<std::vector<CurveEnd>> ends(curves.size());
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
     for (const EndIdx end : {2 * i + 1, 2 * i}) {
       const bool at_head = IsHead(end);
-      EndFit fit = FitNearEnd(curves[i], at_head, kRoundedPx, 0, views);
+      EndFit fit = FitNearEnd(curves[i], at_head, kRoundedPx, 0, input.views);
       if (!(fit.length > 0)) {
-        fit = FitNearEnd(curves[i], at_head, kShortRoundedPx, 0, views);
+        fit = FitNearEnd(curves[i], at_head, kShortRoundedPx, 0, input.views);
       }
       if (fit.length > 0 && fit.rms <= kMaxEndRmsPx * fit.pixel) {
         ends[i].push_back({end, fit});
@@ -136,7 +135,7 @@ struct Junction {
 // Bent curves meet where their tangents there do: a fixed point.
 std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
                                      Members members,
-                                     const CurveRefinementOptions& options) {
+                                     double reach_px) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   for (const std::size_t i : members) {
     point += ends[i].fit.position / static_cast<double>(members.size());
@@ -152,8 +151,7 @@ std::optional<Junction> MakeJunction(const std::vector<CurveEnd>& ends,
     if (!nearest) return std::nullopt;
     point = *nearest;
   }
-  const auto gap =
-      GapAt(point, ends, members, lines, options.junction_reach_px);
+  const auto gap = GapAt(point, ends, members, lines, reach_px);
   if (!gap || *gap > kMaxJunctionGapPx) return std::nullopt;
   return Junction{std::move(members), point, *gap};
 }
@@ -172,15 +170,15 @@ bool MayJoin(std::size_t end,
 
 std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
                                 const std::vector<bool>& is_long,
-                                const CurveRefinementOptions& options,
-                                int num_threads) {
+                                const RefinementInput& input) {
+  const double reach_px = input.options.junction_reach_px;
   const PointTree tree(ends,
                        [](const CurveEnd& end) { return end.fit.position; });
   std::vector<std::vector<Junction>> pairs_of(ends.size());
-  ParallelFor(ends.size(), num_threads, [&](std::size_t i) {
+  ParallelFor(ends.size(), input.num_threads, [&](std::size_t i) {
     const EndFit& a = ends[i].fit;
     const auto reach = [&](const EndFit& b) {
-      return 2 * options.junction_reach_px * std::min(a.pixel, b.pixel);
+      return 2 * reach_px * std::min(a.pixel, b.pixel);
     };
     for (const std::size_t j : tree.Within(a.position, reach(a))) {
       const EndFit& b = ends[j].fit;
@@ -188,7 +186,7 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
           !MayJoin(j, {i}, ends, is_long)) {
         continue;
       }
-      if (auto pair = MakeJunction(ends, {i, j}, options)) {
+      if (auto pair = MakeJunction(ends, {i, j}, reach_px)) {
         pairs_of[i].push_back(*std::move(pair));
       }
     }
@@ -203,11 +201,10 @@ std::vector<Junction> FindPairs(const std::vector<CurveEnd>& ends,
 // Pairs by rising gap; a free end may still join the junction of the other one.
 std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
                                     const std::vector<bool>& is_long,
-                                    const CurveRefinementOptions& options,
-                                    int num_threads) {
+                                    const RefinementInput& input) {
   std::vector<Junction> junctions;
   std::vector<std::optional<std::size_t>> junction_of(ends.size());
-  for (const Junction& pair : FindPairs(ends, is_long, options, num_threads)) {
+  for (const Junction& pair : FindPairs(ends, is_long, input)) {
     const std::size_t i = pair.members[0], j = pair.members[1];
     if (junction_of[i] && junction_of[j]) continue;
     if (!junction_of[i] && !junction_of[j]) {
@@ -220,7 +217,8 @@ std::vector<Junction> FormJunctions(const std::vector<CurveEnd>& ends,
     Members members = junctions[idx].members;
     if (!MayJoin(free, members, ends, is_long)) continue;
     members.push_back(free);
-    if (auto larger = MakeJunction(ends, std::move(members), options)) {
+    if (auto larger = MakeJunction(
+            ends, std::move(members), input.options.junction_reach_px)) {
       junction_of[free] = idx;
       junctions[idx] = *std::move(larger);
     }
@@ -266,19 +264,16 @@ void CarryOn(const CurveEnd& end,
 }  // namespace
 
 std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
-                                   const std::vector<PosedView>& views,
-                                   const CurveRefinementOptions& options,
-                                   int num_threads) {
-  if (!(options.junction_reach_px > 0)) return curves;
+                                   const RefinementInput& input) {
+  const double reach_px = input.options.junction_reach_px;
+  if (!(reach_px > 0)) return curves;
   const std::vector<CurveEnd> ends =
-      WithoutTouches(FitEnds(curves, views, num_threads), curves);
+      WithoutTouches(FitEnds(curves, input), curves);
   std::vector<bool> is_long;  // enough for a loop
   for (const Curve& curve : curves) {
-    is_long.push_back(LengthInPixels(curve, views) >
-                      4 * options.junction_reach_px);
+    is_long.push_back(LengthInPixels(curve, input.views) > 4 * reach_px);
   }
-  for (const Junction& junction :
-       FormJunctions(ends, is_long, options, num_threads)) {
+  for (const Junction& junction : FormJunctions(ends, is_long, input)) {
     for (const std::size_t i : junction.members) {
       CarryOn(ends[i], junction.point, curves[ItemOf(ends[i].idx)]);
     }

@@ -9,21 +9,19 @@ namespace curvix {
 
 std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
                                 const RefinementInput& input) {
-  const auto& [views, edge_maps, edge_sigma_px, options, num_threads, _] =
-      input;
+  const CurveRefinementOptions& options = input.options;
   if (!options.enabled) return curves;
-  const ImageSupport images(views, edge_maps, num_threads);
+  const ImageSupport images(input.views, input.edge_maps, input.num_threads);
   if (input.Stops()) return {};
   SelectedCurves selected = SelectCurves(curves, input, images);
   if (input.Stops()) return {};
-  std::vector<Curve> refined =
-      SmoothCurves(selected.edges, views, options, num_threads);
+  std::vector<Curve> refined = SmoothCurves(selected.edges, input);
   if (input.Stops()) return {};
   if (options.separate_touching) {
-    refined = SeparateTouching(std::move(refined), views, images, num_threads);
+    refined = SeparateTouching(std::move(refined), input, images);
   }
   if (input.Stops()) return {};
-  refined = BridgeGaps(std::move(refined), views, images, options, num_threads);
+  refined = BridgeGaps(std::move(refined), input, images);
   if (input.Stops()) return {};
   const ResponseCurve response = options.undo_response_curve
                                      ? EstimateResponseCurve(refined, input)
@@ -33,16 +31,15 @@ std::vector<Curve> RefineCurves(const std::vector<Curve>& curves,
   refined = FlattenCurves(std::move(refined), input, response);
   if (input.Stops()) return {};
   if (options.separate_touching) {
-    refined = CutAtTouches(std::move(refined), views);
+    refined = CutAtTouches(std::move(refined), input);
   }
-  refined = CutCorners(refined, views, options, num_threads);
+  refined = CutCorners(refined, input);
   if (input.Stops()) return {};
-  refined = MeetAtJunctions(std::move(refined), views, options, num_threads);
-  refined =
-      DropLooseShortCurves(std::move(refined), views, options.min_length_px);
+  refined = MeetAtJunctions(std::move(refined), input);
+  refined = DropLooseShortCurves(
+      std::move(refined), input.views, options.min_length_px);
   if (options.keep_occluding_contours) {
-    for (Curve& contour : SmoothCurves(
-             selected.occluding_contours, views, options, num_threads)) {
+    for (Curve& contour : SmoothCurves(selected.occluding_contours, input)) {
       refined.push_back(std::move(contour));
     }
   }

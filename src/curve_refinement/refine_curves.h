@@ -70,13 +70,11 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
 
 // Moves each sample onto a parabola in arc length fitted to the samples around
 // it, with weights that fall off as a Gaussian of standard deviation
-// options.smoothing_px (0: nothing moves) and with the samples' variance, and
-// turns its tangent to the parabola's. Ends are fitted from one side; closed
-// curves go round. Curves of fewer than five samples stay as they are.
+// input.options.smoothing_px (0: nothing moves) and with the samples' variance,
+// and turns its tangent to the parabola's. Ends are fitted from one side;
+// closed curves go round. Curves of fewer than five samples stay as they are.
 std::vector<Curve> SmoothCurves(const std::vector<Curve>& curves,
-                                const std::vector<PosedView>& views,
-                                const CurveRefinementOptions& options,
-                                int num_threads);
+                                const RefinementInput& input);
 
 // Where two curves touch, the shared segment is traced once: one curve breaks,
 // or the two are swapped behind it. Wherever two ends meet beside a passing
@@ -84,24 +82,21 @@ std::vector<Curve> SmoothCurves(const std::vector<Curve>& curves,
 // be: the last 3 px before the ends are cut off, and gaps are filled
 // (StringTogetherFilled()).
 std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
-                                    const std::vector<PosedView>& views,
-                                    const ImageSupport& images,
-                                    int num_threads);
+                                    const RefinementInput& input,
+                                    const ImageSupport& images);
 
 // Joins open ends that continue each other at their own curvature: the arcs
 // that fit before the two ends (curve_ends.h), carried on over the gap, arrive
 // at each other's ends. Gaps are no longer than what was fitted, nor than
-// options.max_gap_px, except where the images show the curve in the gap. The
-// ends that are missed least come first; ties by the order of curves. Bent last
-// samples and overlaps of joined ends are cut off; other ends keep them, since
-// most are contours of the images. The gap is filled with samples on the cubic
-// that fits both ends; they have the sigma and evidence of the weaker end, and
-// the 2D edges nearby. A curve whose own ends meet becomes closed.
+// input.options.max_gap_px, except where the images show the curve in the gap.
+// The ends that are missed least come first; ties by the order of curves. Bent
+// last samples and overlaps of joined ends are cut off; other ends keep them,
+// since most are contours of the images. The gap is filled with samples on the
+// cubic that fits both ends; they have the sigma and evidence of the weaker
+// end, and the 2D edges nearby. A curve whose own ends meet becomes closed.
 std::vector<Curve> BridgeGaps(std::vector<Curve> curves,
-                              const std::vector<PosedView>& views,
-                              const ImageSupport& images,
-                              const CurveRefinementOptions& options,
-                              int num_threads);
+                              const RefinementInput& input,
+                              const ImageSupport& images);
 
 // Moves the samples of each curve across it to where they best agree with all
 // their 2D edges in all views, under the assumption that curves bend evenly:
@@ -147,35 +142,31 @@ std::vector<Curve> FlattenCurves(std::vector<Curve> curves,
 // or more. Nearest pairs first, ties by the order of curves and samples. The
 // pieces take the place of the curve. Pixels as in pixel_size.h.
 std::vector<Curve> CutAtTouches(std::vector<Curve> curves,
-                                const std::vector<PosedView>& views);
+                                const RefinementInput& input);
 
-// Cuts curves at corners of more than options.max_corner_deg: samples where a
-// line or arc fits before and another behind, much better than one parabola
-// fits both, and the two meet at a larger angle than either of them turns by.
-// Bends have no such sample. Of samples near each other the one with the best
-// fit is cut, ties by their order, and is in both pieces. The pieces are in the
-// order of the curves.
+// Cuts curves at corners of more than input.options.max_corner_deg: samples
+// where a line or arc fits before and another behind, much better than one
+// parabola fits both, and the two meet at a larger angle than either of them
+// turns by. Bends have no such sample. Of samples near each other the one with
+// the best fit is cut, ties by their order, and is in both pieces. The pieces
+// are in the order of the curves.
 std::vector<Curve> CutCorners(const std::vector<Curve>& curves,
-                              const std::vector<PosedView>& views,
-                              const CurveRefinementOptions& options,
-                              int num_threads);
+                              const RefinementInput& input);
 
 // Carries curves on to the corners at which they meet. An edge detector rounds
 // corners by its own width, so the last pixels before one are missing or bent:
 // each open end is continued along the line or arc (curve_ends.h) fitted to the
 // samples 2.5 to 20 px before it, or nearly all of a curve too short for that.
 // Ends that so pass each other, no more than 1.5 px from the point nearest to
-// all their tangents there, at most options.junction_reach_px and the length of
-// the fitted samples from both and at more than 10 degrees, form a junction:
-// that point. The curves are cut 2.5 px before their ends and carried on to it:
-// samples of one junction are equal to the last bit. Junctions are formed by
-// rising gap, ties by the order of curves; an end belongs to one junction. Ends
-// in one place that continue each other, as where curves touch
+// all their tangents there, at most input.options.junction_reach_px and the
+// length of the fitted samples from both and at more than 10 degrees, form a
+// junction: that point. The curves are cut 2.5 px before their ends and carried
+// on to it: samples of one junction are equal to the last bit. Junctions are
+// formed by rising gap, ties by the order of curves; an end belongs to one
+// junction. Ends in one place that continue each other, as where curves touch
 // (CutAtTouches()), stay. Pixels as in pixel_size.h.
 std::vector<Curve> MeetAtJunctions(std::vector<Curve> curves,
-                                   const std::vector<PosedView>& views,
-                                   const CurveRefinementOptions& options,
-                                   int num_threads);
+                                   const RefinementInput& input);
 
 // Sets the covariance and the sigma of each sample from how well the views
 // agree about the segment of the curve around it. Errors of 2D edges go on

@@ -77,16 +77,15 @@ OpenEnd MakeEnd(const Curve& curve,
 class MeetingFinder {
  public:
   MeetingFinder(const std::vector<Curve>& curves,
-                const std::vector<PosedView>& views,
-                const ImageSupport& images,
-                int num_threads)
+                const RefinementInput& input,
+                const ImageSupport& images)
       : curves_(curves),
         images_(images),
         samples_(curves),
         ends_(2 * curves.size()),
         passages_(ends_.size()) {
-    ParallelFor(ends_.size(), num_threads, [&](EndIdx end) {
-      ends_[end] = MakeEnd(curves[ItemOf(end)], IsHead(end), views);
+    ParallelFor(ends_.size(), input.num_threads, [&](EndIdx end) {
+      ends_[end] = MakeEnd(curves[ItemOf(end)], IsHead(end), input.views);
       passages_[end] = PassagesAt(end);
     });
   }
@@ -236,11 +235,9 @@ class MeetingFinder {
 // between the branches (IsGapShown()). Best fits first; ties by the order of
 // curves. Pixels as in pixel_size.h.
 std::vector<Meeting> FindMeetings(const std::vector<Curve>& curves,
-                                  const std::vector<PosedView>& views,
-                                  const ImageSupport& images,
-                                  int num_threads) {
-  std::vector<Meeting> meetings =
-      MeetingFinder(curves, views, images, num_threads).Find();
+                                  const RefinementInput& input,
+                                  const ImageSupport& images) {
+  std::vector<Meeting> meetings = MeetingFinder(curves, input, images).Find();
   std::ranges::sort(meetings, {}, [](const Meeting& m) {
     return std::tie(m.rms_px, m.a, m.b, m.passing_idx);
   });
@@ -314,14 +311,13 @@ EndTies TieMeetings(const std::vector<Meeting>& meetings,
 }  // namespace
 
 std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
-                                    const std::vector<PosedView>& views,
-                                    const ImageSupport& images,
-                                    int num_threads) {
+                                    const RefinementInput& input,
+                                    const ImageSupport& images) {
   while (true) {  // each time there are fewer open ends
-    const auto meetings = FindMeetings(curves, views, images, num_threads);
+    const auto meetings = FindMeetings(curves, input, images);
     if (meetings.empty()) return curves;
-    const EndTies ties = TieMeetings(meetings, views, curves);
-    curves = StringTogetherFilled(std::move(curves), ties, views, images);
+    const EndTies ties = TieMeetings(meetings, input.views, curves);
+    curves = StringTogetherFilled(std::move(curves), ties, input.views, images);
   }
 }
 

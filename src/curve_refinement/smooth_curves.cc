@@ -44,15 +44,13 @@ CurveSample Smoothed(const Curve& curve, std::size_t i, double bandwidth) {
   return result;
 }
 
-Curve SmoothCurve(const Curve& curve,
-                  const std::vector<PosedView>& views,
-                  double smoothing_px) {
+Curve SmoothCurve(const Curve& curve, const RefinementInput& input) {
   Curve result = curve;
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& sample = curve.samples[i];
-    const double pixel = PixelSize(sample, views);
+    const double pixel = PixelSize(sample, input.views);
     if (!(pixel > 0)) continue;
-    result.samples[i] = Smoothed(curve, i, smoothing_px * pixel);
+    result.samples[i] = Smoothed(curve, i, input.options.smoothing_px * pixel);
   }
   return result;
 }
@@ -60,13 +58,11 @@ Curve SmoothCurve(const Curve& curve,
 }  // namespace
 
 std::vector<Curve> SmoothCurves(const std::vector<Curve>& curves,
-                                const std::vector<PosedView>& views,
-                                const CurveRefinementOptions& options,
-                                int num_threads) {
-  if (!(options.smoothing_px > 0)) return curves;
+                                const RefinementInput& input) {
+  if (!(input.options.smoothing_px > 0)) return curves;
   std::vector<Curve> smooth(curves.size());
-  ParallelFor(curves.size(), num_threads, [&](std::size_t i) {
-    smooth[i] = SmoothCurve(curves[i], views, options.smoothing_px);
+  ParallelFor(curves.size(), input.num_threads, [&](std::size_t i) {
+    smooth[i] = SmoothCurve(curves[i], input);
   });
   return smooth;
 }

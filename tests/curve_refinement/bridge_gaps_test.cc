@@ -22,7 +22,9 @@ std::vector<Curve> BridgeIn(
   EdgeMap map;
   map.edges = edges;
   const std::vector<EdgeMap> maps(views.size(), map);
-  return BridgeGaps(curves, views, ImageSupport(views, maps, 1), options, 1);
+  return BridgeGaps(curves,
+                    {views, maps, kEdgeSigmaPx, options, 1},
+                    ImageSupport(views, maps, 1));
 }
 
 std::vector<Curve> Bridge(const std::vector<Curve>& curves) {

@@ -11,7 +11,7 @@ namespace curvix {
 namespace {
 
 std::vector<Curve> Cut(const std::vector<Curve>& curves) {
-  return CutAtTouches(curves, FrontalViews());
+  return CutAtTouches(curves, {FrontalViews(), {}, kEdgeSigmaPx, {}, 1});
 }
 
 TEST(CutAtTouches, FourPiecesEndWhereTwoCurvesTouch) {
@@ -71,7 +71,9 @@ TEST(CutAtTouches, NoOtherJunctionIsMadeOfTheEnds) {
   const std::vector<Curve> curves = {Line(InPlane(-60, 0), InPlane(60, 0)),
                                      Line(-60 * way, 60 * way),
                                      Line(InPlane(1, 2), InPlane(20, 50))};
-  CurveSet met{MeetAtJunctions(Cut(curves), FrontalViews(), {}, 1), {}};
+  CurveSet met{
+      MeetAtJunctions(Cut(curves), {FrontalViews(), {}, kEdgeSigmaPx, {}, 1}),
+      {}};
   IndexJunctions(met);
   ASSERT_EQ(met.curves.size(), 5u);
   ASSERT_EQ(met.junctions.size(), 1u);

@@ -11,8 +11,12 @@ namespace curvix {
 namespace {
 
 std::vector<Curve> CutOne(const Curve& curve, double max_corner_deg = 15) {
-  return CutCorners(
-      {curve}, FrontalViews(), {.max_corner_deg = max_corner_deg}, 1);
+  return CutCorners({curve},
+                    {FrontalViews(),
+                     {},
+                     kEdgeSigmaPx,
+                     {.max_corner_deg = max_corner_deg},
+                     1});
 }
 
 void Append(const Curve& next, Curve& curve) {
@@ -142,7 +146,8 @@ TEST(CutCorners, AClosedHexagonFallsIntoItsSides) {
 TEST(CutCorners, IsFreeOfScale) {
   for (const double factor : {1e-3, 1e3}) {
     const auto views = Scaled(FrontalViews(), factor);
-    const auto cut = CutCorners(Scaled({BentLine(20)}, factor), views, {}, 1);
+    const auto cut = CutCorners(Scaled({BentLine(20)}, factor),
+                                {views, {}, kEdgeSigmaPx, {}, 1});
     EXPECT_LT(LargestDistance(Scaled(CutOne(BentLine(20)), factor), cut),
               1e-9 * factor);
   }

@@ -12,8 +12,10 @@ namespace {
 
 constexpr CurveRefinementOptions kMeetOptions = {.junction_reach_px = 10};
 
-std::vector<Curve> Meet(const std::vector<Curve>& curves) {
-  return MeetAtJunctions(curves, FrontalViews(), kMeetOptions, 1);
+std::vector<Curve> Meet(const std::vector<Curve>& curves,
+                        const std::vector<PosedView>& views = FrontalViews(),
+                        const CurveRefinementOptions& options = kMeetOptions) {
+  return MeetAtJunctions(curves, {views, {}, kEdgeSigmaPx, options, 1});
 }
 
 // From `gap_px` to 60 px away from `corner`.
@@ -149,17 +151,16 @@ TEST(MeetAtJunctions, ClosedCurvesAndShortOnesStay) {
 TEST(MeetAtJunctions, NoReachChangesNothing) {
   CurveRefinementOptions options = kMeetOptions;
   options.junction_reach_px = 0;
-  EXPECT_EQ(LargestDistance(
-                MeetAtJunctions(Corner(90, 4), FrontalViews(), options, 1),
-                Corner(90, 4)),
+  EXPECT_EQ(LargestDistance(Meet(Corner(90, 4), FrontalViews(), options),
+                            Corner(90, 4)),
             0);
 }
 
 TEST(MeetAtJunctions, DoesNotDependOnTheUnit) {
   const double factor = 1000;
   const std::vector<Curve> curves = Corner(70, 5);
-  const std::vector<Curve> met = MeetAtJunctions(
-      Scaled(curves, factor), Scaled(FrontalViews(), factor), kMeetOptions, 1);
+  const std::vector<Curve> met =
+      Meet(Scaled(curves, factor), Scaled(FrontalViews(), factor));
   EXPECT_LT(LargestDistance(met, Scaled(Meet(curves), factor)), 1e-9 * factor);
 }
 

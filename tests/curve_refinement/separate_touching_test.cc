@@ -19,8 +19,9 @@ struct TouchingScene {
   std::vector<EdgeMap> edge_maps = SupportByEdges(views, truth);
 
   std::vector<Curve> Separate(const std::vector<Curve>& curves) const {
-    return SeparateTouching(
-        curves, views, ImageSupport(views, edge_maps, 1), 1);
+    return SeparateTouching(curves,
+                            {views, edge_maps, kEdgeSigmaPx, {}, 1},
+                            ImageSupport(views, edge_maps, 1));
   }
 };
 

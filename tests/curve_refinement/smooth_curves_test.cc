@@ -11,8 +11,12 @@ namespace {
 
 constexpr CurveRefinementOptions kSmoothOptions = {.smoothing_px = 2.5};
 
-std::vector<Curve> Smooth(const std::vector<Curve>& curves) {
-  return SmoothCurves(curves, FrontalViews(), kSmoothOptions, 1);
+std::vector<Curve> Smooth(
+    const std::vector<Curve>& curves,
+    const std::vector<PosedView>& views = FrontalViews(),
+    const CurveRefinementOptions& options = kSmoothOptions,
+    int num_threads = 1) {
+  return SmoothCurves(curves, {views, {}, kEdgeSigmaPx, options, num_threads});
 }
 
 Curve WithNoise(Curve curve, double noise_px) {
@@ -95,9 +99,7 @@ TEST(SmoothCurves, NoWidthMovesNothing) {
   CurveRefinementOptions options = kSmoothOptions;
   options.smoothing_px = 0;
   const std::vector<Curve> noisy = {WithNoise(LongLine(), 0.3)};
-  EXPECT_EQ(
-      LargestDistance(SmoothCurves(noisy, FrontalViews(), options, 1), noisy),
-      0);
+  EXPECT_EQ(LargestDistance(Smooth(noisy, FrontalViews(), options), noisy), 0);
 }
 
 TEST(SmoothCurves, ThreadsChangeNothing) {
@@ -105,17 +107,16 @@ TEST(SmoothCurves, ThreadsChangeNothing) {
   for (int i = 1; i < 8; ++i) {
     noisy.push_back(WithNoise(Arc(10 * i, 0, 3), 0.1 * i));
   }
-  EXPECT_EQ(
-      LargestDistance(SmoothCurves(noisy, FrontalViews(), kSmoothOptions, 3),
-                      Smooth(noisy)),
-      0);
+  EXPECT_EQ(LargestDistance(Smooth(noisy, FrontalViews(), kSmoothOptions, 3),
+                            Smooth(noisy)),
+            0);
 }
 
 TEST(SmoothCurves, DoesNotDependOnTheUnit) {
   const double factor = 1000;
   const std::vector<Curve> noisy = {WithNoise(Arc(40, 0, 4), 0.2)};
-  const std::vector<Curve> smooth = SmoothCurves(
-      Scaled(noisy, factor), Scaled(FrontalViews(), factor), kSmoothOptions, 1);
+  const std::vector<Curve> smooth =
+      Smooth(Scaled(noisy, factor), Scaled(FrontalViews(), factor));
   EXPECT_LT(LargestDistance(smooth, Scaled(Smooth(noisy), factor)),
             1e-9 * factor);
 }
