@@ -102,10 +102,9 @@ void CurveTip::FoldIn(const Eigen::Vector4d& change) {
 
 double CurveTip::VarianceIn(const PosedView& view,
                             const ImageEdge& projected) const {
-  const Eigen::Vector3d plane = EdgePlane(view, projected);
-  const double depth = view.rotation.row(2).dot(edge_.position - view.center);
-  const Eigen::Vector2d gradient = pixel_ / depth * axes_.transpose() * plane;
-  return gradient.dot(covariance_.topLeftCorner<2, 2>() * gradient);
+  const Eigen::Matrix2d covariance = covariance_.topLeftCorner<2, 2>();
+  return VarianceAcross(
+      view, projected, {edge_, axes_, pixel_ * pixel_ * covariance});
 }
 
 double CurveTip::Sigma() const {
