@@ -36,10 +36,10 @@ double ContourLogLikelihoodRatio(const Curve& curve,
 // both contours together tell it.
 //
 // Makes such curves CurveKind::kOccludingContour, all samples, if the 2D edges
-// about them are likelier with two contours than with edges in space; the
-// probability is by that ratio. Radii are 1 to 16 px. Curves that are occluding
-// contours already stay so. One edge map per view; `edge_sigma_px`: the
-// standard deviation of a 2D edge's place, > 0.
+// about them are e^3 times likelier with two contours than with edges in space,
+// geometric mean over places; the probability is by that ratio. Radii are 1 to
+// 16 px. Curves that are occluding contours already stay so. One edge map per
+// view; `edge_sigma_px`: the standard deviation of a 2D edge's place, > 0.
 void LabelRoundBars(const std::vector<PosedView>& views,
                     const std::vector<EdgeMap>& edge_maps,
                     double edge_sigma_px,

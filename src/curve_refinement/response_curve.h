@@ -62,7 +62,7 @@ ImageEdge Unblurred(const Edge2d& edge,
                     const PosedView& view,
                     const std::optional<Bend>& bend,
                     const ResponseCurve& response,
-                    double fine_variance_gain_px2 = 0);
+                    double fine_variance_gain_px2);
 
 // The 2D edges of a sample, one after the other, where they would be without
 // blur. `pixel`: the size of a pixel there, world units.

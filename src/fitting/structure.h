@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "geometry/directions.h"
 
 namespace curvix {
 
@@ -55,9 +56,9 @@ std::vector<ValueGroup> FindAgreements(
     const std::function<UncertainValue(std::size_t, std::size_t)>& relative);
 
 // Within these a fit may be said to agree with others: a share of its size, and
-// an angle, kKnownDeg of known_directions.h.
+// an angle.
 constexpr double kNear = 0.01;
-constexpr double kNearAngle = DegToRad(1.5);
+constexpr double kNearAngle = DegToRad(kKnownDeg);
 
 // A line or an arc, and how well it is known.
 struct LineOrArc {

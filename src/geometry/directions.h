@@ -8,6 +8,9 @@
 
 namespace curvix {
 
+// Directions of a larger standard deviation are not known.
+constexpr double kKnownDeg = 1.5;
+
 using AcrossAxes = Eigen::Matrix<double, 3, 2>;
 
 // Two columns of unit length, orthogonal to each other and to `tangent`, which

@@ -8,13 +8,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/directions.h"
+
 namespace curvix {
 
 // Lines with a smaller angle between them can be parallel.
 constexpr double kParallelDeg = 1;
-
-// Directions of a larger standard deviation are not known.
-constexpr double kKnownDeg = 1.5;
 
 struct KnownDirection {
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();  // unit, of either sign

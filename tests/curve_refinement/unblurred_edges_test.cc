@@ -44,7 +44,7 @@ Edge2d BlurredEdge(double radius_px) {
 // How far the edge moves if sample `index` of `curve` is the one it shows.
 double ShiftOf(const Edge2d& edge, const Curve& curve, std::size_t index) {
   const auto bend = BendAround(curve, index, kPixel);
-  return (Unblurred(edge, SmallView(), bend, {}).position - edge.position)
+  return (Unblurred(edge, SmallView(), bend, {}, 0).position - edge.position)
       .norm();
 }
 
@@ -52,7 +52,7 @@ TEST(UnblurredEdges, CirclesHaveTheirRadius) {
   for (const double radius_px : {4.0, 20.0, 100.0}) {
     const auto bend = BendAround(Arc(radius_px, 0, kWholeTurn), 0, kPixel);
     const ImageEdge edge =
-        Unblurred(BlurredEdge(radius_px), SmallView(), bend, {});
+        Unblurred(BlurredEdge(radius_px), SmallView(), bend, {}, 0);
     EXPECT_NEAR(RadiusOf(edge.position), radius_px, 1e-3);
   }
 }
@@ -129,7 +129,7 @@ TEST(UnblurredEdges, UndoesWhatTheDetectorDoesToDiscs) {
     for (const Edge2d& edge : edges) {
       const auto bend = BendAround(circle, NearestSample(circle, edge), kPixel);
       detected += RadiusOf(edge.position);
-      unblurred += RadiusOf(Unblurred(edge, SmallView(), bend, {}).position);
+      unblurred += RadiusOf(Unblurred(edge, SmallView(), bend, {}, 0).position);
     }
     const double count = static_cast<double>(edges.size());
     const double shrunk_px = radius_px - detected / count;
@@ -175,7 +175,7 @@ TEST(UnblurredEdges, ResponseMovesThemToTheBrightSide) {
     edge.angle = static_cast<float>(angle);
     const Eigen::Vector2d to_bright(-std::sin(angle), std::cos(angle));
     const Eigen::Vector2d shift =
-        Unblurred(edge, SmallView(), std::nullopt, response).position -
+        Unblurred(edge, SmallView(), std::nullopt, response, 0).position -
         edge.position;
     EXPECT_LT((shift - expected * to_bright).norm(), 1e-6);
   }
@@ -188,7 +188,7 @@ double MeanOffset(const std::vector<Edge2d>& edges,
   double sum = 0;
   for (const Edge2d& edge : edges) {
     const ImageEdge unblurred =
-        Unblurred(edge, SmallView(), std::nullopt, response);
+        Unblurred(edge, SmallView(), std::nullopt, response, 0);
     sum += to_bright.dot(unblurred.position - kCenter);
   }
   return sum / static_cast<double>(edges.size());
