@@ -188,7 +188,7 @@ std::vector<Curve> Join(std::vector<Curve> curves,
       GapFinder(trimmed, ends, images, input).Pairs(only_rings), curves.size());
   CutTiedEnds(ties, trimmed, curves);
   CutOverlaps(ties, ends, curves);
-  return StringTogetherFilled(std::move(curves), ties, input.views, images);
+  return StringTogetherFilled(std::move(curves), ties, images);
 }
 
 }  // namespace

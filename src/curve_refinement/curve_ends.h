@@ -118,7 +118,6 @@ EndFit FitLongEnd(const Curve& curve,
 // within 1 px.
 std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                                         const EndTies& ties,
-                                        const std::vector<PosedView>& views,
                                         const ImageSupport& images);
 
 // The median number of 2D edges of the last samples before an end, of those

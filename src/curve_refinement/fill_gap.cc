@@ -41,12 +41,11 @@ std::vector<CurveSample> SamplesBetween(const CurveSample& from,
 
 std::vector<Curve> StringTogetherFilled(std::vector<Curve> curves,
                                         const EndTies& ties,
-                                        const std::vector<PosedView>& views,
                                         const ImageSupport& images) {
   return StringTogether(std::move(curves),
                         ties,
                         [&](const CurveSample& from, const CurveSample& to) {
-                          const double pixel = PixelSize(from, views);
+                          const double pixel = PixelSize(from, images.views());
                           return SamplesBetween(from, to, pixel, images);
                         });
 }

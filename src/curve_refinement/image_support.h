@@ -28,6 +28,8 @@ class ImageSupport {
                const std::vector<EdgeMap>& edge_maps,
                int num_threads);
 
+  const std::vector<PosedView>& views() const { return views_; }
+
   // In each view the edge nearest to the projection of `edge` inside the gate
   // of an edge that a view shows (geometry/nearest_edge.h). Ascending.
   std::vector<EdgeRef> Find(const SpaceEdge& edge) const;

@@ -52,9 +52,8 @@ struct Place {
   double density = 0;  // of other contours, per pixel across the curve
 };
 
-Place Look(const CurveSample& sample,
-           const std::vector<PosedView>& views,
-           const ImageSupport& images) {
+Place Look(const CurveSample& sample, const ImageSupport& images) {
+  const std::vector<PosedView>& views = images.views();
   const SpaceEdge axis = {sample.position, sample.tangent};
   const OccludingContour contour = {axis, 0, MeanSide(sample, views)};
   const AcrossAxes across = AxesAcross(sample.tangent);
@@ -200,7 +199,6 @@ double LogLikelihoodRatio(const Place& place, double edge_sigma_px) {
 }  // namespace
 
 double ContourLogLikelihoodRatio(const Curve& curve,
-                                 const std::vector<PosedView>& views,
                                  const ImageSupport& images,
                                  double edge_sigma_px) {
   double sum = 0;
@@ -212,7 +210,7 @@ double ContourLogLikelihoodRatio(const Curve& curve,
   }
   for (std::size_t i = 0; i < curve.samples.size(); ++i) {
     const CurveSample& sample = curve.samples[i];
-    const double pixel = PixelSize(sample, views);
+    const double pixel = PixelSize(sample, images.views());
     if (!(pixel > 0)) continue;
     if (i > 0) {
       to_next -=
@@ -222,7 +220,7 @@ double ContourLogLikelihoodRatio(const Curve& curve,
     const bool is_too_short = i == last_supported && num_places == 0;
     if (to_next > 0 && !is_too_short) continue;
     to_next = kPlaceSpacingPx;
-    sum += LogLikelihoodRatio(Look(sample, views, images), edge_sigma_px);
+    sum += LogLikelihoodRatio(Look(sample, images), edge_sigma_px);
     ++num_places;
   }
   return num_places > 0 ? sum / num_places : 0;

@@ -25,7 +25,6 @@ namespace curvix {
 // beside the curve. `edge_sigma_px`: the standard deviation of a 2D edge's
 // place, > 0.
 double ContourLogLikelihoodRatio(const Curve& curve,
-                                 const std::vector<PosedView>& views,
                                  const ImageSupport& images,
                                  double edge_sigma_px);
 

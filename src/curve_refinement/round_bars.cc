@@ -71,8 +71,8 @@ struct BarPlace {
 BarPlace Look(const CurveSample& sample,
               const Vector3d& outward,
               double pixel,
-              const std::vector<PosedView>& views,
               const ImageSupport& images) {
+  const std::vector<PosedView>& views = images.views();
   const OccludingContour contour = {
       {sample.position, sample.tangent}, 0, outward};
   const AcrossAxes across = AxesAcross(sample.tangent);
@@ -107,19 +107,18 @@ BarPlace Look(const CurveSample& sample,
 // Places along the curve, whose outward sides follow each other. None if too
 // few views see it.
 std::vector<BarPlace> LookAlong(const Curve& curve,
-                                const std::vector<PosedView>& views,
                                 const ImageSupport& images) {
   std::vector<BarPlace> places;
-  const double pixel = PixelSize(curve, views);
+  const double pixel = PixelSize(curve, images.views());
   if (!(pixel > 0)) return places;
   Vector3d outward = Vector3d::Zero();
   for (const std::size_t i :
        SamplesAlong(curve, kPlaceSpacingPx * pixel, kMaxPlaces)) {
     const CurveSample& sample = curve.samples[i];
     if (sample.support.empty()) continue;
-    const Vector3d side = MeanSide(sample, views);
+    const Vector3d side = MeanSide(sample, images.views());
     outward = side.dot(outward) < 0 ? Vector3d(-side) : side;
-    BarPlace place = Look(sample, outward, pixel, views, images);
+    BarPlace place = Look(sample, outward, pixel, images);
     if (place.views.size() >= kMinViews) places.push_back(std::move(place));
   }
   return places;
@@ -302,8 +301,7 @@ void LabelRoundBars(const std::vector<PosedView>& views,
   ParallelFor(curves->size(), num_threads, [&](std::size_t i) {
     Curve& curve = (*curves)[i];
     if (MainKind(curve) == CurveKind::kOccludingContour) return;
-    const double ratio =
-        BestRatio(LookAlong(curve, views, images), edge_sigma_px);
+    const double ratio = BestRatio(LookAlong(curve, images), edge_sigma_px);
     if (ratio < kMinLogLikelihoodRatio) return;
     for (CurveSample& sample : curve.samples) {
       sample.kind = CurveKind::kOccludingContour;

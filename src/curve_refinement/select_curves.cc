@@ -322,8 +322,8 @@ SelectedCurves SelectCurves(std::vector<Curve> curves,
     };
     verdicts[i] = judge(0);
     if (verdicts[i] != Verdict::kEdge || are_crowded) return;
-    verdicts[i] = judge(ContourLogLikelihoodRatio(
-        curves[i], input.views, images, input.edge_sigma_px));
+    verdicts[i] = judge(
+        ContourLogLikelihoodRatio(curves[i], images, input.edge_sigma_px));
   });
   SelectedCurves selected;
   for (std::size_t i = 0; i < curves.size(); ++i) {

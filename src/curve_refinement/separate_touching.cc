@@ -317,7 +317,7 @@ std::vector<Curve> SeparateTouching(std::vector<Curve> curves,
     const auto meetings = FindMeetings(curves, input, images);
     if (meetings.empty()) return curves;
     const EndTies ties = TieMeetings(meetings, input.views, curves);
-    curves = StringTogetherFilled(std::move(curves), ties, input.views, images);
+    curves = StringTogetherFilled(std::move(curves), ties, images);
   }
 }
 

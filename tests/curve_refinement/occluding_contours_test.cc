@@ -26,7 +26,7 @@ class ThickCylinder : public UprightLines {
     const std::vector<PosedView> scaled = Scaled(views(), scale);
     const ImageSupport images(scaled, edge_maps(), 1);
     return ContourLogLikelihoodRatio(
-        Scaled({curve}, scale).front(), scaled, images, kEdgeSigmaPx);
+        Scaled({curve}, scale).front(), images, kEdgeSigmaPx);
   }
 };
 
