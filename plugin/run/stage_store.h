@@ -47,27 +47,17 @@ template <typename T>
 struct StoredStage {
   const char* name;
   const char* file;
-  Result<T> (*read)(const std::filesystem::path& path, std::uint64_t key);
-  Status (*write)(const std::filesystem::path& path,
-                  std::uint64_t key,
-                  const T& result);
 };
 // What COLMAP said when it made adjustment.bin.
 inline constexpr char kAdjustmentLog[] = "bundle_adjuster.log";
 inline constexpr StoredStage<BundleAdjustment> kRefinePoses = {
-    "refine_poses",
-    "adjustment.bin",
-    ReadBundleAdjustment,
-    WriteBundleAdjustment};
+    "refine_poses", "adjustment.bin"};
 inline constexpr StoredStage<std::vector<EdgeMap>> kDetectEdges = {
-    "detect_edges", "edges.bin", ReadEdgeMaps, WriteEdgeMaps};
-inline constexpr StoredStage<EdgeSketch> kSketchEdges = {
-    "sketch_edges", "sketch.bin", ReadEdgeSketch, WriteEdgeSketch};
+    "detect_edges", "edges.bin"};
+inline constexpr StoredStage<EdgeSketch> kSketchEdges = {"sketch_edges",
+                                                         "sketch.bin"};
 inline constexpr StoredStage<CurvePoses> kRefinePosesWithCurves = {
-    "refine_poses_with_curves",
-    "curve_poses.bin",
-    ReadCurvePoses,
-    WriteCurvePoses};
+    "refine_poses_with_curves", "curve_poses.bin"};
 
 // Their files in a folder; with an empty path there are none. A file that
 // another key was meant for, or that is broken, is as good as none. All keys
@@ -82,7 +72,8 @@ class StageStore {
   template <typename T>
   std::optional<T> Load(const StoredStage<T>& stage, std::uint64_t key) const {
     if (folder_.empty()) return std::nullopt;
-    Result<T> result = stage.read(folder_ / stage.file, key ^ images_key_);
+    Result<T> result =
+        ReadStageResult<T>(folder_ / stage.file, key ^ images_key_);
     if (!result.ok()) return std::nullopt;
     return *std::move(result);
   }
@@ -96,7 +87,7 @@ class StageStore {
     if (std::string why = MakeFolder(); !why.empty()) return why;
     FileWriter::RemoveLeftovers(folder_ / stage.file);
     const Status status =
-        stage.write(folder_ / stage.file, key ^ images_key_, result);
+        WriteStageResult(folder_ / stage.file, key ^ images_key_, result);
     has_saved_ = has_saved_ || status.ok();
     return status.message();
   }

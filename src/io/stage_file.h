@@ -40,7 +40,7 @@ constexpr std::size_t kEdgeRefBytes = 8;
 std::uint64_t HashBytes(std::string_view bytes,
                         std::uint64_t hash = 0xcbf29ce484222325);
 
-// A head and the content. Errors as WriteEdgeMaps.
+// A head and the content. Errors as WriteStageResult.
 Status WriteStage(const std::filesystem::path& path,
                   StageKind kind,
                   std::uint64_t key,
@@ -51,7 +51,7 @@ struct StageHead {
   std::uint64_t checksum = 0;   // of these: HashBytes
 };
 
-// The head with which `bytes` of a file begin. Errors as ReadEdgeMaps.
+// The head with which `bytes` of a file begin. Errors as ReadStageResult.
 Result<StageHead> ReadStageHead(const std::filesystem::path& path,
                                 std::string_view bytes,
                                 StageKind kind,

@@ -159,82 +159,76 @@ void Fields(Archive& archive, CurvePoses& poses) {
 
 namespace {
 
-template <typename T>
-Status Write(const fs::path& path,
-             StageKind kind,
-             std::uint64_t key,
-             const T& value,
-             std::size_t num_bytes = 0) {
-  StageWriter out;
-  out.Reserve(num_bytes);
-  Fields(out, const_cast<T&>(value));
-  return WriteStage(path, kind, key, out.bytes());
+using EdgeMaps = std::vector<EdgeMap>;
+
+StageKind KindOf(const EdgeMaps&) { return StageKind::kEdgeMaps; }
+StageKind KindOf(const EdgeSketch&) { return StageKind::kEdgeSketch; }
+StageKind KindOf(const CurvePoses&) { return StageKind::kCurvePoses; }
+StageKind KindOf(const BundleAdjustment&) {
+  return StageKind::kBundleAdjustment;
 }
 
 template <typename T>
-Result<T> Read(const fs::path& path, StageKind kind, std::uint64_t key) {
-  CURVIX_ASSIGN_OR_RETURN(const std::string content,
-                          ReadStage(path, kind, key));
-  StageReader in(content);
-  T value;
-  Fields(in, value);
-  if (!in.AtEnd()) return BrokenStage(path);
-  return value;
+bool IsSound(const T&) {
+  return true;
+}
+bool IsSound(const CurvePoses& poses) {
+  return poses.max_shift_view_idx < poses.cam_from_world.size();
 }
 
-}  // namespace
-
-Status WriteEdgeMaps(const fs::path& path,
-                     std::uint64_t key,
-                     const std::vector<EdgeMap>& edge_maps) {
+template <typename T>
+std::size_t BytesToReserve(const T&) {
+  return 0;
+}
+std::size_t BytesToReserve(const EdgeMaps& edge_maps) {
   std::size_t num_bytes = sizeof(std::uint64_t);
   for (const EdgeMap& map : edge_maps) {
     num_bytes += kEdgeMapBytes + map.unseen.cells.size() +
                  kLinkedEdge2dBytes * map.edges.size();
   }
-  return Write(path, StageKind::kEdgeMaps, key, edge_maps, num_bytes);
+  return num_bytes;
 }
 
-Result<std::vector<EdgeMap>> ReadEdgeMaps(const fs::path& path,
-                                          std::uint64_t key) {
-  return Read<std::vector<EdgeMap>>(path, StageKind::kEdgeMaps, key);
+}  // namespace
+
+template <typename T>
+Status WriteStageResult(const fs::path& path,
+                        std::uint64_t key,
+                        const T& result) {
+  StageWriter out;
+  out.Reserve(BytesToReserve(result));
+  Fields(out, const_cast<T&>(result));
+  return WriteStage(path, KindOf(result), key, out.bytes());
 }
 
-Status WriteBundleAdjustment(const fs::path& path,
-                             std::uint64_t key,
-                             const BundleAdjustment& adjustment) {
-  return Write(path, StageKind::kBundleAdjustment, key, adjustment);
+template <typename T>
+Result<T> ReadStageResult(const fs::path& path, std::uint64_t key) {
+  T result;
+  CURVIX_ASSIGN_OR_RETURN(const std::string content,
+                          ReadStage(path, KindOf(result), key));
+  StageReader in(content);
+  Fields(in, result);
+  if (!in.AtEnd() || !IsSound(result)) return BrokenStage(path);
+  return result;
 }
 
-Result<BundleAdjustment> ReadBundleAdjustment(const fs::path& path,
-                                              std::uint64_t key) {
-  return Read<BundleAdjustment>(path, StageKind::kBundleAdjustment, key);
-}
-
-Status WriteEdgeSketch(const fs::path& path,
-                       std::uint64_t key,
-                       const EdgeSketch& sketch) {
-  return Write(path, StageKind::kEdgeSketch, key, sketch);
-}
-
-Result<EdgeSketch> ReadEdgeSketch(const fs::path& path, std::uint64_t key) {
-  return Read<EdgeSketch>(path, StageKind::kEdgeSketch, key);
-}
-
-Status WriteCurvePoses(const fs::path& path,
-                       std::uint64_t key,
-                       const CurvePoses& poses) {
-  return Write(path, StageKind::kCurvePoses, key, poses);
-}
-
-Result<CurvePoses> ReadCurvePoses(const fs::path& path, std::uint64_t key) {
-  Result<CurvePoses> poses =
-      Read<CurvePoses>(path, StageKind::kCurvePoses, key);
-  if (poses.ok() && poses->max_shift_view_idx >= poses->cam_from_world.size()) {
-    return BrokenStage(path);
-  }
-  return poses;
-}
+template Status WriteStageResult(const fs::path&,
+                                 std::uint64_t,
+                                 const EdgeMaps&);
+template Status WriteStageResult(const fs::path&,
+                                 std::uint64_t,
+                                 const EdgeSketch&);
+template Status WriteStageResult(const fs::path&,
+                                 std::uint64_t,
+                                 const CurvePoses&);
+template Status WriteStageResult(const fs::path&,
+                                 std::uint64_t,
+                                 const BundleAdjustment&);
+template Result<EdgeMaps> ReadStageResult(const fs::path&, std::uint64_t);
+template Result<EdgeSketch> ReadStageResult(const fs::path&, std::uint64_t);
+template Result<CurvePoses> ReadStageResult(const fs::path&, std::uint64_t);
+template Result<BundleAdjustment> ReadStageResult(const fs::path&,
+                                                  std::uint64_t);
 
 namespace {
 

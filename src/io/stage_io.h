@@ -28,20 +28,13 @@ struct BundleAdjustment {
   std::string program_version;             // "3.8"; "unknown"
 };
 
-// `key` stands for all that the result depends on; the caller chooses it. The
-// file appears whole or not at all; errors of FileWriter.
-Status WriteEdgeMaps(const std::filesystem::path& path,
-                     std::uint64_t key,
-                     const std::vector<EdgeMap>& edge_maps);
-Status WriteBundleAdjustment(const std::filesystem::path& path,
-                             std::uint64_t key,
-                             const BundleAdjustment& adjustment);
-Status WriteEdgeSketch(const std::filesystem::path& path,
-                       std::uint64_t key,
-                       const EdgeSketch& sketch);
-Status WriteCurvePoses(const std::filesystem::path& path,
-                       std::uint64_t key,
-                       const CurvePoses& poses);
+// T: std::vector<EdgeMap>, BundleAdjustment, EdgeSketch or CurvePoses. `key`
+// stands for all that the result depends on; the caller chooses it. The file
+// appears whole or not at all; errors of FileWriter.
+template <typename T>
+Status WriteStageResult(const std::filesystem::path& path,
+                        std::uint64_t key,
+                        const T& result);
 Status WritePartResult(const std::filesystem::path& path,
                        std::uint64_t key,
                        const PartResult& part);
@@ -50,14 +43,8 @@ Status WritePartResult(const std::filesystem::path& path,
 // kDataLoss: broken or truncated; a checksum tells, and no memory is taken on
 // the word of a count. Indices of edge maps and sketches are not checked: they
 // mean something together with a scene only.
-Result<std::vector<EdgeMap>> ReadEdgeMaps(const std::filesystem::path& path,
-                                          std::uint64_t key);
-Result<BundleAdjustment> ReadBundleAdjustment(const std::filesystem::path& path,
-                                              std::uint64_t key);
-Result<EdgeSketch> ReadEdgeSketch(const std::filesystem::path& path,
-                                  std::uint64_t key);
-Result<CurvePoses> ReadCurvePoses(const std::filesystem::path& path,
-                                  std::uint64_t key);
+template <typename T>
+Result<T> ReadStageResult(const std::filesystem::path& path, std::uint64_t key);
 
 // A file of WritePartResult, from which curves are read one by one. For one
 // thread.

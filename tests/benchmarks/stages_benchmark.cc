@@ -181,11 +181,12 @@ void SaveAndLoadStages(benchmark::State& state) {
   const auto edges = input.folder.path() / "edges.bin";
   const auto sketch = input.folder.path() / "sketch.bin";
   for ([[maybe_unused]] auto _ : state) {
-    Require(WriteEdgeMaps(edges, 1, input.edge_maps).ok(), "writing edges");
-    Require(WriteEdgeSketch(sketch, 1, input.sketch).ok(), "writing sketch");
-    Require(Value(ReadEdgeMaps(edges, 1)).size() == input.edge_maps.size(),
+    Require(WriteStageResult(edges, 1, input.edge_maps).ok(), "writing edges");
+    Require(WriteStageResult(sketch, 1, input.sketch).ok(), "writing sketch");
+    Require(Value(ReadStageResult<std::vector<EdgeMap>>(edges, 1)).size() ==
+                input.edge_maps.size(),
             "edges read");
-    Require(Value(ReadEdgeSketch(sketch, 1)).edges.size() ==
+    Require(Value(ReadStageResult<EdgeSketch>(sketch, 1)).edges.size() ==
                 input.sketch.edges.size(),
             "sketch read");
   }

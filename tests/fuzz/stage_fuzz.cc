@@ -52,9 +52,9 @@ EdgeSketch SomeSketch() {
 std::vector<std::string> FuzzSeeds() {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "stage.bin";
-  Require(WriteEdgeMaps(path, kKey, SomeEdgeMaps()).ok(), "written");
+  Require(WriteStageResult(path, kKey, SomeEdgeMaps()).ok(), "written");
   std::vector<std::string> seeds = {"0" + *ReadFile(path)};
-  Require(WriteEdgeSketch(path, kKey, SomeSketch()).ok(), "written");
+  Require(WriteStageResult(path, kKey, SomeSketch()).ok(), "written");
   seeds.push_back("1" + *ReadFile(path));
   PartResult part;
   part.curves.resize(2);
@@ -67,7 +67,7 @@ std::vector<std::string> FuzzSeeds() {
   poses.cam_from_world.resize(2);
   poses.cameras = {{CameraModel::kRadial, 64, 48, {50, 32, 24, -0.1, 0.1}}};
   poses.reason = "they are";
-  Require(WriteCurvePoses(path, kKey, poses).ok(), "written");
+  Require(WriteStageResult(path, kKey, poses).ok(), "written");
   seeds.push_back("3" + *ReadFile(path));
   return seeds;
 }
@@ -77,13 +77,13 @@ void FuzzReader(std::string_view bytes) {
   const std::size_t kind = TakeChoice(bytes, 4);
   const auto path = folder.Write("stage.bin", WithChecksum(std::string(bytes)));
   if (kind == 0) {
-    const auto edge_maps = ReadEdgeMaps(path, kKey);
+    const auto edge_maps = ReadStageResult<std::vector<EdgeMap>>(path, kKey);
     RequireSentence(edge_maps.status());
     Scene scene;
     scene.views.resize(3);
     if (edge_maps.ok()) RequireSentence(CheckEdgeMaps(scene, *edge_maps));
   } else if (kind == 3) {
-    RequireSentence(ReadCurvePoses(path, kKey).status());
+    RequireSentence(ReadStageResult<CurvePoses>(path, kKey).status());
   } else if (kind == 2) {
     auto file = PartFile::Open(path, kKey);
     RequireSentence(file.status());
@@ -91,7 +91,7 @@ void FuzzReader(std::string_view bytes) {
       RequireSentence(file->Read(i).status());
     }
   } else {
-    const auto sketch = ReadEdgeSketch(path, kKey);
+    const auto sketch = ReadStageResult<EdgeSketch>(path, kKey);
     RequireSentence(sketch.status());
     if (sketch.ok()) RequireSentence(CheckEdgeSketch(SomeEdgeMaps(), *sketch));
   }

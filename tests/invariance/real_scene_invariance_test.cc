@@ -58,7 +58,7 @@ TEST_F(RealScene, ThreadsMakeNoDifferenceToItsEdges) {
   const auto edges_in_bytes = [&](int num_threads) {
     Options options;
     options.runtime.num_threads = num_threads;
-    EXPECT_TRUE(WriteEdgeMaps(file, 0, *DetectEdges(scene_, options)).ok());
+    EXPECT_TRUE(WriteStageResult(file, 0, *DetectEdges(scene_, options)).ok());
     return *ReadFile(file);
   };
   const std::string expected = edges_in_bytes(1);

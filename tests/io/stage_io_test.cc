@@ -79,8 +79,8 @@ TEST_F(StageIo, KnowsTheSizesOfItsParts) {
 
 TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
   const auto maps = SomeEdgeMaps();
-  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, maps).ok());
-  const auto read = ReadEdgeMaps(path_, kKey);
+  ASSERT_TRUE(WriteStageResult(path_, kKey, maps).ok());
+  const auto read = ReadStageResult<std::vector<EdgeMap>>(path_, kKey);
   ASSERT_TRUE(read.ok()) << read.status().message();
   ASSERT_EQ(read->size(), maps.size());
   for (std::size_t i = 0; i < maps.size(); ++i) {
@@ -113,8 +113,8 @@ TEST_F(StageIo, GivesEdgeMapsBackBitByBit) {
 
 TEST_F(StageIo, GivesASketchBackBitByBit) {
   const EdgeSketch sketch = SomeSketch();
-  ASSERT_TRUE(WriteEdgeSketch(path_, kKey, sketch).ok());
-  const auto read = ReadEdgeSketch(path_, kKey);
+  ASSERT_TRUE(WriteStageResult(path_, kKey, sketch).ok());
+  const auto read = ReadStageResult<EdgeSketch>(path_, kKey);
   ASSERT_TRUE(read.ok()) << read.status().message();
   EXPECT_EQ(read->counts.view_pairs, 1);
   EXPECT_EQ(read->counts.unsupported, 4);
@@ -152,8 +152,8 @@ CurvePoses SomePoses() {
 
 TEST_F(StageIo, GivesPosesBackBitByBit) {
   const CurvePoses poses = SomePoses();
-  ASSERT_TRUE(WriteCurvePoses(path_, kKey, poses).ok());
-  const auto read = ReadCurvePoses(path_, kKey);
+  ASSERT_TRUE(WriteStageResult(path_, kKey, poses).ok());
+  const auto read = ReadStageResult<CurvePoses>(path_, kKey);
   ASSERT_TRUE(read.ok()) << read.status().message();
   ASSERT_EQ(read->cam_from_world.size(), 3u);
   EXPECT_EQ(read->cam_from_world[1].rotation.coeffs(),
@@ -182,15 +182,16 @@ TEST_F(StageIo, GivesPosesBackBitByBit) {
 
   CurvePoses broken = poses;
   broken.max_shift_view_idx = 3;
-  ASSERT_TRUE(WriteCurvePoses(path_, kKey, broken).ok());
-  EXPECT_EQ(ReadCurvePoses(path_, kKey).status().code(), StatusCode::kDataLoss);
+  ASSERT_TRUE(WriteStageResult(path_, kKey, broken).ok());
+  EXPECT_EQ(ReadStageResult<CurvePoses>(path_, kKey).status().code(),
+            StatusCode::kDataLoss);
 }
 
 TEST_F(StageIo, GivesABundleAdjustmentBackBitByBit) {
   const BundleAdjustment adjustment = {
       SomePoses().cam_from_world, {{1.0 / 3, 0, -2}, {1e300, 4, 5}}, "3.8"};
-  ASSERT_TRUE(WriteBundleAdjustment(path_, kKey, adjustment).ok());
-  const auto read = ReadBundleAdjustment(path_, kKey);
+  ASSERT_TRUE(WriteStageResult(path_, kKey, adjustment).ok());
+  const auto read = ReadStageResult<BundleAdjustment>(path_, kKey);
   ASSERT_TRUE(read.ok()) << read.status().message();
   ASSERT_EQ(read->cam_from_world.size(), 3u);
   EXPECT_EQ(read->cam_from_world[1].rotation.coeffs(),
@@ -277,40 +278,45 @@ TEST_F(StageIo, NoticesThatAPartIsBroken) {
 }
 
 TEST_F(StageIo, FindsNothingUnderAnotherKeyOrKind) {
-  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, SomeEdgeMaps()).ok());
-  EXPECT_EQ(ReadEdgeMaps(path_, kKey + 1).status().code(),
+  ASSERT_TRUE(WriteStageResult(path_, kKey, SomeEdgeMaps()).ok());
+  EXPECT_EQ(
+      ReadStageResult<std::vector<EdgeMap>>(path_, kKey + 1).status().code(),
+      StatusCode::kNotFound);
+  EXPECT_EQ(ReadStageResult<EdgeSketch>(path_, kKey).status().code(),
             StatusCode::kNotFound);
-  EXPECT_EQ(ReadEdgeSketch(path_, kKey).status().code(), StatusCode::kNotFound);
-  EXPECT_EQ(ReadEdgeMaps(folder_.path() / "none.bin", kKey).status().code(),
-            StatusCode::kNotFound);
+  EXPECT_EQ(
+      ReadStageResult<std::vector<EdgeMap>>(folder_.path() / "none.bin", kKey)
+          .status()
+          .code(),
+      StatusCode::kNotFound);
 }
 
 TEST_F(StageIo, NoticesEveryMissingEnd) {
-  ASSERT_TRUE(WriteEdgeSketch(path_, kKey, SomeSketch()).ok());
+  ASSERT_TRUE(WriteStageResult(path_, kKey, SomeSketch()).ok());
   const std::string bytes = *ReadFile(path_);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     folder_.Write("stage.bin", bytes.substr(0, size));
-    EXPECT_EQ(ReadEdgeSketch(path_, kKey).status().code(),
+    EXPECT_EQ(ReadStageResult<EdgeSketch>(path_, kKey).status().code(),
               StatusCode::kDataLoss)
         << size;
   }
   folder_.Write("stage.bin", bytes + "x");
-  EXPECT_FALSE(ReadEdgeSketch(path_, kKey).ok());
+  EXPECT_FALSE(ReadStageResult<EdgeSketch>(path_, kKey).ok());
 }
 
 TEST_F(StageIo, NoticesEveryChangedByte) {
-  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, SomeEdgeMaps()).ok());
+  ASSERT_TRUE(WriteStageResult(path_, kKey, SomeEdgeMaps()).ok());
   const std::string bytes = *ReadFile(path_);
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::string changed = bytes;
     changed[i] = static_cast<char>(changed[i] ^ 0x40);
     folder_.Write("stage.bin", changed);
-    EXPECT_FALSE(ReadEdgeMaps(path_, kKey).ok()) << i;
+    EXPECT_FALSE(ReadStageResult<std::vector<EdgeMap>>(path_, kKey).ok()) << i;
   }
 }
 
 TEST_F(StageIo, TakesNoMemoryOnTheWordOfACount) {
-  ASSERT_TRUE(WriteEdgeMaps(path_, kKey, {}).ok());
+  ASSERT_TRUE(WriteStageResult(path_, kKey, std::vector<EdgeMap>()).ok());
   std::string bytes = *ReadFile(path_);
   // The number of views; then a checksum that agrees with it.
   bytes.replace(bytes.size() - 8, 8, std::string(8, '\x7f'));
@@ -320,12 +326,14 @@ TEST_F(StageIo, TakesNoMemoryOnTheWordOfACount) {
                 8,
                 std::string(reinterpret_cast<const char*>(&hash), 8));
   folder_.Write("stage.bin", bytes);
-  EXPECT_EQ(ReadEdgeMaps(path_, kKey).status().code(), StatusCode::kDataLoss);
+  EXPECT_EQ(ReadStageResult<std::vector<EdgeMap>>(path_, kKey).status().code(),
+            StatusCode::kDataLoss);
 }
 
 TEST_F(StageIo, SaysThatItCannotWrite) {
   const auto nowhere = folder_.path() / "no folder" / "stage.bin";
-  EXPECT_EQ(WriteEdgeMaps(nowhere, kKey, {}).code(), StatusCode::kNotFound);
+  EXPECT_EQ(WriteStageResult(nowhere, kKey, std::vector<EdgeMap>()).code(),
+            StatusCode::kNotFound);
 }
 
 }  // namespace
