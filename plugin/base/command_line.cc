@@ -43,30 +43,6 @@ po::options_description Describe(const std::vector<Flag>& flags) {
   return description;
 }
 
-// Options of earlier versions that are constants now, and their values.
-const std::map<std::string, std::string>& FormerOptions() {
-  static const std::map<std::string, std::string> options = {
-      {"EdgeDetection.border_px", "4"},
-      {"EdgeDetection.short_contour_factor", "2"},
-      {"CurveGrowth.min_relative_evidence", "0.3"},
-      {"CurveGrowth.max_gap_px", "10"},
-      {"CurveRefinement.max_junction_gap_px", "1.5"},
-      {"CurveFitting.common_error_px", "0.1"}};
-  return options;
-}
-
-// `written`: the name as the user wrote it. `hint`: what to do.
-Status UnknownOption(const std::string& name,
-                     const std::string& written,
-                     const std::string& hint) {
-  const auto former = FormerOptions().find(name);
-  if (former != FormerOptions().end()) {
-    return Status::InvalidArgument(
-        written + " is no longer an option; it is always " + former->second);
-  }
-  return Status::InvalidArgument("There is no option " + written + hint);
-}
-
 constexpr const char* kListsAll = "--help_all lists all options";
 
 Status UnknownFlag(std::string token, const std::vector<Flag>& flags) {
@@ -76,8 +52,8 @@ Status UnknownFlag(std::string token, const std::vector<Flag>& flags) {
       dashes == std::string::npos ? token : token.substr(dashes);
   std::vector<std::string> names = {"help", "help_all"};
   for (const Flag& flag : flags) names.push_back(flag.name);
-  return UnknownOption(
-      name, "'" + token + "'", Suggestion(name, names, "--", kListsAll));
+  return Status::InvalidArgument("There is no option '" + token + "'" +
+                                 Suggestion(name, names, "--", kListsAll));
 }
 
 // As project files have it: "'sigma_px' in [EdgeDetection]".
@@ -91,11 +67,10 @@ Status UnknownKey(const std::string& name, const std::vector<Flag>& flags) {
   std::vector<std::string> names;
   for (const Flag& flag : flags) names.push_back(flag.name);
   const std::string nearest = NearestName(name, names);
-  return UnknownOption(name,
-                       KeyText(name),
-                       nearest.empty()
-                           ? "; " + std::string(kListsAll)
-                           : "; did you mean " + KeyText(nearest) + "?");
+  return Status::InvalidArgument(
+      "There is no option " + KeyText(name) +
+      (nearest.empty() ? "; " + std::string(kListsAll)
+                       : "; did you mean " + KeyText(nearest) + "?"));
 }
 
 Status InLine(const fs::path& file, std::size_t line, const Status& status) {
@@ -149,8 +124,7 @@ bool IsFlag(const std::string& name, const std::vector<Flag>& flags) {
   return std::ranges::find(flags, name, &Flag::name) != flags.end();
 }
 
-// One value per name, without former options that have their constants and
-// flags of others.
+// One value per name, without flags of others.
 Result<Values> ReadProjectFile(const fs::path& path,
                                const std::vector<Flag>& flags,
                                const std::vector<Flag>& of_others) {
@@ -162,10 +136,6 @@ Result<Values> ReadProjectFile(const fs::path& path,
   }
   Values values;
   for (const ProjectEntry& entry : *entries) {
-    const auto former = FormerOptions().find(entry.name);
-    if (former != FormerOptions().end() && entry.value == former->second) {
-      continue;
-    }
     if (!IsFlag(entry.name, flags)) {
       if (IsFlag(entry.name, of_others)) continue;
       return InLine(path, entry.line, UnknownKey(entry.name, flags));

@@ -149,18 +149,6 @@ TEST_F(CommandLine, AWorkspaceTakesThePathsOfTheProjectFileWithIt) {
   }
 }
 
-TEST_F(CommandLine, AProjectFileMayHaveFormerOptionsAtTheirConstants) {
-  const std::string path = ProjectFile(
-      "workspace_path=w\n[EdgeDetection]\nborder_px=4\nsigma_px=2\n");
-  ASSERT_TRUE(Parse({"--project_path", path}).ok());
-  EXPECT_EQ(options_.edge_detection.sigma_px, 2);
-  ProjectFile("[EdgeDetection]\nborder_px=5\n");
-  EXPECT_THAT(
-      Error({"--project_path", path}),
-      HasSubstr("line 2: 'border_px' in [EdgeDetection] is no longer an "
-                "option; it is always 4"));
-}
-
 TEST_F(CommandLine, AProjectFileMayHaveFlagsOfOthers) {
   std::filesystem::path input_path;
   const std::vector<FlagSection> others = {
@@ -207,8 +195,6 @@ TEST_F(CommandLine, SuggestsTheNearestName) {
               HasSubstr("did you mean '--EdgeDetection.sigma_px'?"));
   EXPECT_THAT(Error({"--validation.Max_Angle_deg", "3"}),
               HasSubstr("did you mean '--Validation.max_angle_deg'?"));
-  EXPECT_THAT(Error({"--EdgeDetection.border_px", "5"}),
-              HasSubstr("is no longer an option; it is always 4"));
   EXPECT_THAT(Error({"--completely_different_thing", "3"}),
               AllOf(HasSubstr("--completely_different_thing"),
                     Not(HasSubstr("did you mean"))));
