@@ -32,9 +32,6 @@ enum class StageKind : std::uint32_t {
 };
 
 constexpr std::size_t kStageHeadBytes = 40;
-constexpr std::size_t kEdge2dBytes = 34;
-constexpr std::size_t kEdge3dBytes = 72;  // without support
-constexpr std::size_t kEdgeRefBytes = 8;
 
 // A hash of bytes (64-bit FNV-1a), for keys and checksums; goes on from `hash`.
 std::uint64_t HashBytes(std::string_view bytes,
@@ -94,6 +91,31 @@ struct StageReader : ByteReader {
   }
 };
 
+template <typename Archive, typename Number>
+requires std::is_arithmetic_v<Number>
+void Fields(Archive& archive, Number& value) { archive(value); }
+
+// What a StageWriter writes of a new T, whose lists are empty.
+template <typename T>
+std::size_t MinBytes() {
+  static const std::size_t num_bytes = [] {
+    static T zero;  // also where T() sets nothing
+    StageWriter out;
+    Fields(out, zero);
+    return out.bytes().size();
+  }();
+  return num_bytes;
+}
+
+// How many there are, and these.
+template <typename Archive, typename T>
+void List(Archive& archive, std::vector<T>& values) {
+  std::size_t count = values.size();
+  archive.Count(count, MinBytes<T>());
+  values.resize(count);
+  for (T& value : values) Fields(archive, value);
+}
+
 template <typename Archive>
 void Fields(Archive& archive, Eigen::Vector3d& x) {
   archive(x[0], x[1], x[2]);
@@ -111,21 +133,6 @@ void Fields(Archive& archive, Edge2d& edge) {
           edge.fine_px);
 }
 
-// A number of things of at least `min_bytes` each, and these.
-template <typename Archive, typename T>
-void List(Archive& archive, std::vector<T>& values, std::size_t min_bytes) {
-  std::size_t count = values.size();
-  archive.Count(count, min_bytes);
-  values.resize(count);
-  for (T& value : values) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      archive(value);
-    } else {
-      Fields(archive, value);
-    }
-  }
-}
-
 template <typename Archive>
 void Fields(Archive& archive, EdgeRef& ref) {
   archive(ref.view_idx, ref.edge_idx);
@@ -137,7 +144,7 @@ void EdgeFields(Archive& archive, Edge& edge) {
   Fields(archive, edge.position);
   Fields(archive, edge.tangent);
   archive(edge.sigma, edge.evidence);
-  List(archive, edge.support, kEdgeRefBytes);
+  List(archive, edge.support);
 }
 
 template <typename Archive>

@@ -40,12 +40,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLinkedEdge2dBytes = kEdge2dBytes + 8;
-constexpr std::size_t kEdgeMapBytes = 64;  // without edges
-constexpr std::size_t kPoseBytes = 56;
-constexpr std::size_t kVector3dBytes = 24;
-constexpr std::size_t kMinCameraBytes = 20;
-
 }  // namespace
 
 // Found by List(), so in the namespace of what they describe.
@@ -62,7 +56,7 @@ void Fields(Archive& archive, Camera& camera) {
   auto model = static_cast<std::int32_t>(camera.model);
   archive(model, camera.width, camera.height);
   if constexpr (Archive::kReads) camera.model = static_cast<CameraModel>(model);
-  List(archive, camera.params, sizeof(double));
+  List(archive, camera.params);
 }
 
 template <typename Archive>
@@ -74,17 +68,21 @@ void Fields(Archive& archive, std::optional<std::int32_t>& neighbor) {
   }
 }
 
+inline std::size_t LinkedEdgeBytes() {
+  return MinBytes<Edge2d>() + 2 * MinBytes<std::optional<std::int32_t>>();
+}
+
 template <typename Archive>
 void Fields(Archive& archive, EdgeMap& map) {
   std::size_t num_edges = map.edges.size();
-  archive.Count(num_edges, kLinkedEdge2dBytes);
+  archive.Count(num_edges, LinkedEdgeBytes());
   archive(map.noise,
           map.spacing_px,
           map.fine_variance_gain_px2,
           map.num_dropped_masked,
           map.num_dropped_isolated,
           map.num_dropped_over_limit);
-  List(archive, map.unseen.cells, 1);
+  List(archive, map.unseen.cells);
   archive(map.unseen.num_columns, map.unseen.margin_px);
   map.edges.resize(num_edges);
   map.neighbors.resize(num_edges);
@@ -97,7 +95,7 @@ void Fields(Archive& archive, EdgeMap& map) {
 
 template <typename Archive>
 void Fields(Archive& archive, std::vector<EdgeMap>& edge_maps) {
-  List(archive, edge_maps, kEdgeMapBytes);
+  List(archive, edge_maps);
 }
 
 template <typename Archive>
@@ -111,7 +109,7 @@ void Fields(Archive& archive, EdgeSketch& sketch) {
           counts.used_edges,
           counts.repeated_views,
           sketch.edge_sigma_px);
-  List(archive, sketch.edges, kEdge3dBytes);
+  List(archive, sketch.edges);
 }
 
 template <typename Archive>
@@ -122,21 +120,21 @@ void Fields(Archive& archive, ErrorsOfViews& errors) {
 template <typename Archive>
 void Fields(Archive& archive, std::string& text) {
   std::vector<char> chars(text.begin(), text.end());
-  List(archive, chars, 1);
+  List(archive, chars);
   if constexpr (Archive::kReads) text.assign(chars.begin(), chars.end());
 }
 
 template <typename Archive>
 void Fields(Archive& archive, BundleAdjustment& adjustment) {
-  List(archive, adjustment.cam_from_world, kPoseBytes);
-  List(archive, adjustment.positions, kVector3dBytes);
+  List(archive, adjustment.cam_from_world);
+  List(archive, adjustment.positions);
   Fields(archive, adjustment.program_version);
 }
 
 template <typename Archive>
 void Fields(Archive& archive, CurvePoses& poses) {
-  List(archive, poses.cam_from_world, kPoseBytes);
-  List(archive, poses.cameras, kMinCameraBytes);
+  List(archive, poses.cam_from_world);
+  List(archive, poses.cameras);
   auto accepted = static_cast<std::uint8_t>(poses.accepted);
   archive(accepted);
   if constexpr (Archive::kReads) poses.accepted = accepted != 0;
@@ -183,8 +181,8 @@ std::size_t BytesToReserve(const T&) {
 std::size_t BytesToReserve(const EdgeMaps& edge_maps) {
   std::size_t num_bytes = sizeof(std::uint64_t);
   for (const EdgeMap& map : edge_maps) {
-    num_bytes += kEdgeMapBytes + map.unseen.cells.size() +
-                 kLinkedEdge2dBytes * map.edges.size();
+    num_bytes += MinBytes<EdgeMap>() + map.unseen.cells.size() +
+                 LinkedEdgeBytes() * map.edges.size();
   }
   return num_bytes;
 }
@@ -232,8 +230,6 @@ template Result<BundleAdjustment> ReadStageResult(const fs::path&,
 
 namespace {
 
-constexpr std::size_t kCurveSampleBytes = kEdge3dBytes + 48 + 5;
-
 // Whether what follows is what the head says.
 bool HasContent(std::istream& in, const StageHead& head) {
   constexpr std::size_t kChunk = 1 << 20;
@@ -274,8 +270,8 @@ void Fields(Archive& archive, TracedCurve& traced) {
   auto closed = static_cast<std::uint8_t>(traced.curve.closed);
   archive(closed);
   if constexpr (Archive::kReads) traced.curve.closed = closed != 0;
-  List(archive, traced.curve.samples, kCurveSampleBytes);
-  List(archive, traced.edges, kEdge2dBytes);
+  List(archive, traced.curve.samples);
+  List(archive, traced.edges);
 }
 
 Status WritePartResult(const fs::path& path,
