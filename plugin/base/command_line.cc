@@ -236,7 +236,7 @@ Flag TextFlag(std::string name, std::string* value, std::string help) {
 
 Flag RowFlag(const OptionRow& row) {
   return {
-      .name = row.name,
+      .name = FullName(row),
       .help = row.help,
       .default_value = ValueText(row),
       .range = RangeText(row),
@@ -290,9 +290,7 @@ Flag Advanced(Flag flag) {
 std::vector<FlagSection> OptionSections(Options& options) {
   std::vector<FlagSection> sections;
   for (const OptionRow& row : OptionTable(options)) {
-    const std::size_t dot = row.name.find('.');
-    const std::string title =
-        dot == std::string::npos ? "Runtime" : row.name.substr(0, dot);
+    const std::string title = row.section.empty() ? "Runtime" : row.section;
     if (sections.empty() || sections.back().title != title) {
       sections.push_back({title, {}});
     }

@@ -260,9 +260,8 @@ std::uint64_t PartKey(const PartPlan& plan,
   text += std::to_string(HashOf(image_hashes));
   Options copy = options;
   for (const OptionRow& row : OptionTable(copy)) {
-    const bool is_of_a_stage = row.name.find('.') != std::string::npos &&
-                               row.name.rfind("CurveFitting.", 0) != 0;
-    if (is_of_a_stage) text += "\n" + row.name + "=" + ValueText(row);
+    if (row.section.empty() || row.section == "CurveFitting") continue;
+    text += "\n" + FullName(row) + "=" + ValueText(row);
   }
   return HashBytes(text);
 }

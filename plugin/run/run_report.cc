@@ -39,9 +39,7 @@ Json ValueJson(const OptionRow& row) {
 Json OptionsJson(Options options) {
   Json json = Json::object();
   for (const OptionRow& row : OptionTable(options)) {
-    const std::size_t dot = row.name.find('.');
-    if (dot == std::string::npos) continue;
-    json[row.name.substr(0, dot)][row.name.substr(dot + 1)] = ValueJson(row);
+    if (!row.section.empty()) json[row.section][row.name] = ValueJson(row);
   }
   return json;
 }
@@ -357,13 +355,10 @@ std::string ProjectFile(const RunSettings& settings) {
   add("num_threads", std::to_string(copy.options.runtime.num_threads));
   std::string section;
   for (const OptionRow& row : OptionTable(copy.options)) {
-    const std::size_t dot = row.name.find('.');
-    if (dot == std::string::npos) continue;
-    if (row.name.substr(0, dot) != section) {
-      section = row.name.substr(0, dot);
-      text += "[" + section + "]\n";
-    }
-    add(row.name.substr(dot + 1), ValueText(row));
+    if (row.section.empty()) continue;
+    if (row.section != section) text += "[" + row.section + "]\n";
+    section = row.section;
+    add(row.name, ValueText(row));
   }
   return text;
 }

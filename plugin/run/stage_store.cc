@@ -43,8 +43,8 @@ class KeyMaker {
   void AddOptions(const Options& options, const std::string& section) {
     Options copy = options;
     for (const OptionRow& row : OptionTable(copy)) {
-      if (row.name.rfind(section + ".", 0) != 0) continue;
-      Add(row.name);
+      if (row.section != section) continue;
+      Add(FullName(row));
       Add(ValueText(row));
     }
   }

@@ -25,8 +25,8 @@ using Texts = std::vector<std::string>;
 // (field name, field, range, unit, symbol in the paper, help).
 class Section {
  public:
-  Section(std::string prefix, std::vector<OptionRow>& rows)
-      : prefix_(std::move(prefix)), rows_(rows) {}
+  Section(std::string name, std::vector<OptionRow>& rows)
+      : name_(std::move(name)), rows_(rows) {}
 
   void operator()(const char* name,
                   Field field,
@@ -34,7 +34,8 @@ class Section {
                   const char* unit,
                   const char* symbol,
                   const char* help) {
-    rows_.push_back({prefix_ + name,
+    rows_.push_back({name_,
+                     name,
                      field,
                      range.min,
                      range.max,
@@ -60,7 +61,7 @@ class Section {
   }
 
  private:
-  std::string prefix_;
+  std::string name_;
   std::vector<OptionRow>& rows_;
 };
 
@@ -252,18 +253,18 @@ void AddRows(RuntimeOptions& o, Section row) {
 
 std::vector<OptionRow> OptionTable(Options& options) {
   std::vector<OptionRow> rows;
-  AddRows(options.edge_detection, Section("EdgeDetection.", rows));
-  AddRows(options.hypotheses, Section("Hypotheses.", rows));
-  AddRows(options.consolidation, Section("Consolidation.", rows));
-  AddRows(options.validation, Section("Validation.", rows));
-  AddRows(options.neighborhood, Section("Neighborhood.", rows));
-  AddRows(options.alignment, Section("Alignment.", rows));
-  AddRows(options.connectivity, Section("Connectivity.", rows));
-  AddRows(options.curve_growth, Section("CurveGrowth.", rows));
-  AddRows(options.curve_refinement, Section("CurveRefinement.", rows));
-  AddRows(options.curve_kinds, Section("CurveKinds.", rows));
-  AddRows(options.curve_filter, Section("CurveFilter.", rows));
-  AddRows(options.curve_fitting, Section("CurveFitting.", rows));
+  AddRows(options.edge_detection, Section("EdgeDetection", rows));
+  AddRows(options.hypotheses, Section("Hypotheses", rows));
+  AddRows(options.consolidation, Section("Consolidation", rows));
+  AddRows(options.validation, Section("Validation", rows));
+  AddRows(options.neighborhood, Section("Neighborhood", rows));
+  AddRows(options.alignment, Section("Alignment", rows));
+  AddRows(options.connectivity, Section("Connectivity", rows));
+  AddRows(options.curve_growth, Section("CurveGrowth", rows));
+  AddRows(options.curve_refinement, Section("CurveRefinement", rows));
+  AddRows(options.curve_kinds, Section("CurveKinds", rows));
+  AddRows(options.curve_filter, Section("CurveFilter", rows));
+  AddRows(options.curve_fitting, Section("CurveFitting", rows));
   AddRows(options.runtime, Section("", rows));
   return rows;
 }

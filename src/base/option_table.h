@@ -14,7 +14,8 @@
 namespace curvix {
 
 struct OptionRow {
-  std::string name;  // "Validation.min_num_support_views": the flag without --
+  std::string section = {};  // "Validation": of the project file; "": none
+  std::string name;          // "min_num_support_views"
   std::variant<bool*, int*, double*, ViewSelection*, CurveKindSet*> field;
   double min = 0;                         // smallest value allowed
   double max = kInfinity;                 // largest value allowed
@@ -24,6 +25,9 @@ struct OptionRow {
   std::string symbol = {};  // of the paper: "Delta gamma, Sec. 3", or ""
   std::string help;         // one line
 };
+
+// "Validation.min_num_support_views": the flag without --.
+std::string FullName(const OptionRow& row);
 
 // The rows in the order of Options; the pointers lead into `options`, which
 // must outlive them.

@@ -57,8 +57,8 @@ Status OutOfRange(const OptionRow& row, const std::string& text) {
              !ParseNumber<double>(text)) {
     what = "a number ";
   }
-  return Status::InvalidArgument(row.name + " is " + text + "; it must be " +
-                                 what + RangeText(row));
+  return Status::InvalidArgument(FullName(row) + " is " + text +
+                                 "; it must be " + what + RangeText(row));
 }
 
 // Also catches NaN.
@@ -117,6 +117,10 @@ struct FieldReader {
 
 }  // namespace
 
+std::string FullName(const OptionRow& row) {
+  return row.section.empty() ? row.name : row.section + "." + row.name;
+}
+
 std::string ValueText(const OptionRow& row) {
   if (const auto* field = std::get_if<int*>(&row.field)) {
     return std::to_string(**field);
@@ -126,7 +130,7 @@ std::string ValueText(const OptionRow& row) {
   }
   if (row.choices.empty()) return NumberText(NumberOf(row));
   const auto index = static_cast<std::size_t>(NumberOf(row));
-  CURVIX_CHECK(index < row.choices.size(), row.name << " has no name");
+  CURVIX_CHECK(index < row.choices.size(), FullName(row) << " has no name");
   return row.choices[index];
 }
 

@@ -49,7 +49,7 @@ constexpr std::size_t NumFieldsOf(const Structs&...) {
 const OptionRow& Find(const std::vector<OptionRow>& rows,
                       std::string_view name) {
   for (const OptionRow& row : rows) {
-    if (row.name == name) return row;
+    if (FullName(row) == name) return row;
   }
   throw std::runtime_error("no row " + std::string(name));
 }
@@ -70,8 +70,8 @@ TEST(OptionTable, HasOneRowForEveryField) {
   std::set<const void*> fields;
   std::set<std::string> names;
   for (const OptionRow& row : rows) {
-    EXPECT_TRUE(fields.insert(Address(row)).second) << row.name;
-    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_TRUE(fields.insert(Address(row)).second) << FullName(row);
+    EXPECT_TRUE(names.insert(FullName(row)).second) << FullName(row);
   }
 }
 
@@ -79,7 +79,7 @@ TEST(OptionTable, RowsFollowTheOrderOfTheFields) {
   Options options;
   const void* previous = nullptr;
   for (const OptionRow& row : OptionTable(options)) {
-    EXPECT_LT(previous, Address(row)) << row.name;
+    EXPECT_LT(previous, Address(row)) << FullName(row);
     previous = Address(row);
   }
 }
@@ -87,13 +87,13 @@ TEST(OptionTable, RowsFollowTheOrderOfTheFields) {
 TEST(OptionTable, EveryRowExplainsItself) {
   Options options;
   for (const OptionRow& row : OptionTable(options)) {
-    EXPECT_THAT(row.help, testing::SizeIs(testing::Gt(9u))) << row.name;
-    EXPECT_EQ(row.help.find('\n'), std::string::npos) << row.name;
-    EXPECT_NE(row.help.back(), '.') << row.name;
-    EXPECT_FALSE(RangeText(row).empty()) << row.name;
+    EXPECT_THAT(row.help, testing::SizeIs(testing::Gt(9u))) << FullName(row);
+    EXPECT_EQ(row.help.find('\n'), std::string::npos) << FullName(row);
+    EXPECT_NE(row.help.back(), '.') << FullName(row);
+    EXPECT_FALSE(RangeText(row).empty()) << FullName(row);
     const bool is_degrees = row.name.ends_with("_deg");
-    EXPECT_EQ(is_degrees, row.unit == "deg") << row.name;
-    EXPECT_EQ(row.name.ends_with("_px"), row.unit == "px") << row.name;
+    EXPECT_EQ(is_degrees, row.unit == "deg") << FullName(row);
+    EXPECT_EQ(row.name.ends_with("_px"), row.unit == "px") << FullName(row);
   }
 }
 
@@ -156,8 +156,8 @@ TEST(OptionTable, RefusesWhatIsOutsideTheRangeAndKeepsTheValue) {
       if (is_open_above && std::string(text).starts_with("9999")) continue;
       const Status status = SetFromText(row, text);
       EXPECT_EQ(status.code(), StatusCode::kInvalidArgument)
-          << row.name << " = " << text;
-      EXPECT_THAT(status.message(), HasSubstr(row.name));
+          << FullName(row) << " = " << text;
+      EXPECT_THAT(status.message(), HasSubstr(FullName(row)));
       EXPECT_EQ(ValueText(row), before);
     }
   }

@@ -11,7 +11,7 @@ std::vector<std::string> FuzzSeeds() {
   Options options;
   std::string text = "# comment\nworkspace_path = /a b/#c\r\ncolor=red\n";
   for (const OptionRow& row : OptionTable(options)) {
-    text += row.name + "=" + ValueText(row) + "\n";
+    text += FullName(row) + "=" + ValueText(row) + "\n";
   }
   return {text, "[Validation]\nmax_angle_deg=9\n[ EdgeDetection ]\nsigma_px=2"};
 }

@@ -265,7 +265,8 @@ TEST_F(CommandLine, FullHelpMentionsEveryOptionWithDefaultAndRange) {
     EXPECT_THAT(help, HasSubstr("\n" + section.title + "\n"));
   }
   for (const OptionRow& row : OptionTable(options_)) {
-    EXPECT_THAT(help, HasSubstr("--" + row.name + " arg (=" + ValueText(row)));
+    EXPECT_THAT(help,
+                HasSubstr("--" + FullName(row) + " arg (=" + ValueText(row)));
     EXPECT_THAT(help, HasSubstr(RangeText(row)));
   }
   std::istringstream lines(help);
