@@ -66,41 +66,14 @@ std::vector<std::string> CameraModels() {
   return names;
 }
 
-Flag NumberFlag(const char* name, SynthesizeSettings* settings) {
-  const std::vector<OptionRow> rows = OptionTable(settings->options);
-  const auto row = std::ranges::find(rows, name, &OptionRow::name);
-  CURVIX_CHECK(row != rows.end(), "no option " << name);
-  return RowFlag(*row);
-}
-
-FlagSection ImageFlags(SynthesizeSettings* settings) {
-  FlagSection section = {"Images", {}};
-  for (const char* name :
-       {"num_views", "width", "height", "noise", "texture"}) {
-    section.flags.push_back(NumberFlag(name, settings));
-  }
-  return section;
-}
-
-FlagSection CameraFlags(SynthesizeSettings* settings) {
-  SyntheticOptions& o = settings->options;
-  return {"Cameras",
-          {EnumFlag("camera_model",
-                    CameraModels(),
-                    &o.camera_model,
-                    "COLMAP's name of the camera model"),
-           RowFlag({.name = "distortion",
-                    .field = &o.distortion,
-                    .min = -0.5,
-                    .max = 0.9,
-                    .help = "first radial coefficient, where the model has "
-                            "one"}),
-           NumberFlag("pose_error_px", settings),
-           NumberFlag("points_per_view", settings)}};
-}
-
 std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
+  const std::vector<OptionRow> rows = OptionTable(o);
+  const auto row = [&](const char* name) {
+    const auto found = std::ranges::find(rows, name, &OptionRow::name);
+    CURVIX_CHECK(found != rows.end(), "no option " << name);
+    return RowFlag(*found);
+  };
   return {{"Scene",
            {Required(PathFlag("workspace_path",
                               &settings->workspace_path,
@@ -122,23 +95,32 @@ std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
                      {"none", "brick", "wood", "print", "mixed"},
                      &o.pattern,
                      "painted on it; mixed: on each piece what suits it"),
-            RowFlag({.name = "shadows",
-                     .field = &o.shadows,
-                     .help = "1: the sun casts shadows"}),
-            RowFlag({.name = "reflections",
-                     .field = &o.reflections,
-                     .help = "1: lamps are mirrored in the surfaces"}),
-            NumberFlag("scale", settings),
+            row("shadows"),
+            row("reflections"),
+            row("scale"),
             RowFlag({.name = "seed",
                      .field = &settings->seed,
                      .help = "of the noise, the texture and the pose errors"}),
-            RowFlag({.name = "num_threads",
-                     .field = &o.num_threads,
-                     .min = -1,
-                     .max = 4096,
-                     .help = "threads; -1 or 0 means one per core"})}},
-          ImageFlags(settings),
-          CameraFlags(settings)};
+            row("num_threads")}},
+          {"Images",
+           {row("num_views"),
+            row("width"),
+            row("height"),
+            row("noise"),
+            row("texture")}},
+          {"Cameras",
+           {EnumFlag("camera_model",
+                     CameraModels(),
+                     &o.camera_model,
+                     "COLMAP's name of the camera model"),
+            RowFlag({.name = "distortion",
+                     .field = &o.distortion,
+                     .min = -0.5,
+                     .max = 0.9,
+                     .help = "first radial coefficient, where the model has "
+                             "one"}),
+            row("pose_error_px"),
+            row("points_per_view")}}};
 }
 
 }  // namespace

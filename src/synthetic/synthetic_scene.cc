@@ -80,7 +80,13 @@ std::vector<TrueSample> SampleTruth(const Solid& solid,
 }  // namespace
 
 std::vector<OptionRow> OptionTable(SyntheticOptions& options) {
-  return {{.name = "num_views",
+  return {{.name = "shadows",
+           .field = &options.shadows,
+           .help = "1: the sun casts shadows"},
+          {.name = "reflections",
+           .field = &options.reflections,
+           .help = "1: lamps are mirrored in the surfaces"},
+          {.name = "num_views",
            .field = &options.num_views,
            .min = 3,
            .max = 999,
@@ -121,7 +127,12 @@ std::vector<OptionRow> OptionTable(SyntheticOptions& options) {
           {.name = "points_per_view",
            .field = &options.points_per_view,
            .max = 10000,
-           .help = "sparse points that each image finds"}};
+           .help = "sparse points that each image finds"},
+          {.name = "num_threads",
+           .field = &options.num_threads,
+           .min = -1,
+           .max = 4096,
+           .help = "threads; -1 or 0 means one per core"}};
 }
 
 Status Validate(const SyntheticOptions& options) {

@@ -82,8 +82,8 @@ struct SyntheticScene {
   std::vector<TrueSample> truth;  // every scale/500 along each sharp edge
 };
 
-// The numbers with their ranges, but for `distortion`, whose range depends on
-// the camera model. The pointers lead into `options`.
+// The numbers with their ranges, but for the seed and for `distortion`, whose
+// range depends on the camera model. The pointers lead into `options`.
 std::vector<OptionRow> OptionTable(SyntheticOptions& options);
 
 // kInvalidArgument if an option is out of range.
