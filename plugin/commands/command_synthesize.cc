@@ -69,6 +69,9 @@ std::vector<std::string> CameraModels() {
 std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
   SyntheticOptions& o = settings->options;
   const std::vector<OptionRow> rows = OptionTable(o);
+  const auto words = SplitAt(
+      "block cylinder cone sphere part facade house table knobs room", ' ');
+  const std::vector<std::string> solids(words.begin(), words.end());
   const auto row = [&](const char* name) {
     const auto found = std::ranges::find(rows, name, &OptionRow::name);
     CURVIX_CHECK(found != rows.end(), "no option " << name);
@@ -78,19 +81,7 @@ std::vector<FlagSection> Sections(SynthesizeSettings* settings) {
            {Required(PathFlag("workspace_path",
                               &settings->workspace_path,
                               "folder to write: images/, sparse/0/, gt.txt")),
-            EnumFlag("solid",
-                     {"block",
-                      "cylinder",
-                      "cone",
-                      "sphere",
-                      "part",
-                      "facade",
-                      "house",
-                      "table",
-                      "knobs",
-                      "room"},
-                     &o.solid,
-                     "what is shown"),
+            EnumFlag("solid", solids, &o.solid, "what is shown"),
             EnumFlag("pattern",
                      {"none", "brick", "wood", "print", "mixed"},
                      &o.pattern,

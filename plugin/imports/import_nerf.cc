@@ -5,11 +5,13 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/count_text.h"
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "colmap/files.h"
 #include "edge_detection/load_image.h"
 #include "plugin/base/json.h"
@@ -77,17 +79,11 @@ std::string FilePathOf(const Json& frame) {
 // The name below `root`, with extension, of the image `name`, which may
 // lack its extension; empty: it is not there.
 std::string FindName(const fs::path& root, const std::string& name) {
-  for (const char* extension : {"",
-                                ".png",
-                                ".jpg",
-                                ".jpeg",
-                                ".PNG",
-                                ".JPG",
-                                ".JPEG",
-                                ".tif",
-                                ".tiff",
-                                ".webp"}) {
-    if (IsFile(root / (name + extension))) return name + extension;
+  if (IsFile(root / name)) return name;
+  for (const std::string_view extension :
+       SplitAt(".png .jpg .jpeg .PNG .JPG .JPEG .tif .tiff .webp", ' ')) {
+    std::string whole = name + std::string(extension);
+    if (IsFile(root / whole)) return whole;
   }
   return "";
 }

@@ -2,11 +2,10 @@
 #include "plugin/imports/import_scene.h"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "base/count_text.h"
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "colmap/files.h"
 
 namespace curvix {
@@ -28,16 +27,9 @@ std::uint32_t CameraId(const Camera& camera, ColmapModel* model) {
 }
 
 bool IsImageName(const std::string& name) {
-  constexpr std::array<std::string_view, 9> kExtensions = {".png",
-                                                           ".jpg",
-                                                           ".jpeg",
-                                                           ".tif",
-                                                           ".tiff",
-                                                           ".bmp",
-                                                           ".ppm",
-                                                           ".pgm",
-                                                           ".webp"};
-  return std::ranges::find(kExtensions, ExtensionOf(name)) != kExtensions.end();
+  static const auto extensions =
+      SplitAt(".png .jpg .jpeg .tif .tiff .bmp .ppm .pgm .webp", ' ');
+  return std::ranges::find(extensions, ExtensionOf(name)) != extensions.end();
 }
 
 Result<ImportedView> CalibratedView(const CalibratedImage& image,

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/angles.h"
+#include "base/text_fields.h"
 #include "plugin/imports/projection_matrix.h"
 
 namespace curvix {
@@ -59,25 +61,14 @@ class Fields {
     return {file_, kNothing};
   }
   Status CheckNumbers() const {
-    for (const char* key : {"w",
-                            "h",
-                            "fl_x",
-                            "fl_y",
-                            "cx",
-                            "cy",
-                            "camera_angle_x",
-                            "camera_angle_y",
-                            "k1",
-                            "k2",
-                            "k3",
-                            "k4",
-                            "k5",
-                            "k6",
-                            "p1",
-                            "p2"}) {
-      const Json* const value = Find(key);
+    for (const std::string_view word :
+         SplitAt("w h fl_x fl_y cx cy camera_angle_x camera_angle_y "
+                 "k1 k2 k3 k4 k5 k6 p1 p2",
+                 ' ')) {
+      const std::string key(word);
+      const Json* const value = Find(key.c_str());
       if (value == nullptr || value->is_number()) continue;
-      return Status::DataLoss(std::string(key) + " is not a number");
+      return Status::DataLoss(key + " is not a number");
     }
     return {};
   }

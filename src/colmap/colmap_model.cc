@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "base/file_io.h"
+#include "base/text_fields.h"
 #include "colmap/colmap_model_format.h"
 #include "colmap/files.h"
 
@@ -77,17 +79,14 @@ CamerasOrError ReadUsableCameras(const fs::path& path,
 // Files in `folder` that COLMAP or we would read instead of, or together with,
 // a model in .bin.
 Status RefuseForeignFiles(const fs::path& folder) {
-  for (const char* name : {"rigs.bin",
-                           "rigs.txt",
-                           "frames.bin",
-                           "frames.txt",
-                           "cameras.txt",
-                           "images.txt",
-                           "points3D.txt"}) {
+  for (const std::string_view name :
+       SplitAt("rigs.bin rigs.txt frames.bin frames.txt cameras.txt images.txt "
+               "points3D.txt",
+               ' ')) {
     if (IsFile(folder / name)) {
       return Status::InvalidArgument(
-          "Cannot write a model to " + folder.string() + ": it holds " + name +
-          " of another model; choose an empty folder.");
+          "Cannot write a model to " + folder.string() + ": it holds " +
+          std::string(name) + " of another model; choose an empty folder.");
     }
   }
   return {};
