@@ -67,7 +67,7 @@ CamerasOrError ReadUsableCameras(const fs::path& path,
       path, [&](std::string_view bytes, const std::string& file) {
         return format == ColmapFormat::kBinary
                    ? ParseCamerasBinary(bytes, file)
-                   : ParseUsedCamerasText(bytes, file, is_used);
+                   : ParseCamerasText(bytes, file, is_used);
       });
   if (!cameras.ok()) return cameras;
   std::erase_if(*cameras, [&](const ColmapCamera& item) {

@@ -36,12 +36,9 @@ std::string FormatPointsBinary(const std::vector<ColmapPoint3D>& points);
 
 // Lines; '#' starts a comment line, blank lines are skipped except as the
 // second line of an image, where they mean "no 2D points". An image's name is
-// the rest of its line.
-CamerasOrError ParseCamerasText(std::string_view bytes,
-                                const std::string& file);
-// Leaves out cameras of unknown models that are not used. Not so in binary,
-// where the model tells how long a camera is.
-CamerasOrError ParseUsedCamerasText(
+// the rest of its line. Cameras of unknown models that are not used are left
+// out. Not so in binary, where the model tells how long a camera is.
+CamerasOrError ParseCamerasText(
     std::string_view bytes,
     const std::string& file,
     const std::function<bool(std::uint32_t camera_id)>& is_used);

@@ -103,12 +103,7 @@ bool ParsePoint(std::string_view line, ColmapPoint3D* point) {
 
 }  // namespace
 
-CamerasOrError ParseCamerasText(std::string_view bytes,
-                                const std::string& file) {
-  return ParseUsedCamerasText(bytes, file, [](std::uint32_t) { return true; });
-}
-
-CamerasOrError ParseUsedCamerasText(
+CamerasOrError ParseCamerasText(
     std::string_view bytes,
     const std::string& file,
     const std::function<bool(std::uint32_t)>& is_used) {

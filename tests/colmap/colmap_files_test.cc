@@ -168,7 +168,7 @@ TEST(ColmapBinary, ReadingNamesTheFileThatIsAtFault) {
 }
 
 TEST(ColmapText, AcceptsWhatPeopleAndProgramsWrite) {
-  const CamerasOrError cameras = ParseCamerasText(
+  const CamerasOrError cameras = ParseAllCamerasText(
       "\xEF\xBB\xBF# comment\r\n\r\n  3   PINHOLE\t9 8 1e2 +100 4.5 4\r\n# end",
       "c");
   ASSERT_TRUE(cameras.ok()) << cameras.status().message();
@@ -207,7 +207,7 @@ TEST(ColmapText, AcceptsWhatPeopleAndProgramsWrite) {
 
 TEST(ColmapText, MalformedLinesAreNamed) {
   const auto camera = [](const std::string& text) {
-    return ParseCamerasText(text, "cameras.txt").status();
+    return ParseAllCamerasText(text, "cameras.txt").status();
   };
   const auto image = [](const std::string& text) {
     return ParseImagesText(text, "images.txt").status();
@@ -258,7 +258,7 @@ TEST(ColmapText, EveryTruncationGivesAModelOrAnError) {
       num_errors += parse_text(part, "f").ok() ? 0 : 1;
     }
   };
-  parse(ParseCamerasText, cameras);
+  parse(ParseAllCamerasText, cameras);
   parse(ParseImagesText, images);
   parse(ParsePointsText, points);
   EXPECT_GT(num_errors, 1000);

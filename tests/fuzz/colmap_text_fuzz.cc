@@ -16,7 +16,7 @@ void FuzzReader(std::string_view bytes) {
   switch (TakeChoice(bytes, 3)) {
     case 0:
       return RoundTrip(
-          bytes, ParseCamerasText, FormatCamerasText, &ColmapModel::cameras);
+          bytes, ParseAllCamerasText, FormatCamerasText, &ColmapModel::cameras);
     case 1:
       return RoundTrip(
           bytes, ParseImagesText, FormatImagesText, &ColmapModel::images);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <curvix/scene.h>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "base/file_io.h"
 #include "base/text_fields.h"
 #include "colmap/colmap_model.h"
+#include "colmap/colmap_model_format.h"
 
 namespace curvix {
 
@@ -88,6 +90,12 @@ inline std::string FormatPointsText(const std::vector<ColmapPoint3D>& points) {
     writer.EndLine();
   }
   return writer.Take();
+}
+
+// As if an image used each camera.
+inline CamerasOrError ParseAllCamerasText(std::string_view bytes,
+                                          const std::string& file) {
+  return ParseCamerasText(bytes, file, [](std::uint32_t) { return true; });
 }
 
 // cameras.txt, images.txt and points3D.txt in `folder`, which is made if
