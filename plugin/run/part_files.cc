@@ -201,23 +201,26 @@ Status CheckModelIsThere(const fs::path& folder) {
   return {};
 }
 
-Status WriteInputOfPlan(const InputSummary& input, const fs::path& folder) {
-  Json json;
-  json["missing_images"] = input.missing_images;
-  json["notes"] = input.notes;
+Status WriteInputOfPlan(const InputOfPlan& input, const fs::path& folder) {
+  const Json json = {{"model_hash", input.model_hash},
+                     {"missing_images", input.missing_images},
+                     {"notes", input.notes}};
   return WriteFileAtomically(
       folder / kInputName,
       json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-Result<InputSummary> ReadInputOfPlan(const fs::path& folder) {
-  InputSummary input;
+Result<InputOfPlan> ReadInputOfPlan(const fs::path& folder) {
   const fs::path path = folder / kInputName;
-  std::error_code error;
-  if (!fs::exists(path, error)) return input;
-  CURVIX_ASSIGN_OR_RETURN(const std::string text, ReadFile(path));
+  const Result<std::string> text = ReadFile(path);
+  if (!text.ok()) {
+    return Status::NotFound("There is no " + path.string() +
+                            "; run 'colmap_curvix partition' again");
+  }
+  InputOfPlan input;
   try {
-    const Json json = Json::parse(text);
+    const Json json = Json::parse(*text);
+    json.at("model_hash").get_to(input.model_hash);
     json.at("missing_images").get_to(input.missing_images);
     json.at("notes").get_to(input.notes);
   } catch (const Json::exception&) {

@@ -2,8 +2,8 @@
 // A scene in parts, on disk: parts/ among the results.
 //
 //   plan.json         the partition, for people too
-//   model_hash.txt    hash of the files of the model that was divided
-//   input.json        the notes on that model, and the images that it lacks
+//   input.json        the model that was divided: hash of its files, notes, and
+//                     the images that it lacks
 //   scene/*.bin       the model of the scene without its points
 //   <k>/sparse/*.bin  the model of part k: its views, and the points they see
 //   <k>/part.bin      what part k gave (io/stage_io.h)
@@ -38,12 +38,17 @@ Status WritePlan(const ScenePartition& partition,
 // kNotFound if a model of WritePlan() is not there, or not whole.
 Status CheckModelIsThere(const std::filesystem::path& folder);
 
-// input.json, and what it gives back: all but notes and missing images is left
-// out. Nothing without the file, as plans of earlier versions are; kDataLoss if
-// it is broken.
-Status WriteInputOfPlan(const InputSummary& input,
+// input.json. The model that was divided may be too large for the memory of a
+// merge.
+struct InputOfPlan {
+  std::uint64_t model_hash = 0;  // HashModel() of its folder
+  std::vector<std::string> missing_images;
+  std::vector<std::string> notes;
+};
+Status WriteInputOfPlan(const InputOfPlan& input,
                         const std::filesystem::path& folder);
-Result<InputSummary> ReadInputOfPlan(const std::filesystem::path& folder);
+// kNotFound without the file; kDataLoss if it is broken.
+Result<InputOfPlan> ReadInputOfPlan(const std::filesystem::path& folder);
 
 // The text of plan.json.
 std::string PlanJson(const ScenePartition& partition, const Scene& scene);

@@ -12,7 +12,6 @@
 
 #include "base/cancelled.h"
 #include "base/count_text.h"
-#include "base/file_io.h"
 #include "base/stopwatch.h"
 #include "colmap/files.h"
 #include "colmap/inconsistent_points.h"
@@ -31,9 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPartsName = "parts";
-// The hash of the files of the model that was divided. The model itself may be
-// too large for the memory of a merge.
-constexpr const char* kModelHashName = "model_hash.txt";
 constexpr const char* kJoinStage = "join_parts";
 
 RunRecord RecordOf(const RunSettings& settings) {
@@ -60,7 +56,7 @@ void NoteOverlap(const ScenePartition& partition, RunProgress& progress) {
                 "less (--max_views_per_part)");
 }
 
-// For the merge, which has no points.
+// For the merge, which has only some of the points.
 void NoteLargeErrors(const Scene& scene,
                      RunProgress& progress,
                      RunRecord& record) {
@@ -104,15 +100,10 @@ Status CheckImagesAreThere(const WorkspaceScene& input) {
 }
 
 // kNotFound if the model is no longer the one that was divided.
-Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
+Status CheckModelIsSame(const fs::path& model_path,
+                        const InputOfPlan& divided) {
   CURVIX_ASSIGN_OR_RETURN(const std::uint64_t hash, HashModel(model_path));
-  const Result<std::string> divided = ReadFile(folder / kModelHashName);
-  if (!divided.ok()) {
-    return Status::NotFound("There is no " +
-                            (folder / kModelHashName).string() +
-                            "; run 'colmap_curvix partition' again");
-  }
-  if (*divided == std::to_string(hash)) return {};
+  if (hash == divided.model_hash) return {};
   return Status::NotFound(
       "The model " + model_path.string() +
       " has changed since it was divided; run 'colmap_curvix " +
@@ -120,27 +111,23 @@ Status CheckModelIsSame(const fs::path& model_path, const fs::path& folder) {
 }
 
 // The model that was divided has more to say than that of the merge, which is
-// without its points and the images that it lacks.
-Status TakeInputOfPlan(const fs::path& folder,
-                       RunProgress& progress,
-                       InputSummary& input) {
-  CURVIX_ASSIGN_OR_RETURN(InputSummary divided, ReadInputOfPlan(folder));
-  input.missing_images = std::move(divided.missing_images);
+// without most of its points and the images that it lacks.
+void TakeInputOfPlan(const InputOfPlan& divided,
+                     RunProgress& progress,
+                     InputSummary& input) {
+  input.missing_images = divided.missing_images;
   for (const std::string& note : divided.notes) {
     if (std::ranges::find(input.notes, note) != input.notes.end()) continue;
     progress.Note(note);
     input.notes.push_back(note);
   }
-  return {};
 }
 
 // What a merge needs besides the parts.
 Status CheckScene(const WorkspaceScene& input,
                   const PartPlan& plan,
-                  const fs::path& model_path,
                   const fs::path& folder) {
   CURVIX_RETURN_IF_ERROR(CheckImagesAreThere(input));
-  CURVIX_RETURN_IF_ERROR(CheckModelIsSame(model_path, folder));
   if (input.scene.views.size() == plan.num_views) return {};
   return Status::DataLoss(
       (folder / "scene").string() +
@@ -174,7 +161,6 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
   CURVIX_ASSIGN_OR_RETURN(const Workspace workspace, FindInput(settings));
   CURVIX_ASSIGN_OR_RETURN(const std::uint64_t hash,
                           HashModel(workspace.model_path));
-  const std::string hash_text = std::to_string(hash);
   RunRecord record = RecordOf(settings);
   CURVIX_ASSIGN_OR_RETURN(const WorkspaceScene input,
                           ReadInput(workspace, progress, record));
@@ -206,9 +192,8 @@ Result<ScenePartition> RunPartition(const RunSettings& settings,
   const fs::path written = in_place ? folder : output.folder() / kPartsName;
   CURVIX_RETURN_IF_ERROR(
       WritePlan(partition, input.scene, input.model, written));
-  CURVIX_RETURN_IF_ERROR(
-      WriteFileAtomically(written / kModelHashName, hash_text));
-  CURVIX_RETURN_IF_ERROR(WriteInputOfPlan(record.input, written));
+  CURVIX_RETURN_IF_ERROR(WriteInputOfPlan(
+      {hash, record.input.missing_images, record.input.notes}, written));
   if (progress.IsCancelled()) return CancelledStatus();
   if (!in_place) CURVIX_RETURN_IF_ERROR(output.Publish());
   return partition;
@@ -277,8 +262,10 @@ Result<RunRecord> RunMerge(const RunSettings& settings, RunProgress& progress) {
   RunRecord record = RecordOf(settings);
   CURVIX_ASSIGN_OR_RETURN(const WorkspaceScene input,
                           ReadInput(workspace, progress, record));
-  CURVIX_RETURN_IF_ERROR(CheckScene(input, plan, model_path, folder));
-  CURVIX_RETURN_IF_ERROR(TakeInputOfPlan(folder, progress, record.input));
+  CURVIX_ASSIGN_OR_RETURN(const InputOfPlan divided, ReadInputOfPlan(folder));
+  CURVIX_RETURN_IF_ERROR(CheckModelIsSame(model_path, divided));
+  CURVIX_RETURN_IF_ERROR(CheckScene(input, plan, folder));
+  TakeInputOfPlan(divided, progress, record.input);
   record.settings.input_path = fs::absolute(model_path);
   record.settings.command = "merge";
   CURVIX_ASSIGN_OR_RETURN(StagedOutput output, CreateOutput(workspace));
