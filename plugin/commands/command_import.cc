@@ -196,14 +196,11 @@ Result<ExitCode> ImportDataSet(const ImportSettings& settings,
                                            [] { return !IsInterrupted(); }));
   for (const std::string& note : scene.notes) std::cerr << note << std::endl;
   const std::string path = settings.run.workspace_path.string();
-  const bool has_links = settings.copy_policy == CopyPolicy::kSoftLink;
   std::cout << "Wrote " << Plural(std::ssize(scene.model.images), "image")
             << ", " << Plural(std::ssize(scene.model.cameras), "camera")
             << " and " << Plural(std::ssize(scene.model.points), "point")
             << " to " << path << "\nTry: colmap_curvix --workspace_path "
-            << ShellWord(path)
-            << (has_links ? " --image_path " + ShellWord(path + "/images") : "")
-            << std::endl;
+            << ShellWord(path) << std::endl;
   return kExitSuccess;
 }
 
