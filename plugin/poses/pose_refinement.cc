@@ -89,8 +89,8 @@ void KeepAfterFailure(const std::string& reason,
                               ? "; see " + log_path.filename().string()
                               : "";
   Keep(reason + log,
-       "WARNING: Bundle adjustment is left out: " +
-           RefinerName(result->record) + " failed: ",
+       std::string("WARNING: ") + kLeftOut + RefinerName(result->record) +
+           " failed: ",
        result);
 }
 
@@ -98,7 +98,7 @@ void KeepAfterFailure(const std::string& reason,
 void KeepWithoutColmap(const std::string& reason,
                        bool refine_poses_with_curves,
                        PoseRefinement* result) {
-  Keep(reason, "WARNING: Bundle adjustment is left out: ", result);
+  Keep(reason, std::string("WARNING: ") + kLeftOut, result);
   result->notes.back() +=
       refine_poses_with_curves
           ? " Poses are still refined, with points and curves together "

@@ -4,7 +4,7 @@
 //   plan.json         the partition, for people too
 //   input.json        the model that was divided: hash of its files, notes, and
 //                     the images that it lacks
-//   scene/*.bin       the model of the scene without its points
+//   scene/*.bin       the model of the scene with some of its points
 //   <k>/sparse/*.bin  the model of part k: its views, and the points they see
 //   <k>/part.bin      what part k gave (io/stage_io.h)
 //   <k>/edges.ply     the 3D edges in its core

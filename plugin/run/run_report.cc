@@ -291,8 +291,6 @@ fs::path ImagesOfEarlierRun(const fs::path& folder,
   const Json report = ReadReport(folder);
   const fs::path recorded = PathIn(report, "/input/image_path");
   const fs::path own = PathIn(report, "/input/workspace_path");
-  // Earlier versions told no workspace: their images may be those of a project
-  // that this one is a copy of.
   if (!recorded.is_absolute() || !own.is_absolute()) return {};
   const fs::path normal = recorded.lexically_normal();
   const fs::path from_own = normal.lexically_relative(own.lexically_normal());

@@ -29,8 +29,8 @@ constexpr double kStiffness = 1.2;  // of the width of the smoothing
 constexpr double kMinStepPx = 0.2;
 constexpr int kMaxNumIterations = 15;
 constexpr double kMinGain = 1e-3;  // of a step, share of the cost
-// Under robust losses the fit can leave edges. Samples at twice the default of
-// Validation.max_distance_px or more are cut out.
+// Under robust losses the fit can leave edges. Samples 2 px or more off are cut
+// out.
 constexpr double kMaxMissPx = 2;
 // Wide: damping is in proportion to the bends, which are much stiffer than the
 // edges, and would keep samples from these.

@@ -110,8 +110,8 @@ class CheckedCurves : public CurveSource {
   mutable Status wrong_;
 };
 
-// A file of what `encode` gives for its extension; of `curves`, if there are
-// any, all of which can be read.
+// A file of what `encode` gives for its extension. If `curves` is given, its
+// status comes before that of `encode`.
 using Encoder =
     std::function<Status(const std::string& extension, const ByteSink& sink)>;
 Status Write(const fs::path& path,

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr Look kBackground = {242, 0};
 
 // A square of the image and what its corners show, in the order of
-// kCornerOffsets.
+// CornerOffsets().
 struct Cell {
   Vector2d origin;  // top left, pixels
   double size;      // pixels
