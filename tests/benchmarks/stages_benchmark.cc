@@ -14,6 +14,7 @@
 #include "curve_drawing/group_edges.h"
 #include "curve_drawing/link_edges.h"
 #include "curve_refinement/refine_curves.h"
+#include "io/stage_io.h"
 #include "model/posed_view.h"
 #include "plugin/commands/command_synthesize.h"
 #include "tests/support/temporary_folder.h"
