@@ -105,11 +105,25 @@ std::vector<std::size_t> SeenNear(const PointTree& points,
   return seen;
 }
 
-// The places of a curve, at some samples of it.
+// The mean direction to the views that support a sample; zero without any.
+Vector3d TowardsViews(const CurveSample& sample,
+                      const std::vector<PosedView>& views) {
+  Vector3d sum = Vector3d::Zero();
+  for (const EdgeRef& ref : sample.support) {
+    const PosedView& view = views[static_cast<std::size_t>(ref.view_idx)];
+    sum += (view.center - sample.position).normalized();
+  }
+  return sum.normalized();
+}
+
+// The places of a curve, at some samples of it. Normals depend on what is seen,
+// not on the axes of the world.
 std::vector<StripPlace> PlacesOn(const Curve& curve,
+                                 const std::vector<PosedView>& views,
                                  const std::vector<std::size_t>& samples) {
   std::vector<StripPlace> places;
-  Vector3d tangent = Vector3d::Zero(), normal = Vector3d::Zero();
+  Vector3d tangent = Vector3d::Zero();
+  Vector3d normal = TowardsViews(curve.samples[samples.front()], views);
   for (const std::size_t i : samples) {
     const CurveSample& sample = curve.samples[i];
     // A frame that turns no more than the curve does.
@@ -138,7 +152,8 @@ Places ChoosePlaces(const std::vector<Curve>& curves,
     if (!(places.pixels.back() > 0)) continue;
     places.samples.back() =
         SamplesAlong(curves[i], kStepPx * places.pixels.back());
-    for (StripPlace& place : PlacesOn(curves[i], places.samples.back())) {
+    for (StripPlace& place :
+         PlacesOn(curves[i], views, places.samples.back())) {
       places.curves.push_back(i);
       places.all.push_back(std::move(place));
     }

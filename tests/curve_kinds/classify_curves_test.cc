@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/angles.h"
+#include "geometry/directions.h"
 #include "model/posed_view.h"
 #include "tests/support/random.h"
 #include "tests/support/temporary_folder.h"
@@ -100,13 +101,20 @@ class ClassifyCurvesTest : public ::testing::Test {
     return MiddleOf(scene);
   }
 
-  CurveSample MiddleOf(const Scene& scene) const {
+  CurveSample MiddleOf(Scene scene) const {
+    for (View& view : scene.views) {
+      view.cam_from_world.rotation *= turn_.inverse();
+    }
+    for (ScenePoint& point : scene.points) {
+      point.position = turn_ * point.position;
+    }
     std::vector<Curve> curves = {CurveAt(0, scene)};
     for (const double x : other_curves_) curves.push_back(CurveAt(x, scene));
     ClassifyCurves(scene, MakePosedViews(scene), 1, &curves, step_done_);
     return curves[0].samples[30];
   }
 
+  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();  // of the world
   double noise_ = 0;                  // of the images, grey levels
   int first_view_ = 0;                // of those that support the curves
   std::vector<double> other_curves_;  // x of curves parallel to the edge
@@ -118,8 +126,8 @@ class ClassifyCurvesTest : public ::testing::Test {
     Curve curve;
     for (int i = -30; i <= 30; ++i) {
       CurveSample& sample = curve.samples.emplace_back();
-      sample.position = {x, 0, 0.004 * i};
-      sample.tangent = Vector3d::UnitZ();
+      sample.position = turn_ * Vector3d(x, 0, 0.004 * i);
+      sample.tangent = turn_ * Vector3d::UnitZ();
       for (int v = first_view_; v < static_cast<int>(scene.views.size()); ++v) {
         sample.support.push_back({v, 0});
       }
@@ -262,6 +270,20 @@ TEST_F(ClassifyCurvesTest, WithoutImagesTheKindIsUnknown) {
                         LookAt({-1, -2, 0}, Vector3d::Zero())}));
   EXPECT_EQ(sample.kind, CurveKind::kUnknown);
   EXPECT_EQ(sample.kind_probability, 0);
+}
+
+TEST_F(ClassifyCurvesTest, AxesOfTheWorldDoNotMatter) {
+  // Surfaces between two of the directions that are tried.
+  for (const double bend_deg : {8.0, 22.0, 37.0}) {
+    const std::vector<Surface> surfaces = {{bend_deg, 1}, {180 - bend_deg, 2}};
+    turn_ = Eigen::Quaterniond::Identity();
+    const CurveSample before = Classified(surfaces);
+    turn_ = RotationBy({0.4, -0.9, 1.3});
+    const CurveSample after = Classified(surfaces);
+    EXPECT_EQ(after.kind, before.kind) << bend_deg;
+    EXPECT_NEAR(after.kind_probability, before.kind_probability, 1e-4)
+        << bend_deg;
+  }
 }
 
 TEST_F(ClassifyCurvesTest, MasksDoNotMatter) {
