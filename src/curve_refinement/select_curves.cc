@@ -222,7 +222,7 @@ constexpr double kTimesLeastDilution = 6;
 // ... but no more than that. In crowded images, where depth is less sure, any
 // such limit takes what exists.
 constexpr double kMostTimesMaxDilution = 1.6;
-constexpr double kTimesLeastDilutionInCrowd = 15;
+constexpr double kTimesLeastDilutionInCrowd = 30;
 // Curves are occluding contours, however well determined, where a radius is so
 // much likelier than none (occluding_contours.h).
 constexpr double kCertainLogLikelihoodRatio = 4;
