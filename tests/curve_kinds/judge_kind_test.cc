@@ -50,11 +50,11 @@ TEST(JudgeKind, NoTextureIsProbablyACrease) {
 TEST(JudgeKind, SurfaceBehindTurnsAMarkingIntoACrease) {
   DepthEvidence evidence;
   evidence.front() = Undecided();
-  evidence.front().log_bayes[0][6] = 6;
-  evidence.front().log_bayes[1][18] = 6;
+  evidence.front().log_bayes[0][kNumDirections / 4] = 6;
+  evidence.front().log_bayes[1][3 * kNumDirections / 4] = 6;
   EXPECT_EQ(JudgeKind(evidence).kind, CurveKind::kMarking);
-  EXPECT_TRUE(DirectionsOfMarkings(evidence.front())[18]);
-  evidence[2].log_bayes[1][18] = 12;
+  EXPECT_TRUE(DirectionsOfMarkings(evidence.front())[3 * kNumDirections / 4]);
+  evidence[2].log_bayes[1][3 * kNumDirections / 4] = 12;
   EXPECT_EQ(JudgeKind(evidence).kind, CurveKind::kCrease);
 }
 
