@@ -50,7 +50,7 @@ struct SelectedCurves {
 //    ContourLogLikelihoodRatio(), and allowed input.options.max_dilution; where
 //    views cannot tell places so well, 6 times the least dilution, up to 1.6
 //    input.options.max_dilution; of crowded images (AreCrowded()) l is 0, and
-//    allowed 15 times the least dilution,
+//    allowed 30 times the least dilution,
 //  * an edge of the scene, if also
 //      sharp dilution * max(1, s / r)
 //          <= allowed * (1 - max(0, l) / 4) * (1 - blurred / max_blurred_share)

@@ -219,8 +219,8 @@ constexpr double kLeastScatterPx = 0.06;
 constexpr double kSharp = 0.1;
 // Where the views cannot tell more, curves may be as dilute as this ...
 constexpr double kTimesLeastDilution = 6;
-// ... but no more than that. In crowded images, where depth is less sure, any
-// such limit takes what exists.
+// ... but no more than that. In crowded images, where depth is less sure, that
+// would drop edges that exist, as the ridge of a house.
 constexpr double kMostTimesMaxDilution = 1.6;
 constexpr double kTimesLeastDilutionInCrowd = 30;
 // Curves are occluding contours, however well determined, where a radius is so
